@@ -1,0 +1,72 @@
+# assur: Python 3.11 or newer, git and make are all that must be there. `make` alone lists the targets.
+
+PYTHON ?= python3
+VENV   := .venv
+BIN    := $(VENV)/bin
+
+# The second variable holds the build tools to the same versions; an older pip takes them from the first.
+INSTALL := PIP_CONSTRAINT=constraints.txt PIP_BUILD_CONSTRAINT=constraints.txt PIP_DISABLE_PIP_VERSION_CHECK=1 \
+           $(BIN)/python -m pip install --quiet --editable
+
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.NOTPARALLEL:
+.PHONY: help demo test check figures report bench format constraints clean
+
+help: ## list the targets
+	@sed -n 's/^\([a-z]*\): .*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
+
+demo: $(VENV)/installed ## set up, then the main job: the paper's mechanism, checked row by row
+	$(BIN)/assur demo
+
+test: $(VENV)/installed-dev ## set up, then every test
+	$(BIN)/python -m pytest -n 2 $(ARGS)
+
+check: $(VENV)/installed-dev ## ruff, mypy strict and the direction of the imports
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports --no-cache
+
+figures: $(VENV)/installed ## the paper's figures into out/figures
+	$(BIN)/assur figures zeng2019 -o out/figures
+
+report: $(VENV)/installed ## the one-file report into out/report.html
+	@mkdir -p out
+	$(BIN)/assur report zeng2019 -o out/report.html
+
+bench: $(VENV)/installed ## poses per second beside a hand-written C loop (needs gcc)
+	$(BIN)/python bench/bench.py
+
+format: $(VENV)/installed-dev ## put the code into the form that `check` asks for
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+constraints: ## pin every package anew, each at its newest version that pyproject.toml allows
+	rm -rf build/pins && $(PYTHON) -m venv build/pins
+	build/pins/bin/python -m pip install --quiet --editable '.[dev]' hatchling editables
+	sed -n '/^#/p' constraints.txt > build/constraints.txt
+	build/pins/bin/python -m pip list --format=freeze --exclude pip --exclude setuptools --exclude assur \
+	    >> build/constraints.txt
+	mv build/constraints.txt constraints.txt
+
+clean: ## remove what was made, except the virtual environment (rm -rf .venv does that)
+	rm -rf out build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache
+	find src tests bench examples -name __pycache__ -prune -exec rm -rf {} +
+
+# ---- the virtual environment: a stamp for each step, so that the second run is instant ---------------------------
+
+$(VENV)/made:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || { \
+	    echo "assur needs Python 3.11 or newer; '$(PYTHON)' is $$($(PYTHON) --version 2>/dev/null || echo missing)."; \
+	    echo "Name another one: make demo PYTHON=python3.11"; exit 1; } >&2
+	$(PYTHON) -m venv $(VENV)
+	@touch $@
+
+$(VENV)/installed: pyproject.toml constraints.txt | $(VENV)/made
+	$(INSTALL) .
+	@touch $@
+
+$(VENV)/installed-dev: pyproject.toml constraints.txt | $(VENV)/made
+	$(INSTALL) '.[dev]'
+	@touch $(VENV)/installed $@

@@ -1,0 +1,44 @@
+"""assur: from the topology of a parallel mechanism to its numbers, each with its proof.
+
+>>> import assur
+>>> mechanism = assur.load("zeng2019")
+>>> len(mechanism.direct([162.6907, -143.3209, -24.6776]))
+4
+
+Names are looked up where they live when they are first used, so that `assur --help` need not load NumPy.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from assur.errors import AssurError, MechanismFileError, UnknownNameError, UsageError
+    from assur.mechanism import Mechanism, load, names
+
+__version__ = "0.1.0"
+__all__ = [
+    "AssurError",
+    "Mechanism",
+    "MechanismFileError",
+    "UnknownNameError",
+    "UsageError",
+    "load",
+    "names",
+]
+
+_HOMES = {name: "assur.errors" if name.endswith("Error") else "assur.mechanism" for name in __all__}
+
+if not TYPE_CHECKING:  # so that a type checker still refuses an unknown name
+
+    def __getattr__(name: str) -> object:
+        """A public name, from the module where it lives (PEP 562)."""
+        if name not in _HOMES:
+            raise AttributeError(f"module 'assur' has no attribute '{name}'")
+        value = getattr(import_module(_HOMES[name]), name)
+        globals()[name] = value
+        return value
+
+
+def __dir__() -> list[str]:
+    """Names that tab completion offers."""
+    return sorted({*globals(), *__all__})

@@ -1,0 +1,115 @@
+"""`assur`: the application, its commands, and what becomes of an error."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+from collections.abc import Sequence
+
+from cyclopts import App, CycloptsError, Parameter
+
+import assur
+from assur.cli.numbers import shielded
+from assur.cli.options import NO_OPTIONS, Outcome, Shared
+from assur.cli.output import complain, emit
+from assur.errors import AssurError, UsageError
+
+BUG = 70
+INTERRUPTED = 130
+BROKEN_PIPE = 141
+HELP = """From the topology of a parallel mechanism to its numbers, each with its proof.
+
+Numbers are plain, negative ones too. Angles are in the unit that the mechanism's file states.
+Exit codes: 0 fine, 1 a claim of ours fails, 2 usage, 3 bad file, 4 proved that no solution exists, 5 undecided,
+70 a bug of ours."""
+
+
+def application() -> App:
+    """The application with every command."""
+    from assur.cli.audit import audit
+    from assur.cli.demo import demo
+    from assur.cli.direct import direct
+    from assur.cli.doctor import doctor
+    from assur.cli.figures import figures
+    from assur.cli.inverse import inverse
+    from assur.cli.list import list_
+    from assur.cli.report import report
+    from assur.cli.show import show
+    from assur.cli.singularity import singularity
+    from assur.cli.workspace import workspace
+
+    app = App(
+        name="assur",
+        help=HELP,
+        version=assur.__version__,
+        help_format="markdown",
+        default_parameter=Parameter(negative="", show_default=False),
+    )
+    app.command(list_, name="list")
+    for command in (show, direct, inverse, singularity, workspace, audit, figures, report, demo, doctor):
+        app.command(command)
+    return app
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Run one command line (that of the process where none is given) and return its exit code."""
+    with contextlib.suppress(AttributeError):
+        sys.stdout.reconfigure(errors="replace")  # type: ignore[union-attr]  # absent where a test took its place
+    words = sys.argv[1:] if words is None else words
+    debug = "--debug" in words
+    try:
+        return _run(shielded(words))
+    except AssurError as error:
+        _traceback(debug)
+        complain(error)
+        return error.exit_code
+    except BrokenPipeError:
+        _forget_output()
+        return BROKEN_PIPE
+    except KeyboardInterrupt:
+        sys.stderr.write("interrupted\n")
+        return INTERRUPTED
+    except Exception as error:  # whatever is left is our own bug, and a user gets one line
+        _traceback(debug)
+        what = " ".join(str(error).split())
+        sys.stderr.write(f"error: a bug in assur: {type(error).__name__}: {what}\nhint: run with --debug\n")
+        return BUG
+
+
+def _run(words: Sequence[str]) -> int:
+    app = application()
+    try:
+        command, bound, _ = app.parse_args(words, exit_on_error=False, print_error=False, verbose=False)
+    except CycloptsError as error:
+        raise UsageError(_message(error), hint=f"see {' '.join(_path(app, words))} --help") from error
+    outcome = command(*bound.args, **bound.kwargs)
+    if isinstance(outcome, Outcome):
+        shared = bound.arguments.get("shared", NO_OPTIONS)
+        emit(outcome, json=isinstance(shared, Shared) and shared.json)
+        return outcome.exit_code
+    sys.stdout.flush()
+    return 0
+
+
+def _message(error: CycloptsError) -> str:
+    text = " ".join(str(error).split())
+    return text[:1].lower() + text[1:].rstrip(".")
+
+
+def _path(app: App, words: Sequence[str]) -> list[str]:
+    """assur, and the command where the first word is one."""
+    return ["assur", *(word for word in words[:1] if word in app)]
+
+
+def _traceback(wanted: bool) -> None:
+    if wanted:
+        import traceback
+
+        traceback.print_exc()
+
+
+def _forget_output() -> None:
+    """Nobody reads on: let the interpreter's last flush go nowhere."""
+    with contextlib.suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

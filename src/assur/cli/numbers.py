@@ -1,0 +1,98 @@
+"""Numbers as a user types them: a decimal point, finite, nothing else; and pairs such as l2=300 and x=-110:90."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Sequence
+
+from assur.errors import UsageError
+
+NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+COMMA = re.compile(r"[+-]?\d*,\d*", re.ASCII)
+NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.IGNORECASE)
+VALUE = re.compile(r"-(\d|[.,]\d|inf|nan)", re.IGNORECASE)
+"""How a value begins that could be taken for an option."""
+MODE_OPTION = "--mode"
+SIGNS = re.compile(r"[+0-]+")
+
+
+def number(text: str, what: str) -> float:
+    """A finite number, or a refusal that says what is wrong with it.
+
+    >>> number("-143.3209", "yA2")
+    -143.3209
+    """
+    text = text.strip()
+    if NUMBER.fullmatch(text):
+        value = float(text)
+        if math.isfinite(value):
+            return value
+        raise UsageError(f"{what}: {text} is too large")
+    if NOT_FINITE.fullmatch(text):
+        raise UsageError(f"{what}: {text} is not a finite number")
+    raise UsageError(f"{what}: '{text}' is not a number", hint=_hint(text))
+
+
+def _hint(text: str) -> str:
+    if COMMA.fullmatch(text) and text != ",":
+        return f"write a decimal point: {text.rstrip(',').replace(',', '.')}"
+    if text.startswith("\N{MINUS SIGN}"):
+        return f"write the minus as a hyphen: -{text[1:]}"
+    return "give it like -143.3209 or 1.5e3, without a unit"
+
+
+def numbers(texts: Sequence[str], names: Sequence[str], what: str) -> list[float]:
+    """One number per name, or a refusal that names the one that is wrong."""
+    if len(texts) != len(names):
+        count = f"{len(texts)} value" if len(texts) == 1 else f"{len(texts)} values"
+        raise UsageError(f"{what}: {count}, {len(names)} wanted", hint=f"give {', '.join(names)}")
+    return [number(text, name) for name, text in zip(names, texts, strict=True)]
+
+
+def assignments(texts: Iterable[str], option: str, example: str) -> dict[str, str]:
+    """{name: text} from NAME=VALUE texts; a name that comes twice is refused."""
+    found: dict[str, str] = {}
+    for text in texts:
+        name, equals, value = (part.strip() for part in text.partition("="))
+        if not (name and equals and value):
+            raise UsageError(f"{option}: '{text.strip()}' is not NAME=VALUE", hint=f"for example {option} {example}")
+        if name in found:
+            raise UsageError(f"{option}: {name} is given twice")
+        found[name] = value
+    return found
+
+
+def interval(text: str, what: str, example: str) -> tuple[float, float]:
+    """(low, high) from LOW:HIGH with low < high.
+
+    >>> interval("-110:90", "--box x", "x=-110:90")
+    (-110.0, 90.0)
+    """
+    low, colon, high = text.partition(":")
+    if not colon:
+        raise UsageError(f"{what}: '{text.strip()}' is not LOW:HIGH", hint=f"for example {what.split()[0]} {example}")
+    pair = number(low, what), number(high, what)
+    if not pair[0] < pair[1]:
+        raise UsageError(f"{what} = {low.strip()}:{high.strip()} is turned round or empty", hint="give LOW < HIGH")
+    return pair
+
+
+def shielded(tokens: Sequence[str]) -> list[str]:
+    """Command-line words in which no value can be taken for an option.
+
+    A word that begins like a negative number gets a space in front, and a mode is tied to its option.
+
+    >>> shielded(["--mode", "--+", "-1,5", "--json"])
+    ['--mode=--+', ' -1,5', '--json']
+    """
+    found: list[str] = []
+    words = iter(tokens)
+    for word in words:
+        if word == MODE_OPTION:
+            value = next(words, None)
+            known = value is not None and SIGNS.fullmatch(value)
+            found += [f"{word}={value}"] if known else [word] if value is None else [word, value]
+        else:
+            found.append(f" {word}" if VALUE.match(word) else word)
+    return found

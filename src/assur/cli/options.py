@@ -1,0 +1,68 @@
+"""What all commands share: the options, how a mechanism is named, and what a command hands back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Group, Parameter
+
+from assur.cli.numbers import assignments, number
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from assur.mechanism import Mechanism
+
+SHARED = Group("Options of every command", sort_key=9)
+
+MechanismName = Annotated[str, Parameter(name="MECHANISM", help="A name (see `assur list`) or the path of a .toml file.")]
+
+
+@Parameter(name="*", group=SHARED)
+@dataclass(frozen=True)
+class Shared:
+    """Options that every command has."""
+
+    set_: Annotated[
+        tuple[str, ...],
+        Parameter(
+            name="--set",
+            metavar="NAME=VALUE",
+            help="Another value for a dimension, in the file's unit, as --set l2=300. May be repeated.",
+        ),
+    ] = ()
+    json: Annotated[
+        bool, Parameter(help="Print one JSON object and nothing else. Numbers that do not exist are null.")
+    ] = False
+    debug: Annotated[bool, Parameter(help="Show the traceback of an error.")] = False
+
+    def mechanism(self, name: str) -> Mechanism:
+        """The mechanism of that name or file, with the dimensions of `--set`."""
+        from assur.mechanism import load
+        from assur.model.registry import with_parameters
+
+        given = assignments(self.set_, "--set", "l2=300")
+        values = {key: number(text, f"--set {key}") for key, text in given.items()}
+        found = load(name)
+        return with_parameters(found, **values) if values else found
+
+    def refuse_set(self, command: str) -> None:
+        """A clear refusal of `--set` where it would have no effect."""
+        from assur.errors import UsageError
+
+        if self.set_:
+            raise UsageError(f"{command} takes no --set", hint="it concerns every mechanism as its file says")
+
+
+NO_OPTIONS = Shared()
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a command found: plain data for `--json`, what a person sees, and the exit code."""
+
+    data: dict[str, Any]
+    shown: Callable[[], Iterable[RenderableType]]
+    exit_code: int = 0

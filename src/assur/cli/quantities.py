@@ -1,0 +1,100 @@
+"""Numbers with units as a person reads them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from assur.model.mechanism import MechanismRecord
+
+
+@dataclass(frozen=True)
+class Style:
+    """How a mechanism's lengths and angles are written: seven digits of its size, angles to 1e-4 degrees."""
+
+    unit: str
+    angle: str
+    decimals: int
+
+    def length(self, value: float | None) -> str:
+        """A length without its unit."""
+        return fixed(value, self.decimals)
+
+    def degrees(self, value: float | None) -> str:
+        """An angle in the mechanism's angle unit, without it."""
+        return fixed(value, 4 if self.angle == "deg" else 6)
+
+    def coordinate(self, name: str, value: float | None) -> str:
+        """A pose coordinate without its unit."""
+        return self.length(value) if is_length(name) else self.degrees(value)
+
+    def coordinate_unit(self, name: str) -> str:
+        """Unit of a pose coordinate."""
+        return self.unit if is_length(name) else self.angle
+
+    def kind(self, kind: str, value: float | None) -> str:
+        """An "angle" or a "length" without its unit."""
+        return self.degrees(value) if kind == "angle" else self.length(value)
+
+    def kind_unit(self, kind: str) -> str:
+        """Unit of an "angle" or a "length"."""
+        return self.angle if kind == "angle" else self.unit
+
+
+def style_of(record: MechanismRecord) -> Style:
+    """The style for a mechanism: seven digits of its characteristic length."""
+    from assur.kinematics.closure import characteristic_length
+
+    size = characteristic_length(record)
+    decimals = min(12, max(0, 6 - math.floor(math.log10(size)))) if size > 0 else 6
+    return Style(record.unit, record.angle, decimals)
+
+
+def is_length(name: str) -> bool:
+    """Whether a pose coordinate is a length; every other is an angle."""
+    from assur.kinematics.border import LENGTHS
+
+    return name in LENGTHS
+
+
+def fixed(value: float | None, decimals: int) -> str:
+    """A number with so many decimals, "-" where it does not exist, and no minus before zero.
+
+    >>> fixed(-0.00001, 4), fixed(None, 4)
+    ('0.0000', '-')
+    """
+    if value is None or not math.isfinite(value):
+        return "-"
+    text = f"{value:.{decimals}f}"
+    return text.lstrip("-") if float(text) == 0 else text
+
+
+def short(value: float | None) -> str:
+    """A number with six digits, "-" where it does not exist.
+
+    >>> short(8575323.816748314)
+    '8.57532e+06'
+    """
+    return "-" if value is None or not math.isfinite(value) else f"{value:.6g}"
+
+
+def tiny(value: float | None) -> str:
+    """A residual with two digits, "-" where it does not exist."""
+    return "-" if value is None or not math.isfinite(value) else f"{value:.1e}"
+
+
+def count(number: int, noun: str) -> str:
+    """A number of things.
+
+    >>> count(1, "solution"), count(4, "branch")
+    ('1 solution', '4 branches')
+    """
+    ending = "es" if noun.endswith(("ch", "s", "x")) else "s"
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}{ending}"
+
+
+def power(unit: str, exponent: int) -> str:
+    """A unit to a power: "", "mm", "mm^2"."""
+    return "" if exponent == 0 else unit if exponent == 1 else f"{unit}^{exponent}"

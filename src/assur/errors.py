@@ -1,0 +1,79 @@
+"""What goes wrong, and what to say about it: one place for every error that assur raises.
+
+Misuse raises one of these; mathematics never does, it answers by a `Status`.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+
+class AssurError(Exception):
+    """An error with a hint. `exit_code` is what the command line returns for it."""
+
+    exit_code = 70
+
+    def __init__(self, message: str, *, hint: str = "") -> None:
+        super().__init__(message)
+        self.message = message
+        self.hint = hint
+
+    def __str__(self) -> str:
+        return f"{self.message}\nhint: {self.hint}" if self.hint else self.message
+
+
+class UsageError(AssurError):
+    """A call with a wrong name, shape or value."""
+
+    exit_code = 2
+
+
+class UnknownNameError(UsageError):
+    """A name that does not exist; the message lists the valid ones, nearest first."""
+
+    def __init__(self, kind: str, name: str, choices: Iterable[str], *, hint: str = "") -> None:
+        ordered = sorted(choices)
+        near = difflib.get_close_matches(name, ordered, n=3, cutoff=0.5)
+        guess = f"did you mean {' or '.join(near)}?" if near else ""
+        listed = ", ".join(ordered) if ordered else "none"
+        super().__init__(f"unknown {kind} '{name}'; there is: {listed}", hint=hint or guess)
+        self.choices = tuple(ordered)
+
+
+class OutputError(UsageError):
+    """A path that cannot be written; what was there before is unchanged."""
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One fault in a file: where it is, what was found, what is allowed."""
+
+    file: str
+    line: int | None
+    path: str
+    found: str
+    allowed: str
+    hint: str = ""
+
+    def __str__(self) -> str:
+        place = f"{self.file}:{self.line}" if self.line else self.file
+        text = (
+            f"{place}: {self.path}: {self.found}; {self.allowed}"
+            if self.path
+            else f"{place}: {self.found}; {self.allowed}"
+        )
+        return f"{text}\n    hint: {self.hint}" if self.hint else text
+
+
+class MechanismFileError(AssurError):
+    """A mechanism file that cannot be used: every problem in it, at once."""
+
+    exit_code = 3
+
+    def __init__(self, problems: Sequence[Problem]) -> None:
+        count = len(problems)
+        head = "1 problem" if count == 1 else f"{count} problems"
+        super().__init__(f"{head}:\n" + "\n".join(str(problem) for problem in problems))
+        self.problems = tuple(problems)

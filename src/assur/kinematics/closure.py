@@ -1,0 +1,174 @@
+"""Loop closure of the joint graph: residual, Jacobian by screws, rank, and assembly by least squares.
+
+At every cut joint the child's frame is reached twice: through the joint from its parent, and along the
+spanning tree. The residual of a loop is the gap between the two frames: three lengths, and the rotation
+vector from one to the other times the mechanism's characteristic length. A rotation vector vanishes at
+the identity only, so an axis that is turned round is never taken for an assembly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.model.joint_graph import Frame, child_frame, frames, joint_graph, screws
+from assur.model.mechanism import MechanismRecord
+from assur.numerics import least_squares, rotations
+
+FloatArray = NDArray[np.float64]
+
+CLOSED = 1e-9
+"""A loop counts as closed when its residual is at most this times the characteristic length."""
+
+RANK_GAP = 1e-8
+"""Singular values below this share of the largest count as zero."""
+
+
+@dataclass(frozen=True, eq=False)
+class Assembly:
+    """Joint values (..., n) that close the loops as far as they can be closed from a start.
+
+    `residual` (...) is the largest gap, in length units; `closed` (...) says whether it is within
+    tolerance. Where it is not, the values are the closest approach that was found.
+    """
+
+    values: FloatArray
+    residual: FloatArray
+    closed: NDArray[np.bool_]
+    steps: int
+
+
+def characteristic_length(record: MechanismRecord) -> float:
+    """The length that turns an angle into a length: the largest distance of a joint from its link's origin."""
+    spans = [np.linalg.norm(vector) for joint in record.joints.values() for vector in (joint.at, joint.child_at)]
+    return float(max(spans)) or 1.0
+
+
+def residuals(record: MechanismRecord, values: FloatArray) -> FloatArray:
+    """Gaps (..., v, 6) over the v cut joints: three lengths and three rotations times the characteristic length."""
+    return _residuals(record, values, frames(record, values))
+
+
+def _residuals(record: MechanismRecord, values: FloatArray, placed: dict[str, Frame]) -> FloatArray:
+    graph = joint_graph(record)
+    length = characteristic_length(record)
+    gaps = np.zeros((*values.shape[:-1], len(graph.cut), 6))
+    for index, joint in enumerate(graph.cut):
+        reached = child_frame(joint, placed[joint.parent], values[..., graph.slices[joint.name]])
+        rotation, origin = placed[joint.child]
+        at_joint = (rotation @ joint.child_at) + origin
+        gaps[..., index, :3] = (reached[0] @ joint.child_at) + reached[1] - at_joint
+        error = reached[0] @ np.swapaxes(rotation, -1, -2)
+        gaps[..., index, 3:] = length * rotations.to_vector(error)
+    return gaps
+
+
+def closure_error(record: MechanismRecord, values: FloatArray) -> FloatArray:
+    """Largest gap (...) over the cut joints, in length units: point gaps, and rotations times the length.
+
+    Zero (to rounding) exactly where joint values (..., n) are an assembly of the whole joint graph.
+    """
+    gaps = residuals(record, values)
+    pairs = gaps.reshape(*gaps.shape[:-1], 2, 3)
+    return np.asarray(np.max(np.linalg.norm(pairs, axis=-1), axis=(-1, -2), initial=0.0))
+
+
+def loop_twists(record: MechanismRecord, values: FloatArray) -> FloatArray:
+    """Closure Jacobian (..., 6 v, n): per loop the joint twists, signed along it; J qdot = 0 at an assembly."""
+    return _loop_twists(record, screws(record, frames(record, values), values))
+
+
+def _loop_twists(record: MechanismRecord, twists: FloatArray) -> FloatArray:
+    graph = joint_graph(record)
+    matrix = np.zeros((*twists.shape[:-2], len(graph.cut), 6, twists.shape[-1]))
+    for index, (joint, loop) in enumerate(zip(graph.cut, graph.loops, strict=True)):
+        for name, sense in ((joint.name, 1), *loop.items()):
+            columns = graph.slices[name]
+            matrix[..., index, :, columns] = sense * twists[..., columns]
+    return matrix.reshape(*twists.shape[:-2], 6 * len(graph.cut), twists.shape[-1])
+
+
+def _system(record: MechanismRecord, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Residual (N, 6v) and its derivative (N, 6v, n), exact where the loops close."""
+    graph = joint_graph(record)
+    length = characteristic_length(record)
+    placed = frames(record, values)
+    gaps = _residuals(record, values, placed)
+    twists = _loop_twists(record, screws(record, placed, values)).reshape(len(values), -1, 6, values.shape[-1])
+    derivative = np.empty_like(twists)
+    for index, joint in enumerate(graph.cut):
+        rotation, origin = placed[joint.child]
+        point = (rotation @ joint.child_at) + origin
+        loop = twists[:, index]
+        derivative[:, index, :3] = loop[:, 3:] + np.cross(loop[:, :3], point[:, :, None], axis=1)
+        derivative[:, index, 3:] = length * loop[:, :3]
+    count = 6 * len(graph.cut)
+    return gaps.reshape(len(values), count), derivative.reshape(len(values), count, -1)
+
+
+def assemble(
+    record: MechanismRecord,
+    start: FloatArray,
+    *,
+    held: Sequence[int] = (),
+    tolerance: float = 1e-12,
+    max_steps: int = 80,
+) -> Assembly:
+    """Close the loops from starts (..., n), holding the joint values with indices `held`.
+
+    Damped least squares on the whole joint graph, so that redundant loops do no harm. `tolerance` is
+    relative to the characteristic length.
+    """
+    count = start.shape[-1]
+    values: FloatArray = np.array(start, dtype=float).reshape(-1, count)
+    free = np.setdiff1d(np.arange(count), np.asarray(held, dtype=int))
+    length = characteristic_length(record)
+    # a length counts in units of the characteristic length, so that a step mixes it fairly with angles
+    scale = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])[free]
+
+    def system(unknowns: FloatArray, rows: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
+        trial = values[rows]
+        trial[:, free] = unknowns * scale
+        gaps, derivative = _system(record, trial)
+        return gaps / length, derivative[..., free] * (scale / length)
+
+    found = least_squares.minimise(system, values[:, free] / scale, tolerance=tolerance, max_steps=max_steps)
+    values[:, free] = found.x * scale
+    values = values.reshape(start.shape)
+    error = closure_error(record, values)
+    return Assembly(values, error, error <= CLOSED * length, found.steps)
+
+
+@dataclass(frozen=True, eq=False)
+class Mobility:
+    """Freedom of the joint graph at an assembly, by the rank of its closure Jacobian.
+
+    `rank` (...) of the 6 v rows, `freedoms` = n - rank, `redundant` = 6 v - rank, and `gap` (...): the
+    smallest singular value kept over the largest dropped one (inf where none is dropped to rounding).
+    """
+
+    rank: NDArray[np.int_]
+    freedoms: NDArray[np.int_]
+    redundant: NDArray[np.int_]
+    gap: FloatArray
+
+
+def mobility(record: MechanismRecord, values: FloatArray, *, threshold: float = RANK_GAP) -> Mobility:
+    """Rank, freedoms and redundant constraints at assemblies (..., n).
+
+    Translations are counted in units of the characteristic length, so that the rank does not depend on the unit.
+    """
+    length = characteristic_length(record)
+    matrix = loop_twists(record, values)
+    rows = np.tile([1.0, 1.0, 1.0, 1 / length, 1 / length, 1 / length], matrix.shape[-2] // 6)
+    columns = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
+    singular = np.linalg.svd(matrix * rows[:, None] * columns, compute_uv=False)
+    kept = singular > threshold * singular[..., :1]
+    rank = np.sum(kept, axis=-1)
+    smallest = np.min(np.where(kept, singular, np.inf), axis=-1)
+    dropped = np.max(np.where(kept, 0.0, singular), axis=-1)
+    gap = smallest / np.maximum(dropped, np.finfo(float).tiny)
+    return Mobility(rank, values.shape[-1] - rank, matrix.shape[-2] - rank, gap)

@@ -1,0 +1,40 @@
+"""Whether a branch exists: the one place where margins of floats are judged against zero."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.status import MARGIN_TOLERANCE, scale
+from assur.model.closed_form import Margin
+from assur.model.mechanism import MechanismRecord
+
+BoolArray = NDArray[np.bool_]
+
+
+def vanishes(record: MechanismRecord, margin: Margin, value: Any) -> BoolArray:
+    """Where a margin (...) is zero within MARGIN_TOLERANCE of its scale."""
+    return np.asarray(np.abs(value) <= MARGIN_TOLERANCE * scale(record, margin.scale))
+
+
+def allows(record: MechanismRecord, margin: Margin, value: Any) -> BoolArray:
+    """Where a margin (...) lets its branch exist: not negative, or not zero where the formulas degenerate.
+
+    >>> from assur.model.registry import load_record
+    >>> allows(load_record("zeng2019"), Margin("M", "l2*l2", "reach", unit=2), [1.0, 0.0, -1e-3])
+    array([ True,  True, False])
+    """
+    if margin.zero == "degenerate":
+        return ~vanishes(record, margin, value)
+    return np.asarray(np.asarray(value) >= -MARGIN_TOLERANCE * scale(record, margin.scale))
+
+
+def exists(record: MechanismRecord, margins: Sequence[Margin], values: Mapping[str, Any]) -> BoolArray:
+    """Where every margin allows the branch; values (...) broadcast against each other."""
+    result: Any = True
+    for margin in margins:
+        result = result & allows(record, margin, values[margin.name])
+    return np.asarray(result)

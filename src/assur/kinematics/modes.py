@@ -1,0 +1,66 @@
+"""Modes: names of branches, written as signs in the order that the mechanism's file declares."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from types import SimpleNamespace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import UnknownNameError
+from assur.model.mechanism import MechanismRecord
+
+Problem = Literal["direct", "inverse"]
+SYMBOLS = {1: "+", -1: "-", 0: "0"}
+
+
+def sign_names(record: MechanismRecord, problem: Problem) -> tuple[str, ...]:
+    """Signs that name a branch: the assembly signs of the direct problem, the working signs of the inverse one."""
+    return tuple(record.modes.assembly if problem == "direct" else record.modes.working)
+
+
+def all_modes(record: MechanismRecord, problem: Problem) -> tuple[str, ...]:
+    """Every mode, plus before minus, the last sign running fastest.
+
+    >>> from assur.model.registry import load_record
+    >>> all_modes(load_record("zeng2019"), "direct")[:3]
+    ('+++', '++-', '+-+')
+    """
+    return tuple("".join(signs) for signs in itertools.product("+-", repeat=len(sign_names(record, problem))))
+
+
+def mode_signs(record: MechanismRecord, problem: Problem, mode: str) -> tuple[int, ...]:
+    """Signs (+1 or -1) of a mode's text; an unknown mode is refused with the valid ones.
+
+    >>> from assur.model.registry import load_record
+    >>> mode_signs(load_record("zeng2019"), "inverse", "++-++")
+    (1, 1, -1, 1, 1)
+    """
+    choices = all_modes(record, problem)
+    if mode not in choices:
+        names = ", ".join(sign_names(record, problem))
+        kind = "assembly mode" if problem == "direct" else "working mode"
+        raise UnknownNameError(f"{kind} of {record.name}", mode, choices, hint=f"one sign + or - for each of: {names}")
+    return tuple(1 if symbol == "+" else -1 for symbol in mode)
+
+
+def mode_text(signs: Sequence[int] | NDArray[np.int8]) -> str:
+    """Text of a mode from its signs; a sign that has merged to zero is written 0.
+
+    >>> mode_text([1, 0, -1])
+    '+0-'
+    """
+    return "".join(SYMBOLS[int(sign)] for sign in signs)
+
+
+def sign_axes(names: Sequence[str], batch_axes: int = 1) -> SimpleNamespace:
+    """Both values of every sign, each along a leading axis of its own, so that one call gives all branches."""
+    axes = {}
+    for place, name in enumerate(names):
+        shape = [1] * (len(names) + batch_axes)
+        shape[place] = 2
+        axes[name] = np.array([1.0, -1.0]).reshape(shape)
+    return SimpleNamespace(**axes)

@@ -1,0 +1,53 @@
+"""One solution, and one reason why there is none."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.status import Status
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Failure:
+    """Why there is no solution: the first quantity that fails, at the branch that comes nearest to existing.
+
+    `value` is negative, in the length unit to the power `unit`; `branches` counts those that fail here.
+    """
+
+    quantity: str
+    value: float
+    unit: int
+    meaning: str
+    branches: int
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """One solution of the direct or the inverse problem.
+
+    Attributes:
+        pose, inputs: (m,) and (n,), lengths and rad.
+        mode: the signs that name it among the solutions of its problem; `working_mode` and
+            `assembly_mode` give both names of the configuration.
+        joints: every joint coordinate's value, in rad or length, by name.
+        residual: closure error of the full joint graph, in length units.
+        factors: factors of det Jp and det Jq by name.
+        quantities: what the source names on its way, angles in rad.
+    """
+
+    pose: FloatArray
+    inputs: FloatArray
+    mode: str
+    working_mode: str
+    assembly_mode: str
+    joints: Mapping[str, float]
+    residual: float
+    status: Status
+    factors: Mapping[str, float]
+    quantities: Mapping[str, float]

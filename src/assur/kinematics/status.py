@@ -1,0 +1,110 @@
+"""What mathematics answers: the status of a solution, and the one function that turns margins and factors into it.
+
+Zero is judged relative to a scale that the closed form states. A root merges at MARGIN_TOLERANCE of its
+radicand; the factor that is this root is then at most the root of that tolerance, hence FACTOR_TOLERANCE.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from enum import IntEnum
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import UsageError
+from assur.model.closed_form import ClosedForm
+from assur.model.formula import parse
+from assur.model.mechanism import MechanismRecord
+
+MARGIN_TOLERANCE = 1e-13
+"""A radicand within this share of its scale counts as zero: two branches merge."""
+
+FACTOR_TOLERANCE = 4e-7
+"""A factor within this share of its scale counts as zero: singular."""
+
+NEAR_SINGULAR = 1e-3
+"""A factor within this share of its scale makes a solution near_singular."""
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+
+
+class Status(IntEnum):
+    """Status of a solution in order of severity; where several hold, the most severe is reported."""
+
+    regular = 0
+    near_singular = 1
+    serial = 2
+    parallel = 3
+    comprehensive = 4
+    constraint = 5
+    self_motion = 6
+    unreachable = 7
+    undecided = 8
+
+
+@lru_cache(maxsize=256)
+def scale(record: MechanismRecord, formula: str) -> float:
+    """Value of a scale formula of the closed form at the record's parameters.
+
+    >>> from assur.model.registry import load_record
+    >>> scale(load_record("zeng2019"), "2*l2")
+    560.0
+    """
+    return float(parse(formula).evaluate(vars(record.values)))
+
+
+def relative_factors(record: MechanismRecord, factors: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+    """Factors divided by their scales: numbers of order one, zero where singular."""
+    form = closed_form_of(record)
+    return {item.name: factors[item.name] / scale(record, item.scale) for item in form.factor_list}
+
+
+def classify(record: MechanismRecord, factors: Mapping[str, FloatArray]) -> NDArray[np.int8]:
+    """Status (...) of existing solutions from the factors of det Jp and det Jq.
+
+    serial: a factor of det Jq vanishes; parallel: one of det Jp; comprehensive: both; constraint: a
+    group of factors that lowers the rank of the whole closure; self_motion: a factor that lets the
+    platform move with every input locked.
+    """
+    form = closed_form_of(record)
+    size = {name: np.abs(value) for name, value in relative_factors(record, factors).items()}
+    zero = {name: value <= FACTOR_TOLERANCE for name, value in size.items()}
+    of_kind = {kind: [item.name for item in form.factor_list if item.kind == kind] for kind in ("serial", "parallel")}
+    serial, parallel = (_any([zero[name] for name in names], zero) for names in of_kind.values())
+    near = _any([size[name] <= NEAR_SINGULAR for names in of_kind.values() for name in names], zero)
+    levels = (
+        (Status.near_singular, near),
+        (Status.serial, serial),
+        (Status.parallel, parallel),
+        (Status.comprehensive, serial & parallel),
+        (Status.constraint, _any_group(form.constraint_singular, zero)),
+        (Status.self_motion, _any_group(form.self_motion_singular, zero)),
+    )
+    status = np.zeros(np.shape(near), dtype=np.int8)
+    for level, holds in levels:
+        status[holds] = level
+    return status
+
+
+def _any(conditions: Sequence[BoolArray], shape_of: Mapping[str, BoolArray]) -> BoolArray:
+    shape = np.broadcast_shapes(*(np.shape(value) for value in shape_of.values()))
+    wide = [np.broadcast_to(item, shape) for item in conditions] or [np.zeros(shape, dtype=bool)]
+    return np.asarray(np.logical_or.reduce(wide))
+
+
+def _any_group(groups: Sequence[tuple[str, ...]], zero: Mapping[str, BoolArray]) -> BoolArray:
+    """Where every factor of at least one group vanishes."""
+    return _any([np.logical_and.reduce([zero[name] for name in group]) for group in groups], zero)
+
+
+def closed_form_of(record: MechanismRecord) -> ClosedForm:
+    """The closed form, or a clear refusal where the mechanism has none."""
+    if record.closed_form is None:
+        raise UsageError(
+            f"{record.name} has no closed form",
+            hint="put a closed_form.py beside its file (CLOSED_FORM = ClosedForm(...))",
+        )
+    return record.closed_form

@@ -1,0 +1,135 @@
+"""From a description to a record: every name resolved, every formula evaluated, every fault noted."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from assur.model import schema
+from assur.model.build_chains import build_chains, build_generalised
+from assur.model.build_inputs import build_home, build_inputs
+from assur.model.build_joints import Geometry, build_joint
+from assur.model.build_letters import build_angles, build_modes, build_points
+from assur.model.description import Description
+from assur.model.faults import Faults
+from assur.model.graph_checks import check_graph
+from assur.model.limbs import expand
+from assur.model.mechanism import Link, MechanismRecord, Platform
+from assur.model.names import check_names
+from assur.model.numbers import Numbers
+from assur.model.parameters import evaluate_parameters
+from assur.model.scope import Scope
+from assur.model.toml_source import KeyPath
+
+_REQUIRED = {
+    "format": "1, the format that this version reads",
+    "name": "a short name: letters, digits, _ and -",
+    "unit": "the unit of length: mm, cm, m, in or ft",
+    "angle": "the unit of angles: deg or rad",
+    "base": "the link that stands still",
+    "platform": "the link that is moved: its link, point and pose",
+    "links": "a table of at least two links",
+    "joints": "a table of joints",
+    "inputs": "a table of the actuated joints",
+    "home": "values of all joints near one assembled configuration",
+}
+_QUATERNION = {"qw", "qx", "qy", "qz"}
+
+
+def build(description: Description, overrides: Mapping[str, float], faults: Faults) -> MechanismRecord:
+    """The record of a description, with some parameters at other values.
+
+    Errors:
+        MechanismFileError: every fault of the description, those already noted among them.
+    """
+    file, cut = description.entry, description.cut
+    _check_required(file, cut, faults)
+    tables = expand(file, cut, faults)
+    check_names(file, tables, faults)
+    scope = Scope(tables, faults)
+    unit, angle = file.unit or "mm", file.angle or "rad"
+    broken = tables.broken.get("parameters", frozenset())
+    parameters, numbers = evaluate_parameters(file.parameters, overrides, (unit, angle), broken, faults)
+    geometry = Geometry(file, numbers)
+    joints = {name: build_joint(placed, scope, geometry) for name, placed in tables.joints.items()}
+    record = MechanismRecord(
+        name=file.name or "",
+        title=file.title or file.name or "",
+        source=file.source,
+        unit=unit,
+        angle=angle,
+        parameters=parameters,
+        links={name: Link(name, placed.entry.meaning) for name, placed in tables.links.items()},
+        joints={name: joint for name, joint in joints.items() if joint},
+        base=_base(file, scope),
+        platform=_platform(file, scope, geometry),
+        inputs=build_inputs(file, tables, scope, numbers),
+        coordinates=tuple(scope.coordinates),
+        home=build_home(tables, scope, numbers),
+        modes=build_modes(file, scope, numbers),
+        file=description.path,
+        folder=description.path.parent,
+        generalised=build_generalised(tables, scope),
+        chains=build_chains(tables, scope),
+        angles=build_angles(file, scope),
+        points=build_points(tables, scope, geometry),
+        box=_box(file, numbers),
+        sections=_sections(file, numbers),
+        description=description,
+        overrides=dict(overrides),
+    )
+    if not faults.problems:
+        check_graph(record, tables, faults)
+    faults.raise_any()
+    return record
+
+
+def _check_required(file: schema.FileEntry, cut: frozenset[KeyPath], faults: Faults) -> None:
+    for key, what in _REQUIRED.items():
+        given = file.inputs.entries if key == "inputs" else getattr(file, key)
+        in_limb = any(getattr(limb, key, None) for limb in file.limbs.values())
+        if not given and not in_limb and not any(path[0] in (key, "limbs") for path in cut):
+            faults.add((key,), "missing", f"this must be there: {what}")
+
+
+def _base(file: schema.FileEntry, scope: Scope) -> str:
+    return "" if file.base is None else scope.link(file.base, ("base",)) or ""
+
+
+def _platform(file: schema.FileEntry, scope: Scope, geometry: Geometry) -> Platform:
+    entry = file.platform
+    if entry is None:
+        return Platform("", np.zeros(3), (), "any")
+    link = scope.link(entry.link, ("platform", "link"))
+    if link is not None and entry.link == file.base:
+        scope.faults.add(("platform", "link"), f"'{link}' is the base", "allowed: another link")
+    path, names = ("platform", "pose"), set(entry.pose)
+    if len(names) < len(entry.pose):
+        scope.faults.add(path, "a coordinate twice", "allowed: each once")
+    if names & _QUATERNION and (not names >= _QUATERNION or "phi" in names):
+        scope.faults.add(path, "half a quaternion", "allowed: qw, qx, qy, qz together, without phi")
+    if names - {"x", "y", "z"} and entry.orientation == "constant":
+        scope.faults.add(path, "a coordinate that turns", "allowed with constant orientation: x, y, z")
+    point = geometry.vector(entry.point, ("platform", "point"))
+    return Platform(link or "", point, entry.pose, entry.orientation)
+
+
+def _box(file: schema.FileEntry, numbers: Numbers) -> dict[str, tuple[float, float]]:
+    pose = file.platform.pose if file.platform else ()
+    found = {}
+    for name, ends in file.workspace.box.items():
+        path = ("workspace", "box", name)
+        if name not in pose and file.platform:
+            numbers.faults.unknown(path, "coordinate of the pose", name, pose)
+        found[name] = numbers.interval("angle" if name == "phi" else "length", ends, path)
+    return found
+
+
+def _sections(file: schema.FileEntry, numbers: Numbers) -> tuple[float, ...]:
+    last = file.platform.pose[-1] if file.platform else ""
+    path = ("workspace", "sections")
+    given = enumerate(file.workspace.sections)
+    return tuple(
+        numbers.of("angle" if last == "phi" else "length", value, (*path, at)) for at, value in given
+    )

@@ -1,0 +1,96 @@
+"""Actuated coordinates in their order, and the joint values of home."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.model import schema
+from assur.model.faults import listed
+from assur.model.limbs import Tables
+from assur.model.mechanism import Input
+from assur.model.numbers import Numbers
+from assur.model.scope import Scope
+from assur.model.toml_source import KeyPath
+
+FloatArray = NDArray[np.float64]
+
+
+def build_inputs(file: schema.FileEntry, tables: Tables, scope: Scope, numbers: Numbers) -> tuple[Input, ...]:
+    """Inputs in the order that the file names, else in the order in which they stand there."""
+    found: dict[int, Input] = {}
+    for placed in tables.inputs.values():
+        entry, path = placed.entry, placed.path
+        item = scope.coordinate(placed.local, path, placed.instance)
+        kind = item.kind if item else "length"
+        offset = numbers.of(kind, entry.offset, (*path, "offset"))
+        stroke = numbers.interval(kind, entry.stroke, (*path, "stroke")) if entry.stroke else None
+        if item is None:
+            continue
+        if item.index in found:
+            scope.faults.add(path, f"'{placed.local}' is an input already", "allowed: each joint once")
+        found[item.index] = Input(
+            item, entry.name, entry.latex or entry.name, offset, float(entry.sign), stroke
+        )
+    if file.inputs.order is None:
+        return tuple(found.values())
+    return _ordered(file.inputs.order, found, scope)
+
+
+def _ordered(order: tuple[str, ...], found: Mapping[int, Input], scope: Scope) -> tuple[Input, ...]:
+    indices = []
+    for place, name in enumerate(order):
+        path = ("inputs", "order", place)
+        item = scope.coordinate(name, path)
+        if item is None:
+            continue
+        if item.index not in found:
+            hint = f'add {name} = {{ name = "q" }}'
+            scope.faults.add(
+                path, f"'{name}' has no entry in [inputs]", "allowed: the inputs, each once", hint
+            )
+        elif item.index in indices:
+            scope.faults.add(path, f"'{name}' twice", "allowed: the inputs, each once")
+        indices.append(item.index)
+    left = [item.coordinate.joint for index, item in found.items() if index not in indices]
+    if left and len(indices) == len(order):
+        scope.faults.add(("inputs", "order"), f"lacks {listed(left)}", "allowed: the inputs, each once")
+    return tuple(found[index] for index in indices if index in found)
+
+
+def build_home(tables: Tables, scope: Scope, numbers: Numbers) -> FloatArray:
+    """Joint values (n,) near one assembled configuration; every joint must have its own."""
+    home = np.full(len(scope.coordinates), np.nan)
+    for placed in tables.home.values():
+        joint = scope.joint(placed.local, placed.path, placed.instance)
+        if joint is None:
+            continue
+        items = [item for item in scope.coordinates if item.joint == joint]
+        if len(placed.entry) != len(items):
+            allowed = f"allowed: {len(items)}, one for each of {', '.join(item.component for item in items)}"
+            scope.faults.add(placed.path, f"{len(placed.entry)} values", allowed)
+            continue
+        for place, (item, value) in enumerate(zip(items, placed.entry, strict=True)):
+            if not np.isnan(home[item.index]):
+                scope.faults.add(placed.path, f"'{placed.local}' is given twice", "allowed: each joint once")
+            home[item.index] = numbers.of(item.kind, value, (*placed.path, place))
+    given = {scope.aliases.get(name, name) for name in (*tables.home, *tables.broken.get("home", ()))}
+    if tables.home or tables.broken.get("home"):
+        _check_complete(given, tables, scope)
+    home.flags.writeable = False
+    return home
+
+
+def _check_complete(given: set[str], tables: Tables, scope: Scope) -> None:
+    lacking: dict[KeyPath, list[str]] = {}
+    for name, placed in tables.joints.items():
+        if name not in given:
+            path: KeyPath = ("limbs", placed.instance.limb, "home") if placed.instance else ("home",)
+            lacking.setdefault(path, []).append(placed.local)
+    for path, names in lacking.items():
+        allowed = "every joint needs a value near one assembled configuration"
+        scope.faults.add(
+            path, f"lacks {listed(set(names))}", allowed, f"add {names[0]} = 0, or a better guess"
+        )

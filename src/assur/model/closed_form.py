@@ -1,0 +1,168 @@
+"""What a mechanism's `closed_form.py` declares: kernels written once over any number type, and what they claim.
+
+A kernel is straight-line algebra (+ - * / and `ns.sqrt`). It never decides anything: it returns the
+numbers of one branch (or, with arrays of signs, of all branches) together with *margins*, the quantities
+that must not be negative (or not zero) for the branch to exist. Everything that a kernel claims about the
+joint graph is checked by the contract tests.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+from typing import Any, Literal, Protocol
+
+Number = Any
+"""A float array, an interval, a SymPy expression, a dual number: whatever has + - * / ."""
+
+
+class Namespace(Protocol):
+    """The functions that a kernel needs beside + - * / ."""
+
+    def sqrt(self, radicand: Number, /) -> Number:
+        """Square root of a margin (see `assur.numerics.number_types` for what it does below zero)."""
+
+
+@dataclass(frozen=True)
+class Branch:
+    """One branch, or all of them at once by broadcasting.
+
+    Attributes:
+        pose: the coordinates of the platform, in the file's order.
+        inputs: the inputs in the file's order; a revolute input is a pair (cosine, sine).
+        margins: name -> value; the branch exists where every one of them allows it.
+        core: every quantity that factors, Jacobians and joint values are made of.
+    """
+
+    pose: tuple[Number, ...]
+    inputs: tuple[Number, ...]
+    margins: Mapping[str, Number]
+    core: SimpleNamespace
+
+
+@dataclass(frozen=True)
+class Margin:
+    """A quantity on which the existence of a branch depends.
+
+    Attributes:
+        name: its key in `Branch.margins`.
+        scale: a formula of the parameters: the size against which zero is judged.
+        meaning: what it means geometrically, in one phrase.
+        unit: power of the length unit (2 for a radicand in mm^2, 0 for a number).
+        signs: the mode signs whose square root this is the radicand of, if any.
+        zero: what happens where it is zero: the two branches "merge", or the formulas "degenerate".
+    """
+
+    name: str
+    scale: str
+    meaning: str
+    unit: int
+    signs: tuple[str, ...] = ()
+    zero: Literal["merge", "degenerate"] = "merge"
+    latex: str = ""
+
+
+@dataclass(frozen=True)
+class Sign:
+    """What a mode sign is the sign of: an attribute of core, zero being judged against `scale`."""
+
+    attribute: str
+    scale: str
+
+
+@dataclass(frozen=True)
+class Factor:
+    """A factor of det Jp ("parallel") or of det Jq ("serial"), with its geometric meaning.
+
+    det Jp is the product of the parallel factors and det Jq that of the serial ones. A quantity of kind
+    "other" divides neither; it is listed because a group of `ClosedForm.self_motion_singular` needs it.
+    """
+
+    name: str
+    kind: Literal["parallel", "serial", "other"]
+    scale: str
+    meaning: str
+    latex: str = ""
+    equation: str = ""
+    unit: int = 1
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A quantity that the source names: its letter, equation and what it is computed from.
+
+    `kind` "angle" means that the kernel returns a pair (cosine, sine); the angle is derived outside.
+    `problem` says where it occurs: in the direct or the inverse problem, or both.
+    """
+
+    name: str
+    kind: Literal["length", "angle", "number", "area", "volume"]
+    equation: str
+    needs: tuple[str, ...] = ()
+    latex: str = ""
+    problem: Literal["direct", "inverse", "both"] = "both"
+    meaning: str = ""
+
+
+@dataclass(frozen=True)
+class SelfMotion:
+    """The curve on which the platform moves while every input stands still.
+
+    Attributes:
+        margin: the "degenerate" margin of the direct problem at whose zero it occurs.
+        parameter: name of the angle that runs along the curve.
+        signs: the mode signs that remain.
+        kernel: (ns, p, inputs, (cos, sin) of the parameter, sign) -> Branch.
+    """
+
+    margin: str
+    parameter: str
+    signs: tuple[str, ...]
+    kernel: Callable[..., Branch]
+    latex: str = ""
+
+
+@dataclass(frozen=True)
+class ClosedForm:
+    """The closed form of a mechanism: a claim about its joint graph, made of kernels and their names.
+
+    Attributes:
+        complete_for: for which model the branches are all there are: "joint_graph", or "reduced" (the
+            source's model, which leaves assemblies of the joint graph out; `reduced_because` says which).
+        direct: (ns, p, inputs, sign) -> Branch.
+        inverse: (ns, p, pose, sign) -> Branch.
+        joints: (ns, p, core) -> {joint: value}, a pair (cosine, sine) for a revolute.
+        factors: (ns, p, core) -> {factor: value}.
+        jacobians: (ns, p, core) -> (rows of Jp, rows of Jq) with Jp v = Jq qdot.
+        quantities: (ns, p, core) -> {quantity: value}; a pair (cosine, sine) for an angle.
+        constraints: (ns, p, core, inputs) -> {name: (found, wanted)}: the lengths that given inputs
+            and a given pose would need, beside the lengths that the parameters say.
+        signs: mode sign -> what it is the sign of.
+        direct_margins, inverse_margins: in the order in which they are met.
+        constraint_singular: groups of factors; where all of one group vanish, the rank of the whole
+            closure of the joint graph drops.
+        self_motion_singular: groups of factors; where all of one group vanish, the platform moves with
+            every input locked.
+        as_printed: (ns, p, core) -> (Jp, Jq) as the source prints them, where that differs.
+    """
+
+    complete_for: Literal["joint_graph", "reduced"]
+    direct: Callable[..., Branch]
+    inverse: Callable[..., Branch]
+    joints: Callable[..., Mapping[str, Number]]
+    factors: Callable[..., Mapping[str, Number]]
+    jacobians: Callable[..., tuple[Sequence[Sequence[Number]], Sequence[Sequence[Number]]]]
+    signs: Mapping[str, Sign]
+    direct_margins: tuple[Margin, ...]
+    inverse_margins: tuple[Margin, ...]
+    factor_list: tuple[Factor, ...]
+    constraint_singular: tuple[tuple[str, ...], ...] = ()
+    self_motion_singular: tuple[tuple[str, ...], ...] = ()
+    quantities: Callable[..., Mapping[str, Number]] | None = None
+    quantity_list: tuple[Quantity, ...] = ()
+    constraints: Callable[..., Mapping[str, tuple[Number, Number]]] | None = None
+    self_motion: SelfMotion | None = None
+    as_printed: Callable[..., tuple[Sequence[Sequence[Number]], Sequence[Sequence[Number]]]] | None = None
+    reduced_because: str = ""
+    sources: Mapping[str, str] = field(default_factory=dict)

@@ -1,0 +1,162 @@
+"""The form of a document, checked: what pydantic finds, in our words, and what is left to look at."""
+
+from __future__ import annotations
+
+import copy
+from typing import Any
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from assur.model import schema
+from assur.model.faults import Faults, listed, nearest
+from assur.model.toml_source import KeyPath
+from assur.model.values import shown
+
+_TABLES: dict[str, type[schema.Entry]] = {
+    "parameters": schema.ParameterEntry,
+    "links": schema.LinkEntry,
+    "inputs": schema.InputEntry,
+    "generalised": schema.GeneralisedEntry,
+    "chains": schema.ChainEntry,
+    "points": schema.PointEntry,
+}
+_REFERENCES = ("inputs", "home")
+_DOTTED = 'a name with a dot stands in quotes: "leg1.B"'
+_TYPES = {
+    "string_type": "allowed: a text in quotes",
+    "dict_type": "allowed: a table { ... }",
+    "model_type": "allowed: a table { ... }",
+    "model_attributes_type": "allowed: a table { ... }",
+    "tuple_type": "allowed: a list [ ... ]",
+    "bool_type": "allowed: true or false",
+    "int_type": "allowed: a whole number",
+    "too_short": "allowed: a longer list",
+    "too_long": "allowed: a shorter list",
+}
+
+
+_NEEDED = {(table,) for table in (*_TABLES, "joints", "limbs", "home")}
+
+
+def check_form(data: dict[str, Any], faults: Faults) -> tuple[schema.FileEntry | None, frozenset[KeyPath]]:
+    """Check the form of a document and note every fault.
+
+    Returns the part of the document that is in form, and the paths that were cut out of it because they
+    are not; None where too little is left to look any further.
+    """
+    cut: set[KeyPath] = set()
+    rest = data
+    for _ in range(3):
+        try:
+            return schema.FileEntry.model_validate(rest), frozenset(cut)
+        except ValidationError as error:
+            rest = copy.deepcopy(rest)
+            for details in error.errors(include_url=False):
+                path = _path(details["loc"], data)
+                _note(details, path, data, faults)
+                entry = path if details["type"] == "extra_forbidden" else _entry(path)
+                if entry in _NEEDED or (len(entry) == 2 and entry[0] == "limbs"):
+                    return None, frozenset(cut)
+                cut.add(entry)
+                _remove(rest, entry)
+    return None, frozenset(cut)
+
+
+def _path(location: tuple[str | int, ...], data: Any) -> KeyPath:
+    """The place in the document: pydantic's location less the tags and marks that it adds."""
+    path: list[str | int] = []
+    for index, part in enumerate(location):
+        inside = (isinstance(data, dict) and part in data) or (
+            isinstance(data, list) and isinstance(part, int)
+        )
+        if inside:
+            data = data[part] if isinstance(data, dict) else data[int(part)]
+            path.append(part)
+        elif (
+            index == len(location) - 1
+            and isinstance(part, str)
+            and part != "[key]"
+            and isinstance(data, dict)
+        ):
+            path.append(part)
+    return tuple(path)
+
+
+def _entry(path: KeyPath) -> KeyPath:
+    """The smallest part that can be cut out: one entry of a table, else a table."""
+    if path[0] == "limbs":
+        return path[: 3 if len(path) > 2 and path[2] in ("repeat", "chain") else 4]
+    return path[:2] if path[0] in (*_TABLES, "joints", "home", "angles") else path[:1]
+
+
+def _remove(data: dict[str, Any], path: KeyPath) -> None:
+    for part in path[:-1]:
+        if part not in data:
+            return
+        data = data[str(part)]
+    data.pop(str(path[-1]), None)
+
+
+def _note(details: ErrorDetails, path: KeyPath, data: dict[str, Any], faults: Faults) -> None:
+    kind, context = details["type"], details.get("ctx", {})
+    value = shown(details["input"])
+    if kind == "form":
+        dotted = path[0] in _REFERENCES and isinstance(details["input"], dict)
+        faults.add(path, context["found"], context["allowed"], _DOTTED if dotted else context["hint"])
+    elif kind == "extra_forbidden":
+        keys = allowed_keys(path[:-1], data)
+        dotted = path[0] in _REFERENCES and isinstance(details["input"], dict)
+        hint = _DOTTED if dotted else nearest(str(path[-1]), keys)
+        faults.add(path, "unknown key", f"allowed here: {listed(keys)}", hint)
+    elif kind == "missing":
+        faults.add(path, "missing", "this key must be there")
+    elif kind == "union_tag_not_found":
+        faults.add((*path, "type"), "missing", f"allowed: {listed(schema.JOINT_ENTRIES)}")
+    elif kind == "union_tag_invalid":
+        tag = str(context["tag"])
+        hint = nearest(tag, schema.JOINT_ENTRIES)
+        faults.add((*path, "type"), f'"{tag}"', f"allowed: {listed(schema.JOINT_ENTRIES)}", hint)
+    elif kind == "literal_error":
+        hint = nearest(str(details["input"]), [part.strip("'") for part in context["expected"].split(", ")])
+        faults.add(path, value, f"allowed: {context['expected']}".replace("'", ""), hint)
+    else:
+        faults.add(
+            path, value, _TYPES.get(kind, f"allowed: {details['msg'].removeprefix('Input should be ')}")
+        )
+
+
+def allowed_keys(path: KeyPath, data: dict[str, Any]) -> tuple[str, ...]:
+    """Keys that the table at a path may have."""
+    model: type[schema.Entry]
+    match path:
+        case ("limbs", _):
+            model = schema.LimbEntry
+        case ("limbs", _, "chain"):
+            model = schema.ChainEntry
+        case ("limbs", _, "repeat"):
+            model = schema.Repeat
+        case ("limbs", limb, *rest):
+            return allowed_keys(tuple(rest), data["limbs"][limb])
+        case ("joints", joint):
+            model = schema.JOINT_ENTRIES[data["joints"][joint]["type"]]
+        case ("joints", joint, "limits"):
+            cylindrical = data["joints"][joint]["type"] == "cylindrical"
+            model = schema.CylindricalLimits if cylindrical else schema.UniversalLimits
+        case ("joints", _, "cone"):
+            model = schema.Cone
+        case ("generalised", _, "stands_for"):
+            model = schema.StandsFor
+        case (str(table), _) if table in _TABLES:
+            model = _TABLES[table]
+        case ("platform",):
+            model = schema.PlatformEntry
+        case ("modes",):
+            model = schema.ModesEntry
+        case ("modes", "default"):
+            model = schema.DefaultModes
+        case ("workspace",):
+            model = schema.WorkspaceEntry
+        case _:
+            model = schema.FileEntry
+    return tuple(model.model_fields)

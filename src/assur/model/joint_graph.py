@@ -1,0 +1,183 @@
+"""The joint graph: links are nodes, joints are edges; a spanning tree and the joints that close its loops."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.model.mechanism import Joint, MechanismRecord
+from assur.numerics import rotations
+from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL
+
+FloatArray = NDArray[np.float64]
+Frame = tuple[FloatArray, FloatArray]
+"""A frame in the base frame: orientation (..., 3, 3) and origin (..., 3)."""
+
+
+@dataclass(frozen=True)
+class JointGraph:
+    """A spanning tree of the joint graph and its independent loops.
+
+    Attributes:
+        tree: (joint, forward) in an order in which each joint's near link is already placed;
+            forward means from parent to child.
+        cut: the joints that close a loop each, v = m - n + 1 of them.
+        loops: per cut joint, the tree joints of its loop with +1 where the loop runs from parent to
+            child on the parent's side of the cut, -1 where it runs so on the child's side.
+        slices: joint -> its place in the vector of joint values.
+    """
+
+    tree: tuple[tuple[Joint, bool], ...]
+    cut: tuple[Joint, ...]
+    loops: tuple[Mapping[str, int], ...]
+    slices: Mapping[str, slice]
+
+
+@lru_cache(maxsize=64)
+def joint_graph(record: MechanismRecord) -> JointGraph:
+    """Breadth-first spanning tree from the base, joints in the file's order."""
+    placed, tree, used = [record.base], [], set()
+    for link in placed:
+        for name, joint in record.joints.items():
+            if link not in (joint.parent, joint.child) or name in used:
+                continue
+            other = joint.child if joint.parent == link else joint.parent
+            if other not in placed:
+                placed.append(other)
+                used.add(name)
+                tree.append((joint, joint.parent == link))
+    cut = tuple(joint for name, joint in record.joints.items() if name not in used)
+    paths = _paths(record.base, tree)
+    loops = tuple(_difference(paths[joint.parent], paths[joint.child]) for joint in cut)
+    slices, start = {}, 0
+    for name, joint in record.joints.items():
+        slices[name] = slice(start, start + joint.type.freedoms)
+        start += joint.type.freedoms
+    return JointGraph(tuple(tree), cut, loops, slices)
+
+
+def _paths(base: str, tree: list[tuple[Joint, bool]]) -> dict[str, dict[str, int]]:
+    """Tree joints from the base to each link, +1 where run from parent to child."""
+    paths: dict[str, dict[str, int]] = {base: {}}
+    for joint, forward in tree:
+        near, far = (joint.parent, joint.child) if forward else (joint.child, joint.parent)
+        paths[far] = {**paths[near], joint.name: 1 if forward else -1}
+    return paths
+
+
+def _difference(first: Mapping[str, int], second: Mapping[str, int]) -> dict[str, int]:
+    names = [name for name in (*first, *second) if not (name in first and name in second)]
+    return {name: first.get(name, 0) - second.get(name, 0) for name in names}
+
+
+def motion(joint: Joint, values: FloatArray) -> Frame:
+    """Pose of the child's joint frame in the parent's, for values (..., k): the joint's own displacement."""
+    if joint.type is SPHERICAL:
+        return rotations.from_vector(values), np.zeros(values.shape[:-1] + (3,))
+    axis = joint.axes[0]
+    first = values[..., 0]
+    if joint.type is PRISMATIC:
+        return np.broadcast_to(np.eye(3), (*first.shape, 3, 3)), first[..., None] * axis
+    if joint.type is REVOLUTE:
+        return rotations.about_axis(axis, first), np.zeros((*first.shape, 3))
+    if joint.type is HELICAL:
+        return rotations.about_axis(axis, first), (first * joint.pitch / (2 * np.pi))[..., None] * axis
+    if joint.type is CYLINDRICAL:
+        return rotations.about_axis(axis, values[..., 1]), first[..., None] * axis
+    if joint.type is UNIVERSAL:
+        turned = rotations.about_axis(axis, first) @ rotations.about_axis(joint.axes[1], values[..., 1])
+        return turned, np.zeros((*first.shape, 3))
+    raise AssertionError(f"no motion for joint type {joint.type.name}")
+
+
+def child_frame(joint: Joint, parent: Frame, values: FloatArray) -> Frame:
+    """Frame of the child link, given the parent's and the joint's values (..., k)."""
+    turn, shift = motion(joint, values)
+    orientation = parent[0] @ (turn @ joint.turn)
+    origin = parent[1] + _apply(parent[0], joint.at + shift) - _apply(orientation, joint.child_at)
+    return orientation, origin
+
+
+def parent_frame(joint: Joint, child: Frame, values: FloatArray) -> Frame:
+    """Frame of the parent link, given the child's and the joint's values (..., k)."""
+    turn, shift = motion(joint, values)
+    orientation = child[0] @ np.swapaxes(turn @ joint.turn, -1, -2)
+    origin = child[1] + _apply(child[0], joint.child_at) - _apply(orientation, joint.at + shift)
+    return orientation, origin
+
+
+def _apply(rotation: FloatArray, vector: FloatArray) -> FloatArray:
+    product: FloatArray = (rotation @ vector[..., None])[..., 0]
+    return product
+
+
+def frames(record: MechanismRecord, values: FloatArray) -> dict[str, Frame]:
+    """Frame of every link in the base frame, along the spanning tree, for joint values (..., n).
+
+    Loops need not close: the joints that close them are not asked.
+    """
+    graph = joint_graph(record)
+    batch = values.shape[:-1]
+    placed: dict[str, Frame] = {
+        record.base: (np.broadcast_to(np.eye(3), (*batch, 3, 3)), np.zeros((*batch, 3)))
+    }
+    for joint, forward in graph.tree:
+        near, far = (joint.parent, joint.child) if forward else (joint.child, joint.parent)
+        move = child_frame if forward else parent_frame
+        placed[far] = move(joint, placed[near], values[..., graph.slices[joint.name]])
+    return placed
+
+
+def screws(record: MechanismRecord, placed: Mapping[str, Frame], values: FloatArray) -> FloatArray:
+    """Unit twists (..., 6, n) of the joint coordinates in the base frame, moving the child against the parent.
+
+    Rows: angular velocity, then the velocity of the body point at the base's origin.
+    """
+    graph = joint_graph(record)
+    batch = values.shape[:-1]
+    twists = np.zeros((*batch, 6, values.shape[-1]))
+    for name, joint in record.joints.items():
+        rotation, origin = placed[joint.parent]
+        point = origin + _apply(rotation, joint.at)
+        own = values[..., graph.slices[name]]
+        for column, (axis, linear) in enumerate(_local_axes(joint, own)):
+            angular = _apply(rotation, axis)
+            where = graph.slices[name].start + column
+            if linear == np.inf:  # a pure translation
+                twists[..., 3:, where] = angular
+            else:
+                twists[..., :3, where] = angular
+                twists[..., 3:, where] = np.cross(point, angular) + linear * angular
+    return twists
+
+
+def _local_axes(joint: Joint, values: FloatArray) -> list[tuple[FloatArray, float]]:
+    """Per component: the axis in the parent's frame and its pitch in length per rad (inf: translation)."""
+    if joint.type is SPHERICAL:
+        return [(axis, 0.0) for axis in _spherical_rates(values)]
+    if joint.type is PRISMATIC:
+        return [(joint.axes[0], np.inf)]
+    if joint.type is HELICAL:
+        return [(joint.axes[0], joint.pitch / (2 * np.pi))]
+    if joint.type is CYLINDRICAL:
+        return [(joint.axes[0], np.inf), (joint.axes[0], 0.0)]
+    if joint.type is UNIVERSAL:
+        second = rotations.about_axis(joint.axes[0], values[..., 0]) @ joint.axes[1]
+        return [(joint.axes[0], 0.0), (second, 0.0)]
+    return [(joint.axes[0], 0.0)]
+
+
+def _spherical_rates(vector: FloatArray) -> list[FloatArray]:
+    """Angular velocity per rate of each part of a rotation vector: the columns of its left Jacobian."""
+    angle = np.linalg.norm(vector, axis=-1)[..., None, None]
+    cross = rotations.skew(vector)
+    small = angle < 1e-4
+    safe = np.where(small, 1.0, angle)
+    first = np.where(small, 0.5 - angle**2 / 24, (1.0 - np.cos(safe)) / safe**2)
+    second = np.where(small, 1 / 6 - angle**2 / 120, (safe - np.sin(safe)) / safe**3)
+    rates = np.eye(3) + first * cross + second * (cross @ cross)
+    return [rates[..., :, column] for column in range(3)]

@@ -1,0 +1,133 @@
+"""Repeated limbs: a template written once becomes as many limbs as it says, with names such as `leg1.B`.
+
+When every joint value is zero all link frames are parallel to the base's. So a limb is turned about an axis
+by turning every vector of its template, in whichever frame it is given; the axis passes through the origin
+of every one of these frames. The turning itself is done where the vectors get their numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Generic, TypeVar
+
+from assur.model import schema
+from assur.model.faults import Faults
+from assur.model.formula import Formula
+from assur.model.toml_source import KeyPath
+
+Item = TypeVar("Item")
+
+
+@dataclass(frozen=True)
+class Instance:
+    """One of the limbs that a template becomes."""
+
+    limb: str
+    number: int
+
+    @property
+    def prefix(self) -> str:
+        """What its names begin with, less the dot."""
+        return f"{self.limb}{self.number}"
+
+
+@dataclass(frozen=True)
+class Placed(Generic[Item]):
+    """An entry of the file under its full name, with the place of its text and the limb it belongs to."""
+
+    name: str
+    entry: Item
+    path: KeyPath
+    instance: Instance | None = None
+
+    @property
+    def local(self) -> str:
+        """Its name as written in the file."""
+        return self.name.removeprefix(f"{self.instance.prefix}.") if self.instance else self.name
+
+
+_REPEATED = ("links", "joints", "inputs", "generalised", "points", "home")
+
+
+@dataclass(frozen=True)
+class Tables:
+    """Everything that may stand in a template or outside one, by full name.
+
+    Attributes:
+        broken: table -> full names of entries that are in the file but not in form; they exist, so that
+            whoever refers to them is not blamed.
+    """
+
+    links: dict[str, Placed[schema.LinkEntry]] = field(default_factory=dict)
+    joints: dict[str, Placed[schema.AnyJoint]] = field(default_factory=dict)
+    inputs: dict[str, Placed[schema.InputEntry]] = field(default_factory=dict)
+    generalised: dict[str, Placed[schema.GeneralisedEntry]] = field(default_factory=dict)
+    chains: dict[str, Placed[schema.ChainEntry]] = field(default_factory=dict)
+    points: dict[str, Placed[schema.PointEntry]] = field(default_factory=dict)
+    home: dict[str, Placed[tuple[Formula, ...]]] = field(default_factory=dict)
+    instances: tuple[Instance, ...] = ()
+    broken: Mapping[str, frozenset[str]] = field(default_factory=dict)
+
+
+def expand(file: schema.FileEntry, cut: frozenset[KeyPath], faults: Faults) -> Tables:
+    """All entries by full name: those outside templates first, then limb by limb in the file's order."""
+    instances = {name: _instances(name, limb, cut, faults) for name, limb in file.limbs.items()}
+    tables = Tables(
+        instances=tuple(instance for group in instances.values() for instance in group),
+        broken=_broken(cut, instances),
+    )
+    for table in (*_REPEATED, "chains"):
+        entries = file.inputs.entries if table == "inputs" else getattr(file, table)
+        for name, entry in entries.items():
+            getattr(tables, table)[name] = Placed(name, entry, (table, name))
+    for limb, group in instances.items():
+        for instance in group:
+            _repeat(tables, file.limbs[limb], instance)
+    return tables
+
+
+def _instances(
+    name: str, limb: schema.LimbEntry, cut: frozenset[KeyPath], faults: Faults
+) -> tuple[Instance, ...]:
+    path = ("limbs", name, "repeat")
+    repeat = limb.repeat
+    if repeat is None:
+        if path not in cut:
+            faults.add(path, "missing", "this key must be there", 'repeat = { about = "z", count = 3 }')
+        return (Instance(name, 1),)
+    if (repeat.count is None) == (repeat.angles is None):
+        found = "count and angles" if repeat.count else "neither count nor angles"
+        faults.add(path, found, "allowed: one of the two", "count = 3 means every 120 deg")
+    count = repeat.count or len(repeat.angles or "1")
+    return tuple(Instance(name, number) for number in range(1, count + 1))
+
+
+def _repeat(tables: Tables, limb: schema.LimbEntry, instance: Instance) -> None:
+    for table in _REPEATED:
+        for name, entry in getattr(limb, table).items():
+            full = f"{instance.prefix}.{name}"
+            own = _numbered(entry, instance.number) if table == "inputs" else entry
+            getattr(tables, table)[full] = Placed(full, own, ("limbs", instance.limb, table, name), instance)
+    if limb.chain:
+        place = Placed(instance.prefix, limb.chain, ("limbs", instance.limb, "chain"), instance)
+        tables.chains[instance.prefix] = place
+
+
+def _numbered(entry: schema.InputEntry, number: int) -> schema.InputEntry:
+    """The input of one limb: its number behind the name, and as an index in LaTeX."""
+    latex = f"{{{entry.latex or entry.name}}}_{{{number}}}"
+    return entry.model_copy(update={"name": f"{entry.name}{number}", "latex": latex})
+
+
+def _broken(
+    cut: frozenset[KeyPath], instances: Mapping[str, tuple[Instance, ...]]
+) -> dict[str, frozenset[str]]:
+    broken: dict[str, set[str]] = {}
+    for path in cut:
+        if len(path) == 2 and path[0] != "limbs":
+            broken.setdefault(str(path[0]), set()).add(str(path[1]))
+        elif len(path) == 4:
+            names = {f"{instance.prefix}.{path[3]}" for instance in instances.get(str(path[1]), ())}
+            broken.setdefault(str(path[2]), set()).update(names)
+    return {table: frozenset(names) for table, names in broken.items()}

@@ -1,0 +1,232 @@
+"""The record of a mechanism: what the reader makes of a file, with every formula evaluated. Frozen data."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import UnknownNameError
+from assur.model.closed_form import ClosedForm
+from assur.model.description import Description
+from assur.model.formula import Formula
+from assur.topology.joints import JointType
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A dimension of the mechanism: its value in `unit`, and what it may be."""
+
+    name: str
+    value: float
+    meaning: str
+    unit: str
+    sign: Literal["positive", "nonnegative", "any"] = "positive"
+    drawn_only: bool = False
+
+    @property
+    def inside(self) -> float:
+        """The value as formulas and kernels take it: angles in rad."""
+        return math.radians(self.value) if self.unit == "deg" else self.value
+
+
+@dataclass(frozen=True)
+class Link:
+    """A rigid body. It owns one frame, parallel to the base's when every joint value is zero."""
+
+    name: str
+    meaning: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Joint:
+    """A joint between two links; nothing says that it closes a loop.
+
+    Attributes:
+        at, child_at: (3,) the joint's point in the parent's and in the child's frame.
+        axes: (k, 3) unit vectors. One, in the parent's frame, for R, P, H, C; two for U, the first in the
+            parent's frame and the second in the child's; none for S.
+        turn: (3, 3) orientation of the child's frame in the parent's at value zero. The identity, unless
+            the file gives a `child_axis`.
+        pitch: advance of an H joint per turn, in length units, right-handed.
+        limits: one (low, high) per component, None where there is none.
+        cone, cone_axis: an S joint's largest tilt in rad of this axis (3,), fixed in both links and the same
+            in both frames at value zero.
+    """
+
+    name: str
+    type: JointType
+    parent: str
+    child: str
+    at: FloatArray
+    child_at: FloatArray
+    axes: FloatArray
+    turn: FloatArray
+    pitch: float = 0.0
+    alias: str = ""
+    limits: tuple[tuple[float, float] | None, ...] = ()
+    cone: float | None = None
+    meaning: str = ""
+    cone_axis: FloatArray | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Platform:
+    """The moving platform: its point O' and the coordinates that count as its pose."""
+
+    link: str
+    point: FloatArray
+    pose: tuple[str, ...]
+    orientation: Literal["constant", "any"]
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """One component of one joint: index in the vector of joint values, and what it is."""
+
+    joint: str
+    component: str
+    index: int
+    kind: Literal["angle", "length"]
+
+
+@dataclass(frozen=True)
+class Input:
+    """An actuated coordinate. Printed value = sign * joint value + offset."""
+
+    coordinate: Coordinate
+    name: str
+    latex: str
+    offset: float = 0.0
+    sign: float = 1.0
+    stroke: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class GeneralisedJoint:
+    """Joints that act together as one joint between two links, as POC theory counts them."""
+
+    name: str
+    kind: str
+    joints: tuple[str, ...]
+    parent: str
+    child: str
+
+
+@dataclass(frozen=True)
+class Chain:
+    """A branch from base to platform: serial, or an inner loop with an output link and a serial tail."""
+
+    name: str
+    serial: tuple[str, ...] = ()
+    loop: tuple[str, ...] = ()
+    output: str = ""
+    tail: tuple[str, ...] = ()
+    printed: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Point:
+    """A letter: a point fixed in a link, for drawings, audit and errata."""
+
+    name: str
+    link: str
+    at: FloatArray
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Names of branches: each a row of signs of named quantities of the joint graph, in the file's order."""
+
+    working: Mapping[str, Formula] = field(default_factory=dict)
+    assembly: Mapping[str, Formula] = field(default_factory=dict)
+    default_working: str = ""
+    default_assembly: str = ""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MechanismRecord:
+    """A mechanism with its dimensions. Change dimensions with `with_parameters`.
+
+    Attributes:
+        unit: the length unit of every length of the file ("mm", "m", ...).
+        angle: "deg" or "rad", the angle unit at the border; inside, angles are in rad.
+        coordinates: every component of every joint, in the order of the vector of joint values.
+        angles: the source's letters for joint values.
+        home: (n,) joint values near one assembled configuration, as the file gives them.
+        box: name of a pose coordinate -> (low, high): where the source looks for the workspace.
+        sections: values of the last pose coordinate at which the source cuts the workspace.
+        folder: where the file's companions are (closed form, reference), None for a lone file.
+        description: the file that the record was made of, for making it again with other dimensions.
+        overrides: parameters whose values are not the file's.
+    """
+
+    name: str
+    title: str
+    source: str
+    unit: str
+    angle: Literal["deg", "rad"]
+    parameters: Mapping[str, Parameter]
+    links: Mapping[str, Link]
+    joints: Mapping[str, Joint]
+    base: str
+    platform: Platform
+    inputs: tuple[Input, ...]
+    coordinates: tuple[Coordinate, ...]
+    home: FloatArray
+    modes: Modes
+    file: Path
+    folder: Path | None = None
+    generalised: Mapping[str, GeneralisedJoint] = field(default_factory=dict)
+    chains: Mapping[str, Chain] = field(default_factory=dict)
+    angles: Mapping[str, Coordinate] = field(default_factory=dict)
+    points: Mapping[str, Point] = field(default_factory=dict)
+    box: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    sections: tuple[float, ...] = ()
+    closed_form: ClosedForm | None = None
+    description: Description | None = None
+    overrides: Mapping[str, float] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.name}: {self.title}>"
+
+    @property
+    def values(self) -> SimpleNamespace:
+        """Parameters by name, as kernels take them: angles in rad."""
+        return SimpleNamespace(**{name: parameter.inside for name, parameter in self.parameters.items()})
+
+    @property
+    def input_indices(self) -> tuple[int, ...]:
+        """Indices of the inputs in the vector of joint values."""
+        return tuple(item.coordinate.index for item in self.inputs)
+
+    def parameter(self, name: str) -> Parameter:
+        """The parameter of that name."""
+        if name not in self.parameters:
+            raise UnknownNameError(f"parameter of {self.name}", name, self.parameters)
+        return self.parameters[name]
+
+    def joint(self, name: str) -> Joint:
+        """The joint of that name or alias."""
+        for joint in self.joints.values():
+            if name in (joint.name, joint.alias):
+                return joint
+        raise UnknownNameError(f"joint of {self.name}", name, self.joints)
+
+    def coordinate_label(self, coordinate: Coordinate) -> str:
+        """Name of a joint coordinate: the joint alone where it has one freedom, else joint.component."""
+        single = self.joints[coordinate.joint].type.freedoms == 1
+        return coordinate.joint if single else f"{coordinate.joint}.{coordinate.component}"
+
+    def joint_coordinates(self, name: str) -> tuple[Coordinate, ...]:
+        """The coordinates of one joint, in the order of its components."""
+        joint = self.joint(name)
+        return tuple(item for item in self.coordinates if item.joint == joint.name)

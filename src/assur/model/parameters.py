@@ -1,0 +1,148 @@
+"""Parameters: in what order their formulas are computed, what they may be, and how a user changes them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from numbers import Real
+
+import networkx as nx
+
+from assur.errors import UnknownNameError, UsageError
+from assur.model.faults import Faults
+from assur.model.formula import Formula, parse
+from assur.model.mechanism import Parameter
+from assur.model.numbers import AngleUnit, Kind, Numbers
+from assur.model.schema import ParameterEntry
+from assur.model.values import ANGLE_UNITS
+
+ALLOWED = {
+    "positive": "a positive number",
+    "nonnegative": "zero or a positive number",
+    "any": "any finite number",
+}
+
+
+def evaluate_parameters(
+    entries: Mapping[str, ParameterEntry],
+    overrides: Mapping[str, float],
+    units: tuple[str, AngleUnit],
+    broken: frozenset[str],
+    faults: Faults,
+) -> tuple[dict[str, Parameter], Numbers]:
+    """Parameters in the file's order, and the numbers that all other formulas are made of.
+
+    Args:
+        entries: parameters as the file gives them.
+        overrides: values that replace the file's, in each parameter's unit.
+        units: the file's units of length and of angle.
+        broken: names of parameters that are in the file but not in form.
+        faults: where problems are noted.
+    """
+    formulas = {name: _formula(name, entry, overrides) for name, entry in entries.items()}
+    own_units = {name: entry.unit or units[0] for name, entry in entries.items()}
+    for name, unit in own_units.items():
+        if unit not in (units[0], *ANGLE_UNITS, "1"):
+            allowed = f"allowed: {units[0]} (the file's length unit), deg, rad, or 1 for a pure number"
+            faults.add(("parameters", name, "unit"), f'"{unit}"', allowed)
+    order, cyclic = _order(formulas, faults)
+    kinds: dict[str, Kind] = {
+        name: "angle" if unit in ANGLE_UNITS else "plain" for name, unit in own_units.items()
+    }
+    numbers = Numbers({}, kinds, {*broken, *cyclic}, units[1], faults)
+    found: dict[str, Parameter] = {}
+    for name in order:
+        value = _value(name, formulas[name], own_units[name], numbers)
+        if math.isnan(value):
+            numbers.broken.add(name)
+            continue
+        entry = entries[name]
+        _check_sign(name, formulas[name], value, own_units[name], entry.sign, faults)
+        found[name] = Parameter(name, value, entry.meaning, own_units[name], entry.sign, entry.drawn_only)
+        numbers.values[name] = found[name].inside
+    return {name: found[name] for name in entries if name in found}, numbers
+
+
+def checked_overrides(
+    mechanism: str, parameters: Mapping[str, Parameter], overrides: Mapping[str, object]
+) -> dict[str, float]:
+    """Values that a user gives to parameters, as floats in each parameter's unit.
+
+    Errors:
+        UnknownNameError: there is no such parameter.
+        UsageError: not a finite number, or one that the parameter may not be.
+    """
+    checked: dict[str, float] = {}
+    for name, value in overrides.items():
+        if name not in parameters:
+            raise UnknownNameError(f"parameter of {mechanism}", name, parameters)
+        parameter = parameters[name]
+        number = _finite(value)
+        if number is None or not _allowed(number, parameter.sign):
+            unit = "" if parameter.unit == "1" else f" in {parameter.unit}"
+            shown = repr(value) if number is None else f"{number:g}"
+            raise UsageError(
+                f"parameter '{name}' of {mechanism} ({parameter.meaning}) cannot be {shown[:60]}; "
+                f"allowed: {ALLOWED[parameter.sign]}{unit}"
+            )
+        checked[name] = number
+    return checked
+
+
+def _finite(value: object) -> float | None:
+    if isinstance(value, bool) or not isinstance(value, Real):
+        return None
+    try:
+        number = float(value)
+    except OverflowError:
+        return None
+    return number if math.isfinite(number) else None
+
+
+def _allowed(value: float, sign: str) -> bool:
+    return value > 0 or (value == 0 and sign != "positive") or sign == "any"
+
+
+def _formula(name: str, entry: ParameterEntry, overrides: Mapping[str, float]) -> Formula:
+    return parse(repr(overrides[name])) if name in overrides else entry.value
+
+
+def _order(formulas: Mapping[str, Formula], faults: Faults) -> tuple[list[str], set[str]]:
+    """Names such that each comes after those in its formula, and the names that go round in a circle."""
+    graph: nx.DiGraph[str] = nx.DiGraph()
+    graph.add_nodes_from(formulas)
+    for name, formula in formulas.items():
+        graph.add_edges_from((other, name) for other in sorted(formula.names) if other in formulas)
+    cyclic: set[str] = set()
+    for group in nx.strongly_connected_components(graph):
+        first = min(group, key=list(formulas).index)
+        if len(group) > 1 or graph.has_edge(first, first):
+            edges = nx.find_cycle(graph.subgraph(group).reverse(), first)
+            circle = " -> ".join([first, *(edge[1] for edge in edges)])
+            found = f"a formula that needs itself: {circle}"
+            faults.add(
+                ("parameters", first, "value"), found, "allowed: formulas of parameters that do not need it"
+            )
+            cyclic |= group
+    rest = graph.subgraph(graph.nodes - cyclic)
+    return list(nx.topological_sort(rest)), cyclic
+
+
+def _value(name: str, formula: Formula, unit: str, numbers: Numbers) -> float:
+    """Value in the parameter's unit."""
+    path = ("parameters", name, "value")
+    value, kind = numbers.evaluate(formula, path)
+    if unit not in ANGLE_UNITS:
+        if kind == "angle":
+            numbers.faults.add(path, f'"{formula.text}" is an angle', f"allowed: a number in {unit}")
+        return value
+    return math.degrees(value) if unit == "deg" and kind != "plain" else value
+
+
+def _check_sign(name: str, formula: Formula, value: float, unit: str, sign: str, faults: Faults) -> None:
+    if not _allowed(value, sign):
+        what = f"{name} = {formula.text} = {value:g}" if formula.names else f"{name} = {value:g}"
+        hint = "" if value else 'sign = "nonnegative" allows zero'
+        if value < 0:
+            hint = 'sign = "any" allows negative values'
+        faults.add(("parameters", name, "value"), f"{what} {unit}", f"allowed: {ALLOWED[sign]}", hint)

@@ -1,0 +1,58 @@
+"""Reads a mechanism file: text -> form -> record, with every fault of the file in one error."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from assur.errors import MechanismFileError, Problem, UsageError
+from assur.model.build import build
+from assur.model.description import Description
+from assur.model.faults import Faults
+from assur.model.form import check_form
+from assur.model.mechanism import MechanismRecord
+from assur.model.toml_source import read_toml
+
+
+def read_mechanism(path: Path) -> MechanismRecord:
+    """The record of a mechanism file, without its closed form.
+
+    Errors:
+        MechanismFileError: the file has faults; all of them are in it.
+        UsageError: there is no such file, or it cannot be read.
+    """
+    try:
+        content = path.read_bytes()
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise UsageError(f"cannot read '{path}': {reason}") from None
+    try:
+        text = content.decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = content[: error.start].count(b"\n") + 1
+        found = f"byte 0x{content[error.start]:02x}"
+        raise MechanismFileError([Problem(str(path), line, "", found, "allowed: UTF-8 text")]) from None
+    return read_text(text, path)
+
+
+def read_text(text: str, path: Path) -> MechanismRecord:
+    """The record of the text of a mechanism file; `path` is what its errors name.
+
+    Errors:
+        MechanismFileError: the file has faults; all of them are in it.
+
+    Example:
+        >>> from importlib.resources import files
+        >>> text = files("assur").joinpath("mechanisms/zeng2019/mechanism.toml").read_text(encoding="utf-8")
+        >>> record = read_text(text, Path("zeng2019.toml"))
+        >>> len(record.joints), record.joint("R3").name, record.parameters["l2"].value
+        (17, 'D1', 280.0)
+    """
+    source = read_toml(text, str(path))
+    faults = Faults(str(path), source)
+    entry, cut = check_form(source.data, faults)
+    if entry is None:
+        faults.raise_any()
+        raise MechanismFileError(
+            [Problem(str(path), None, "", "a broken document", "allowed: the form of a file")]
+        )
+    return build(Description(path, source, entry, cut), {}, faults)

@@ -1,0 +1,133 @@
+"""Mechanisms by name: each is a folder of package data, and a user's own file is no different."""
+
+from __future__ import annotations
+
+import dataclasses
+import importlib.util
+import sys
+import traceback
+from importlib.resources import files
+from pathlib import Path
+from typing import Any, TypeVar
+
+from assur.errors import MechanismFileError, Problem, UnknownNameError, UsageError
+from assur.model.build import build
+from assur.model.closed_form import ClosedForm
+from assur.model.faults import Faults, listed
+from assur.model.mechanism import MechanismRecord
+from assur.model.parameters import checked_overrides
+from assur.model.reader import read_mechanism
+
+FILE = "mechanism.toml"
+CLOSED_FORM = "closed_form.py"
+Record = TypeVar("Record", bound=MechanismRecord)
+
+
+def names() -> tuple[str, ...]:
+    """Names of the built-in mechanisms, in alphabetical order.
+
+    >>> "zeng2019" in names()
+    True
+    """
+    return tuple(sorted(folder.name for folder in _folder().iterdir() if (folder / FILE).is_file()))
+
+
+def load_record(name_or_path: str | Path, /, **overrides: Any) -> MechanismRecord:
+    """The record of a built-in mechanism or of a file, with its closed form, if there is one beside it.
+
+    Args:
+        name_or_path: a name, or the path of a `.toml` file or of a folder with a `mechanism.toml`.
+        overrides: other values for parameters, in the units of the file.
+
+    Errors:
+        UnknownNameError: no mechanism or no parameter of that name.
+        UsageError: a value that a parameter may not have, or a file that cannot be read.
+        MechanismFileError: the file has faults.
+
+    Example:
+        >>> load_record("zeng2019", l2=300).values.l2
+        300.0
+    """
+    path = _find(name_or_path)
+    record = read_mechanism(path)
+    record = dataclasses.replace(record, closed_form=_closed_form(record, path.parent / CLOSED_FORM))
+    return with_parameters(record, **overrides) if overrides else record
+
+
+def with_parameters(record: Record, /, **overrides: Any) -> Record:
+    """The same mechanism with other values of some parameters; those changed before stay changed.
+
+    Errors:
+        UnknownNameError: no parameter of that name.
+        UsageError: a value that the parameter may not have, or with which the file has a fault.
+
+    Example:
+        >>> with_parameters(load_record("zeng2019"), l2=300, l7=20).values.l7
+        20.0
+    """
+    checked = checked_overrides(record.name, record.parameters, overrides)
+    description = record.description
+    if description is None:
+        raise UsageError(f"{record.name} was not read from a file, so its parameters cannot be changed")
+    faults = Faults(str(record.file), description.source)
+    try:
+        changed = build(description, {**record.overrides, **checked}, faults)
+    except MechanismFileError as error:
+        given = ", ".join(f"{name} = {value:g}" for name, value in checked.items())
+        problem = error.problems[0]
+        place = f"{problem.path}: {problem.found}; {problem.allowed}"
+        raise UsageError(f"{record.name} cannot be with {given}: {place}", hint=problem.hint) from None
+    parts = {item.name: getattr(changed, item.name) for item in dataclasses.fields(MechanismRecord)}
+    return dataclasses.replace(record, **{**parts, "closed_form": record.closed_form})
+
+
+def _folder() -> Path:
+    return Path(str(files("assur"))) / "mechanisms"
+
+
+def _find(name_or_path: str | Path) -> Path:
+    text = str(name_or_path)
+    if text in names():
+        return _folder() / text / FILE
+    path = Path(name_or_path)
+    if path.is_dir() and (path / FILE).is_file():
+        return path / FILE
+    if path.suffix == ".toml" or isinstance(name_or_path, Path) or len(path.parts) > 1:
+        return path
+    raise UnknownNameError("mechanism", text, names())
+
+
+def _closed_form(record: MechanismRecord, path: Path) -> ClosedForm | None:
+    """CLOSED_FORM of the Python file beside a mechanism file, None where there is no such file."""
+    if not path.is_file():
+        return None
+    name = f"assur_closed_form_of_{record.name}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    if spec is None or spec.loader is None:
+        raise _broken(path, None, "no Python file", "allowed: a Python file")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:
+        raise _broken(path, _line(error, path), f"{type(error).__name__}: {error}", "it must run") from error
+    form = getattr(module, "CLOSED_FORM", None)
+    if not isinstance(form, ClosedForm):
+        raise _broken(path, None, "no CLOSED_FORM", "it must define CLOSED_FORM = ClosedForm(...)")
+    signs = {*record.modes.working, *record.modes.assembly}
+    if signs != set(form.signs):
+        found = f"signs {listed(form.signs)}"
+        raise _broken(path, None, found, f"those of [modes] in {record.file.name}: {listed(signs)}")
+    return form
+
+
+def _broken(path: Path, line: int | None, found: str, allowed: str) -> MechanismFileError:
+    return MechanismFileError([Problem(str(path), line, "", found, allowed)])
+
+
+def _line(error: Exception, path: Path) -> int | None:
+    """The last line of the file that was reached before an error."""
+    if isinstance(error, SyntaxError) and error.filename == str(path):
+        return error.lineno
+    frames = traceback.extract_tb(error.__traceback__)
+    return next((frame.lineno for frame in reversed(frames) if frame.filename == str(path)), None)

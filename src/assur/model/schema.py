@@ -1,0 +1,277 @@
+"""The form of a mechanism file: which tables and keys there are, and what stands in each.
+
+Only the form is checked here; whether names exist and numbers make sense is seen when the record is built.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, StrictBool
+
+from assur.model.values import (
+    ZERO,
+    Axis,
+    Format,
+    HomeValue,
+    MechanismName,
+    Name,
+    PlainName,
+    Range,
+    Sense,
+    TwoAxes,
+    Value,
+    Vector,
+)
+
+
+class Entry(BaseModel):
+    """A table of the file: frozen, and with no keys but its own."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+
+
+class ParameterEntry(Entry):
+    """A dimension, or a formula of other dimensions."""
+
+    value: Value
+    meaning: str = ""
+    unit: str | None = None
+    sign: Literal["positive", "nonnegative", "any"] = "positive"
+    drawn_only: StrictBool = False
+
+
+class LinkEntry(Entry):
+    """A rigid body."""
+
+    meaning: str = ""
+
+
+class JointEntry(Entry):
+    """What every joint has."""
+
+    parent: str
+    child: str
+    at: Vector = ZERO
+    child_at: Vector = ZERO
+    alias: Name | None = None
+    meaning: str = ""
+
+
+class AxialEntry(JointEntry):
+    """A joint with one axis; `child_axis` is the same axis in the child's frame, where it differs."""
+
+    axis: Axis
+    child_axis: Axis | None = None
+
+
+class RevoluteEntry(AxialEntry):
+    """R: the child turns about the axis."""
+
+    type: Literal["revolute"]
+    limits: Range | None = None
+
+
+class PrismaticEntry(AxialEntry):
+    """P: the child slides along the axis."""
+
+    type: Literal["prismatic"]
+    limits: Range | None = None
+
+
+class HelicalEntry(AxialEntry):
+    """H: the child turns about the axis and advances by `pitch` a turn, as a right-handed screw."""
+
+    type: Literal["helical"]
+    pitch: Value
+    limits: Range | None = None
+
+
+class CylindricalLimits(Entry):
+    """Limits of C."""
+
+    translation: Range | None = None
+    rotation: Range | None = None
+
+
+class CylindricalEntry(AxialEntry):
+    """C: the child slides along the axis and turns about it."""
+
+    type: Literal["cylindrical"]
+    limits: CylindricalLimits = CylindricalLimits()
+
+
+class UniversalLimits(Entry):
+    """Limits of U."""
+
+    first: Range | None = None
+    second: Range | None = None
+
+
+class UniversalEntry(JointEntry):
+    """U: two axes through one point, the first fixed in the parent, the second in the child."""
+
+    type: Literal["universal"]
+    axes: TwoAxes
+    limits: UniversalLimits = UniversalLimits()
+
+
+class Cone(Entry):
+    """How far the axis of a ball stud may tilt from the axis of its socket."""
+
+    axis: Axis
+    angle: Value
+
+
+class SphericalEntry(JointEntry):
+    """S: the child turns about a point."""
+
+    type: Literal["spherical"]
+    cone: Cone | None = None
+
+
+AnyJoint = Annotated[
+    RevoluteEntry | PrismaticEntry | HelicalEntry | CylindricalEntry | UniversalEntry | SphericalEntry,
+    Field(discriminator="type"),
+]
+JOINT_ENTRIES: dict[str, type[JointEntry]] = {
+    "revolute": RevoluteEntry,
+    "prismatic": PrismaticEntry,
+    "helical": HelicalEntry,
+    "cylindrical": CylindricalEntry,
+    "universal": UniversalEntry,
+    "spherical": SphericalEntry,
+}
+
+
+class PlatformEntry(Entry):
+    """The moving platform, its point and the coordinates that count."""
+
+    link: str
+    point: Vector = ZERO
+    pose: tuple[Literal["x", "y", "z", "phi", "qw", "qx", "qy", "qz"], ...] = Field(min_length=1)
+    orientation: Literal["constant", "any"] = "any"
+
+
+class InputEntry(Entry):
+    """An actuated coordinate. Printed value = sign * joint value + offset."""
+
+    name: Name
+    latex: str = ""
+    offset: Value = ZERO[0]
+    sign: Sense = 1
+    stroke: Range | None = None
+
+
+class InputTable(BaseModel):
+    """`order`, and an entry for each input under the name of its joint."""
+
+    model_config = ConfigDict(extra="allow", frozen=True, arbitrary_types_allowed=True)
+    __pydantic_extra__: dict[str, InputEntry]
+
+    order: tuple[str, ...] | None = None
+
+    @property
+    def entries(self) -> dict[str, InputEntry]:
+        """Inputs by the name of their joint."""
+        return self.__pydantic_extra__
+
+
+class StandsFor(Entry):
+    """The two links that a generalised joint stands between."""
+
+    parent: str
+    child: str
+
+
+class GeneralisedEntry(Entry):
+    """A parallelogram that counts as one joint."""
+
+    kind: Literal["P(4R)", "P(4U)", "P(4S)"]
+    joints: tuple[str, ...] = Field(min_length=4, max_length=4)
+    stands_for: StandsFor
+
+
+class ChainEntry(Entry):
+    """A branch from base to platform: `serial`, or `loop`, `output` and `tail`."""
+
+    serial: tuple[str, ...] = ()
+    loop: tuple[str, ...] = ()
+    output: str = ""
+    tail: tuple[str, ...] = ()
+    printed: str = ""
+
+
+class PointEntry(Entry):
+    """A letter: a point fixed in a link."""
+
+    link: str
+    at: Vector = ZERO
+
+
+class DefaultModes(Entry):
+    """The mode that is meant where none is named."""
+
+    working: str = ""
+    assembly: str = ""
+
+
+class ModesEntry(Entry):
+    """Names of branches: signs of formulas over joint values and coordinates of points."""
+
+    working: dict[PlainName, Value] = {}
+    assembly: dict[PlainName, Value] = {}
+    default: DefaultModes = DefaultModes()
+
+
+class WorkspaceEntry(Entry):
+    """Where the source looks for the workspace."""
+
+    box: dict[str, Range] = {}
+    sections: tuple[Value, ...] = ()
+
+
+class Repeat(Entry):
+    """How often a limb is there, about which axis, and where."""
+
+    about: Axis
+    count: Annotated[int, Field(strict=True, ge=2, le=60)] | None = None
+    angles: Annotated[tuple[Value, ...], Field(min_length=1, max_length=60)] | None = None
+
+
+class LimbEntry(Entry):
+    """A template: links, joints and the rest, written once and turned about an axis."""
+
+    repeat: Repeat | None = None
+    links: dict[Name, LinkEntry] = {}
+    joints: dict[Name, AnyJoint] = {}
+    inputs: dict[str, InputEntry] = {}
+    generalised: dict[Name, GeneralisedEntry] = {}
+    chain: ChainEntry | None = None
+    points: dict[Name, PointEntry] = {}
+    home: dict[str, HomeValue] = {}
+
+
+class FileEntry(Entry):
+    """The whole file. What must be there is seen by the reader, so that a gap hides no other fault."""
+
+    format: Format = None
+    name: MechanismName | None = None
+    title: str = ""
+    source: str = ""
+    unit: Literal["mm", "cm", "m", "in", "ft"] | None = None
+    angle: Literal["deg", "rad"] | None = None
+    base: str | None = None
+    platform: PlatformEntry | None = None
+    parameters: dict[PlainName, ParameterEntry] = {}
+    links: dict[Name, LinkEntry] = {}
+    joints: dict[Name, AnyJoint] = {}
+    limbs: dict[Name, LimbEntry] = {}
+    inputs: InputTable = Field(default_factory=lambda: InputTable())
+    generalised: dict[Name, GeneralisedEntry] = {}
+    chains: dict[Name, ChainEntry] = {}
+    angles: dict[Name, str] = {}
+    points: dict[Name, PointEntry] = {}
+    modes: ModesEntry = ModesEntry()
+    workspace: WorkspaceEntry = WorkspaceEntry()
+    home: dict[str, HomeValue] = {}

@@ -1,0 +1,144 @@
+"""What a name in a mechanism file refers to: links, joints and their components, coordinates of points."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TypeVar
+
+from assur.model.faults import Faults
+from assur.model.formula import Formula
+from assur.model.limbs import Instance, Tables
+from assur.model.mechanism import Coordinate
+from assur.model.numbers import Kind
+from assur.model.toml_source import KeyPath
+from assur.topology.joints import JOINT_TYPES, JointType
+
+Target = TypeVar("Target")
+
+
+class Scope:
+    """Looks names up, in a template the limb's own names first.
+
+    An unknown name is noted and answered by None; a name whose entry is broken is answered by None only.
+
+    Attributes:
+        coordinates: every component of every joint, in the order of the vector of joint values.
+        aliases: other name of a joint -> its name.
+    """
+
+    def __init__(self, tables: Tables, faults: Faults) -> None:
+        self.tables = tables
+        self.faults = faults
+        self.aliases: dict[str, str] = {}
+        self.coordinates: list[Coordinate] = []
+        self._quantities: dict[str, Coordinate] = {}
+        for name, placed in tables.joints.items():
+            kind = JOINT_TYPES[placed.entry.type]
+            names = [name]
+            if placed.entry.alias:
+                alias = (
+                    f"{placed.instance.prefix}.{placed.entry.alias}"
+                    if placed.instance
+                    else placed.entry.alias
+                )
+                self.aliases[alias] = name
+                names.append(alias)
+            self._add_coordinates(kind, names)
+        self._prefixes = {instance.prefix for instance in tables.instances}
+        self._joints = {name: name for name in tables.joints} | self.aliases
+        self._points = {name: name for name in tables.points} | self._joints
+
+    def _add_coordinates(self, kind: JointType, names: list[str]) -> None:
+        for component, what in zip(kind.components, kind.kinds, strict=True):
+            item = Coordinate(names[0], component, len(self.coordinates), what)
+            self.coordinates.append(item)
+            for name in names:
+                self._quantities[f"{name}.{component}"] = item
+                if kind.freedoms == 1:
+                    self._quantities[name] = item
+
+    def link(self, name: str, path: KeyPath, instance: Instance | None = None) -> str | None:
+        """Full name of a link."""
+        links = {full: full for full in self.tables.links}
+        return self._find("link", links, self._broken("links"), name, path, instance)
+
+    def joint(self, name: str, path: KeyPath, instance: Instance | None = None) -> str | None:
+        """Full name of a joint, given by its name or alias."""
+        return self._find("joint", self._joints, self._broken("joints"), name, path, instance)
+
+    def element(self, name: str, path: KeyPath, instance: Instance | None = None) -> str | None:
+        """Full name of a joint or of a generalised joint."""
+        elements = {full: full for full in self.tables.generalised} | self._joints
+        broken = self._broken("generalised") | self._broken("joints")
+        return self._find("joint", elements, broken, name, path, instance)
+
+    def coordinate(self, name: str, path: KeyPath, instance: Instance | None = None) -> Coordinate | None:
+        """A component of a joint: `B1` where the joint has only one, else `C.translation`."""
+        joint = self._visible(self._joints, instance).get(name)
+        if joint and name not in self._visible(self._quantities, instance):
+            components = JOINT_TYPES[self.tables.joints[joint].entry.type].components
+            allowed = " or ".join(f"{name}.{component}" for component in components)
+            self.faults.add(path, f"'{name}' has {len(components)} components", f"allowed: {allowed}")
+            return None
+        broken = self._broken("joints")
+        if name.rpartition(".")[0] in self._visible(dict.fromkeys(broken, ""), instance):
+            return None
+        return self._find("joint", self._quantities, broken, name, path, instance)
+
+    def quantity_kind(self, name: str) -> Kind | None:
+        """Kind of a name in a formula of the joint graph: a joint value or a coordinate of a point.
+
+        None for a name that is neither; "either" for one whose entry is broken.
+        """
+        if name in self._quantities:
+            return "angle" if self._quantities[name].kind == "angle" else "plain"
+        point, _, letter = name.rpartition(".")
+        if letter in ("x", "y", "z") and point in self._points:
+            return "plain"
+        broken = self._broken("joints") | self._broken("points")
+        return "either" if name in broken or point in broken else None
+
+    @property
+    def quantities(self) -> list[str]:
+        """Names that a formula of the joint graph may have, coordinates of points as `C1.y`."""
+        return [*self._quantities, *(f"{point}.{letter}" for point in self._points for letter in "xyz")]
+
+    def without_aliases(self, formula: Formula) -> Formula:
+        """The same formula with the joints' own names."""
+        own = {}
+        for name in formula.names:
+            joint, _, part = name.rpartition(".")
+            if name in self.aliases:
+                own[name] = self.aliases[name]
+            elif joint in self.aliases:
+                own[name] = f"{self.aliases[joint]}.{part}"
+        return formula.renamed(own)
+
+    def _broken(self, table: str) -> frozenset[str]:
+        return self.tables.broken.get(table, frozenset())
+
+    def _find(
+        self,
+        kind: str,
+        choices: Mapping[str, Target],
+        broken: frozenset[str],
+        name: str,
+        path: KeyPath,
+        instance: Instance | None,
+    ) -> Target | None:
+        seen = self._visible(choices, instance)
+        if name in seen:
+            return seen[name]
+        if name not in self._visible(dict.fromkeys(broken, ""), instance):
+            self.faults.unknown(path, kind, name, seen)
+        return None
+
+    def _visible(self, choices: Mapping[str, Target], instance: Instance | None) -> dict[str, Target]:
+        """Names as they are written in a template (or, outside one, full names), with what they stand for."""
+        if instance is None:
+            return dict(choices)
+        outside = {name: item for name, item in choices.items() if name.split(".")[0] not in self._prefixes}
+        own = instance.prefix + "."
+        return outside | {
+            name.removeprefix(own): item for name, item in choices.items() if name.startswith(own)
+        }

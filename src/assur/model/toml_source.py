@@ -1,0 +1,195 @@
+"""TOML text with the line on which every key and every array element stands."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from assur.errors import MechanismFileError, Problem
+
+KeyPath = tuple[str | int, ...]
+MAX_CHARACTERS = 1_000_000
+
+_PLACE = re.compile(r"\s*\(at (?:line (\d+), column \d+|end of document)\)$")
+_DECIMAL_COMMA = re.compile(r"=\s*[\[{]?[^#\"']*\d,\d")
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
+_STRING = re.compile(
+    r'"""(?:[^\\]|\\.)*?"{3,5}' r"|'''.*?'{3,5}" r'|"(?:[^"\\\n]|\\.)*"' r"|'[^'\n]*'",
+    re.DOTALL,
+)
+_SCALAR = re.compile(r"[^,\]}#\n]+")
+_BLANK = re.compile(r"(?:[ \t\r\n]|#[^\n]*)*")
+
+
+@dataclass(frozen=True)
+class TomlSource:
+    """A TOML document and where its parts stand.
+
+    Attributes:
+        data: the document.
+        lines: path of a key or array element -> its line, counted from 1.
+    """
+
+    data: dict[str, Any]
+    lines: dict[KeyPath, int]
+
+    def line(self, path: KeyPath) -> int | None:
+        """Line of the deepest part of a path that stands in the document."""
+        for length in range(len(path), 0, -1):
+            if path[:length] in self.lines:
+                return self.lines[path[:length]]
+        return None
+
+
+def read_toml(text: str, file: str) -> TomlSource:
+    r"""Read a TOML document.
+
+    Args:
+        text: the document.
+        file: its name, for error messages.
+
+    Errors:
+        MechanismFileError: it is not TOML. The TOML reader stops at the first fault, so this is one problem.
+
+    Example:
+        >>> source = read_toml("unit = 'mm'\n[links]\nbase = {}", "my.toml")
+        >>> source.line(("links", "base", "meaning"))
+        3
+    """
+    if len(text) > MAX_CHARACTERS:
+        raise _fault(file, None, f"{len(text)} characters", f"at most {MAX_CHARACTERS}")
+    try:
+        return TomlSource(tomllib.loads(text), _Lines(text.replace("\r\n", "\n")).lines())
+    except tomllib.TOMLDecodeError as error:
+        raise _syntax(file, text, str(error)) from None
+    except RecursionError:
+        raise _fault(file, None, "brackets nested too deeply", "a few levels are enough") from None
+    except ValueError as error:  # an integer of thousands of digits
+        raise _fault(file, None, f"not TOML: {error}", "numbers within the range of floats") from None
+
+
+def _fault(file: str, line: int | None, found: str, allowed: str, hint: str = "") -> MechanismFileError:
+    return MechanismFileError([Problem(file, line, "", found, allowed, hint)])
+
+
+def _syntax(file: str, text: str, message: str) -> MechanismFileError:
+    """A TOML syntax error in our words."""
+    rows = text.splitlines() or [""]
+    place = _PLACE.search(message)
+    line = min(int(place[1]) if place and place[1] else len(rows), len(rows))
+    row = rows[line - 1].strip()
+    reason = _PLACE.sub("", message)
+    found = f"not TOML: {reason[0].lower()}{reason[1:]}" + (f" in `{row[:80]}`" if row else "")
+    hint = ""
+    if _DECIMAL_COMMA.search(row):
+        hint = "write decimals with a point: 0.5, not 0,5"
+    elif any(word in reason for word in ("overwrite", "twice", "Duplicate", "mutate")):
+        hint = "each name may be given once"
+    return _fault(file, line, found, "a document in TOML 1.0", hint)
+
+
+class _Lines:
+    """Walks over a document that is known to be TOML and notes where keys and elements stand.
+
+    The elements of an array of tables ([[name]]) share the lines of that name: mechanism files have none.
+    """
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.position = 0
+        self.seen = 0
+        self.line = 1
+        self.found: dict[KeyPath, int] = {}
+
+    def lines(self) -> dict[KeyPath, int]:
+        table: KeyPath = ()
+        self._skip()
+        while self.position < len(self.text):
+            if self._at("["):
+                table = self._header()
+            else:
+                self._pair(table)
+            self._skip()
+        return self.found
+
+    def _at(self, mark: str) -> bool:
+        return self.text.startswith(mark, self.position)
+
+    def _skip(self) -> None:
+        match = _BLANK.match(self.text, self.position)
+        self.position = match.end() if match else self.position
+
+    def _note(self, path: KeyPath) -> KeyPath:
+        self.line += self.text.count("\n", self.seen, self.position)
+        self.seen = self.position
+        for length in range(1, len(path) + 1):
+            self.found.setdefault(path[:length], self.line)
+        return path
+
+    def _header(self) -> KeyPath:
+        brackets = 2 if self._at("[[") else 1
+        self.position += brackets
+        table = tuple(self._keys())
+        self.position += brackets
+        return self._note(table)
+
+    def _keys(self) -> list[str]:
+        keys: list[str] = []
+        while True:
+            self._skip_blanks()
+            if self.text[self.position] in "\"'":
+                text = self._match(_STRING)
+                keys.append(str(tomllib.loads(f"k = {text}")["k"]))
+            else:
+                keys.append(self._match(_BARE))
+            self._skip_blanks()
+            if not self._at("."):
+                return keys
+            self.position += 1
+
+    def _skip_blanks(self) -> None:
+        while self.position < len(self.text) and self.text[self.position] in " \t":
+            self.position += 1
+
+    def _match(self, pattern: re.Pattern[str]) -> str:
+        match = pattern.match(self.text, self.position)
+        if match is None:  # cannot be in a document that tomllib has read; go on and lose only a line number
+            self.position += 1
+            return ""
+        self.position = match.end()
+        return match.group()
+
+    def _pair(self, table: KeyPath) -> None:
+        path = self._note((*table, *self._keys()))
+        self.position += 1
+        self._value(path)
+
+    def _value(self, path: KeyPath) -> None:
+        self._skip_blanks()
+        if self._at("["):
+            self._items("]", path, self._element)
+        elif self._at("{"):
+            self._items("}", path, lambda inner, _: self._pair(inner))
+        elif self._at('"') or self._at("'"):
+            self._match(_STRING)
+        else:
+            self._match(_SCALAR)
+
+    def _element(self, path: KeyPath, index: int) -> None:
+        self._value(self._note((*path, index)))
+
+    def _items(self, closing: str, path: KeyPath, item: Callable[[KeyPath, int], None]) -> None:
+        self.position += 1
+        index = 0
+        self._skip()
+        while self.position < len(self.text) and not self._at(closing):
+            item(path, index)
+            index += 1
+            self._skip()
+            if self._at(","):
+                self.position += 1
+            self._skip()
+        self.position += 1

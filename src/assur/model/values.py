@@ -1,0 +1,132 @@
+"""What may stand as a value in a mechanism file: numbers, formulas, vectors, axes, names."""
+
+from __future__ import annotations
+
+import keyword
+import math
+import re
+from typing import Annotated, Any
+
+from pydantic import AfterValidator, BeforeValidator, PlainValidator
+from pydantic_core import PydanticCustomError
+
+from assur.model.formula import RESERVED, Formula, FormulaError, parse
+
+NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*'*")
+ANGLE_UNITS = ("deg", "rad")
+AXES = {
+    "x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1),
+    "-x": (-1, 0, 0), "-y": (0, -1, 0), "-z": (0, 0, -1),
+}  # fmt: skip
+COMMA = "write decimals with a point: 0.5, not 0,5"
+
+
+def refuse(found: str, allowed: str, hint: str = "") -> PydanticCustomError:
+    """An error of the form, in the words of a `Problem`."""
+    return PydanticCustomError("form", "{found}", {"found": found, "allowed": allowed, "hint": hint})
+
+
+def shown(value: object) -> str:
+    """A value of the file as a message shows it: short, and as TOML writes it."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, dict):
+        return "a table"
+    if isinstance(value, list):
+        return f"a list of {len(value)}"
+    text = f'"{value}"' if isinstance(value, str) else str(value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _value(value: object) -> Formula:
+    """A number or a formula in a string."""
+    if isinstance(value, str):
+        try:
+            return parse(value)
+        except FormulaError as error:
+            place = f"{error.found} at character {error.position + 1}"
+            raise refuse(f"{shown(value)} has {place}", f"expected {error.expected}", error.hint) from None
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise refuse(shown(value), 'allowed: a number, or a formula in quotes: 30, "l2/2", "62 deg"')
+    if not _is_finite(value):
+        raise refuse(shown(value), "allowed: a finite number")
+    return parse(repr(value))
+
+
+def _is_finite(value: float) -> bool:
+    try:
+        return math.isfinite(value)
+    except OverflowError:  # an integer beyond the floats
+        return False
+
+
+def _listed(count: int, what: str) -> BeforeValidator:
+    def check(value: object) -> object:
+        if not isinstance(value, list):
+            raise refuse(shown(value), f"allowed: {what}")
+        if len(value) != count:
+            hint = COMMA if count > 1 and len(value) == 2 * count else ""
+            raise refuse(f"{len(value)} components", f"allowed: {what}", hint)
+        return value
+
+    return BeforeValidator(check)
+
+
+def _axis(value: object) -> object:
+    if isinstance(value, str):
+        if value not in AXES:
+            allowed = 'allowed: x, y, z, -x, -y, -z, or a vector such as ["0", "cos(30 deg)", "sin(30 deg)"]'
+            raise refuse(shown(value), allowed)
+        return list(AXES[value])
+    return value
+
+
+def _name(value: str) -> str:
+    if not NAME.fullmatch(value) or value in RESERVED:
+        what = "a reserved word" if value in RESERVED else "no name"
+        allowed = "a name is a letter, then letters, digits, _ and primes"
+        raise refuse(f"{shown(value)} is {what}", allowed, "the reader adds the dots in names such as leg1.B")
+    return value
+
+
+def _plain_name(value: str) -> str:
+    if not _name(value).isidentifier() or keyword.iskeyword(value):
+        raise refuse(f"{shown(value)} is no name", "allowed: a Python name: letters, digits and _")
+    return value
+
+
+def _components(value: object) -> object:
+    """Home of a joint: a number, or a list with one for each freedom."""
+    return value if isinstance(value, list) else [value]
+
+
+def _mechanism_name(value: str) -> str:
+    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_-]*", value):
+        raise refuse(f"{shown(value)} is no name", "allowed: letters, digits, _ and -")
+    return value
+
+
+def _format(value: object) -> object:
+    if value != 1 or isinstance(value, bool):
+        raise refuse(shown(value), "allowed: 1, the format that this version reads")
+    return value
+
+
+def _sense(value: object) -> object:
+    if value not in (1, -1) or isinstance(value, bool):
+        raise refuse(shown(value), "allowed: 1 or -1")
+    return value
+
+
+Value = Annotated[Formula, PlainValidator(_value)]
+Vector = Annotated[tuple[Value, Value, Value], _listed(3, "a list of three components")]
+Range = Annotated[tuple[Value, Value], _listed(2, "a list [low, high]")]
+Axis = Annotated[Vector, BeforeValidator(_axis)]
+TwoAxes = Annotated[tuple[Axis, Axis], _listed(2, "a list of two axes")]
+Name = Annotated[str, AfterValidator(_name)]
+PlainName = Annotated[str, AfterValidator(_plain_name)]
+HomeValue = Annotated[tuple[Value, ...], BeforeValidator(_components)]
+Sense = Annotated[int, PlainValidator(_sense)]
+ZERO = (parse("0"), parse("0"), parse("0"))
+MechanismName = Annotated[str, AfterValidator(_mechanism_name)]
+Format = Annotated[Any, PlainValidator(_format)]

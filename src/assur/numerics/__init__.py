@@ -1,0 +1,1 @@
+"""Numbers and their algebra, without a word of the field: number types, rotations, least squares."""

@@ -1,0 +1,48 @@
+"""JSON of results: one object, numbers that do not exist as null, every float so that it reads back the same."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass
+from enum import Enum
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+
+def plain(value: Any) -> Any:
+    """Numbers, texts, lists and dicts only; NaN and infinity become None.
+
+    >>> plain({"a": np.array([1.0, np.nan]), "b": np.int64(2)})
+    {'a': [1.0, None], 'b': 2}
+    """
+    if isinstance(value, Enum):
+        return value.name
+    if value is None or isinstance(value, (str, bool, int)):
+        return value
+    if isinstance(value, (float, np.floating)):
+        return float(value) if np.isfinite(value) else None
+    if isinstance(value, np.bool_):
+        return bool(value)
+    if isinstance(value, np.integer):
+        return int(value)
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if is_dataclass(value) and not isinstance(value, type):
+        return {item.name: plain(getattr(value, item.name)) for item in fields(value)}
+    if isinstance(value, Path):
+        return str(value)
+    return [plain(item) for item in value]
+
+
+def json_text(value: Any) -> str:
+    """The JSON text of a result, without NaN or Infinity.
+
+    >>> json_text({"residual": float("inf")})
+    '{"residual": null}'
+    """
+    return json.dumps(plain(value), allow_nan=False, ensure_ascii=False)

@@ -1,0 +1,1 @@
+"""Singularities: verdicts, examples of each kind, and the surfaces on which they lie."""

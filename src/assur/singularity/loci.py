@@ -1,0 +1,79 @@
+"""Loci: the surfaces inside a working mode's region on which a factor of det Jp vanishes.
+
+Serial loci are not looked for: a factor of det Jq vanishes where two working modes merge, which is the
+boundary of the region. A parallel factor that vanishes only there (as u1 - u2 with u1 and u2) keeps its sign
+inside and has no surface.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of, scale
+from assur.model.closed_form import Factor
+from assur.model.mechanism import MechanismRecord
+
+FloatArray = NDArray[np.float64]
+Faces = NDArray[np.int64]
+
+
+class Region(Protocol):
+    """What this analysis needs of a region, whatever made it."""
+
+    def factor_inside(self, name: str) -> NDArray[np.float32]:
+        """A factor at nodes (k,) inside the region."""
+
+    def zero_surface(self, name: str) -> tuple[FloatArray, Faces, float]:
+        """Vertices, faces and area of the zero set of a factor inside the region."""
+
+
+@dataclass(frozen=True, eq=False)
+class Locus:
+    """Where one factor of det Jp vanishes.
+
+    Attributes:
+        factor, meaning: its name and what it means geometrically.
+        vertices: (n, m) poses; faces: (k, 3) triangles, or (k, 2) segments in a plane.
+        area: total area (length in a plane), in units of the pose coordinates.
+        everywhere: the factor vanishes in the whole region, so there is no surface: the mode has a
+            singularity at each of its poses.
+    """
+
+    factor: str
+    meaning: str
+    vertices: FloatArray
+    faces: Faces
+    area: float
+    everywhere: bool = False
+
+
+def parallel_loci(record: MechanismRecord, region: Region) -> tuple[Locus, ...]:
+    """The locus of every parallel factor in a region; one without faces where the factor keeps its sign.
+
+    Example: in the built working mode of Zeng et al. 2019 two kinds of parallel singularity cross the
+    paper's own search box (E7): links 9 and 10 along Y, and parallelogram 1 flat.
+
+    >>> from assur.model.registry import load_record
+    >>> from assur.workspace.region import workspace
+    >>> [locus.factor for locus in workspace(load_record("zeng2019"), resolution=24).loci if locus.area > 0]
+    ['w', 'v']
+    """
+    factors = [item for item in closed_form_of(record).factor_list if item.kind == "parallel"]
+    return tuple(_locus(record, region, item) for item in factors)
+
+
+def _locus(record: MechanismRecord, region: Region, factor: Factor) -> Locus:
+    values = region.factor_inside(factor.name)
+    zero = FACTOR_TOLERANCE * scale(record, factor.scale)
+    everywhere = values.size > 0 and bool(np.all(np.abs(values) <= zero))
+    if np.max(values, initial=0.0) <= zero or np.min(values, initial=0.0) >= -zero:
+        return Locus(factor.name, factor.meaning, *_nothing(), everywhere)
+    return Locus(factor.name, factor.meaning, *region.zero_surface(factor.name))
+
+
+def _nothing() -> tuple[FloatArray, Faces, float]:
+    return np.empty((0, 3)), np.empty((0, 3), dtype=np.int64), 0.0

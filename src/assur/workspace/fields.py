@@ -1,0 +1,164 @@
+"""Fields: what a closed form says at every pose of a domain, in one working mode.
+
+A margin must not be negative where the mode reaches a pose. Kernels are read over `Extended` numbers, so
+that a margin runs smoothly past where a radicand inside it is negative; there another margin forbids the
+pose anyway.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from functools import partial
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.border import LENGTHS
+from assur.kinematics.modes import mode_signs, sign_names
+from assur.kinematics.status import closed_form_of
+from assur.model.closed_form import Branch
+from assur.model.mechanism import Input, MechanismRecord
+from assur.numerics.number_types import Extended
+from assur.workspace.domain import UniformGrid
+
+FloatArray = NDArray[np.float64]
+Columns = tuple[FloatArray, ...]
+"""Pose coordinates as separate arrays that broadcast against one another."""
+
+Field = Callable[[Columns], FloatArray]
+Stroke = tuple[float, float]
+
+
+def margin_fields(
+    record: MechanismRecord, mode: str, strokes: Mapping[str, Stroke | None] | None = None
+) -> dict[str, Field]:
+    """Every margin of a working mode as a function of the pose, those of strokes included.
+
+    Margins at whose zero the formulas merely degenerate forbid no open set of poses and are left out.
+
+    >>> from assur.model.registry import load_record
+    >>> fields = margin_fields(load_record("zeng2019"), "++-++", {"yA1": (-300, 300)})
+    >>> list(fields)
+    ['n_alpha', 'n_beta', 'M12', 'M3', 'yA1 >= -300', 'yA1 <= 300']
+    >>> float(fields["M3"]((np.array(100.0), np.array(0.0), np.array(260.0))))
+    52900.0
+    """
+    form = closed_form_of(record)
+    branch = _branch(record, mode)
+    fields: dict[str, Field] = {
+        margin.name: partial(_margin, branch, margin.name)
+        for margin in form.inverse_margins
+        if margin.zero == "merge"
+    }
+    for index, (item, stroke) in enumerate(_strokes(record, strokes)):
+        if stroke is not None:
+            fields |= _stroke_fields(branch, index, item, stroke)
+    return fields
+
+
+def factor_fields(record: MechanismRecord, mode: str) -> dict[str, Field]:
+    """Every factor of det Jp ("parallel") of a working mode as a function of the pose."""
+    branch = _branch(record, mode)
+    names = [item.name for item in closed_form_of(record).factor_list if item.kind == "parallel"]
+    return {name: partial(_factor, record, branch, name) for name in names}
+
+
+def sample(field: Field, grid: UniformGrid) -> NDArray[np.float32]:
+    """A field at every node of a grid, block by block; where it is not finite the pose is not allowed."""
+    values = np.empty(grid.shape, dtype=np.float32)
+    for part, columns in grid.blocks():
+        values[part] = field(columns)
+    allowed = np.isfinite(values)
+    return values if bool(np.all(allowed)) else np.where(allowed, values, np.float32(-1.0))
+
+
+def at_points(field: Field, dimension: int, points: FloatArray) -> FloatArray:
+    """A field (N,) at points (N, 3) or (N, m), of which the first `dimension` coordinates are the pose."""
+    found = field(tuple(points[:, k] for k in range(dimension)))
+    return np.broadcast_to(found, (len(points),))
+
+
+def _branch(record: MechanismRecord, mode: str) -> Callable[[Columns], Branch]:
+    form = closed_form_of(record)
+    signs = map(float, mode_signs(record, "inverse", mode))
+    sign = SimpleNamespace(**dict(zip(sign_names(record, "inverse"), signs, strict=True)))
+
+    def evaluate(columns: Columns) -> Branch:
+        pose = tuple(
+            value if name in LENGTHS else (np.cos(value), np.sin(value))
+            for name, value in zip(record.platform.pose, columns, strict=True)
+        )
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return form.inverse(Extended(), record.values, pose, sign)
+
+    return evaluate
+
+
+def _margin(branch: Callable[[Columns], Branch], name: str, columns: Columns) -> FloatArray:
+    return np.asarray(branch(columns).margins[name], dtype=float)
+
+
+def _factor(
+    record: MechanismRecord, branch: Callable[[Columns], Branch], name: str, columns: Columns
+) -> FloatArray:
+    with np.errstate(divide="ignore", invalid="ignore"):
+        factors = closed_form_of(record).factors(Extended(), record.values, branch(columns).core)
+    return np.asarray(factors[name], dtype=float)
+
+
+def _strokes(
+    record: MechanismRecord, strokes: Mapping[str, Stroke | None] | None
+) -> list[tuple[Input, Stroke | None]]:
+    """Each input with its stroke: the user's, else the file's, else none."""
+    given = dict(strokes or {})
+    names = [item.name for item in record.inputs]
+    for name, stroke in given.items():
+        if name not in names:
+            raise UnknownNameError(f"input of {record.name}", name, names)
+        if stroke is not None:
+            given[name] = _checked(name, stroke)
+    return [(item, given.get(item.name, item.stroke)) for item in record.inputs]
+
+
+def _checked(name: str, stroke: Any) -> Stroke:
+    try:
+        low, high = (float(value) for value in stroke)
+    except (TypeError, ValueError) as error:
+        raise UsageError(f"stroke of {name}: {stroke!r} is not (low, high)") from error
+    if not low < high:  # a NaN ends here too
+        raise UsageError(f"stroke of {name}: [{low:g}, {high:g}] is turned round or empty", hint="give low < high")
+    return low, high
+
+
+def _stroke_fields(
+    branch: Callable[[Columns], Branch], index: int, item: Input, stroke: Stroke
+) -> dict[str, Field]:
+    """q - low and high - q of a printed length; of an angle, cos(q - middle) - cos(half the stroke)."""
+    low, high = stroke
+    if item.coordinate.kind == "angle":
+        if high - low >= 2 * math.pi:
+            return {}
+        return {f"{low:g} <= {item.name} <= {high:g}": partial(_angle_stroke, branch, index, item, stroke)}
+    fields: dict[str, Field] = {}
+    if math.isfinite(low):
+        fields[f"{item.name} >= {low:g}"] = lambda columns: _length(branch, index, item, columns) - low
+    if math.isfinite(high):
+        fields[f"{item.name} <= {high:g}"] = lambda columns: high - _length(branch, index, item, columns)
+    return fields
+
+
+def _length(branch: Callable[[Columns], Branch], index: int, item: Input, columns: Columns) -> FloatArray:
+    return item.sign * np.asarray(branch(columns).inputs[index], dtype=float) + item.offset
+
+
+def _angle_stroke(
+    branch: Callable[[Columns], Branch], index: int, item: Input, stroke: Stroke, columns: Columns
+) -> FloatArray:
+    cosine, sine = branch(columns).inputs[index]
+    middle = item.sign * (sum(stroke) / 2 - item.offset)
+    half = (stroke[1] - stroke[0]) / 2
+    return np.asarray(cosine * math.cos(middle) + sine * math.sin(middle) - math.cos(half), dtype=float)

@@ -1,0 +1,102 @@
+"""The region itself: every pose of a box at which no margin of a working mode is negative, as one solid."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from manifold3d import Manifold
+from numpy.typing import NDArray
+
+from assur.workspace.domain import UniformGrid
+from assur.workspace.fields import Field, at_points, sample
+from assur.workspace.solids import Faces, area_of, cuboid, intersection, mesh, solid_where, surface_in
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Reach:
+    """A region on a grid.
+
+    Attributes:
+        grid: the domain and its nodes.
+        factors: the parallel factors of the working mode.
+        solid: the region on three axes, cut exactly by the box.
+        inside: (nodes) where no margin is negative.
+    """
+
+    grid: UniformGrid
+    factors: Mapping[str, Field]
+    solid: Manifold
+    inside: NDArray[np.bool_]
+
+    @property
+    def volume(self) -> float:
+        """Volume, or area of a plane region, in the units of the pose coordinates."""
+        return float(self.solid.volume()) / self.grid.thickness
+
+    def factor_inside(self, name: str) -> NDArray[np.float32]:
+        """A factor at the nodes (k,) of the grid that the region reaches, one cell beyond the box included."""
+        return sample(self.factors[name], self.grid)[self.inside]
+
+    def zero_surface(self, name: str) -> tuple[FloatArray, Faces, float]:
+        """Zero set of a factor inside the region: vertices (n, m), faces (k, 3) or segments (k, 2), area or length."""
+        field = self.factors[name]
+        at = partial(at_points, field, self.grid.dimension)
+        vertices, faces = surface_in(self.solid, solid_where(sample(field, self.grid), self.grid, at))
+        size = area_of(vertices, faces) / self.grid.thickness
+        return *in_pose_coordinates(self.grid, vertices, faces), size
+
+    def mesh(self) -> tuple[FloatArray, Faces]:
+        """Surface of the region, vertices (n, 3) and faces (k, 3); of a plane one its triangulated inside."""
+        vertices, faces = mesh(self.solid)
+        if self.grid.dimension == 3:
+            return vertices, faces
+        return _compact(vertices[:, : self.grid.dimension], faces[np.all(_on_floor(self.grid, vertices)[faces], axis=1)])
+
+
+def reach(
+    margins: Mapping[str, Field],
+    factors: Mapping[str, Field],
+    grid: UniformGrid,
+    tick: Callable[[], None] = lambda: None,
+) -> Reach:
+    """Intersect the box with the solid of every margin; equal fields count once, positive ones not at all.
+
+    Resolution: what is thinner than a cell between two nodes is not seen. `tick` is called after each margin.
+    """
+    inside = np.ones(grid.shape, dtype=bool)
+    solids = [cuboid(grid)]
+    seen: set[bytes] = set()
+    for field in margins.values():
+        values = sample(field, grid)
+        inside &= values >= 0
+        digest = hashlib.blake2b(values.tobytes()).digest()
+        if digest not in seen and np.min(values) < 0:
+            solids.append(solid_where(values, grid, partial(at_points, field, grid.dimension)))
+        seen.add(digest)
+        tick()
+    return Reach(grid, factors, intersection(solids), inside)
+
+
+def in_pose_coordinates(grid: UniformGrid, vertices: FloatArray, faces: Faces) -> tuple[FloatArray, Faces]:
+    """A surface as it is; a strip that stands on a slack axis as the segments (k, 2) of its lower rim."""
+    if grid.dimension == 3:
+        return vertices, faces
+    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    return _compact(vertices[:, : grid.dimension], edges[np.all(_on_floor(grid, vertices)[edges], axis=1)])
+
+
+def _on_floor(grid: UniformGrid, vertices: FloatArray) -> NDArray[np.bool_]:
+    slack = vertices[:, grid.dimension :]
+    floor: NDArray[np.bool_] = np.all(np.abs(slack) < 1e-9 * grid.slack, axis=1)
+    return floor
+
+
+def _compact(vertices: FloatArray, faces: Faces) -> tuple[FloatArray, Faces]:
+    used, renumbered = np.unique(faces, return_inverse=True)
+    return vertices[used], renumbered.reshape(faces.shape)

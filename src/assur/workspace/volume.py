@@ -1,0 +1,35 @@
+"""Volume with an error estimate: the same region at two resolutions.
+
+With every vertex on the true surface the error is of order step^2, so halving the step divides it by
+four and the difference of the two volumes is three times the error of the finer one. We report the
+whole difference: a factor of three in hand for sharp corners and thin parts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from assur.workspace.domain import Box, grid_over
+from assur.workspace.fields import Field
+from assur.workspace.reach import Reach, reach
+
+
+def region_and_error(
+    margins: Mapping[str, Field],
+    factors: Mapping[str, Field],
+    box: Box,
+    resolution: int,
+    tick: Callable[[], None] = lambda: None,
+) -> tuple[Reach, float]:
+    """The region at `resolution` cells along each coordinate, and |its volume - that at half of it|.
+
+    Example: the disc x^2 + y^2 <= 1 has the area 3.1416.
+
+    >>> disc = {"disc": lambda pose: 1 - pose[0] ** 2 - pose[1] ** 2}
+    >>> region, error = region_and_error(disc, {}, Box(("x", "y"), (-2.0, -2.0), (2.0, 2.0)), 64)
+    >>> round(region.volume, 3), round(error, 3)
+    (3.138, 0.01)
+    """
+    fine = reach(margins, factors, grid_over(box, resolution), tick)
+    coarse = reach(margins, factors, grid_over(box, max(2, resolution // 2)), tick)
+    return fine, abs(fine.volume - coarse.volume)

@@ -1,0 +1,149 @@
+"""Laws of the velocity problem: against differences, against the null space of the joint graph, and the factors."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from assur.kinematics.closure import characteristic_length, loop_twists, mobility
+from assur.kinematics.status import closed_form_of
+from assur.kinematics.velocity import printed_velocity_map
+from assur.model.joint_graph import frames, screws
+
+
+def _inputs(mechanism, pose, mode):
+    return mechanism.inverse(pose, mode).inputs[0]
+
+
+def _well_conditioned(mechanism, regular, limit=30.0):
+    chosen = [item for item in regular if mechanism.velocity_map(item[0], item[1]).condition < limit]
+    assert len(chosen) > 5
+    return chosen[:25]
+
+
+def test_jacobian_agrees_with_central_differences(mechanism, regular):
+    length = characteristic_length(mechanism)
+    rng = np.random.default_rng(3)
+    for pose, mode, _, _ in _well_conditioned(mechanism, regular):
+        velocity = rng.normal(size=len(pose)) * length
+        step = 1e-6
+        ahead, behind = (_inputs(mechanism, pose + side * step * velocity, mode) for side in (1, -1))
+        rates = (ahead - behind) / (2 * step)
+        here = mechanism.velocity_map(pose, mode)
+        np.testing.assert_allclose(here.input(velocity), rates, rtol=1e-5, atol=1e-5 * np.abs(rates).max())
+        np.testing.assert_allclose(here.output(rates), velocity, rtol=0, atol=1e-4 * length)
+
+
+def test_jacobian_agrees_with_the_null_space_of_the_joint_graph(mechanism, regular):
+    for pose, mode, _, joints in regular[:25]:
+        null = _null_space(loop_twists(mechanism, joints), int(mobility(mechanism, joints).rank))
+        twists = screws(mechanism, frames(mechanism, joints), joints)
+        platform = _platform_rates(mechanism, joints, twists, null)
+        rates = np.array([item.sign * null[item.coordinate.index] for item in mechanism.inputs])
+        here = mechanism.velocity_map(pose, mode)
+        left, right = here.jp @ platform, here.jq @ rates
+        np.testing.assert_allclose(left, right, rtol=0, atol=1e-9 * max(np.abs(left).max(), np.abs(right).max()))
+        assert null.shape[1] == len(mechanism.inputs)
+
+
+def _null_space(matrix, rank):
+    _, _, rows = np.linalg.svd(matrix)
+    return rows[rank:].T
+
+
+def _platform_rates(mechanism, joints, twists, null):
+    """Rates (m, F) of the platform point in the directions of the pose's coordinates, along the spanning tree."""
+    from assur.model.joint_graph import joint_graph
+
+    graph = joint_graph(mechanism)
+    path, link = {}, mechanism.platform.link
+    while link != mechanism.base:
+        for joint, forward in graph.tree:
+            if link == (joint.child if forward else joint.parent):
+                path[joint.name] = 1 if forward else -1
+                link = joint.parent if forward else joint.child
+                break
+    rotation, origin = frames(mechanism, joints)[mechanism.platform.link]
+    point = rotation @ mechanism.platform.point + origin
+    twist = sum(sense * twists[:, graph.slices[name]] @ null[graph.slices[name]] for name, sense in path.items())
+    velocity = twist[3:] + np.cross(twist[:3], point[:, None], axis=0)
+    return np.array([velocity["xyz".index(name)] for name in mechanism.platform.pose])
+
+
+def test_determinants_are_the_products_of_their_factors(mechanism, poses):
+    form = closed_form_of(mechanism)
+    found = mechanism.inverse(poses)
+    for k, signs in enumerate(found.modes_asked):
+        mode = "".join("+" if sign > 0 else "-" for sign in signs)
+        real = found.exists[:, k]
+        if not np.any(real):
+            continue
+        here = mechanism.velocity_map(poses[real], mode)
+        for kind, determinant in (("parallel", here.det_jp), ("serial", here.det_jq)):
+            named = [found.factors[item.name][real, k] for item in form.factor_list if item.kind == kind]
+            scale = np.prod([np.abs(values).max() + 1e-300 for values in named])
+            np.testing.assert_allclose(determinant, np.prod(named, axis=0), rtol=1e-9, atol=1e-11 * scale)
+
+
+def test_printed_jacobian_gives_the_same_motion(mechanism, regular):
+    if closed_form_of(mechanism).as_printed is None:
+        return
+    for pose, mode, _, _ in _well_conditioned(mechanism, regular):
+        ours, printed = mechanism.velocity_map(pose, mode), printed_velocity_map(mechanism, pose, mode)
+        np.testing.assert_allclose(ours.matrix, printed.matrix, rtol=1e-8, atol=1e-9 * np.abs(ours.matrix).max())
+
+
+def test_acceleration_agrees_with_second_differences(mechanism, regular):
+    length = characteristic_length(mechanism)
+    rng = np.random.default_rng(5)
+    for pose, mode, _, _ in _well_conditioned(mechanism, regular, limit=8.0)[:8]:
+        velocity, curvature = rng.normal(size=(2, len(pose))) * length
+        step = 1e-4
+        path = [_inputs(mechanism, pose + t * velocity + t * t / 2 * curvature, mode) for t in (-step, 0, step)]
+        if not np.all(np.isfinite(path)):
+            continue
+        rates, second = (path[2] - path[0]) / (2 * step), (path[2] - 2 * path[1] + path[0]) / step**2
+        found_velocity, found_acceleration = mechanism.acceleration(pose, rates, second, mode)
+        np.testing.assert_allclose(found_velocity, velocity, rtol=0, atol=1e-3 * length)
+        np.testing.assert_allclose(found_acceleration, curvature, rtol=0, atol=2e-2 * np.abs(second).max())
+
+
+def test_kind_agrees_with_the_rank_of_the_joint_graph(mechanism, singular_examples):
+    """A factor group that claims a constraint singularity lowers the rank; every other factor keeps it."""
+    form = closed_form_of(mechanism)
+    general = int(mobility(mechanism, mechanism.home_values).rank)
+    for example in singular_examples:
+        zero = {
+            name
+            for name, value in mechanism.singularity(example.pose, example.mode).relative.items()
+            if abs(value) <= 4e-7
+        }
+        claimed = any(set(group) <= zero for group in form.constraint_singular)
+        rank = int(mobility(mechanism, example.joints, threshold=1e-5).rank)
+        assert (rank < general) == claimed, (example.factor.name, example.mode, zero)
+
+
+def test_regular_configurations_keep_the_full_rank(mechanism, regular):
+    general = int(mobility(mechanism, mechanism.home_values).rank)
+    ranks = mobility(mechanism, np.array([joints for _, _, _, joints in regular])).rank
+    assert set(ranks.tolist()) == {general}
+
+
+@pytest.mark.parametrize("kind", ["parallel", "serial"])
+def test_reduced_kind_agrees_with_the_rank_of_the_joint_graph(mechanism, singular_examples, kind):
+    """Where the closure has full rank: locked inputs leave a motion exactly at parallel, and a locked platform
+    leaves the inputs a motion exactly at serial singularities."""
+    for example in singular_examples:
+        free = mobility(mechanism, example.joints, threshold=1e-5)
+        if int(free.rank) < int(mobility(mechanism, mechanism.home_values).rank):
+            continue
+        null = _null_space(loop_twists(mechanism, example.joints), int(free.rank))
+        rates = np.array([null[item.coordinate.index] for item in mechanism.inputs])
+        twists = screws(mechanism, frames(mechanism, example.joints), example.joints)
+        platform = _platform_rates(mechanism, example.joints, twists, null) / characteristic_length(mechanism)
+        moves_when_locked = np.linalg.svd(rates, compute_uv=False)[-1] < 1e-5
+        stands_while_driven = np.linalg.svd(platform, compute_uv=False)[-1] < 1e-5
+        verdict = mechanism.singularity(example.pose, example.mode)
+        claimed = verdict.reduced_kind in (kind, "comprehensive")
+        found = moves_when_locked if kind == "parallel" else stands_while_driven
+        assert found == claimed, (example.factor.name, example.mode, verdict)

@@ -1,0 +1,105 @@
+"""Dual numbers against derivatives known by hand, against complex steps, and beside arrays and scalars."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from assur.numerics.dual import Dual, Duals
+
+FINITE = st.floats(min_value=-50.0, max_value=50.0)
+
+
+def straight_line(a, b, sqrt):
+    """Every operation that a kernel may use, with a constant on either side."""
+    root = sqrt(2 + a * a + b * b)
+    return (3 - a) / root - b * root + (+b) / 4 - (1 / root) * (-a) + (a - 5) + (2.5 * b)
+
+
+def complex_step(a, b, a_rate, b_rate, step=1e-30):
+    """An independent derivative, exact to rounding for a function that is analytic."""
+    return straight_line(complex(a, step * a_rate), complex(b, step * b_rate), np.sqrt).imag / step
+
+
+@given(FINITE, FINITE, FINITE, FINITE)
+def test_derivative_agrees_with_the_complex_step(a, b, a_rate, b_rate):
+    found = straight_line(Dual(a, a_rate), Dual(b, b_rate), Duals().sqrt)
+    size = 1.0 + (abs(a_rate) + abs(b_rate)) * (1.0 + a * a + b * b)
+    assert found.value == pytest.approx(straight_line(a, b, np.sqrt), abs=1e-12 * size)
+    assert found.derivative == pytest.approx(complex_step(a, b, a_rate, b_rate), abs=1e-12 * size)
+
+
+@pytest.mark.parametrize(
+    ("operation", "value", "derivative"),
+    [
+        (lambda t: t + 2, 5.0, 7.0),
+        (lambda t: 2 + t, 5.0, 7.0),
+        (lambda t: t - 2, 1.0, 7.0),
+        (lambda t: 2 - t, -1.0, -7.0),
+        (lambda t: t * 2, 6.0, 14.0),
+        (lambda t: 2 * t, 6.0, 14.0),
+        (lambda t: t / 2, 1.5, 3.5),
+        (lambda t: 6 / t, 2.0, -6 * 7 / 9),
+        (lambda t: -t, -3.0, -7.0),
+        (lambda t: t - t * t, -6.0, 7.0 - 42.0),
+        (lambda t: t / (t * t), 1 / 3, -7 / 9),
+        (lambda t: (t + 1) * (t + 1), 16.0, 56.0),
+    ],
+)
+def test_each_operation_at_three_moving_at_seven(operation, value, derivative):
+    found = operation(Dual(3.0, 7.0))
+    assert (found.value, found.derivative) == (pytest.approx(value), pytest.approx(derivative))
+
+
+@pytest.mark.parametrize("left", [np.array([1.0, -1.0, 2.0]), np.int8([1, -1, 1]), np.float64(2.0)])
+def test_an_array_or_a_numpy_scalar_on_the_left_leaves_the_operator_to_the_dual(left):
+    right = Dual(np.array([4.0, 5.0, 8.0]), np.array([1.0, 2.0, 3.0]))
+    value, rate = right.value, right.derivative
+    cases = [
+        (left * right, left * value, left * rate),
+        (left + right, left + value, rate),
+        (left - right, left - value, -rate),
+        (left / right, left / value, -left * rate / (value * value)),
+    ]
+    for found, wanted, wanted_rate in cases:
+        assert isinstance(found, Dual)
+        np.testing.assert_allclose(found.value, wanted, rtol=1e-15)
+        np.testing.assert_allclose(found.derivative, wanted_rate, rtol=1e-15)
+
+
+def test_signs_on_a_leading_axis_broadcast_over_a_batch():
+    signs = np.int8([[1], [-1]])  # (2, 1)
+    found = signs * Duals().sqrt(Dual(np.array([4.0, 9.0, 16.0]), np.ones(3)))
+    np.testing.assert_array_equal(found.value, [[2, 3, 4], [-2, -3, -4]])
+    np.testing.assert_allclose(found.derivative, [[1 / 4, 1 / 6, 1 / 8], [-1 / 4, -1 / 6, -1 / 8]])
+
+
+@pytest.mark.parametrize("shape", [(), (1,), (3, 1, 2)])
+def test_every_batch_shape_is_kept(shape):
+    found = straight_line(
+        Dual(np.full(shape, 2.0), np.ones(shape)), Dual(np.full(shape, 3.0), 0.0), Duals().sqrt
+    )
+    assert np.shape(found.value) == np.shape(found.derivative) == shape
+
+
+def test_root_of_a_constant_has_no_derivative_of_its_own():
+    root = Duals().sqrt(16.0)
+    assert (root.value, root.derivative) == (4.0, 0.0)
+
+
+def test_root_at_and_below_zero_has_the_value_of_floats_and_no_derivative():
+    root = Duals().sqrt(Dual(np.array([4.0, 0.0, -4.0]), np.array([1.0, 1.0, 0.0])))
+    np.testing.assert_array_equal(root.value, [2.0, 0.0, 0.0])
+    np.testing.assert_array_equal(root.derivative, [0.25, np.nan, np.nan])
+
+
+def test_no_dual_is_changed_in_place():
+    value, rate = np.array([1.0, 2.0]), np.array([3.0, 4.0])
+    number = Dual(value, rate)
+    straight_line(number, number, Duals().sqrt)
+    np.testing.assert_array_equal(number.value, [1.0, 2.0])
+    np.testing.assert_array_equal(number.derivative, [3.0, 4.0])
+    with pytest.raises(AttributeError):
+        number.value = rate

@@ -1,0 +1,175 @@
+"""Laws about the project's own files: what is pinned, mirrored and named, and what must not be there."""
+
+from __future__ import annotations
+
+import ast
+import itertools
+import os
+import re
+import subprocess
+import tomllib
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+ROOT = Path(__file__).parents[1]
+SOURCE = ROOT / "src" / "assur"
+MODULES = sorted(path for path in SOURCE.rglob("*.py") if "mechanisms" not in path.relative_to(SOURCE).parts)
+MECHANISMS = sorted(path for path in (SOURCE / "mechanisms").iterdir() if any(path.glob("*.toml")))
+NOT_MIRRORS = {"contract", "papers", "derivations", "examples"}
+CITED_HOSTS = {"www.apache.org", "www.w3.org", "arxiv.org", "doi.org"}
+
+
+def read(name: str) -> str:
+    return (ROOT / name).read_text(encoding="utf-8")
+
+
+def project() -> dict:
+    return tomllib.loads(read("pyproject.toml"))
+
+
+def pins() -> dict[str, str]:
+    lines = [line for line in read("constraints.txt").splitlines() if line and not line.startswith("#")]
+    return {canonicalize_name(name): version for name, version in (line.split("==") for line in lines)}
+
+
+def carried_files() -> list[Path]:
+    """What git carries, or would after an add."""
+    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    return [ROOT / name for name in listed.split("\0") if name and (ROOT / name).is_file()]
+
+
+def ids(paths: list[Path]) -> list[str]:
+    return [path.relative_to(SOURCE).as_posix() for path in paths]
+
+
+# ---- versions ----------------------------------------------------------------------------------------------
+
+
+def test_constraints_hold_names_and_versions_only():
+    lines = [line for line in read("constraints.txt").splitlines() if not line.startswith("#")]
+    assert [line for line in lines if not re.fullmatch(r"[A-Za-z0-9._-]+==[0-9][A-Za-z0-9.+!]*", line)] == []
+
+
+def test_every_dependency_is_pinned_within_its_range():
+    table = project()
+    extras = table["project"]["optional-dependencies"].values()
+    wanted = [
+        *table["build-system"]["requires"],
+        *table["project"]["dependencies"],
+        *itertools.chain.from_iterable(extras),
+    ]
+    found = pins()
+    for requirement in map(Requirement, wanted):
+        version = found[canonicalize_name(requirement.name)]
+        assert requirement.specifier.contains(version, prereleases=True), requirement
+
+
+def test_one_version_everywhere():
+    version = project()["project"]["version"]
+    assert re.findall(r"^## (\S+)", read("CHANGELOG.md"), re.MULTILINE)[0] == version
+    assert re.findall(r"^version: (\S+)", read("CITATION.cff"), re.MULTILINE) == [version]
+
+
+# ---- text --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("path", MODULES, ids=ids(MODULES))
+def test_every_module_says_its_idea(path):
+    text = path.read_text(encoding="utf-8")
+    assert not text or ast.get_docstring(ast.parse(text))
+
+
+def test_no_file_names_a_host_or_a_machine():
+    found = []
+    for path in carried_files():
+        try:
+            text = path.read_text(encoding="utf-8")
+        except UnicodeDecodeError:  # a picture
+            continue
+        hosts = set(re.findall(r"[a-z]://(?:[^\s/@]*@)?([A-Za-z0-9][\w.-]*)", text)) - CITED_HOSTS
+        addresses = re.findall(r"(?<![\w.=])(?:\d{1,3}\.){3}\d{1,3}(?![\w.])", text)
+        folders = re.findall(r"(?<![\w.~])/(?:home|root|opt|work|Users)/\w+", text)
+        found += [(path.name, item) for item in (*hosts, *addresses, *folders)]
+    assert found == []
+
+
+@pytest.mark.parametrize("name", ["README.md", "CONTRIBUTING.md"])
+def test_make_targets_that_are_named_exist(name):
+    targets = set(re.findall(r"^([a-z]+):", read("Makefile"), re.MULTILINE))
+    named = set(re.findall(r"(?:^|`)make ([a-z]+)", read(name), re.MULTILINE))
+    assert named
+    assert named <= targets
+
+
+# ---- code --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("path", MODULES, ids=ids(MODULES))
+def test_only_the_command_line_prints(path):
+    if path.relative_to(SOURCE).parts[0] == "cli":
+        return
+    calls = [node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Call)]
+    assert [
+        node.lineno for node in calls if isinstance(node.func, ast.Name) and node.func.id == "print"
+    ] == []
+
+
+@pytest.mark.parametrize("path", MODULES, ids=ids(MODULES))
+def test_the_core_knows_no_mechanism_by_name(path):
+    """Docstrings may give one as an example, and the command line may have a default."""
+    if path.relative_to(SOURCE).parts[0] == "cli":
+        return
+    nodes = list(ast.walk(ast.parse(path.read_text())))
+    documentation = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
+    texts = [
+        node.value
+        for node in nodes
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in documentation
+    ]
+    names = [folder.name for folder in MECHANISMS]
+    assert [text for text in texts if any(name in text for name in names)] == []
+
+
+def test_tests_mirror_the_source():
+    tested = set()
+    for path in (ROOT / "tests").rglob("test_*.py"):
+        folder = path.parent.relative_to(ROOT / "tests")
+        if folder == Path() or folder.parts[0] in NOT_MIRRORS:
+            continue
+        tested.add(folder)
+        modules = {module.stem for module in (SOURCE / folder).glob("*.py")} | {folder.name}
+        name = path.stem.removeprefix("test_")
+        assert any(name == module or name.startswith(f"{module}_") for module in modules), path
+    folders = {path.parent.relative_to(SOURCE) for path in MODULES if path.stem != "__init__"} - {Path()}
+    assert folders - tested == set()
+
+
+# ---- mechanisms --------------------------------------------------------------------------------------------
+
+
+def test_there_are_mechanisms():
+    assert len(MECHANISMS) >= 2
+
+
+@pytest.mark.parametrize("folder", MECHANISMS, ids=[folder.name for folder in MECHANISMS])
+def test_every_mechanism_has_reference_data_and_stands_in_the_readme(folder):
+    assert any(path.is_file() for path in (folder / "reference").iterdir())
+    assert f"`{folder.name}`" in read("README.md")
+
+
+# ---- continuous integration --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("failing", ["test", "check", "nothing"])
+def test_ci_runs_both_commands_and_fails_with_either(tmp_path, failing):
+    stand_in = tmp_path / "make"
+    stand_in.write_text(f'#!/bin/sh\necho "make $1"\n[ "$1" != "{failing}" ]\n')
+    stand_in.chmod(0o755)
+    environment = {**os.environ, "PATH": f"{tmp_path}{os.pathsep}{os.environ['PATH']}"}
+    ran = subprocess.run([ROOT / ".ci" / "run"], env=environment, capture_output=True, text=True)
+    assert ran.stdout.split("\n") == ["make test", "make check", ""]
+    assert (ran.returncode == 0) == (failing == "nothing")
