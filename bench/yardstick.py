@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import shutil
 import subprocess
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -64,7 +64,7 @@ class Yardstick:
         }
         return [np.empty((size, count), kind) for size, kind in rows[job]]
 
-    def run(self, job: str, components: Sequence[np.ndarray], answer: Arrays) -> Arrays:
+    def run(self, job: str, components: np.ndarray, answer: Arrays) -> Arrays:
         """Do a job into `answer`."""
         function: Callable[..., None] = getattr(self.library, job)
         direct = job == "direct_all"

@@ -1,7 +1,8 @@
 """The reduced model of Zeng et al. (2019) written down from its text, beside its kernels; and exact zero tests.
 
-The closure shares nothing with the kernels: it is the three walks from the base to O' along the links of Fig. 2; a joint angle enters as a pair
-(cosine, sine). Everything the derivation tests prove is proved about these walks.
+The closure shares nothing with the kernels: it is the three walks from the base to O' along the links of
+Fig. 2, where a joint angle enters as a pair (cosine, sine). The derivation tests prove what they prove about
+these walks.
 """
 
 from __future__ import annotations
@@ -67,7 +68,9 @@ def closure(p: Any, inputs: Any, pose: Any, joints: Any) -> dict[str, sp.Expr]:
     to_platform = ((p.l4 * alpha[0], 0, p.l4 * alpha[1]), (p.d, 0, 0))  # D1D2, D2O'
     ends = {
         "via_B1": walk((-p.b, inputs[0], p.l1), (0, p.l2 * first[0], p.l2 * first[1]), (0, -p.l3 / 2, 0), *to_platform),
-        "via_B2": walk((-p.b, inputs[1], p.l1), (0, p.l2 * second[0], p.l2 * second[1]), (0, p.l3 / 2, 0), *to_platform),
+        "via_B2": walk(
+            (-p.b, inputs[1], p.l1), (0, p.l2 * second[0], p.l2 * second[1]), (0, p.l3 / 2, 0), *to_platform
+        ),
         "via_B3": walk(
             (p.b, inputs[2], p.l1),
             (0, p.l6 * third[0], p.l6 * third[1]),  # B3C3

@@ -135,9 +135,7 @@ def test_meeting_margin_is_J1_J2_J3_and_vanishes_where_D1D2_and_D3E3_are_paralle
     branch, roots = any_branch
     p = model.p
     named = model.kernels.quantities(roots, p, branch.core)
-    assert roots.vanishes(
-        branch.margins["meeting"] - (named["J1"] ** 2 + named["J2"] ** 2 - named["J3"] ** 2), MODE
-    )
+    assert roots.vanishes(branch.margins["meeting"] - (named["J1"] ** 2 + named["J2"] ** 2 - named["J3"] ** 2), MODE)
     on_closure = {p.b: p.d + (p.l4 * model.joints["alpha"][0] - p.l6 * model.joints["beta"][0]) / 2}
     by_angles = letters(model)
     radicand = (by_angles.J1**2 + by_angles.J2**2 - by_angles.J3**2).subs(on_closure)

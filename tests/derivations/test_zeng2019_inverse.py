@@ -62,18 +62,91 @@ def test_all_32_branches_of_the_kernel_close_the_mechanism(model, any_branch):
         assert roots.vanishes(gap, MODE), name
 
 
-def test_the_32_branches_are_all_there_are(model):
-    """Given the pose, the closure gives both cosines and both heights; each circle leaves one sign."""
-    p, (x, y, z) = model.p, model.pose
-    gaps = model.closure(p, model.inputs, model.pose, model.joints)
-    cos_beta, sin_alpha = model.joints["beta"][0], model.joints["alpha"][1]
-    unknown = [gaps[f"via_B1_{axis}"] for axis in "xyz"]
-    jacobian = sp.Matrix(unknown).jacobian([model.inputs[0]])
-    assert list(jacobian) == [0, 1, 0]  # an input is fixed by the y row alone
-    assert sp.expand(gaps["via_B1_z"] - (p.l1 + p.l2 * model.joints["B1"][1] + p.l4 * sin_alpha - z)) == 0
-    assert sp.expand(gaps["via_B3_x"] - (p.b - p.d + p.l6 * cos_beta - x)) == 0
-    assert y not in (gaps["via_B1_z"].free_symbols | gaps["via_B3_z"].free_symbols)
-    assert len(set(product((1, -1), repeat=len(NAMES)))) == 32
+def test_the_32_branches_are_all_there_are(model, any_branch):
+    """The closure fixes both cosines, all heights and inputs, once a sign is chosen on each of five circles."""
+    branch, _ = any_branch
+    p, core = model.p, branch.core
+    cosines = dict(zip(model.joints, sp.symbols("cB1 cB2 cB3 ca cb"), strict=True))
+    sines = dict(zip(model.joints, sp.symbols("sB1 sB2 sB3 sa sb"), strict=True))
+    pairs = {name: (cosines[name], sines[name]) for name in model.joints}
+    gaps = [gap for name, gap in model.closure(p, model.inputs, model.pose, pairs).items() if name.startswith("via")]
+    fixed = [cosines["alpha"], cosines["beta"], *(sines[name] for name in ("B1", "B2", "B3")), *model.inputs]
+    (solution,) = sp.solve(gaps, fixed, dict=True)
+    assert set(solution) == set(fixed)
+    # The circles then give sin a, sin b from their cosines and u1, u2, u3 from their heights: 2^5 choices.
+    chosen = {
+        sines["alpha"]: core.sin_alpha,
+        sines["beta"]: core.sin_beta,
+        **{
+            cosines[name]: u / length
+            for name, u, length in zip(("B1", "B2", "B3"), (core.u1, core.u2, core.u3), (p.l2, p.l2, p.l6), strict=True)
+        },
+    }
+    wanted = [core.cos_alpha, core.cos_beta, core.w / p.l2, core.w / p.l2, core.v / p.l6, *branch.inputs]
+    for letter, value in zip(fixed, wanted, strict=True):
+        assert sp.simplify(solution[letter].subs(chosen) - value) == 0, letter
+
+
+def test_joint_values_and_quantities_of_the_kernel_mean_what_their_letters_say(model, any_branch):
+    branch, roots = any_branch
+    p, core = model.p, branch.core
+    _, y, z = model.pose
+    joints = model.kernels.joints(roots, p, core)
+    for name, value in zip(("P1", "P2", "P3"), branch.inputs, strict=True):
+        assert sp.expand(joints[name] - value) == 0
+    angles = model.kernel_joints(p, core)
+    forth = {"B1": "B1", "B2": "B2", "B3a": "B3", "B3b": "B3", "D1": "alpha", "D3a": "beta", "D3b": "beta"}
+    back = {"C1": "B1", "C2": "B2", "C3a": "B3", "C3b": "B3", "D2": "alpha", "E3a": "beta", "E3b": "beta"}
+    assert set(joints) == {"P1", "P2", "P3", *forth, *back}
+    assert all(joints[name] == angles[angle] for name, angle in forth.items())
+    assert all(joints[name] == (angles[angle][0], -angles[angle][1]) for name, angle in back.items())
+    t = p.l4 * core.sin_alpha - p.l6 * core.sin_beta  # Eq. (13)
+    wanted = {
+        "gamma": angles["B1"],
+        "alpha": angles["alpha"],
+        "beta": angles["beta"],
+        "A": 2 * p.l2,
+        "B": branch.inputs[0] - p.l3 - branch.inputs[1],
+        "H1": core.w - p.l8 - p.l7,
+        "H2": p.l6**2 - (y - branch.inputs[2]) ** 2,
+        "t": t,
+        "J1": 2 * p.l4 * t,
+        "J2": 4 * p.l4 * (p.b - p.d),
+        "J3": p.l6**2 - p.l4**2 - t**2 - 4 * (p.b - p.d) ** 2,
+        "M1": branch.margins["M12"],
+        "M2": branch.margins["M12"],
+        "M3": branch.margins["M3"],
+        "yC1": y + p.l3 / 2,
+        "yC2": y - p.l3 / 2,
+        "yC3": y,
+        "zC1": z - p.l4 * core.sin_alpha,
+        "zC2": z - p.l4 * core.sin_alpha,
+        "zC3": z - p.l8 - p.l6 * core.sin_beta - p.l7,
+    }
+    named = model.kernels.quantities(roots, p, core)
+    assert set(named) == set(wanted) == {item.name for item in model.kernels.CLOSED_FORM.quantity_list}
+    for name, value in wanted.items():
+        if isinstance(value, tuple):
+            assert named[name] == value, name
+        else:
+            assert roots.vanishes(named[name] - value, MODE), name
+
+
+def test_constraints_are_the_lengths_of_eq_20(model, any_branch):
+    """At the branch's own inputs they are l2, l2, l6; at any other inputs they are the distances B_iC_i."""
+    branch, roots = any_branch
+    p, core, y = model.p, branch.core, model.pose[1]
+    found = model.kernels.constraints(Symbols(), p, core, model.inputs)
+    gaps = {
+        "B1C1": (y + p.l3 / 2 - model.inputs[0], core.w),
+        "B2C2": (y - p.l3 / 2 - model.inputs[1], core.w),
+        "B3C3": (y - model.inputs[2], core.v),
+    }
+    own = dict(zip(model.inputs, branch.inputs, strict=True))
+    for (name, (length, wanted)), size in zip(found.items(), (p.l2, p.l2, p.l6), strict=True):
+        assert wanted == size
+        assert sp.expand(length**2 - sum(part**2 for part in gaps[name])) == 0
+        assert roots.vanishes((length**2).subs(own) - wanted**2, MODE)
 
 
 def test_direct_returns_the_pose_from_every_mode_with_u1_opposite_to_u2(model, any_branch):
@@ -103,7 +176,7 @@ def test_kernel_over_symbols_gives_back_rational_inputs(model):
 
 
 def test_e11_x_runs_from_minus_130_to_80(model):
-    s, x = model.sizes, sp.Symbol("x", real=True)
+    s = model.sizes
     d = s.b - s.d
     reach = sp.Interval(-d - s.l4, -d + s.l4).intersect(sp.Interval(d - s.l6, d + s.l6))
     assert reach == sp.Interval(-130, 80)
@@ -112,9 +185,10 @@ def test_e11_x_runs_from_minus_130_to_80(model):
     assert box - reach == sp.Interval.Lopen(80, 90)
     # Both ends are assembled: there sin b = 0 or sin a = 0, and C1, C3 are within reach.
     for end in (-130, 80):
-        branch = model.kernels.inverse(Symbols(), s, (sp.Integer(end), 0, 200), SimpleNamespace(**dict.fromkeys(NAMES, 1)))
+        branch = model.kernels.inverse(
+            Symbols(), s, (sp.Integer(end), 0, 200), SimpleNamespace(**dict.fromkeys(NAMES, 1))
+        )
         assert all(margin >= 0 for margin in branch.margins.values())
-    assert x.is_real
 
 
 def test_e11_y_is_bounded_by_the_sliders_only(model, any_branch):
@@ -140,9 +214,7 @@ def test_e15_24_of_the_32_inverse_solutions_are_imaginary_at_row_3(model):
 def printed_tolerance(model, branch):
     """Half a unit in the last printed place, of each pose coordinate times its effect on each input, and its own."""
     jp, jq = model.kernels.as_printed(Symbols(), model.sizes, branch.core)
-    return [
-        HALF_UNIT * (1 + sum(abs(entry) for entry in row) / abs(jq[i][i])) for i, row in enumerate(jp)
-    ]
+    return [HALF_UNIT * (1 + sum(abs(entry) for entry in row) / abs(jq[i][i])) for i, row in enumerate(jp)]
 
 
 def test_e6_table_2_has_all_real_solutions_of_row_3_and_no_other(model):

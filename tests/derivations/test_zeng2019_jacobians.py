@@ -9,7 +9,7 @@ import sympy as sp
 
 from assur.numerics.number_types import Symbols
 
-CORE = "x y z u1 u2 u3 w v".split()
+CORE = ("x", "y", "z", "u1", "u2", "u3", "w", "v")
 
 
 @pytest.fixture(scope="module")
@@ -138,17 +138,24 @@ def test_e9_list_is_complete_without_eliminating_anything(model, closure_rows):
     assert any(is_zero(backward - sign * serial) for sign in (1, -1))
 
 
-def test_case_i_a_holds_at_u1_equal_u2_and_at_w_zero(any_core, printed):
-    """e1 = k e2: the z entries give k = 1 or w = 0, the y entries then u1 = u2, or any k."""
+def test_case_i_a_is_u1_equal_u2_or_w_zero_and_nothing_else(any_core, printed):
+    """e1 = k e2: B1C1 and B2C2 parallel. With u1^2 = u2^2 either k = 1 (self-motion) or k = -1 and w = 0 (E7)."""
     c = any_core
-    e1, e2 = printed[0].row(0), printed[0].row(1)
-    minors = list(sp.Matrix.vstack(e1, e2).minor(0, k) for k in ()) or [
-        sp.Matrix.vstack(e1, e2).extract([0, 1], pair).det() for pair in ([0, 1], [0, 2], [1, 2])
-    ]
+    pair = printed[0][:2, :]
+    minors = [pair[:, columns].det() for columns in ([0, 1], [0, 2], [1, 2])]
+    common = c.w * (c.u1 - c.u2)
     cot_alpha = c.cos_alpha / c.sin_alpha
-    assert [sp.simplify(m) for m in minors] == [
-        sp.simplify(m) for m in (cot_alpha * c.w * (c.u2 - c.u1), sp.Integer(0), c.w * (c.u1 - c.u2))
-    ] or all(is_zero(m.subs(c.w, 0)) and is_zero(m.subs(c.u1, c.u2)) for m in minors)
+    for minor, wanted in zip(minors, (-cot_alpha * common, 0, common), strict=True):
+        assert is_zero(minor - wanted)
+
+
+def test_e15_chain_2_alone_gives_three_translations(model):
+    """O' by P3 and the two parallelograms: its three rates are independent unless u3 or sin b vanishes."""
+    gaps = model.closure(model.p, model.inputs, model.pose, model.joints)
+    walk = sp.Matrix([gaps[f"via_B3_{axis}"] for axis in "xyz"])
+    rates = walk.jacobian([model.inputs[2], model.angles["B3"], model.angles["beta"]])
+    u3 = model.p.l6 * sp.cos(model.angles["B3"])
+    assert is_zero(rates.det() + u3 * model.p.l6 * sp.sin(model.angles["beta"]))
 
 
 def test_e7_case_ii_exists_where_parallelogram_1_is_flat(any_core, printed):

@@ -67,7 +67,7 @@ def test_det_jp_vanishes_all_along_it(model, curve):
 
 def test_the_direct_formulas_would_return_one_sample_of_it(model, locked, curve):
     """At B = 0 they put B1C1 upright: gamma = 90 or -90 degrees by e1 (E5)."""
-    branch, roots, (cosine, sine) = curve
+    branch, _, (cosine, sine) = curve
     e1 = sp.Symbol("e1")
     sample = model.kernels.direct(model.Roots(), model.p, locked, SimpleNamespace(e1=e1, e2=E2, e3=E3))
     assert sample.margins["B"] == 0
@@ -77,18 +77,17 @@ def test_the_direct_formulas_would_return_one_sample_of_it(model, locked, curve)
     assert branch.core.w == model.p.l2 * sine
 
 
-@pytest.mark.parametrize("gamma", [0.4, 1.2, 2.0, -1.0])
 @pytest.mark.parametrize(("e2", "e3"), [(1, 1), (1, -1), (-1, 1), (-1, -1)])
+@pytest.mark.parametrize("gamma", [-0.4, -0.2, 0.2, 0.4])
 def test_its_tangent_is_a_motion_that_jp_does_not_see(model, gamma, e2, e3):
     """Jp v = 0 for v = d(pose)/d(gamma), by dual numbers through the kernel."""
     p = SimpleNamespace(**{name: float(value) for name, value in vars(model.sizes).items()})
     angle = (Dual(np.cos(gamma), -np.sin(gamma)), Dual(np.sin(gamma), np.cos(gamma)))
-    inputs = (100.0, -40.0, 60.0)
-    branch = model.kernels.self_motion(Duals(), p, inputs, angle, SimpleNamespace(e2=e2, e3=e3))
-    if not all(branch.margins[name].value > 0 for name in ("v2", "meeting")):
-        pytest.skip("not on the real part of the curve")
+    branch = model.kernels.self_motion(Duals(), p, (0.0, -140.0, 100.0), angle, SimpleNamespace(e2=e2, e3=e3))
+    assert all(branch.margins[name].value > 0 for name in ("v2", "meeting"))
     jp, _ = model.kernels.jacobians(Duals(), p, branch.core)
-    matrix = np.array([[entry.value for entry in row] for row in jp])
     speed = np.array([coordinate.derivative for coordinate in branch.pose])
     assert np.linalg.norm(speed) > 1.0
-    np.testing.assert_allclose(matrix @ speed / 280.0, 0.0, atol=1e-9 * np.linalg.norm(speed))
+    matrix = np.array([[entry.value for entry in row] for row in jp])
+    np.testing.assert_allclose(matrix @ speed, 0.0, atol=1e-9 * np.linalg.norm(speed) * 280.0)
+    assert np.linalg.matrix_rank(matrix, tol=1e-6) == 2

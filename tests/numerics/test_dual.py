@@ -78,9 +78,7 @@ def test_signs_on_a_leading_axis_broadcast_over_a_batch():
 
 @pytest.mark.parametrize("shape", [(), (1,), (3, 1, 2)])
 def test_every_batch_shape_is_kept(shape):
-    found = straight_line(
-        Dual(np.full(shape, 2.0), np.ones(shape)), Dual(np.full(shape, 3.0), 0.0), Duals().sqrt
-    )
+    found = straight_line(Dual(np.full(shape, 2.0), np.ones(shape)), Dual(np.full(shape, 3.0), 0.0), Duals().sqrt)
     assert np.shape(found.value) == np.shape(found.derivative) == shape
 
 

@@ -11,7 +11,7 @@ from cyclopts import App, CycloptsError, Parameter
 
 import assur
 from assur.cli.numbers import shielded
-from assur.cli.options import NO_OPTIONS, Outcome, Shared
+from assur.cli.options import Outcome, Plain
 from assur.cli.output import complain, emit
 from assur.errors import AssurError, UsageError
 
@@ -20,9 +20,13 @@ INTERRUPTED = 130
 BROKEN_PIPE = 141
 HELP = """From the topology of a parallel mechanism to its numbers, each with its proof.
 
-Numbers are plain, negative ones too. Angles are in the unit that the mechanism's file states.
-Exit codes: 0 fine, 1 a claim of ours fails, 2 usage, 3 bad file, 4 proved that no solution exists, 5 undecided,
-70 a bug of ours."""
+Negative numbers need no tricks. Angles are in the unit that the mechanism's
+file states. Exit codes: 0 fine, 1 a claim of ours fails, 2 usage, 3 bad file,
+4 proved that no solution exists, 5 undecided, 70 a bug of ours.
+
+For example:
+    assur direct zeng2019 162.6907 -143.3209 -24.6776
+    assur audit zeng2019"""
 
 
 def application() -> App:
@@ -43,7 +47,7 @@ def application() -> App:
         name="assur",
         help=HELP,
         version=assur.__version__,
-        help_format="markdown",
+        help_format="plaintext",
         default_parameter=Parameter(negative="", show_default=False),
     )
     app.command(list_, name="list")
@@ -85,8 +89,8 @@ def _run(words: Sequence[str]) -> int:
         raise UsageError(_message(error), hint=f"see {' '.join(_path(app, words))} --help") from error
     outcome = command(*bound.args, **bound.kwargs)
     if isinstance(outcome, Outcome):
-        shared = bound.arguments.get("shared", NO_OPTIONS)
-        emit(outcome, json=isinstance(shared, Shared) and shared.json)
+        shared = bound.arguments.get("shared")
+        emit(outcome, json=isinstance(shared, Plain) and shared.json)
         return outcome.exit_code
     sys.stdout.flush()
     return 0
@@ -94,7 +98,8 @@ def _run(words: Sequence[str]) -> int:
 
 def _message(error: CycloptsError) -> str:
     text = " ".join(str(error).split())
-    return text[:1].lower() + text[1:].rstrip(".")
+    text = text if text.endswith("...") else text.rstrip(".")
+    return text[:1].lower() + text[1:]
 
 
 def _path(app: App, words: Sequence[str]) -> list[str]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterable, Sequence
 
@@ -11,6 +10,8 @@ from assur.errors import UsageError
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 COMMA = re.compile(r"[+-]?\d*,\d*", re.ASCII)
 NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.IGNORECASE)
+LARGEST = 1e60
+"""No dimension is larger; up to here the fourth power of a number is finite."""
 VALUE = re.compile(r"-(\d|[.,]\d|inf|nan)", re.IGNORECASE)
 """How a value begins that could be taken for an option."""
 MODE_OPTION = "--mode"
@@ -26,7 +27,7 @@ def number(text: str, what: str) -> float:
     text = text.strip()
     if NUMBER.fullmatch(text):
         value = float(text)
-        if math.isfinite(value):
+        if abs(value) <= LARGEST:
             return value
         raise UsageError(f"{what}: {text} is too large")
     if NOT_FINITE.fullmatch(text):
@@ -96,3 +97,11 @@ def shielded(tokens: Sequence[str]) -> list[str]:
         else:
             found.append(f" {word}" if VALUE.match(word) else word)
     return found
+
+
+def whole_number(text: str, what: str) -> int:
+    """A whole number, or a refusal."""
+    text = text.strip()
+    if re.fullmatch(r"[+-]?\d{1,9}", text, re.ASCII):
+        return int(text)
+    raise UsageError(f"{what}: '{text}' is not a whole number")

@@ -15,15 +15,26 @@ if TYPE_CHECKING:
 
     from assur.mechanism import Mechanism
 
-SHARED = Group("Options of every command", sort_key=9)
+SHARED = Group("Shared options", sort_key=9)
 
 MechanismName = Annotated[str, Parameter(name="MECHANISM", help="A name (see `assur list`) or the path of a .toml file.")]
 
 
 @Parameter(name="*", group=SHARED)
 @dataclass(frozen=True)
-class Shared:
-    """Options that every command has."""
+class Plain:
+    """Options of every command."""
+
+    json: Annotated[
+        bool, Parameter(help="Print one JSON object and nothing else. Numbers that do not exist are null.")
+    ] = False
+    debug: Annotated[bool, Parameter(help="Show the traceback of an error.")] = False
+
+
+@Parameter(name="*", group=SHARED)
+@dataclass(frozen=True)
+class Shared(Plain):
+    """Options of every command that is about one mechanism."""
 
     set_: Annotated[
         tuple[str, ...],
@@ -33,10 +44,6 @@ class Shared:
             help="Another value for a dimension, in the file's unit, as --set l2=300. May be repeated.",
         ),
     ] = ()
-    json: Annotated[
-        bool, Parameter(help="Print one JSON object and nothing else. Numbers that do not exist are null.")
-    ] = False
-    debug: Annotated[bool, Parameter(help="Show the traceback of an error.")] = False
 
     def mechanism(self, name: str) -> Mechanism:
         """The mechanism of that name or file, with the dimensions of `--set`."""
@@ -48,15 +55,9 @@ class Shared:
         found = load(name)
         return with_parameters(found, **values) if values else found
 
-    def refuse_set(self, command: str) -> None:
-        """A clear refusal of `--set` where it would have no effect."""
-        from assur.errors import UsageError
 
-        if self.set_:
-            raise UsageError(f"{command} takes no --set", hint="it concerns every mechanism as its file says")
-
-
-NO_OPTIONS = Shared()
+PLAIN = Plain()
+SHARED_DEFAULTS = Shared()
 
 
 @dataclass(frozen=True)

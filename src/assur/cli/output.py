@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from assur.errors import AssurError, OutputError
 
@@ -70,7 +70,7 @@ def table(
     left: Sequence[str] = (),
     styles: Sequence[str] = (),
 ) -> Table:
-    """A table; columns are set right except those in `left`, which may also be broken into lines."""
+    """A table; columns are set right except those in `left`, the last of which may be broken into lines."""
     from rich import box
     from rich.table import Table
     from rich.text import Text
@@ -84,8 +84,9 @@ def table(
         header_style="bold",
     )
     for name in columns:
-        free = name in left
-        found.add_column(Text(name), justify="left" if free else "right", no_wrap=not free, overflow="fold")
+        free = name in left[-1:]
+        side: Literal["left", "right"] = "left" if name in left else "right"
+        found.add_column(Text(name), justify=side, no_wrap=not free, overflow="fold")
     for place, row in enumerate(rows):
         found.add_row(*(Text(cell) for cell in row), style=styles[place] if styles else None)
     return found

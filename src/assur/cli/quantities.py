@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -52,6 +53,12 @@ def style_of(record: MechanismRecord) -> Style:
     return Style(record.unit, record.angle, decimals)
 
 
+def pose_text(style: Style, names: Sequence[str], pose: Sequence[float]) -> str:
+    """A pose with names and units: x = 1.0000 mm, y = .."""
+    pairs = zip(names, pose, strict=True)
+    return ", ".join(f"{name} = {style.coordinate(name, value)} {style.coordinate_unit(name)}" for name, value in pairs)
+
+
 def is_length(name: str) -> bool:
     """Whether a pose coordinate is a length; every other is an angle."""
     from assur.kinematics.border import LENGTHS
@@ -67,7 +74,7 @@ def fixed(value: float | None, decimals: int) -> str:
     """
     if value is None or not math.isfinite(value):
         return "-"
-    text = f"{value:.{decimals}f}"
+    text = f"{value:.{decimals}f}" if abs(value) < 1e12 else f"{value:.10g}"
     return text.lstrip("-") if float(text) == 0 else text
 
 
@@ -94,7 +101,3 @@ def count(number: int, noun: str) -> str:
     ending = "es" if noun.endswith(("ch", "s", "x")) else "s"
     return f"{number} {noun}" if number == 1 else f"{number} {noun}{ending}"
 
-
-def power(unit: str, exponent: int) -> str:
-    """A unit to a power: "", "mm", "mm^2"."""
-    return "" if exponent == 0 else unit if exponent == 1 else f"{unit}^{exponent}"

@@ -26,6 +26,9 @@ from assur.numerics.small_matrices import determinant
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
+Components = Sequence[ArrayLike] | NDArray[np.float64]
+"""One array (N,) per component, as a sequence or as the rows of one array."""
+
 Progress = Callable[[int, int], None]
 Want = Literal["inputs", "exists", "det_jp", "det_jq", "factors"]
 
@@ -39,7 +42,7 @@ BLOCK_ALL = 8192
 
 def inverse_sweep(
     record: MechanismRecord,
-    components: Sequence[ArrayLike],
+    components: Components,
     mode: str = "",
     want: Sequence[Want] = WANT,
     *,
@@ -102,7 +105,7 @@ def inverse_sweep(
 
 def inverse_all_sweep(
     record: MechanismRecord,
-    components: Sequence[ArrayLike],
+    components: Components,
     *,
     block: int = BLOCK_ALL,
     progress: Progress | None = None,
@@ -134,7 +137,7 @@ def inverse_all_sweep(
 
 def inverse_all_expanded_sweep(
     record: MechanismRecord,
-    components: Sequence[ArrayLike],
+    components: Components,
     *,
     block: int = BLOCK_ALL,
     progress: Progress | None = None,
@@ -146,7 +149,7 @@ def inverse_all_expanded_sweep(
 
 def direct_all_sweep(
     record: MechanismRecord,
-    components: Sequence[ArrayLike],
+    components: Components,
     *,
     block: int = BLOCK_ALL,
     progress: Progress | None = None,
@@ -183,7 +186,8 @@ def _expanded(
         values, real[..., part] = solve(given)
         for k, value in enumerate(values):
             answer[..., k, part] = value
-    return answer.reshape(-1, rows, count), real.reshape(-1, count)
+    branches = 2 ** len(axes)
+    return answer.reshape(branches, rows, count), real.reshape(branches, count)
 
 
 def _all_branches(
@@ -221,7 +225,7 @@ def _exists(branch: Branch, limits: Mapping[str, tuple[float, bool]]) -> BoolArr
     return np.asarray(exists)
 
 
-def _columns(components: Sequence[ArrayLike], names: Sequence[str], what: str) -> tuple[tuple[FloatArray, ...], int]:
+def _columns(components: Components, names: Sequence[str], what: str) -> tuple[tuple[FloatArray, ...], int]:
     """Components as arrays (N,) of floats, one per name, and N."""
     if len(components) != len(names):
         raise UsageError(f"{what}: {len(components)} components, {len(names)} wanted", hint=f"give {', '.join(names)}")

@@ -45,7 +45,7 @@ def build(description: Description, overrides: Mapping[str, float], faults: Faul
     """
     file, cut = description.entry, description.cut
     _check_required(file, cut, faults)
-    tables = expand(file, cut, faults)
+    tables = expand(description, faults)
     check_names(file, tables, faults)
     scope = Scope(tables, faults)
     unit, angle = file.unit or "mm", file.angle or "rad"

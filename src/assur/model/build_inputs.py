@@ -24,11 +24,10 @@ def build_inputs(file: schema.FileEntry, tables: Tables, scope: Scope, numbers: 
     for placed in tables.inputs.values():
         entry, path = placed.entry, placed.path
         item = scope.coordinate(placed.local, path, placed.instance)
-        kind = item.kind if item else "length"
-        offset = numbers.of(kind, entry.offset, (*path, "offset"))
-        stroke = numbers.interval(kind, entry.stroke, (*path, "stroke")) if entry.stroke else None
         if item is None:
             continue
+        offset = numbers.of(item.kind, entry.offset, (*path, "offset"))
+        stroke = numbers.interval(item.kind, entry.stroke, (*path, "stroke")) if entry.stroke else None
         if item.index in found:
             scope.faults.add(path, f"'{placed.local}' is an input already", "allowed: each joint once")
         found[item.index] = Input(
@@ -69,7 +68,7 @@ def build_home(tables: Tables, scope: Scope, numbers: Numbers) -> FloatArray:
             continue
         items = [item for item in scope.coordinates if item.joint == joint]
         if len(placed.entry) != len(items):
-            allowed = f"allowed: {len(items)}, one for each of {', '.join(item.component for item in items)}"
+            allowed = f"allowed: {len(items)} ({', '.join(item.component for item in items)})"
             scope.faults.add(placed.path, f"{len(placed.entry)} values", allowed)
             continue
         for place, (item, value) in enumerate(zip(items, placed.entry, strict=True)):

@@ -9,7 +9,7 @@ from assur.model.build_joints import Geometry
 from assur.model.formula import Formula
 from assur.model.limbs import Tables
 from assur.model.mechanism import Coordinate, Modes, Point
-from assur.model.numbers import Kind, KindError, Numbers, kind_of
+from assur.model.numbers import MIXED, MIXED_HINT, Kind, KindError, Numbers, kind_of
 from assur.model.scope import Scope
 from assur.model.toml_source import KeyPath
 
@@ -35,14 +35,17 @@ def build_modes(file: schema.FileEntry, scope: Scope, numbers: Numbers) -> Modes
 
 def _check_mode(formula: Formula, path: KeyPath, scope: Scope, letters: Mapping[str, Kind]) -> None:
     kinds = {text: letters.get(text) or scope.quantity_kind(text) for text in formula.names}
-    for text in sorted(text for text, kind in kinds.items() if kind is None):
+    unknown = sorted(text for text, kind in kinds.items() if kind is None)
+    for text in unknown:
         scope.faults.unknown(path, "quantity", text, [*scope.quantities, *letters])
-    if not any(scope.quantity_kind(text) or letters.get(text) == "angle" for text in formula.names):
+    if not unknown and not any(
+        scope.quantity_kind(text) or letters.get(text) == "angle" for text in formula.names
+    ):
         scope.faults.add(path, f'"{formula.text}" never changes', "allowed: a formula of joints and points")
     try:
         kind_of(formula.root, {text: kind or "either" for text, kind in kinds.items()})
     except KindError as error:
-        scope.faults.add(path, f'"{formula.text}" has {error}', "angles and plain numbers do not mix")
+        scope.faults.add(path, f'"{formula.text}": {error}', MIXED, MIXED_HINT)
 
 
 def _check_default(table: str, default: str, names: list[str], scope: Scope) -> None:

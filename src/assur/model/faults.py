@@ -21,6 +21,8 @@ class Faults:
 
     def add(self, path: KeyPath, found: str, allowed: str, hint: str = "") -> None:
         """Note what was found at a place and what is allowed there."""
+        while path and isinstance(path[-1], int) and path not in self.source.lines:
+            path = path[:-1]  # an index into what the file writes as one value
         problem = Problem(self.file, self.source.line(path), path_text(path), found, allowed, hint)
         if problem not in self.problems:
             self.problems.append(problem)
@@ -68,5 +70,5 @@ def nearest(name: str, choices: Iterable[str]) -> str:
     >>> nearest("axsi", ["axis", "at"])
     "did you mean 'axis'?"
     """
-    near = difflib.get_close_matches(name, sorted(choices), n=2, cutoff=0.6)
+    near = difflib.get_close_matches(name, sorted(choices), n=2, cutoff=0.5)
     return f"did you mean {' or '.join(repr(item) for item in near)}?" if near else ""

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import copy
+import difflib
+import re
 from typing import Any
 
 from pydantic import ValidationError
@@ -21,6 +23,7 @@ _TABLES: dict[str, type[schema.Entry]] = {
     "chains": schema.ChainEntry,
     "points": schema.PointEntry,
 }
+_PASSES = 12
 _REFERENCES = ("inputs", "home")
 _DOTTED = 'a name with a dot stands in quotes: "leg1.B"'
 _TYPES = {
@@ -31,8 +34,6 @@ _TYPES = {
     "tuple_type": "allowed: a list [ ... ]",
     "bool_type": "allowed: true or false",
     "int_type": "allowed: a whole number",
-    "too_short": "allowed: a longer list",
-    "too_long": "allowed: a shorter list",
 }
 
 
@@ -46,20 +47,22 @@ def check_form(data: dict[str, Any], faults: Faults) -> tuple[schema.FileEntry |
     are not; None where too little is left to look any further.
     """
     cut: set[KeyPath] = set()
-    rest = data
-    for _ in range(3):
+    rest = copy.deepcopy(data)
+    for _ in range(_PASSES):
         try:
             return schema.FileEntry.model_validate(rest), frozenset(cut)
         except ValidationError as error:
-            rest = copy.deepcopy(rest)
-            for details in error.errors(include_url=False):
-                path = _path(details["loc"], data)
-                _note(details, path, data, faults)
-                entry = path if details["type"] == "extra_forbidden" else _entry(path)
-                if entry in _NEEDED or (len(entry) == 2 and entry[0] == "limbs"):
-                    return None, frozenset(cut)
-                cut.add(entry)
-                _remove(rest, entry)
+            errors = [(details, _path(details["loc"], rest)) for details in error.errors(include_url=False)]
+        unknown = [(details, path) for details, path in errors if details["type"] == "extra_forbidden"]
+        for details, path in unknown:
+            _note_unknown(details, path, rest, faults)
+        for details, path in [] if unknown else errors:
+            _note(details, path, faults)
+            entry = _entry(path)
+            if entry in _NEEDED or (len(entry) == 2 and entry[0] == "limbs"):
+                return None, frozenset(cut)
+            cut.add(entry)
+            _take(rest, entry)
     return None, frozenset(cut)
 
 
@@ -90,25 +93,38 @@ def _entry(path: KeyPath) -> KeyPath:
     return path[:2] if path[0] in (*_TABLES, "joints", "home", "angles") else path[:1]
 
 
-def _remove(data: dict[str, Any], path: KeyPath) -> None:
+def _take(data: dict[str, Any], path: KeyPath) -> tuple[dict[str, Any], Any]:
+    """Take a value out of the document; returns the table that it was in, and the value."""
     for part in path[:-1]:
-        if part not in data:
-            return
-        data = data[str(part)]
-    data.pop(str(path[-1]), None)
+        data = data.get(str(part), {})
+    return data, data.pop(str(path[-1]), None)
 
 
-def _note(details: ErrorDetails, path: KeyPath, data: dict[str, Any], faults: Faults) -> None:
+def _note_unknown(details: ErrorDetails, path: KeyPath, data: dict[str, Any], faults: Faults) -> None:
+    """Note an unknown key; from here on it is read as the key that it was meant to be, if that is clear."""
+    keys = allowed_keys(path[:-1], data)
+    dotted = path[0] in _REFERENCES and isinstance(details["input"], dict)
+    key = str(path[-1])
+    faults.add(
+        path, "unknown key", f"allowed here: {listed(keys)}", _DOTTED if dotted else nearest(key, keys)
+    )
+    table, value = _take(data, path)
+    meant = difflib.get_close_matches(key, keys, n=1)
+    if meant and meant[0] not in table:
+        table[meant[0]] = value
+
+
+def _note(details: ErrorDetails, path: KeyPath, faults: Faults) -> None:
     kind, context = details["type"], details.get("ctx", {})
     value = shown(details["input"])
     if kind == "form":
         dotted = path[0] in _REFERENCES and isinstance(details["input"], dict)
         faults.add(path, context["found"], context["allowed"], _DOTTED if dotted else context["hint"])
-    elif kind == "extra_forbidden":
-        keys = allowed_keys(path[:-1], data)
-        dotted = path[0] in _REFERENCES and isinstance(details["input"], dict)
-        hint = _DOTTED if dotted else nearest(str(path[-1]), keys)
-        faults.add(path, "unknown key", f"allowed here: {listed(keys)}", hint)
+    elif kind in ("too_short", "too_long"):
+        bound = (
+            f"at least {context['min_length']}" if kind == "too_short" else f"at most {context['max_length']}"
+        )
+        faults.add(path, value, f"allowed: {bound}")
     elif kind == "missing":
         faults.add(path, "missing", "this key must be there")
     elif kind == "union_tag_not_found":
@@ -118,8 +134,10 @@ def _note(details: ErrorDetails, path: KeyPath, data: dict[str, Any], faults: Fa
         hint = nearest(tag, schema.JOINT_ENTRIES)
         faults.add((*path, "type"), f'"{tag}"', f"allowed: {listed(schema.JOINT_ENTRIES)}", hint)
     elif kind == "literal_error":
-        hint = nearest(str(details["input"]), [part.strip("'") for part in context["expected"].split(", ")])
+        hint = nearest(str(details["input"]), re.findall("'(.+?)'", context["expected"]))
         faults.add(path, value, f"allowed: {context['expected']}".replace("'", ""), hint)
+    elif path[0] == "parameters" and len(path) == 2 and isinstance(details["input"], int | float | str):
+        faults.add(path, value, _TYPES[kind], f"write {path[1]} = {{ value = {value} }}")
     else:
         faults.add(
             path, value, _TYPES.get(kind, f"allowed: {details['msg'].removeprefix('Input should be ')}")

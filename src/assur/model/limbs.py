@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from assur.model import schema
+from assur.model.description import Description
 from assur.model.faults import Faults
 from assur.model.formula import Formula
 from assur.model.toml_source import KeyPath
@@ -70,12 +71,13 @@ class Tables:
     broken: Mapping[str, frozenset[str]] = field(default_factory=dict)
 
 
-def expand(file: schema.FileEntry, cut: frozenset[KeyPath], faults: Faults) -> Tables:
+def expand(description: Description, faults: Faults) -> Tables:
     """All entries by full name: those outside templates first, then limb by limb in the file's order."""
+    file, cut = description.entry, description.cut
     instances = {name: _instances(name, limb, cut, faults) for name, limb in file.limbs.items()}
     tables = Tables(
         instances=tuple(instance for group in instances.values() for instance in group),
-        broken=_broken(cut, instances),
+        broken=_broken(description, instances),
     )
     for table in (*_REPEATED, "chains"):
         entries = file.inputs.entries if table == "inputs" else getattr(file, table)
@@ -116,18 +118,26 @@ def _repeat(tables: Tables, limb: schema.LimbEntry, instance: Instance) -> None:
 
 def _numbered(entry: schema.InputEntry, number: int) -> schema.InputEntry:
     """The input of one limb: its number behind the name, and as an index in LaTeX."""
-    latex = f"{{{entry.latex or entry.name}}}_{{{number}}}"
+    letter = entry.latex or entry.name
+    latex = f"{{{letter}}}_{{{number}}}" if "_" in letter or "^" in letter else f"{letter}_{{{number}}}"
     return entry.model_copy(update={"name": f"{entry.name}{number}", "latex": latex})
 
 
 def _broken(
-    cut: frozenset[KeyPath], instances: Mapping[str, tuple[Instance, ...]]
+    description: Description, instances: Mapping[str, tuple[Instance, ...]]
 ) -> dict[str, frozenset[str]]:
+    """Full names, aliases among them, of the entries that were cut out."""
     broken: dict[str, set[str]] = {}
-    for path in cut:
+    for path in description.cut:
+        data: Any = description.source.data
+        for part in path:
+            data = data.get(part) if isinstance(data, dict) else None
+        alias = data.get("alias") if isinstance(data, dict) else None
+        names = [str(path[-1]), *([alias] if isinstance(alias, str) else [])]
         if len(path) == 2 and path[0] != "limbs":
-            broken.setdefault(str(path[0]), set()).add(str(path[1]))
+            broken.setdefault(str(path[0]), set()).update(names)
         elif len(path) == 4:
-            names = {f"{instance.prefix}.{path[3]}" for instance in instances.get(str(path[1]), ())}
-            broken.setdefault(str(path[2]), set()).update(names)
+            prefixes = [instance.prefix for instance in instances.get(str(path[1]), ())]
+            full = {f"{prefix}.{name}" for prefix in prefixes for name in names}
+            broken.setdefault(str(path[2]), set()).update(full)
     return {table: frozenset(names) for table, names in broken.items()}

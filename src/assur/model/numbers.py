@@ -23,7 +23,13 @@ FloatArray = NDArray[np.float64]
 Kind = Literal["plain", "angle", "either"]
 AngleUnit = Literal["deg", "rad"]
 Triple = tuple[Formula, Formula, Formula]
-PARALLEL = 1e-9
+MIXED = "allowed: angles with angles, plain numbers with plain numbers"
+MIXED_HINT = "a unit makes an angle of a number: 90 deg"
+_REASONS = {
+    ZeroDivisionError: "division by zero",
+    ValueError: "square root of a negative number",
+    OverflowError: "too large",
+}
 
 
 class KindError(Exception):
@@ -63,14 +69,14 @@ def _call(function: str, argument: Kind) -> Kind:
     if function == "sqrt" and argument == "angle":
         raise KindError("the square root of an angle")
     if function != "sqrt" and argument == "plain":
-        raise KindError(f"{function} of a plain number; say deg or rad")
+        raise KindError(f"{function} of a plain number")
     return "plain"
 
 
 def _join(sign: str, left: Kind, right: Kind) -> Kind:
     if sign in "+-":
         if {left, right} == {"angle", "plain"}:
-            raise KindError("an angle and a plain number added; say deg or rad")
+            raise KindError("the sum of an angle and a plain number")
         return right if left == "either" else left
     if right == "angle":
         if sign == "/" and left != "plain":
@@ -111,9 +117,9 @@ class Numbers:
             kind = kind_of(formula.root, self.kinds)
             value = float(formula.evaluate(self.values, math))
         except KindError as error:
-            self.faults.add(path, f'"{formula.text}" has {error}', "angles and plain numbers do not mix")
+            self.faults.add(path, f'"{formula.text}": {error}', MIXED, MIXED_HINT)
         except (ZeroDivisionError, ValueError, OverflowError) as error:
-            reason = "square root of a negative number" if isinstance(error, ValueError) else str(error)
+            reason = _REASONS[type(error)]
             self.faults.add(path, f'"{formula.text}" has no value: {reason}', "allowed: a finite number")
         else:
             if math.isfinite(value):

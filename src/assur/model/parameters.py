@@ -42,13 +42,11 @@ def evaluate_parameters(
     formulas = {name: _formula(name, entry, overrides) for name, entry in entries.items()}
     own_units = {name: entry.unit or units[0] for name, entry in entries.items()}
     for name, unit in own_units.items():
-        if unit not in (units[0], *ANGLE_UNITS, "1"):
+        if _kind(unit, units[0]) == "either":
             allowed = f"allowed: {units[0]} (the file's length unit), deg, rad, or 1 for a pure number"
             faults.add(("parameters", name, "unit"), f'"{unit}"', allowed)
     order, cyclic = _order(formulas, faults)
-    kinds: dict[str, Kind] = {
-        name: "angle" if unit in ANGLE_UNITS else "plain" for name, unit in own_units.items()
-    }
+    kinds = {name: _kind(unit, units[0]) for name, unit in own_units.items()}
     numbers = Numbers({}, kinds, {*broken, *cyclic}, units[1], faults)
     found: dict[str, Parameter] = {}
     for name in order:
@@ -101,6 +99,13 @@ def _finite(value: object) -> float | None:
 
 def _allowed(value: float, sign: str) -> bool:
     return value > 0 or (value == 0 and sign != "positive") or sign == "any"
+
+
+def _kind(unit: str, length_unit: str) -> Kind:
+    """Kind of a parameter; "either" where its unit is none that the file may use."""
+    if unit in ANGLE_UNITS:
+        return "angle"
+    return "plain" if unit in (length_unit, "1") else "either"
 
 
 def _formula(name: str, entry: ParameterEntry, overrides: Mapping[str, float]) -> Formula:

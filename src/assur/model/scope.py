@@ -32,6 +32,7 @@ class Scope:
         self.aliases: dict[str, str] = {}
         self.coordinates: list[Coordinate] = []
         self._quantities: dict[str, Coordinate] = {}
+        self._short: list[str] = []
         for name, placed in tables.joints.items():
             kind = JOINT_TYPES[placed.entry.type]
             names = [name]
@@ -41,8 +42,9 @@ class Scope:
                     if placed.instance
                     else placed.entry.alias
                 )
-                self.aliases[alias] = name
-                names.append(alias)
+                if alias not in tables.joints:
+                    self.aliases[alias] = name
+                    names.append(alias)
             self._add_coordinates(kind, names)
         self._prefixes = {instance.prefix for instance in tables.instances}
         self._joints = {name: name for name in tables.joints} | self.aliases
@@ -54,8 +56,9 @@ class Scope:
             self.coordinates.append(item)
             for name in names:
                 self._quantities[f"{name}.{component}"] = item
-                if kind.freedoms == 1:
-                    self._quantities[name] = item
+                short = name if kind.freedoms == 1 else f"{name}.{component}"
+                self._quantities[short] = item
+                self._short.append(short)
 
     def link(self, name: str, path: KeyPath, instance: Instance | None = None) -> str | None:
         """Full name of a link."""
@@ -83,7 +86,11 @@ class Scope:
         broken = self._broken("joints")
         if name.rpartition(".")[0] in self._visible(dict.fromkeys(broken, ""), instance):
             return None
-        return self._find("joint", self._quantities, broken, name, path, instance)
+        seen = self._visible(self._quantities, instance)
+        if name not in seen:
+            short = {text: self._quantities[text] for text in self._short}
+            return self._find("joint", short, broken, name, path, instance)
+        return seen[name]
 
     def quantity_kind(self, name: str) -> Kind | None:
         """Kind of a name in a formula of the joint graph: a joint value or a coordinate of a point.
@@ -101,7 +108,7 @@ class Scope:
     @property
     def quantities(self) -> list[str]:
         """Names that a formula of the joint graph may have, coordinates of points as `C1.y`."""
-        return [*self._quantities, *(f"{point}.{letter}" for point in self._points for letter in "xyz")]
+        return [*self._short, *(f"{point}.{letter}" for point in self._points for letter in "xyz")]
 
     def without_aliases(self, formula: Formula) -> Formula:
         """The same formula with the joints' own names."""

@@ -66,7 +66,7 @@ def _listed(count: int, what: str) -> BeforeValidator:
             raise refuse(shown(value), f"allowed: {what}")
         if len(value) != count:
             hint = COMMA if count > 1 and len(value) == 2 * count else ""
-            raise refuse(f"{len(value)} components", f"allowed: {what}", hint)
+            raise refuse(shown(value), f"allowed: {what}", hint)
         return value
 
     return BeforeValidator(check)

@@ -12,21 +12,29 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.existence import exists
 from assur.kinematics.modes import all_modes
 from assur.kinematics.position import inverse
-from assur.kinematics.solutions import SolutionSet
 from assur.kinematics.status import FACTOR_TOLERANCE, Status, closed_form_of, relative_factors
+from assur.kinematics.velocity import branch_at
 from assur.model.closed_form import Factor
 from assur.model.mechanism import MechanismRecord
+from assur.numerics.number_types import Floats
 
 FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
 SAMPLES = 400
-BISECTIONS = 80
+SEGMENTS = 60
+BISECTIONS = 70
+GROWTH = 3.0
 
 
 @dataclass(frozen=True, eq=False)
 class SingularExample:
-    """A configuration at which one factor vanishes: pose (m,), inputs (n,), every joint's value, and its status."""
+    """A configuration at which one factor vanishes: pose (m,), inputs (n,), every joint's value, and its status.
+
+    `in_box` says whether the pose lies in the workspace box of the mechanism's file.
+    """
 
     factor: Factor
     mode: str
@@ -34,82 +42,118 @@ class SingularExample:
     inputs: FloatArray
     joints: FloatArray
     status: Status
+    in_box: bool
+
+
+@dataclass(frozen=True, eq=False)
+class _Samples:
+    """Poses (N, m) of one working mode: which are real, and every factor divided by its scale."""
+
+    poses: FloatArray
+    real: BoolArray
+    factors: dict[str, FloatArray]
+
+    def others(self, name: str) -> NDArray[np.int_]:
+        """How many other factors vanish (N,): the fewer, the clearer the example."""
+        rest = [np.abs(value) <= FACTOR_TOLERANCE for key, value in self.factors.items() if key != name]
+        return np.asarray(np.sum(rest, axis=0))
 
 
 def singular_examples(record: MechanismRecord, seed: int = 0) -> tuple[SingularExample, ...]:
     """One example per factor, in the default working mode where it has one, else in the first that does.
 
-    Poses are drawn from the file's workspace box. A factor that never vanishes in it has no example.
+    Poses are drawn from the workspace box of the file, and where a factor never vanishes there, from a box
+    three times as wide. A factor that vanishes in neither has no example.
+
+    >>> from assur.model.registry import load_record
+    >>> [example.factor.name for example in singular_examples(load_record("zeng2019"))][:4]
+    ['u1_minus_u2', 'w', 'v', 'sin_alpha_minus_beta']
     """
     low, high = np.array([record.box[name] for name in record.platform.pose]).T
-    poses = np.random.default_rng(seed).uniform(low, high, size=(SAMPLES, len(low)))
-    dividing = [factor for factor in closed_form_of(record).factor_list if factor.kind != "other"]
-    found = (_example(record, factor, poses) for factor in dividing)
-    return tuple(example for example in found if example is not None)
+    rng = np.random.default_rng(seed)
+    middle, half = (low + high) / 2, (high - low) / 2
+    boxes = [rng.uniform(middle - grown * half, middle + grown * half, (SAMPLES, len(low))) for grown in (1, GROWTH)]
+    factors = [factor for factor in closed_form_of(record).factor_list if factor.kind != "other"]
+    modes = list(dict.fromkeys([record.modes.default_working, *all_modes(record, "inverse")]))
+    found: dict[str, SingularExample] = {}
+    for poses in boxes:
+        for mode in modes:
+            missing = [factor for factor in factors if factor.name not in found]
+            if not missing:
+                break
+            for factor, pose in _zeros_in_mode(record, mode, poses, missing):
+                found[factor.name] = _example(record, factor, mode, pose, bool(np.all((pose >= low) & (pose <= high))))
+    return tuple(found[factor.name] for factor in factors if factor.name in found)
 
 
-def _example(record: MechanismRecord, factor: Factor, poses: FloatArray) -> SingularExample | None:
-    modes = [record.modes.default_working, *all_modes(record, "inverse")]
-    candidates: list[tuple[int, int, str, FloatArray, SolutionSet]] = []
-    for mode in dict.fromkeys(modes):
-        solved = inverse(record, poses, mode)
-        real = np.flatnonzero(solved.exists[:, 0])
-        for pose in _zeros(record, factor, mode, poses, solved, real):
-            here = inverse(record, pose, mode)
-            if _size(record, factor, here) <= FACTOR_TOLERANCE:
-                candidates.append((_others(record, factor, here), len(candidates), mode, pose, here))
-        if candidates and candidates[0][2] == mode:
-            break
-    if not candidates:
-        return None
-    _, _, mode, pose, here = min(candidates, key=lambda item: item[:2])
-    return SingularExample(factor, mode, pose, here.inputs[0], here.joints[0], Status(int(here.status[0])))
+def _example(record: MechanismRecord, factor: Factor, mode: str, pose: FloatArray, in_box: bool) -> SingularExample:
+    here = inverse(record, pose, mode)
+    return SingularExample(factor, mode, pose, here.inputs[0], here.joints[0], Status(int(here.status[0])), in_box)
 
 
-def _zeros(
-    record: MechanismRecord,
-    factor: Factor,
-    mode: str,
-    poses: FloatArray,
-    solved: SolutionSet,
-    real: NDArray[np.intp],
-) -> list[FloatArray]:
-    """Poses at which the factor may vanish: where it does already, between opposite signs, at the mode's border."""
-    value = solved.factors[factor.name][:, 0]
-
-    def positive(pose: FloatArray) -> bool:
-        here = inverse(record, pose, mode)
-        return bool(here.exists[0]) and float(here.factors[factor.name][0]) > 0.0
-
-    def real_at(pose: FloatArray) -> bool:
-        return bool(inverse(record, pose, mode).exists[0])
-
-    found = [poses[k] for k in real[np.abs(value[real]) <= 1e-12][:1]]
-    plus, minus = real[value[real] > 0], real[value[real] < 0]
-    found += [_border(positive, poses[i], poses[k]) for i, k in zip(plus[:12], minus[:12], strict=False)]
-    unreal = np.setdiff1d(np.arange(len(poses)), real)
-    found += [_border(real_at, poses[i], poses[k]) for i, k in zip(real[:12], unreal[:12], strict=False)]
-    return found
+def _zeros_in_mode(
+    record: MechanismRecord, mode: str, poses: FloatArray, factors: list[Factor]
+) -> list[tuple[Factor, FloatArray]]:
+    """A pose at the zero of each factor that has one in this mode."""
+    samples = _evaluate(record, mode, poses)
+    border = _evaluate(record, mode, _border_poses(record, mode, samples))
+    zeros = []
+    for factor in factors:
+        crossing = _evaluate(record, mode, _crossing_poses(record, mode, samples, factor.name))
+        pose = _clearest(factor.name, (crossing, border, samples))
+        if pose is not None:
+            zeros.append((factor, pose))
+    return zeros
 
 
-def _border(holds: Callable[[FloatArray], bool], inside: FloatArray, outside: FloatArray) -> FloatArray:
-    """The last pose between two at which a property holds."""
-    for _ in range(BISECTIONS):
-        middle = 0.5 * (inside + outside)
-        if holds(middle):
-            inside = middle
-        else:
-            outside = middle
-    return inside
+def _clearest(name: str, candidates: tuple[_Samples, ...]) -> FloatArray | None:
+    """The real pose at the factor's zero at which the fewest other factors vanish."""
+    best: tuple[int, FloatArray] | None = None
+    for samples in candidates:
+        others = samples.others(name)
+        for k in np.flatnonzero(samples.real & (np.abs(samples.factors[name]) <= FACTOR_TOLERANCE)):
+            if best is None or others[k] < best[0]:
+                best = (int(others[k]), samples.poses[k])
+    return None if best is None else best[1]
 
 
-def _size(record: MechanismRecord, factor: Factor, here: SolutionSet) -> float:
-    if not here.exists[0]:
-        return float("inf")
-    return abs(float(relative_factors(record, here.factors)[factor.name][0]))
+def _evaluate(record: MechanismRecord, mode: str, poses: FloatArray) -> _Samples:
+    form = closed_form_of(record)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        _, branch = branch_at(record, poses, mode, Floats())
+        factors = relative_factors(record, form.factors(Floats(), record.values, branch.core))
+    shape = (len(poses),)
+    real = np.broadcast_to(exists(record, form.inverse_margins, branch.margins), shape)
+    divide = [item.name for item in form.factor_list if item.kind != "other"]
+    return _Samples(poses, real, {name: np.broadcast_to(factors[name], shape) for name in divide})
 
 
-def _others(record: MechanismRecord, factor: Factor, here: SolutionSet) -> int:
-    """How many other factors vanish too: the fewer, the clearer the example."""
-    sizes = relative_factors(record, here.factors)
-    return sum(abs(float(size[0])) <= FACTOR_TOLERANCE for name, size in sizes.items() if name != factor.name)
+def _border_poses(record: MechanismRecord, mode: str, samples: _Samples) -> FloatArray:
+    """Last real poses on the way from real samples to others that are not."""
+    real, unreal = np.flatnonzero(samples.real), np.flatnonzero(~samples.real)
+    return _last_inside(lambda poses: _evaluate(record, mode, poses).real, samples.poses, real, unreal)
+
+
+def _crossing_poses(record: MechanismRecord, mode: str, samples: _Samples, name: str) -> FloatArray:
+    """Poses at which a factor changes sign, on the way between real samples of opposite signs."""
+
+    def positive(poses: FloatArray) -> BoolArray:
+        here = _evaluate(record, mode, poses)
+        return here.real & (here.factors[name] > 0)
+
+    plus = np.flatnonzero(samples.real & (samples.factors[name] > 0))
+    minus = np.flatnonzero(samples.real & (samples.factors[name] < 0))
+    return _last_inside(positive, samples.poses, plus, minus)
+
+
+def _last_inside(
+    holds: Callable[[FloatArray], BoolArray], poses: FloatArray, inside: NDArray[np.intp], outside: NDArray[np.intp]
+) -> FloatArray:
+    """The last poses (k, m) at which a property holds, on segments between two sets of samples."""
+    count = min(SEGMENTS, len(inside), len(outside))
+    here, there = poses[inside[:count]], poses[outside[:count]]
+    for _ in range(BISECTIONS if count else 0):
+        middle = 0.5 * (here + there)
+        keep = holds(middle)[:, None]
+        here, there = np.where(keep, middle, here), np.where(keep, there, middle)
+    return here

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
+from manifold3d import Manifold
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from assur.workspace.domain import UniformGrid
 from assur.workspace.fields import Columns, sample
 from assur.workspace.reach import Reach
-from assur.workspace.solids import intersection, solid_where
+from assur.workspace.solids import intersection, solid_where, union
 
 FloatArray = NDArray[np.float64]
 FINEST = 256
@@ -18,22 +21,26 @@ CANDIDATES = 3
 """Triangles that are looked at for the distance of one point."""
 
 
-def near_volume(region: Reach, triangles: FloatArray, distance: float) -> float | None:
-    """Volume of what lies in a region within `distance` of triangles (k, 3, 3), in units of the pose.
+def near_volume(region: Reach, surfaces: Sequence[FloatArray], distance: float) -> float | None:
+    """Volume of what lies in a region within `distance` of surfaces, triangles (k, 3, 3) each, in units of the pose.
 
-    The set is meshed as the solid `distance` - d >= 0 of the distance d, on a grid of its own whose cells
-    are no longer than `distance`; None where that would take more than 256 along a coordinate.
+    Round each surface the solid `distance` - d >= 0 of the distance d is meshed, on a grid of its own whose
+    cells are at most 2/3 of `distance`; None where that would take more than 256 cells along a coordinate.
     """
     box = region.grid.box
-    cells = np.maximum(COARSEST, np.ceil(np.subtract(box.high, box.low) / distance)).astype(int)
+    cells = np.maximum(COARSEST, np.ceil(1.5 * np.subtract(box.high, box.low) / distance)).astype(int)
     if np.any(cells > FINEST):
         return None
     grid = UniformGrid(box, tuple(cells.tolist()))
-    search = _Search(triangles, 0.5 * distance, 1.5 * distance + float(np.linalg.norm(grid.step)))
-    near = solid_where(sample(lambda columns: distance - search.field(columns), grid), grid)
+    near = union([_round(triangles, grid, distance) for triangles in surfaces])
     slab = np.ones(3)
     slab[grid.dimension :] = grid.slack / region.grid.slack
     return float(intersection([region.solid.scale(slab), near]).volume()) / grid.thickness
+
+
+def _round(triangles: FloatArray, grid: UniformGrid, distance: float) -> Manifold:
+    search = _Search(triangles, distance, 2 * distance + float(np.linalg.norm(grid.step)))
+    return solid_where(sample(lambda columns: distance - search.field(columns), grid), grid)
 
 
 def triangles_of(vertices: FloatArray, faces: NDArray[np.int64]) -> FloatArray:

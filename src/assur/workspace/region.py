@@ -185,8 +185,8 @@ def _share(record: MechanismRecord, region: Reach, loci: Sequence[Locus], near: 
         return 1.0
     if any(name not in LENGTHS for name in record.platform.pose):
         return None
-    triangles = np.concatenate([triangles_of(locus.vertices, locus.faces) for locus in loci])
-    close = near_volume(region, triangles, near) if len(triangles) else 0.0
+    surfaces = [triangles_of(locus.vertices, locus.faces) for locus in loci if len(locus.faces)]
+    close = near_volume(region, surfaces, near) if surfaces else 0.0
     return None if close is None else close / volume
 
 

@@ -66,6 +66,11 @@ def intersection(solids: Sequence[Manifold]) -> Manifold:
     return Manifold.batch_boolean(list(solids), OpType.Intersect)
 
 
+def union(solids: Sequence[Manifold]) -> Manifold:
+    """What lies in any of the solids."""
+    return Manifold.batch_boolean(list(solids), OpType.Add)
+
+
 def mesh(solid: Manifold) -> tuple[FloatArray, Faces]:
     """Vertices (n, 3) and faces (k, 3), seen from outside counter-clockwise."""
     data = solid.to_mesh64()

@@ -1,0 +1,77 @@
+"""`audit`: every printed number of a mechanism's source beside ours, and the evidence of every erratum."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from assur.audit.counts import Count, count_rows
+from assur.audit.decoupling import Dependence, dependence_rows
+from assur.audit.equations import Equation, equation_rows
+from assur.audit.errata import errata
+from assur.audit.reach import Range, range_rows
+from assur.audit.reference import Reference, read_reference
+from assur.audit.rows import Audit, Erratum, Row
+from assur.audit.statements import Statement, statement_rows
+from assur.audit.tables import Table, direct_rows, inverse_rows
+from assur.audit.topology import Decomposition, PocSet, decomposition_rows, poc_rows
+from assur.errors import UnknownNameError
+from assur.model.mechanism import MechanismRecord
+from assur.model.schema import Entry
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of reference entry: its form in the file, and what makes rows of it."""
+
+    form: type[Entry]
+    rows: Callable[[MechanismRecord, Reference, Any], list[Row]]
+
+
+KINDS: Mapping[str, Kind] = {
+    "poc": Kind(PocSet, poc_rows),
+    "decomposition": Kind(Decomposition, decomposition_rows),
+    "equation": Kind(Equation, equation_rows),
+    "dependence": Kind(Dependence, dependence_rows),
+    "direct": Kind(Table, direct_rows),
+    "inverse": Kind(Table, inverse_rows),
+    "count": Kind(Count, count_rows),
+    "range": Kind(Range, range_rows),
+}
+"""Array of tables in a reference file -> what it is. Rows come in this order; statements come last."""
+
+FORMS: Mapping[str, type[Entry]] = {**{name: kind.form for name, kind in KINDS.items()}, "statement": Statement}
+
+
+def audit(record: MechanismRecord) -> Audit:
+    """Check every number that the reference data of a mechanism say is printed, and every erratum's evidence.
+
+    That a printed number is wrong is a result; that evidence does not hold is a failure of ours (`claims_hold`).
+
+    Errors:
+        UsageError: there are no reference data, or the mechanism has other dimensions than they were printed for.
+        MechanismFileError: a reference file has faults.
+
+    Example:
+        >>> from assur.model.registry import load_record
+        >>> found = audit(load_record("zeng2019"))
+        >>> next((row.printed, round(row.computed, 4), row.verdict, row.erratum) for row in found.rows
+        ...      if (row.source, row.quantity) == ("Table 1 row 4", "x"))
+        ('-128.8290', -83.0873, 'wrong', 'E3')
+    """
+    reference = read_reference(record, FORMS)
+    checked = errata(record)
+    rows = [
+        row for name, kind in KINDS.items() for entry in reference.entries[name] for row in kind.rows(record, reference, entry)
+    ]
+    rows += statement_rows(reference.entries["statement"], checked)
+    _check_ids(rows, checked, record)
+    return Audit(record.name, record.source, reference.about.origin, tuple(rows), checked)
+
+
+def _check_ids(rows: list[Row], checked: tuple[Erratum, ...], record: MechanismRecord) -> None:
+    ids = [erratum.id for erratum in checked]
+    for row in rows:
+        if row.erratum and row.erratum not in ids:
+            raise UnknownNameError(f"erratum of {record.name}", row.erratum, ids)

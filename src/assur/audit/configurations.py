@@ -1,0 +1,115 @@
+"""Random assembled configurations of the joint graph, and a random motion through each of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import UsageError
+from assur.kinematics.closure import assemble, characteristic_length, loop_twists
+from assur.kinematics.home import home_values
+from assur.kinematics.modes import mode_text
+from assur.kinematics.position import inverse
+from assur.kinematics.status import Status
+from assur.model.joint_graph import frames
+from assur.model.mechanism import MechanismRecord
+
+FloatArray = NDArray[np.float64]
+COUNT = 60
+DRAWN = 600
+SHAKE = 1e-2
+
+
+@dataclass(frozen=True, eq=False)
+class Configurations:
+    """N regular configurations near which the closed form says that there is one, closed by the joint graph.
+
+    Attributes:
+        values: (N, n) joint values, closed by least squares on every loop.
+        rates: (N, n) joint rates with which all loops stay closed, drawn from their null space; angles turn
+            at about 1 rad, lengths move at about the characteristic length per unit of time.
+        modes: the working mode of each.
+    """
+
+    values: FloatArray
+    rates: FloatArray
+    modes: tuple[str, ...]
+
+
+@lru_cache(maxsize=8)
+def configurations(record: MechanismRecord, seed: int = 0) -> Configurations:
+    """The configurations on which equations and ranks are tried, in all working modes that are regular there.
+
+    The closed form says only where to start: its joint values are shaken by about a hundredth of a radian
+    and of the characteristic length, and the loops of the joint graph are closed anew.
+
+    >>> from assur.model.registry import load_record
+    >>> configurations(load_record("zeng2019")).values.shape
+    (60, 17)
+    """
+    rng = np.random.default_rng(seed)
+    poses = random_poses(record, DRAWN, rng)
+    found = inverse(record, poses)
+    rows, branches = np.nonzero(found.exists & (found.status == Status.regular))
+    if len(rows) < COUNT:
+        raise UsageError(f"{record.name}: no {COUNT} regular configurations were found near home")
+    chosen = rng.choice(len(rows), size=COUNT, replace=False)
+    rows, branches = rows[chosen], branches[chosen]
+    start = found.joints[rows, branches]
+    closed = assemble(record, start + rng.normal(size=start.shape) * SHAKE * joint_scales(record))
+    kept = closed.closed
+    values = closed.values[kept]
+    modes = [mode_text(found.modes_asked[branch]) for branch in branches[kept]]
+    return Configurations(values, _motions(record, values, rng), tuple(modes))
+
+
+def random_poses(record: MechanismRecord, count: int, rng: np.random.Generator) -> FloatArray:
+    """Poses (count, m) around the home pose, lengths within three characteristic lengths, angles at will."""
+    placed = frames(record, home_values(record))[record.platform.link]
+    point = placed[0] @ record.platform.point + placed[1]
+    length = 3.0 * characteristic_length(record)
+    columns = []
+    for name in record.platform.pose:
+        if name in ("x", "y", "z"):
+            columns.append(point["xyz".index(name)] + rng.uniform(-length, length, count))
+        else:
+            columns.append(rng.uniform(-np.pi, np.pi, count))
+    return np.stack(columns, axis=-1)
+
+
+def joint_scales(record: MechanismRecord) -> FloatArray:
+    """Per joint coordinate (n,): 1 rad, or the characteristic length."""
+    length = characteristic_length(record)
+    return np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
+
+
+def null_space(matrix: FloatArray, relative: float = 1e-8) -> FloatArray:
+    """Orthonormal basis (n, F) of the null space of a matrix (r, n).
+
+    >>> null_space(np.array([[1.0, 0.0], [2.0, 0.0]])).T.round(6) + 0.0
+    array([[0., 1.]])
+    """
+    _, singular, rows = np.linalg.svd(matrix)
+    rank = int(np.sum(singular > relative * max(singular[0], np.finfo(float).tiny)))
+    return np.asarray(rows[rank:].T)
+
+
+def scaled_closure(record: MechanismRecord, values: FloatArray) -> FloatArray:
+    """Closure Jacobian (..., 6v, n) in numbers of one size: lengths in units of the characteristic length."""
+    matrix = loop_twists(record, values)
+    length = characteristic_length(record)
+    rows = np.tile([1.0, 1.0, 1.0, 1 / length, 1 / length, 1 / length], matrix.shape[-2] // 6)
+    return np.asarray(matrix * rows[:, None] * joint_scales(record))
+
+
+def _motions(record: MechanismRecord, values: FloatArray, rng: np.random.Generator) -> FloatArray:
+    """A random direction (N, n) in which the loops stay closed, at each configuration."""
+    scales = joint_scales(record)
+    rates = []
+    for matrix in scaled_closure(record, values):
+        basis = null_space(matrix)
+        rates.append(scales * (basis @ rng.normal(size=basis.shape[1])))
+    return np.array(rates)

@@ -1,0 +1,82 @@
+"""The verdict on one configuration, as data and as a person reads it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from assur.cli.options import Outcome
+from assur.cli.output import heading, table
+from assur.cli.positions import EXIT_CODES, failures
+from assur.cli.quantities import count, pose_text, short, style_of
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from rich.console import RenderableType
+
+    from assur.mechanism import Mechanism
+
+
+def outcome(record: Mechanism, pose: NDArray[Any], mode: str) -> Outcome:
+    """The outcome for one pose (m,) in a working mode."""
+    data = verdict_data(record, pose, mode)
+    return Outcome(data, lambda: _shown(record, data), EXIT_CODES.get(data["kind"], 0))
+
+
+def verdict_data(record: Mechanism, pose: NDArray[Any], mode: str) -> dict[str, Any]:
+    """The verdict as plain data; for a pose that the mode does not reach, which quantity is negative."""
+    from assur.kinematics.answers import answer, pose_at_border
+    from assur.results.json_text import plain
+
+    verdict = record.singularity(pose, mode)
+    return {
+        "mechanism": record.name,
+        "unit": record.unit,
+        "angle": record.angle,
+        "coordinates": list(record.platform.pose),
+        "pose": plain(pose_at_border(record, pose)),
+        "mode": mode,
+        **plain(verdict),
+        "failures": answer(record.inverse(pose, mode))["failures"],
+    }
+
+
+def _shown(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
+    near = ", near_singular" if data["near"] else ""
+    yield heading(f"{data['mechanism']}, singularity: {data['kind']}{near}")
+    yield f"at {pose_text(style_of(record), data['coordinates'], data['pose'])}, working mode {data['mode']}"
+    yield ""
+    if data["failures"]:
+        yield failures(data["failures"])
+    if data["factors"]:
+        yield from _factors(record, data)
+
+
+def _factors(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
+    from assur.kinematics.answers import power
+    from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of
+
+    listed = closed_form_of(record).factor_list
+    zero = {name: abs(size) <= FACTOR_TOLERANCE for name, size in data["relative"].items()}
+    rows = [
+        (
+            item.name,
+            f"{short(data['factors'][item.name])} {power(record.unit, item.unit)}".strip(),
+            "= 0" if zero[item.name] else f"{data['relative'][item.name]:.4f}",
+            item.kind,
+            item.meaning,
+        )
+        for item in listed
+    ]
+    columns = ("factor", "value", "share", "kind", "zero where")
+    styles = ["yellow" if zero[item.name] else "" for item in listed]
+    yield table(columns, rows, left=("factor", "kind", "zero where"), styles=styles)
+    units = {kind: power(record.unit, sum(f.unit for f in listed if f.kind == kind)) for kind in ("parallel", "serial")}
+    yield f"share: of the factor's scale; zero within {FACTOR_TOLERANCE:g}"
+    yield f"det Jp = {short(data['det_jp'])} {units['parallel']}, det Jq = {short(data['det_jq'])} {units['serial']}"
+    exists = data["condition"] is not None
+    yield f"condition number of Jp^-1 Jq: {short(data['condition']) if exists else 'none, singular'}"
+    yield f"by det Jp and det Jq alone: {data['reduced_kind']}"
+    yield f"joint graph: rank {data['rank']} here, {data['generic_rank']} in general; {count(data['freedoms'], 'freedom')}"
+    if data["kind"] != "regular" or data["near"]:
+        yield f"closest to zero: {data['closest']}"

@@ -1,0 +1,36 @@
+"""`assur direct`: every pose at given inputs."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from assur.cli.numbers import numbers
+from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+
+
+def direct(
+    mechanism: MechanismName,
+    /,
+    *inputs: Annotated[str, Parameter(metavar="INPUT", help="One value per input, in the order of `assur show`.")],
+    mode: Annotated[str | None, Parameter(help="Only this assembly mode, as +++ (`assur show` names its signs).")] = None,
+    shared: Shared = SHARED_DEFAULTS,
+) -> Outcome:
+    """Every pose of the platform at given inputs.
+
+    Each solution comes with its assembly mode, its working mode, its status and
+    the gap that is left when every loop of the joint graph is closed with it.
+    Exit code 4: it is proved that there is none; 5: undecided.
+
+    For example:
+        assur direct zeng2019 162.6907 -143.3209 -24.6776
+        assur direct fivebar 127 53 --set l2=200 --json
+    """
+    record = shared.mechanism(mechanism)
+    from assur.cli.positions import outcome
+    from assur.kinematics.answers import inputs_from_border
+    from assur.kinematics.border import input_names
+
+    values = numbers(inputs, input_names(record), f"inputs of {record.name}")
+    return outcome(record, record.direct(inputs_from_border(record, values), mode))

@@ -1,0 +1,35 @@
+"""`assur inverse`: all inputs at a given pose."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from assur.cli.numbers import numbers
+from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+
+
+def inverse(
+    mechanism: MechanismName,
+    /,
+    *pose: Annotated[str, Parameter(metavar="COORDINATE", help="One value per pose coordinate, such as x y z.")],
+    mode: Annotated[str | None, Parameter(help="Only this working mode, as ++-++ (`assur show` names its signs).")] = None,
+    shared: Shared = SHARED_DEFAULTS,
+) -> Outcome:
+    """All inputs that hold the platform at a given pose.
+
+    Each solution comes with its working mode, its assembly mode, its status and
+    the gap that is left when every loop of the joint graph is closed with it.
+    Exit code 4: it is proved that there is none; 5: undecided.
+
+    For example:
+        assur inverse zeng2019 -15.4714 9.6849 456.3315
+        assur inverse zeng2019 -15.4714 9.6849 456.3315 --mode ++-++
+    """
+    record = shared.mechanism(mechanism)
+    from assur.cli.positions import outcome
+    from assur.kinematics.answers import pose_from_border
+
+    values = numbers(pose, record.platform.pose, f"pose of {record.name}")
+    return outcome(record, record.inverse(pose_from_border(record, values), mode))

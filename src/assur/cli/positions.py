@@ -1,0 +1,142 @@
+"""How the answer to a direct or an inverse problem reads, and what exit code it gives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from assur.cli.options import Outcome
+from assur.cli.output import heading, table
+from assur.cli.quantities import Style, count, pose_text, short, style_of, tiny
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from assur.kinematics.solutions import SolutionSet
+    from assur.mechanism import Mechanism
+
+NO_SOLUTION = 4
+UNDECIDED = 5
+EXIT_CODES = {"unreachable": NO_SOLUTION, "undecided": UNDECIDED}
+
+
+def outcome(record: Mechanism, found: SolutionSet) -> Outcome:
+    """The outcome of one problem: exit code 4 where it is proved that no solution exists, 5 where undecided."""
+    from assur.kinematics.answers import answer
+
+    data = answer(found)
+    branches = len(found.modes_asked)
+    shown = lambda: _shown(record, data, branches)  # noqa: E731  # built only where a person reads
+    return Outcome(data, shown, EXIT_CODES.get(data["status"], 0))
+
+
+def _shown(record: Mechanism, data: dict[str, Any], branches: int) -> Iterable[RenderableType]:
+    style = style_of(record)
+    problem = "direct" if "inputs" in data else "inverse"
+    yield heading(f"{data['mechanism']}, {problem}: {_headline(data, branches)}")
+    yield _given(record, data, style)
+    yield ""
+    if data["solutions"]:
+        yield _solutions(record, data, style)
+    if data["curves"]:
+        yield from _curves(data, style)
+    if data["failures"]:
+        yield failures(data["failures"])
+    yield _completeness(record, data, branches)
+    yield f"mode: the signs of {_signs(record, data)}"
+
+
+def _headline(data: dict[str, Any], branches: int) -> str:
+    among = f"among {count(branches, 'branch')}" if branches > 1 else "in this mode"
+    found = count(len(data["solutions"]), "solution")
+    if data["status"] == "unreachable":
+        return f"unreachable, no solution {among}"
+    if data["curves"]:
+        return f"self_motion, {count(len(data['curves']), 'curve')} of poses {among}"
+    return f"{data['status']}, {found} {among}"
+
+
+def _given(record: Mechanism, data: dict[str, Any], style: Style) -> str:
+    if "inputs" in data:
+        kinds = [item.coordinate.kind for item in record.inputs]
+        given = zip(data["input_names"], kinds, data["inputs"], strict=True)
+        parts = [f"{name} = {style.kind(kind, value)} {style.kind_unit(kind)}" for name, kind, value in given]
+    else:
+        parts = [pose_text(style, data["coordinates"], data["pose"])]
+    return f"at {', '.join(parts)}"
+
+
+def _solutions(record: Mechanism, data: dict[str, Any], style: Style) -> RenderableType:
+    kinds = [item.coordinate.kind for item in record.inputs]
+    if "inputs" in data:
+        titles = [f"{name} [{style.coordinate_unit(name)}]" for name in data["coordinates"]]
+        other = "working_mode"
+    else:
+        names = zip(data["input_names"], kinds, strict=True)
+        titles = [f"{name} [{style.kind_unit(kind)}]" for name, kind in names]
+        other = "assembly_mode"
+
+    def values(item: dict[str, Any]) -> list[str]:
+        if "pose" in item:
+            return [style.coordinate(*pair) for pair in zip(data["coordinates"], item["pose"], strict=True)]
+        return [style.kind(*pair) for pair in zip(kinds, item["inputs"], strict=True)]
+
+    rows = [
+        (item["mode"], *values(item), item[other], item["status"], tiny(item["residual"])) for item in data["solutions"]
+    ]
+    marks = ["" if item["status"] == "regular" else "yellow" for item in data["solutions"]]
+    columns = ("mode", *titles, other.partition("_")[0], "status", f"gap [{style.unit}]")
+    return table(columns, rows, left=("status",), styles=marks)
+
+
+def _curves(data: dict[str, Any], style: Style) -> Iterable[RenderableType]:
+    yield "The platform moves while every input stands still, on"
+    rows = []
+    for curve in data["curves"]:
+        low, high = curve["interval"]
+        poses = curve["poses"]
+        picked = (poses[0], poses[len(poses) // 2], poses[-1])
+        points = "\n".join(
+            f"({', '.join(style.coordinate(*pair) for pair in zip(data['coordinates'], pose, strict=True))})"
+            for pose in picked
+        )
+        arc = f"{curve['parameter']} = {style.degrees(low)}\n.. {style.degrees(high)}"
+        rows.append((curve["mode"], arc, points))
+    yield table(
+        ("mode", f"arc [{style.angle}]", f"pose at its start, middle and end [{_pose_units(data, style)}]"),
+        rows,
+        left=("mode",),
+    )
+
+
+def _pose_units(data: dict[str, Any], style: Style) -> str:
+    units = [style.coordinate_unit(name) for name in data["coordinates"]]
+    return units[0] if len(set(units)) == 1 else ", ".join(units)
+
+
+def failures(items: list[dict[str, Any]]) -> RenderableType:
+    """Why no solution exists: which quantity is negative and by how much, where it comes nearest to zero."""
+    rows = [
+        (f"{item['quantity']} < 0", f"{short(item['value'])} {item['unit']}".strip(), item["meaning"], str(item["branches"]))
+        for item in items
+    ]
+    return table(("negative", "by at least", "which is", "branches"), rows, left=("negative", "which is"))
+
+
+def _completeness(record: Mechanism, data: dict[str, Any], branches: int) -> str:
+    form = record.closed_form
+    because = f": {form.reduced_because}" if form is not None and form.reduced_because else ""
+    reduced = data["complete_for"] == "reduced"
+    model = f"the reduced model{because}" if reduced else "the joint graph"
+    if data["status"] == "undecided":
+        return f"Undecided: the closed form of {model} degenerates here, and no curve of poses is known to it."
+    if branches == 1:
+        return f"Only this mode was asked for. By the closed form of {model}."
+    return f"Complete, by the closed form, for {model}."
+
+
+def _signs(record: Mechanism, data: dict[str, Any]) -> str:
+    form = record.closed_form
+    if data["curves"] and form is not None and form.self_motion is not None:
+        return ", ".join(form.self_motion.signs)
+    return ", ".join(record.modes.assembly if "inputs" in data else record.modes.working)

@@ -1,0 +1,212 @@
+"""What `assur workspace` is asked, and how its answer reads."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from assur.cli.numbers import assignments, interval, number, whole_number
+from assur.cli.options import Outcome, Shared
+from assur.cli.output import heading, table
+from assur.cli.paths import output_file
+from assur.cli.progress import progress
+from assur.cli.quantities import is_length, short
+from assur.errors import UnknownNameError, UsageError
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from assur.mechanism import Mechanism
+    from assur.workspace.region import Workspace
+
+Interval = tuple[float, float]
+ENDINGS = (".json", ".obj")
+
+
+@dataclass(frozen=True)
+class Question:
+    """One workspace problem: lengths in the mechanism's unit, angles in rad."""
+
+    mode: str
+    box: dict[str, Interval]
+    strokes: dict[str, Interval]
+    resolution: int
+    sections: tuple[float, ...] | None
+    near: float
+
+
+def question(
+    record: Mechanism,
+    mode: str | None,
+    box: Sequence[str],
+    stroke: Sequence[str],
+    resolution: str,
+    section: Sequence[str],
+    near: str,
+) -> Question:
+    """What was asked for, with every word checked."""
+    last = record.platform.pose[-1]
+    cuts = tuple(number(text, "--section") * _factor(record, is_length(last)) for text in section)
+    distance = number(near, "--near")
+    if distance <= 0:
+        raise UsageError(f"--near: {near.strip()} is not a positive length")
+    return Question(
+        mode=mode or record.modes.default_working,
+        box=_box(record, box),
+        strokes=_strokes(record, stroke),
+        resolution=whole_number(resolution, "--resolution"),
+        sections=cuts or None,
+        near=distance,
+    )
+
+
+def target(text: str) -> Path:
+    """The file that is to be written, if it can be."""
+    return output_file(text, ENDINGS)
+
+
+def outcome(record: Mechanism, asked: Question, written: Path | None, shared: Shared) -> Outcome:
+    """The workspace as data and for a person; written to a file where one is named."""
+    from assur.results.files import write_whole
+    from assur.workspace.region import workspace
+
+    with progress("workspace", shared) as step:
+        found = workspace(
+            record,
+            asked.mode,
+            asked.box,
+            asked.strokes,
+            asked.resolution,
+            asked.sections,
+            asked.near,
+            step,
+        )
+    data = {
+        "mechanism": record.name,
+        "coordinates": list(record.platform.pose),
+        **found.to_json(),
+        "resolution": asked.resolution,
+        "strokes": {name: list(pair) for name, pair in asked.strokes.items()},
+    }
+    if written is not None:
+        write_whole(written, _content(written, found, data))
+    return Outcome(data, lambda: _shown(record, data, written))
+
+
+def _box(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
+    example = f"{record.platform.pose[0]}=-110:90"
+    found = {}
+    for name, text in assignments(texts, "--box", example).items():
+        if name not in record.platform.pose:
+            raise UnknownNameError(f"pose coordinate of {record.name}", name, record.platform.pose)
+        found[name] = _inside(record, interval(text, f"--box {name}", example), is_length(name))
+    return found
+
+
+def _strokes(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
+    """Strokes by input; one without a name is for every input that has none of its own."""
+    lengths = {item.name: item.coordinate.kind == "length" for item in record.inputs}
+    example = f"{record.inputs[0].name}=-300:300"
+    common = [text for text in texts if "=" not in text]
+    if len(common) > 1:
+        raise UsageError("--stroke: two intervals for all inputs", hint=f"name the input, as --stroke {example}")
+    found = {}
+    for text in common:
+        pair = interval(text, "--stroke", example)
+        found = {name: _inside(record, pair, length) for name, length in lengths.items()}
+    for name, text in assignments([text for text in texts if "=" in text], "--stroke", example).items():
+        if name not in lengths:
+            raise UnknownNameError(f"input of {record.name}", name, lengths)
+        found[name] = _inside(record, interval(text, f"--stroke {name}", example), lengths[name])
+    return found
+
+
+def _inside(record: Mechanism, pair: Interval, length: bool) -> Interval:
+    factor = _factor(record, length)
+    return pair[0] * factor, pair[1] * factor
+
+
+def _factor(record: Mechanism, length: bool) -> float:
+    return math.pi / 180 if record.angle == "deg" and not length else 1.0
+
+
+def _content(path: Path, found: Workspace, data: dict[str, Any]) -> str:
+    from assur.results.json_text import json_text
+
+    if path.suffix.lower() == ".obj":
+        points = [f"v {' '.join(f'{value:.9g}' for value in vertex)}" for vertex in found.vertices.tolist()]
+        faces = [f"f {' '.join(str(index + 1) for index in face)}" for face in found.faces.tolist()]
+        return "\n".join([f"# {found.mechanism}, working mode {found.mode}", *points, *faces, ""])
+    polygons = [[polygon.tolist() for polygon in section.polygons] for section in found.sections]
+    return json_text({**data, "section_polygons": polygons}) + "\n"
+
+
+def _shown(record: Mechanism, data: dict[str, Any], written: Path | None) -> Iterable[RenderableType]:
+    from assur.kinematics.answers import power
+
+    dimension = len(data["coordinates"])
+    yield heading(f"{data['mechanism']}, workspace of working mode {data['mode']}")
+    yield f"box: {_intervals(record, dict(zip(data['coordinates'], data['box'], strict=True)))}"
+    if data["strokes"]:
+        yield f"strokes: {_intervals(record, data['strokes'])}"
+    what = "volume" if dimension == 3 else "area"
+    yield f"{what}: {with_error(data['volume'], data['volume_error'])} {data['unit']} (error: against half the resolution)"
+    yield ""
+    surface = power(record.unit, dimension - 1)
+    yield from _sections(data, surface)
+    yield from _singular(record, data, surface)
+    if written is not None:
+        yield f"written: {written}"
+
+
+def _intervals(record: Mechanism, pairs: dict[str, Sequence[float]]) -> str:
+    lengths = {item.name: item.coordinate.kind == "length" for item in record.inputs}
+    parts = []
+    for name, (low, high) in pairs.items():
+        length = lengths.get(name, is_length(name))
+        factor = _factor(record, length)
+        parts.append(f"{name} {low / factor:g} .. {high / factor:g} {record.unit if length else record.angle}")
+    return ", ".join(parts)
+
+
+def _sections(data: dict[str, Any], surface: str) -> Iterable[RenderableType]:
+    if not data["sections"]:
+        return
+    last = data["coordinates"][-1]
+    yield table(
+        (f"section at {last}", f"area [{surface}]"),
+        [(f"{item[last]:g}", f"{item['area']:.7g}") for item in data["sections"]],
+    )
+    yield ""
+
+
+def _singular(record: Mechanism, data: dict[str, Any], surface: str) -> Iterable[RenderableType]:
+    singular = data["parallel_singular"]
+    rows = [
+        (name, "the whole mode" if item["everywhere"] else short(item["area"]) if item["faces"] else "none", item["meaning"])
+        for name, item in singular["factors"].items()
+    ]
+    yield heading("parallel singularities inside")
+    yield table(("factor", f"area [{surface}]", "zero where"), rows, left=("factor", "zero where"))
+    share, near = singular["share"], f"{singular['near']:g} {record.unit}"
+    if share is None:
+        yield f"share within {near} of one: not known"
+    else:
+        yield f"share within {near} of one: {100 * share:.2f} %"
+
+
+def with_error(value: float, error: float) -> str:
+    """A value and its error, both to the second digit of the error.
+
+    >>> with_error(22813484.36, 3684.24), with_error(2.0, 0.0)
+    ('22813500 ± 3700', '2 ± 0')
+    """
+    if error == 0.0 or not math.isfinite(error):
+        return f"{value:.10g} ± {error:g}"
+    decimals = 1 - math.floor(math.log10(error))
+    if decimals > 0:
+        return f"{value:.{decimals}f} ± {error:.{decimals}f}"
+    return f"{round(value, decimals):.0f} ± {round(error, decimals):.0f}"

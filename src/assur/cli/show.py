@@ -1,0 +1,156 @@
+"""`assur show`: one mechanism, as its file says and as its joint graph counts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+from assur.cli.output import heading, table
+from assur.cli.quantities import Style, count, style_of, tiny
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from assur.mechanism import Mechanism
+
+
+def show(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> Outcome:
+    """One mechanism: dimensions, joints, inputs, modes, mobility.
+
+    Mobility is that of the whole joint graph by the rank of its closure at the
+    assembled home configuration, nothing collapsed.
+
+    For example:
+        assur show zeng2019
+        assur show ./my.toml --set l2=300 --json
+    """
+    record = shared.mechanism(mechanism)
+    data = description(record)
+    return Outcome(data, lambda: _shown(data, style_of(record)))
+
+
+def description(record: Mechanism) -> dict[str, Any]:
+    """The mechanism as plain data; angles in its angle unit."""
+    from assur.kinematics.answers import angle_at_border
+    from assur.kinematics.border import LENGTHS
+    from assur.kinematics.closure import closure_error
+
+    home = record.home_values
+    free = record.mobility(home)
+    form = record.closed_form
+    at_home = [
+        float(angle_at_border(record, home[item.index]) if item.kind == "angle" else home[item.index])
+        for item in record.coordinates
+    ]
+    low_high = {
+        name: pair if name in LENGTHS else angle_at_border(record, pair) for name, pair in record.box.items()
+    }
+    return {
+        "mechanism": record.name,
+        "title": record.title,
+        "source": record.source,
+        "file": str(record.file),
+        "unit": record.unit,
+        "angle": record.angle,
+        "coordinates": list(record.platform.pose),
+        "orientation": record.platform.orientation,
+        "platform": record.platform.link,
+        "base": record.base,
+        "parameters": [
+            {"name": item.name, "value": item.value, "unit": item.unit, "meaning": item.meaning, "sign": item.sign}
+            for item in record.parameters.values()
+        ],
+        "links": [{"name": item.name, "meaning": item.meaning} for item in record.links.values()],
+        "joints": [
+            {
+                "name": item.name,
+                "alias": item.alias,
+                "type": item.type.name,
+                "kinds": list(item.type.kinds),
+                "parent": item.parent,
+                "child": item.child,
+            }
+            for item in record.joints.values()
+        ],
+        "inputs": [
+            {"name": item.name, "joint": item.coordinate.joint, "kind": item.coordinate.kind} for item in record.inputs
+        ],
+        "modes": {
+            "working": {name: formula.text for name, formula in record.modes.working.items()},
+            "assembly": {name: formula.text for name, formula in record.modes.assembly.items()},
+            "default_working": record.modes.default_working,
+            "default_assembly": record.modes.default_assembly,
+        },
+        "box": {name: list(map(float, pair)) for name, pair in low_high.items()},
+        "home": {
+            "joints": {
+                joint.name: [at_home[item.index] for item in record.joint_coordinates(joint.name)]
+                for joint in record.joints.values()
+            },
+            "platform_point": _platform_point(record, home),
+            "residual": float(closure_error(record, home)),
+        },
+        "mobility": {"freedoms": int(free.freedoms), "rank": int(free.rank), "redundant": int(free.redundant)},
+        "closed_form": None
+        if form is None
+        else {"complete_for": form.complete_for, "reduced_because": form.reduced_because},
+    }
+
+
+def _platform_point(record: Mechanism, home: Any) -> list[float]:
+    rotation, origin = record.frames(home)[record.platform.link]
+    return [float(value) for value in rotation @ record.platform.point + origin]
+
+
+def _shown(data: dict[str, Any], style: Style) -> Iterable[RenderableType]:
+    free, form, home = data["mobility"], data["closed_form"], data["home"]
+    yield heading(f"{data['mechanism']}: {data['title']}")
+    yield f"source   {data['source']}"
+    yield f"file     {data['file']}"
+    yield f"units    {data['unit']}, {data['angle']}"
+    yield f"pose     {', '.join(data['coordinates'])} of link '{data['platform']}', orientation {data['orientation']}"
+    yield f"inputs   {', '.join(item['name'] + ' (' + item['joint'] + ')' for item in data['inputs'])}"
+    yield (
+        f"mobility F = {free['freedoms']}: {count(len(data['joints']), 'joint')}, {count(len(data['links']), 'link')}, "
+        f"rank {free['rank']} of the closure of the whole joint graph, "
+        f"{count(free['redundant'], 'redundant constraint')}"
+    )
+    yield _form_line(form)
+    yield ""
+    yield table(
+        ("dimension", "value", "unit", "meaning"),
+        [(item["name"], f"{item['value']:.10g}", item["unit"], item["meaning"]) for item in data["parameters"]],
+        left=("dimension", "unit", "meaning"),
+    )
+    yield ""
+    yield table(
+        ("joint", "type", "from", "to", f"at home [{style.unit}, {style.angle}]"),
+        [_joint_row(item, home["joints"], style) for item in data["joints"]],
+        left=("joint", "type", "from", "to"),
+    )
+    point = ", ".join(style.length(value) for value in home["platform_point"])
+    yield f"home: platform point at ({point}) {style.unit}, loops closed to {tiny(home['residual'])} {style.unit}"
+    yield ""
+    yield from _modes(data["modes"])
+    for name, (low, high) in data["box"].items():
+        yield f"box: {name} from {low:g} to {high:g} {style.coordinate_unit(name)}"
+
+
+def _form_line(form: dict[str, Any] | None) -> str:
+    if form is None:
+        return "closed   no closed form: none beside the file"
+    because = f" ({form['reduced_because']})" if form["reduced_because"] else ""
+    return f"closed   closed form, complete for the {form['complete_for'].replace('_', ' ')} model{because}"
+
+
+def _joint_row(item: dict[str, Any], home: dict[str, list[float]], style: Style) -> tuple[str, ...]:
+    alias = f"{item['name']} ({item['alias']})" if item["alias"] else item["name"]
+    values = [style.kind(kind, value) for kind, value in zip(item["kinds"], home[item["name"]], strict=True)]
+    return alias, item["type"], item["parent"], item["child"], " ".join(values)
+
+
+def _modes(modes: dict[str, Any]) -> Iterable[RenderableType]:
+    for problem in ("working", "assembly"):
+        signs = ", ".join(f"{name} = sign of {text}" for name, text in modes[problem].items())
+        yield f"{problem} mode: {signs}; default {modes['default_' + problem]}"

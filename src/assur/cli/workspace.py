@@ -1,0 +1,57 @@
+"""`assur workspace`: the poses that one working mode reaches."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+
+
+def workspace(
+    mechanism: MechanismName,
+    /,
+    *,
+    mode: Annotated[
+        str | None, Parameter(help="Working mode, as ++-++; the default of the mechanism's file if left out.")
+    ] = None,
+    box: Annotated[
+        tuple[str, ...],
+        Parameter(metavar="NAME=LOW:HIGH", help="Where to look along one coordinate; the file's box if left out."),
+    ] = (),
+    stroke: Annotated[
+        tuple[str, ...],
+        Parameter(metavar="[NAME=]LOW:HIGH", help="Limits of one input, or of all inputs if no name is given."),
+    ] = (),
+    resolution: Annotated[str, Parameter(metavar="CELLS", help="Cells along each coordinate, 64 if left out.")] = "64",
+    section: Annotated[
+        tuple[str, ...],
+        Parameter(metavar="VALUE", help="Cut across the last coordinate; the file's sections if left out."),
+    ] = (),
+    near: Annotated[
+        str, Parameter(metavar="LENGTH", help="How near to a parallel singularity counts as near, 10 if left out.")
+    ] = "10",
+    output: Annotated[
+        str | None, Parameter(name=("-o", "--output"), metavar="FILE", help="Write the answer (.json) or surface (.obj).")
+    ] = None,
+    shared: Shared = SHARED_DEFAULTS,
+) -> Outcome:
+    """The workspace of one working mode: volume, sections, loci.
+
+    The volume comes with an estimate of its error, from two resolutions. Where
+    a factor of det Jp vanishes inside, the surface's area is given, and the
+    share of the volume that is near one. --box, --stroke and --section may be
+    repeated; lengths and angles are in the mechanism's units.
+
+    For example:
+        assur workspace zeng2019
+        assur workspace zeng2019 --box x=-110:80 --stroke -300:300 -o out.obj
+        assur workspace zeng2019 --mode ++++- --stroke yA1=-200:200 --json
+    """
+    record = shared.mechanism(mechanism)
+    from assur.cli import regions
+
+    asked = regions.question(record, mode, box, stroke, resolution, section, near)
+    target = regions.target(output) if output is not None else None
+    return regions.outcome(record, asked, target, shared)

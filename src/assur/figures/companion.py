@@ -1,0 +1,198 @@
+"""The companion `figures.toml` beside a mechanism's file: what its source calls the parts, and views that show them.
+
+Everything in it is optional. It says names, numbers, views and which configuration is drawn, never geometry.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from assur.errors import MechanismFileError, UnknownNameError
+from assur.figures.camera import Camera, oblique, orthographic
+from assur.model.faults import Faults
+from assur.model.formula import FormulaError, parse
+from assur.model.mechanism import MechanismRecord
+from assur.model.toml_source import TomlSource, read_toml
+
+FILE = "figures.toml"
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+
+class Orthographic(_Part):
+    """Seen from far away, from an azimuth and an elevation in degrees."""
+
+    kind: Literal["orthographic"]
+    azimuth: Annotated[float, Field(ge=-360, le=360)]
+    elevation: Annotated[float, Field(ge=-90, le=90)]
+
+
+class Oblique(_Part):
+    """Two axes in true shape, the third at an angle in degrees and shortened by a scale."""
+
+    kind: Literal["oblique"]
+    right: Literal["x", "y", "z"]
+    up: Literal["x", "y", "z"]
+    angle: float
+    scale: Annotated[float, Field(gt=0, le=1)]
+
+
+class Bar(_Part):
+    """A straight part of a link between two of its joints or lettered points."""
+
+    link: str
+    ends: Annotated[list[str], Field(min_length=2, max_length=2)]
+    label: str = ""
+    length: str = ""
+
+
+class Schematic(_Part):
+    """Other dimensions and another pose for the figures that show how the mechanism is made."""
+
+    parameters: dict[str, float] = {}
+    pose: list[float] = []
+    because: str = ""
+
+
+class Examples(_Part):
+    """The factors whose vanishing the source draws as its examples of a serial and a parallel singularity."""
+
+    serial: str = ""
+    parallel: str = ""
+
+
+class Step(_Part):
+    """A box of the flow of the direct solution, or what is changed in the box of a quantity."""
+
+    needs: list[str] | None = None
+    latex: str = ""
+    equation: str = ""
+    sign: str = ""
+    text: str = ""
+
+
+class Flow(_Part):
+    """What the flow of the direct solution shows beside `ClosedForm.quantity_list`."""
+
+    leave_out: list[str] = []
+    steps: dict[str, Step] = {}
+
+
+class Companion(_Part):
+    """How a mechanism is drawn; an empty one draws it with its own names and common views."""
+
+    inputs: list[float] = []
+    rail: str = ""
+    bars: list[Bar] = []
+    links: dict[str, str] = {}
+    chains: dict[str, str] = {}
+    generalised: dict[str, str] = {}
+    numbers: dict[str, str] = {}
+    schematic: Schematic = Schematic()
+    examples: Examples = Examples()
+    flow: Flow = Flow()
+    views: dict[str, Annotated[Orthographic | Oblique, Field(discriminator="kind")]] = {}
+
+    def camera(self, name: str, default: Camera) -> Camera:
+        """The view of a figure, or the default where the file gives none."""
+        view = self.views.get(name)
+        if view is None:
+            return default
+        if isinstance(view, Orthographic):
+            return orthographic(view.azimuth, view.elevation)
+        return oblique(view.right, view.up, view.angle, view.scale)
+
+
+def companion(record: MechanismRecord) -> Companion:
+    """The companion of a mechanism, empty where there is no such file.
+
+    Errors: `MechanismFileError` with every fault, where it is, and what is allowed.
+
+    >>> from assur.model.registry import load_record
+    >>> companion(load_record("zeng2019")).numbers["flow"]
+    '3'
+    """
+    path = record.folder / FILE if record.folder else None
+    if path is None or not path.is_file():
+        return Companion()
+    source = read_toml(path.read_text(encoding="utf-8"), str(path))
+    faults = Faults(str(path), source)
+    found = _checked(source, faults)
+    if found is None:
+        faults.raise_any()
+        return Companion()
+    _check_names(record, found, faults)
+    faults.raise_any()
+    return found
+
+
+def _checked(source: TomlSource, faults: Faults) -> Companion | None:
+    try:
+        return Companion.model_validate(source.data)
+    except ValidationError as error:
+        for item in error.errors():
+            place = tuple(part for part in item["loc"] if part not in ("orthographic", "oblique"))
+            faults.add(place, repr(item["input"])[:60], item["msg"])
+    return None
+
+
+def _check_names(record: MechanismRecord, found: Companion, faults: Faults) -> None:
+    form = record.closed_form
+    factors = [item.name for item in form.factor_list] if form else []
+    named = {**record.points, **record.joints}
+    for k, bar in enumerate(found.bars):
+        _known(faults, ("bars", k, "link"), "link", bar.link, record.links)
+        for end in bar.ends:
+            _known(faults, ("bars", k, "ends"), "joint or point", end, named)
+        _formula(record, faults, ("bars", k, "length"), bar.length)
+    _formula(record, faults, ("rail",), found.rail)
+    for part, choices in (("links", record.links), ("chains", record.chains), ("generalised", record.generalised)):
+        for name in getattr(found, part):
+            _known(faults, (part, name), part, name, choices)
+    for name in found.schematic.parameters:
+        _known(faults, ("schematic", "parameters", name), "parameter", name, record.parameters)
+    for kind in ("serial", "parallel"):
+        name = getattr(found.examples, kind)
+        if name:
+            _known(faults, ("examples", kind), "factor", name, factors)
+    for path, values, wanted in (
+        (("inputs",), found.inputs, len(record.inputs)),
+        (("schematic", "pose"), found.schematic.pose, len(record.platform.pose)),
+    ):
+        if values and len(values) != wanted:
+            faults.add(path, f"{len(values)} values", f"{wanted}")
+
+
+def _known(faults: Faults, path: tuple[str | int, ...], kind: str, name: str, choices: object) -> None:
+    names = [str(item) for item in choices]  # type: ignore[attr-defined]  # dicts and lists of names
+    if name not in names:
+        faults.unknown(path, kind, name, names)
+
+
+def _formula(record: MechanismRecord, faults: Faults, path: tuple[str | int, ...], text: str) -> None:
+    if not text:
+        return
+    try:
+        length(record, text)
+    except (FormulaError, UnknownNameError) as error:
+        faults.add(path, text, error.message)
+
+
+def length(record: MechanismRecord, text: str) -> float:
+    """Value of a formula of the parameters.
+
+    >>> from assur.model.registry import load_record
+    >>> length(load_record("zeng2019"), "2*d")
+    100.0
+    """
+    formula = parse(text)
+    for name in formula.names:
+        record.parameter(name)
+    return float(formula.evaluate(vars(record.values)))
+
+
+__all__ = ["FILE", "Bar", "Companion", "MechanismFileError", "companion", "length"]

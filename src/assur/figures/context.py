@@ -1,0 +1,108 @@
+"""The context of a figure: what several figures of one mechanism share, computed once and only where asked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import UsageError
+from assur.figures.companion import Companion, companion
+from assur.figures.skeleton import Skeleton, skeleton
+from assur.kinematics.home import home_values
+from assur.kinematics.position import direct, inverse
+from assur.kinematics.solutions import SolutionSet
+from assur.model.mechanism import MechanismRecord
+from assur.model.registry import with_parameters
+from assur.singularity.examples import SingularExample, singular_examples
+from assur.workspace.region import Workspace, workspace
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Context:
+    """A mechanism and what its figures are made of.
+
+    Attributes:
+        record: the mechanism.
+        given_workspace: one that is there already; else it is computed when a figure needs it.
+    """
+
+    record: MechanismRecord
+    given_workspace: Workspace | None = None
+
+    @cached_property
+    def companion(self) -> Companion:
+        """How it is drawn."""
+        return companion(self.record)
+
+    @cached_property
+    def home(self) -> FloatArray:
+        """Joint values (n,) of the configuration that is drawn: at the companion's inputs, else home."""
+        if self.companion.inputs and self.record.closed_form:
+            found = direct(self.record, self._inside(self.companion.inputs), self.record.modes.default_assembly or None)
+            if found.exists[0]:
+                return found.joints[0]
+        return home_values(self.record)
+
+    @cached_property
+    def skeleton(self) -> Skeleton:
+        """The mechanism in that configuration."""
+        return skeleton(self.record, self.companion, self.home)
+
+    @cached_property
+    def schematic(self) -> Skeleton:
+        """The mechanism with the dimensions and in the pose that show best how it is made."""
+        plan = self.companion.schematic
+        try:
+            record = with_parameters(self.record, **plan.parameters) if plan.parameters else self.record
+            values = self._schematic_values(record)
+        except UsageError:  # the user's own dimensions do not allow it
+            return self.skeleton
+        return skeleton(record, self.companion, values)
+
+    def _schematic_values(self, record: MechanismRecord) -> FloatArray:
+        pose = self.companion.schematic.pose
+        if pose and record.closed_form:
+            found = inverse(record, pose, record.modes.default_working or None)
+            if found.exists[0]:
+                return found.joints[0]
+        return home_values(record)
+
+    @property
+    def schematic_note(self) -> str:
+        """What the caption must say of other dimensions."""
+        plan = self.companion.schematic
+        if not plan.parameters or self.schematic.record is self.record:
+            return ""
+        values = ", ".join(f"{name} = {value:g} {self.record.unit}" for name, value in plan.parameters.items())
+        return f" Drawn with {values} {plan.because}.".replace("  ", " ")
+
+    @cached_property
+    def assemblies(self) -> SolutionSet:
+        """Every direct solution at the inputs of the configuration that is drawn."""
+        values = self.home[list(self.record.input_indices)]
+        signs = np.array([item.sign for item in self.record.inputs])
+        offsets = np.array([item.offset for item in self.record.inputs])
+        return direct(self.record, signs * values + offsets)
+
+    @cached_property
+    def examples(self) -> tuple[SingularExample, ...]:
+        """One singular configuration for each factor that has one."""
+        return singular_examples(self.record)
+
+    @cached_property
+    def workspace(self) -> Workspace:
+        """The workspace in the default working mode and the file's box."""
+        return self.given_workspace or workspace(self.record)
+
+    def _inside(self, printed: list[float]) -> list[float]:
+        """Inputs of the companion, angles of which are in the mechanism's angle unit."""
+        degrees = self.record.angle == "deg"
+        return [
+            float(np.radians(value)) if degrees and item.coordinate.kind == "angle" else value
+            for value, item in zip(printed, self.record.inputs, strict=True)
+        ]

@@ -1,0 +1,145 @@
+"""Assembly of the whole joint graph from anywhere, and what its rank says."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import assur
+from assur.kinematics.closure import assemble, closure_error, loop_twists, mobility, residuals
+from assur.model.joint_graph import child_frame, frames, joint_graph
+from assur.model.registry import load_record
+
+
+def _starts(mechanism, count, seed=0):
+    rng = np.random.default_rng(seed)
+    angular = [item.kind == "angle" for item in mechanism.coordinates]
+    shape = (count, len(angular))
+    return np.where(angular, rng.uniform(-np.pi, np.pi, shape), rng.uniform(-200, 200, shape))
+
+
+@pytest.mark.parametrize("name", assur.names())
+def test_random_starts_assemble_and_no_axis_is_turned_round(name):
+    """The check shares nothing with the residual: joint points and axis vectors, seen from both links."""
+    mechanism = assur.load(name)
+    found = assemble(mechanism, _starts(mechanism, 250), max_steps=200)
+    assert np.mean(found.closed) > 0.9
+    values = found.values[found.closed]
+    placed = frames(mechanism, values)
+    for joint in joint_graph(mechanism).cut:
+        (parent, origin), (child, child_origin) = placed[joint.parent], placed[joint.child]
+        axis, child_axis = parent @ joint.axes[0], child @ (joint.turn.T @ joint.axes[0])
+        np.testing.assert_allclose(axis, child_axis, atol=1e-7)
+        gap = (parent @ joint.at + origin) - (child @ joint.child_at + child_origin)
+        np.testing.assert_allclose(gap, 0.0, atol=1e-6)
+
+
+def test_a_joint_turned_by_half_a_turn_is_no_assembly():
+    """Turning a rod of a parallelogram end for end keeps its axes' lines but not their senses."""
+    mechanism = assur.load("zeng2019")
+    home = mechanism.home_values.copy()
+    for item in mechanism.coordinates:
+        if item.joint == "D2":
+            home[item.index] += np.pi
+    assert closure_error(mechanism, home) > 1.0
+
+
+def test_held_joints_stand_still_and_crossed_parallelograms_are_found():
+    """The joint graph has more assemblies than the reduced model of the paper: the closed form says so."""
+    mechanism = assur.load("zeng2019")
+    inputs = [162.6907, -143.3209, -24.6776]
+    starts = _starts(mechanism, 250)
+    starts[:, :3] = inputs
+    found = assemble(mechanism, starts, held=mechanism.input_indices, max_steps=200)
+    np.testing.assert_array_equal(found.values[:, :3], starts[:, :3])
+    rotation, poses = frames(mechanism, found.values[found.closed])["platform"]
+    reduced = mechanism.direct(inputs).poses[mechanism.direct(inputs).exists]
+    gaps = np.linalg.norm(poses[:, None] - reduced, axis=-1)
+    assert np.all(gaps.min(axis=0) < 1e-6), "every closed-form pose is met"
+    crossed = gaps.min(axis=1) > 1e-3
+    turned = np.abs(rotation - np.eye(3)).max(axis=(-1, -2)) > 1e-3
+    assert np.any(crossed)
+    assert np.any(turned & crossed), "a crossed parallelogram may turn the platform"
+
+
+def test_the_closed_form_of_the_five_bar_is_complete_for_the_joint_graph():
+    mechanism = assur.load("fivebar")
+    inputs = np.array([np.arctan2(0.8, -0.6), np.arctan2(0.8, 0.6)])
+    starts = _starts(mechanism, 300)
+    starts[:, mechanism.input_indices] = inputs
+    found = assemble(mechanism, starts, held=mechanism.input_indices, max_steps=200)
+    poses = np.array([mechanism.point("P", values)[:2] for values in found.values[found.closed]])
+    closed_form = mechanism.direct(inputs).poses
+    assert np.linalg.norm(poses[:, None] - closed_form, axis=-1).min(axis=1).max() < 1e-6
+
+
+def test_what_cannot_close_is_reported_as_it_stands():
+    mechanism = assur.load("zeng2019")
+    start = mechanism.home_values.copy()
+    start[:2] = [700.0, -700.0]
+    found = assemble(mechanism, start, held=mechanism.input_indices)
+    assert not found.closed
+    # B1 and B2 are 1400 apart and links 9, 11 and 10 reach over 700
+    assert float(found.residual) > 100.0
+
+
+def test_the_derivative_of_the_residual_is_the_screws_at_an_assembly():
+    mechanism = assur.load("zeng2019")
+    values, step = mechanism.home_values, 1e-6
+    matrix = loop_twists(mechanism, values)
+    placed = frames(mechanism, values)
+    differences = np.empty_like(matrix)
+    for index in range(len(values)):
+        change = np.zeros_like(values)
+        change[index] = step
+        gap = (residuals(mechanism, values + change) - residuals(mechanism, values - change)) / (2 * step)
+        differences[:, index] = gap.ravel()
+    length = assur.kinematics.closure.characteristic_length(mechanism)
+    for row, joint in enumerate(joint_graph(mechanism).cut):
+        rotation, origin = placed[joint.child]
+        at = rotation @ joint.child_at + origin
+        block = matrix[6 * row : 6 * row + 6]
+        np.testing.assert_allclose(
+            differences[6 * row : 6 * row + 3], block[3:] + np.cross(block[:3], at[:, None], axis=0), atol=1e-5
+        )
+        np.testing.assert_allclose(differences[6 * row + 3 : 6 * row + 6], length * block[:3], atol=1e-4)
+
+
+def test_rank_of_the_paper_s_joint_graph():
+    """17 joints, 14 links: 4 loops, 24 rows of rank 14, F = 3, 10 redundant constraints (errata E13)."""
+    mechanism = assur.load("zeng2019")
+    free = mobility(mechanism, mechanism.home_values)
+    assert (len(mechanism.joints), len(mechanism.links), len(joint_graph(mechanism).cut)) == (17, 14, 4)
+    assert (int(free.rank), int(free.freedoms), int(free.redundant)) == (14, 3, 10)
+    assert float(free.gap) > 1e6
+
+
+def test_home_follows_a_change_of_parameters():
+    for value in (250.0, 300.0, 400.0):
+        mechanism = assur.load("zeng2019", l2=value)
+        assert mechanism.closure_error(mechanism.home_values) < 1e-8
+
+
+def test_home_that_cannot_close_is_refused_with_the_gap():
+    with pytest.raises(assur.UsageError, match="the loops do not close from home: a gap of"):
+        _ = assur.load("zeng2019", b=1000.0).home_values
+
+
+def test_rank_does_not_depend_on_the_unit():
+    """The same mechanism written in metres has the same rank."""
+    record = load_record("zeng2019")
+    small = {name: item.value / 1000 for name, item in record.parameters.items()}
+    mechanism = assur.load("zeng2019", **small)
+    values = record.home.copy()
+    values[[item.kind == "length" for item in record.coordinates]] /= 1000
+    closed = assemble(mechanism, values)
+    assert int(mobility(mechanism, closed.values).rank) == 14
+
+
+def test_one_joint_frame_is_reached_from_both_sides():
+    mechanism = assur.load("zeng2019")
+    placed = mechanism.frames(mechanism.home_values)
+    graph = joint_graph(mechanism)
+    for joint in graph.cut:
+        reached = child_frame(joint, placed[joint.parent], mechanism.home_values[graph.slices[joint.name]])
+        np.testing.assert_allclose(reached[1], placed[joint.child][1], atol=1e-9)

@@ -1,0 +1,141 @@
+"""Frames, screws and loops of the joint graph, over every joint type."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import assur
+from assur.model.joint_graph import child_frame, frames, joint_graph, parent_frame, screws
+from assur.model.points import point
+from assur.model.registry import load_record
+from assur.numerics import rotations
+
+EVERY_TYPE = """
+format = 1
+name = "every"
+title = "one joint of every type"
+source = "a test"
+unit = "mm"
+angle = "deg"
+base = "ground"
+[platform]
+link = "f"
+point = [0, 0, 0]
+pose = ["x", "y", "z"]
+orientation = "any"
+[parameters]
+k = { value = 20, meaning = "a length" }
+[links]
+ground = {}
+a = {}
+b = {}
+c = {}
+d = {}
+e = {}
+f = {}
+[joints]
+J1 = { type = "revolute", parent = "ground", child = "a", at = ["k", 0, 0], axis = [1, 2, 2] }
+J2 = { type = "prismatic", parent = "b", child = "a", at = [0, "k", 0], axis = "-y", child_axis = "z" }
+J3 = { type = "helical", parent = "b", child = "c", at = [0, 0, "k"], axis = "z", pitch = 5 }
+J4 = { type = "cylindrical", parent = "c", child = "d", at = ["k", "k", 0], child_at = [1, 2, 3], axis = "x" }
+J5 = { type = "universal", parent = "d", child = "e", at = [0, "k", "k"], axes = ["x", "y"] }
+J6 = { type = "spherical", parent = "e", child = "f", at = [3, 2, "k"], child_at = [-4, 0, 1] }
+J7 = { type = "revolute", parent = "f", child = "ground", at = ["k", 5, 0], axis = "z" }
+[inputs]
+order = ["J1"]
+J1 = { name = "q" }
+[home]
+J1 = 10
+J2 = 3
+J3 = 20
+J4 = [2, 30]
+J5 = [10, 20]
+J6 = [5, 6, 7]
+J7 = 0
+"""
+
+
+@pytest.fixture
+def every(tmp_path):
+    path = tmp_path / "every.toml"
+    path.write_text(EVERY_TYPE)
+    return load_record(path)
+
+
+def test_a_spanning_tree_reaches_every_link_and_leaves_the_independent_loops(every):
+    graph = joint_graph(every)
+    assert len(graph.tree) == len(every.links) - 1
+    assert len(graph.cut) == len(every.joints) - len(every.links) + 1
+    assert {name for loop in graph.loops for name in loop} <= set(every.joints)
+
+
+def test_parent_frame_undoes_child_frame(every):
+    rng = np.random.default_rng(0)
+    frame = (rotations.from_vector(rng.normal(size=3)), rng.normal(size=3))
+    for joint in every.joints.values():
+        values = rng.normal(size=joint.type.freedoms)
+        there = child_frame(joint, frame, values)
+        back = parent_frame(joint, there, values)
+        np.testing.assert_allclose(back[0], frame[0], atol=1e-13)
+        np.testing.assert_allclose(back[1], frame[1], atol=1e-12)
+
+
+def test_at_zero_every_frame_is_parallel_to_the_base(every):
+    straight = [joint for joint in every.joints.values() if np.allclose(joint.turn, np.eye(3))]
+    assert len(straight) == len(every.joints) - 1
+    for joint in straight:
+        zero = np.zeros(joint.type.freedoms)
+        rotation, _ = child_frame(joint, (np.eye(3), np.zeros(3)), zero)
+        np.testing.assert_allclose(rotation, np.eye(3), atol=1e-15)
+
+
+def test_child_axis_is_laid_on_the_axis(every):
+    joint = every.joints["J2"]
+    rotation, origin = child_frame(joint, (np.eye(3), np.zeros(3)), np.array([7.0]))
+    np.testing.assert_allclose(rotation @ [0.0, 0.0, 1.0], [0.0, -1.0, 0.0], atol=1e-15)
+    np.testing.assert_allclose(origin, [0.0, 20.0 - 7.0, 0.0], atol=1e-12)
+
+
+def test_a_screw_advances_by_its_pitch_per_turn(every):
+    joint = every.joints["J3"]
+    _, origin = child_frame(joint, (np.eye(3), np.zeros(3)), np.array([2 * np.pi]))
+    np.testing.assert_allclose(origin, [0.0, 0.0, 20.0 + 5.0], atol=1e-12)
+
+
+def test_screws_are_the_derivatives_of_the_frames(every):
+    """Every joint moves the last link of the tree as its screw says, by central differences."""
+    rng = np.random.default_rng(3)
+    values = rng.normal(size=len(every.coordinates))
+    graph = joint_graph(every)
+    twists = screws(every, frames(every, values), values)
+    step = 1e-6
+    for joint, forward in graph.tree:
+        near, far = (joint.parent, joint.child) if forward else (joint.child, joint.parent)
+        for index in range(*graph.slices[joint.name].indices(len(values))):
+            change = np.zeros_like(values)
+            change[index] = step
+            ahead, behind = frames(every, values + change)[far], frames(every, values - change)[far]
+            turn = rotations.to_vector(ahead[0] @ behind[0].T) / (2 * step)
+            middle = frames(every, values)[far][1]
+            sense = 1 if forward else -1
+            omega, velocity = sense * twists[:3, index], sense * twists[3:, index]
+            np.testing.assert_allclose(turn, omega, atol=1e-8, err_msg=f"{joint.name} {near} {far}")
+            np.testing.assert_allclose(
+                (ahead[1] - behind[1]) / (2 * step), velocity + np.cross(omega, middle), atol=1e-6, err_msg=joint.name
+            )
+
+
+def test_points_are_where_the_frames_say():
+    mechanism = assur.load("zeng2019")
+    home = mechanism.home_values
+    rotation, origin = mechanism.frames(home)["platform"]
+    np.testing.assert_allclose(point(mechanism, "O'", home), origin)
+    np.testing.assert_allclose(point(mechanism, "F3", home), rotation @ [50.0, 0.0, 0.0] + origin)
+    assert np.linalg.norm(point(mechanism, "D3", home) - point(mechanism, "E3", home)) == pytest.approx(230.0)
+
+
+def test_an_unknown_point_is_refused_with_the_known_ones():
+    mechanism = assur.load("zeng2019")
+    with pytest.raises(assur.UnknownNameError, match="unknown point of zeng2019 'Q9'"):
+        point(mechanism, "Q9", mechanism.home_values)

@@ -1,0 +1,118 @@
+from __future__ import annotations
+
+from collections.abc import Iterator
+from importlib.resources import files
+from typing import Any
+
+import pytest
+
+from assur.errors import MechanismFileError
+from assur.model.toml_source import KeyPath, read_toml
+
+DOCUMENT = r'''
+top = 1                       # a comment with "quotes" and = signs
+"quoted key" . b = [1, [2,
+   3], { c = 4 } ]            # line 3 and 4
+
+[table.'a.b']                 # line 6
+text = """
+[no.table]
+key = "no key"
+\""""
+after = "x]}#"                # line 11
+literal = \'\'\'
+# no comment\'\'\'
+inline = { x = 1, "y z" = { w = [] }, v = "}" }
+[table.more]
+dotted.name = true            # line 16
+[[array]]
+n = 1979-05-27T07:32:00Z
+[[array]]
+n = -inf
+'''.replace("\\'", "'")
+
+
+def paths(data: Any, path: KeyPath = ()) -> Iterator[KeyPath]:
+    items = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
+    for key, value in items:
+        yield (*path, key)
+        yield from paths(value, (*path, key))
+
+
+def test_lines_of_keys_and_elements() -> None:
+    source = read_toml(DOCUMENT, "f.toml")
+    expected: dict[KeyPath, int] = {
+        ("top",): 2,
+        ("quoted key", "b"): 3,
+        ("quoted key", "b", 0): 3,
+        ("quoted key", "b", 1, 0): 3,
+        ("quoted key", "b", 1, 1): 4,
+        ("quoted key", "b", 2, "c"): 4,
+        ("table", "a.b"): 6,
+        ("table", "a.b", "text"): 7,
+        ("table", "a.b", "after"): 11,
+        ("table", "a.b", "literal"): 12,
+        ("table", "a.b", "inline", "y z", "w"): 14,
+        ("table", "a.b", "inline", "v"): 14,
+        ("table", "more", "dotted", "name"): 16,
+        ("array",): 17,
+    }
+    assert {path: source.lines[path] for path in expected} == expected
+    assert source.line(("top", "nothing", 3)) == 2
+    assert source.line(("nothing",)) is None
+
+
+def test_windows_line_ends_change_no_line() -> None:
+    assert read_toml(DOCUMENT.replace("\n", "\r\n"), "f").lines == read_toml(DOCUMENT, "f").lines
+
+
+def test_every_key_and_element_has_a_line(fourbar: str) -> None:
+    built_in = files("assur").joinpath("mechanisms/zeng2019/mechanism.toml").read_text(encoding="utf-8")
+    for text in (fourbar, built_in):
+        source = read_toml(text, "f.toml")
+        assert set(paths(source.data)) == set(source.lines)
+        rows = text.splitlines()
+        for path, line in source.lines.items():
+            if isinstance(path[-1], str):
+                assert path[-1] in rows[line - 1]
+
+
+COMMA = "write decimals with a point: 0.5, not 0,5"
+ONCE = "each name may be given once"
+WRONG = [
+    ("a = 1\nb = 3,5", 2, "b = 3,5", COMMA),
+    ("a = { v = 3,5, m = 1 }", 1, "a = { v = 3,5, m = 1 }", COMMA),
+    ("a = 1\n\na = 2", 3, "a = 2", ONCE),
+    ("[a]\n[a]", 2, "[a]", ONCE),
+    ("a = {b=1,b=2}", 1, "a = {b=1,b=2}", ONCE),
+    ("a = ", 1, "a =", ""),
+    ("a = 'x\n", 1, "a = 'x", ""),
+]
+
+
+@pytest.mark.parametrize(("text", "line", "row", "hint"), WRONG)
+def test_what_is_not_toml_is_refused_with_its_line(text: str, line: int, row: str, hint: str) -> None:
+    with pytest.raises(MechanismFileError) as caught:
+        read_toml(text, "f.toml")
+    (problem,) = caught.value.problems
+    assert (problem.file, problem.line, problem.hint) == ("f.toml", line, hint)
+    assert problem.found.startswith("not TOML: ")
+    assert problem.found.endswith(f" in `{row}`")
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("a = " + "[" * 5000, "brackets nested too deeply"),
+        ("a = " + "[" * 300 + "]" * 300, ""),
+        ("a = " + "1" * 5000, "not TOML"),
+        ("#" * 1_000_001, "1000001 characters"),
+    ],
+)
+def test_what_is_too_large_is_refused(text: str, found: str) -> None:
+    try:
+        read_toml(text, "f.toml")
+    except MechanismFileError as error:
+        assert found in str(error)
+        return
+    assert not found

@@ -1,0 +1,45 @@
+from __future__ import annotations
+
+import numpy as np
+
+from assur.numerics.least_squares import minimise
+
+
+def _circles(x, rows):
+    """Two circles that meet; the third row repeats the first, so the system is redundant."""
+    first = x[:, 0] ** 2 + x[:, 1] ** 2 - 1.0
+    second = (x[:, 0] - 1.0) ** 2 + x[:, 1] ** 2 - 1.0
+    residual = np.stack([first, second, first], axis=1)
+    one = np.stack([2 * x[:, 0], 2 * x[:, 1]], axis=1)
+    two = np.stack([2 * (x[:, 0] - 1.0), 2 * x[:, 1]], axis=1)
+    return residual, np.stack([one, two, one], axis=1)
+
+
+def test_redundant_rows_do_no_harm():
+    found = minimise(_circles, np.random.default_rng(0).normal(size=(200, 2)), tolerance=1e-13)
+    assert np.all(found.converged)
+    np.testing.assert_allclose(np.abs(found.x), np.broadcast_to([0.5, np.sqrt(0.75)], (200, 2)), atol=1e-12)
+
+
+def test_a_problem_without_a_root_is_reported_and_does_not_disturb_the_others():
+    def system(x, rows):
+        target = np.array([4.0, -1.0, 9.0])[rows]
+        return x**2 - target[:, None], 2 * x[:, :, None]
+
+    found = minimise(system, np.ones((3, 1)), tolerance=1e-12)
+    assert found.converged.tolist() == [True, False, True]
+    assert found.cost[1] >= 1.0 - 1e-9
+    np.testing.assert_allclose(found.x[[0, 2], 0], [2.0, 3.0], atol=1e-12)
+
+
+def test_an_underdetermined_system_moves_little():
+    def system(x, rows):
+        return x.sum(axis=1, keepdims=True) - 3.0, np.ones((len(x), 1, 3))
+
+    found = minimise(system, np.array([[1.0, 0.0, 0.0]]), tolerance=1e-13)
+    np.testing.assert_allclose(found.x[0], [5 / 3, 2 / 3, 2 / 3], atol=1e-6)
+
+
+def test_an_empty_batch_is_an_empty_answer():
+    found = minimise(_circles, np.empty((0, 2)), tolerance=1e-12)
+    assert found.x.shape == (0, 2)

@@ -1,0 +1,68 @@
+"""The same kernel lines over every number type: floats, duals, symbols and exact rationals agree."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import sympy
+
+import assur
+from assur.kinematics.modes import mode_signs, sign_names
+from assur.numerics.dual import Dual, Duals
+from assur.numerics.number_types import Extended, Floats, Symbols
+
+
+@pytest.fixture(params=assur.names())
+def mechanism(request):
+    return assur.load(request.param)
+
+
+def _pose(mechanism):
+    low, high = np.array([mechanism.box[name] for name in mechanism.platform.pose]).T
+    poses = np.random.default_rng(0).uniform(low, high, size=(50, len(low)))
+    return poses[mechanism.inverse(poses, mechanism.modes.default_working).exists[:, 0]][0]
+
+
+def _sign(mechanism):
+    signs = mode_signs(mechanism, "inverse", mechanism.modes.default_working)
+    return SimpleNamespace(**dict(zip(sign_names(mechanism, "inverse"), signs, strict=True)))
+
+
+def _numbers(inputs):
+    return [number for value in inputs for number in (value if isinstance(value, tuple) else (value,))]
+
+
+def test_symbols_give_the_formula_whose_value_is_the_float(mechanism):
+    form, pose = mechanism.closed_form, _pose(mechanism)
+    names = sympy.symbols(mechanism.platform.pose)
+    letters = SimpleNamespace(**{name: sympy.Symbol(name) for name in mechanism.parameters})
+    formulas = _numbers(form.inverse(Symbols(), letters, names, _sign(mechanism)).inputs)
+    floats = _numbers(form.inverse(Floats(), mechanism.values, tuple(pose), _sign(mechanism)).inputs)
+    values = dict(zip(names, pose, strict=True)) | {
+        sympy.Symbol(name): item.value for name, item in mechanism.parameters.items()
+    }
+    for formula, number in zip(formulas, floats, strict=True):
+        assert float(formula.subs(values).evalf(30)) == pytest.approx(float(number), abs=1e-10)
+
+
+def test_duals_give_the_derivative_of_the_float(mechanism):
+    form, pose = mechanism.closed_form, _pose(mechanism)
+    along = np.random.default_rng(1).normal(size=len(pose))
+
+    def inputs(step):
+        return _numbers(form.inverse(Floats(), mechanism.values, tuple(pose + step * along), _sign(mechanism)).inputs)
+
+    duals = tuple(Dual(value, rate) for value, rate in zip(pose, along, strict=True))
+    found = _numbers(form.inverse(Duals(), mechanism.values, duals, _sign(mechanism)).inputs)
+    for number, ahead, behind in zip(found, inputs(1e-4), inputs(-1e-4), strict=True):
+        assert number.derivative == pytest.approx((ahead - behind) / 2e-4, rel=1e-5, abs=1e-7)
+
+
+def test_extended_agrees_with_floats_where_every_margin_is_positive(mechanism):
+    form, pose = mechanism.closed_form, _pose(mechanism)
+    first = form.inverse(Floats(), mechanism.values, tuple(pose), _sign(mechanism))
+    second = form.inverse(Extended(), mechanism.values, tuple(pose), _sign(mechanism))
+    assert _numbers(first.inputs) == _numbers(second.inputs)
+    assert dict(first.margins) == dict(second.margins)

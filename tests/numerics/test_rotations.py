@@ -1,0 +1,50 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+from assur.numerics import rotations
+
+parts = st.floats(-3.0, 3.0)
+
+
+@given(st.tuples(parts, parts, parts))
+@settings(max_examples=200, deadline=None)
+def test_rotation_of_a_vector_agrees_with_scipy(vector):
+    expected = Rotation.from_rotvec(vector).as_matrix()
+    np.testing.assert_allclose(rotations.from_vector(np.array(vector)), expected, rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize(
+    "angle", [0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1.0, 3.0, np.pi - 1e-3, np.pi - 1e-6, np.pi - 1e-9, np.pi]
+)
+def test_vector_of_a_rotation_is_its_inverse_up_to_half_turns(angle):
+    rng = np.random.default_rng(0)
+    axes = rng.normal(size=(200, 3))
+    axes[0] = [1.0, 0.0, 0.0]
+    axes /= np.linalg.norm(axes, axis=1, keepdims=True)
+    turned = rotations.from_vector(angle * axes)
+    vectors = rotations.to_vector(turned)
+    np.testing.assert_allclose(np.linalg.norm(vectors, axis=-1), angle, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(rotations.from_vector(vectors), turned, rtol=0, atol=1e-8)
+
+
+def test_about_axis_agrees_with_the_rotation_vector():
+    axis = np.array([0.6, 0.0, 0.8])
+    angles = np.linspace(-4, 4, 9)
+    np.testing.assert_allclose(
+        rotations.about_axis(axis, angles), rotations.from_vector(angles[:, None] * axis), rtol=0, atol=1e-14
+    )
+
+
+def test_taking_is_the_smallest_rotation():
+    rng = np.random.default_rng(2)
+    for start, end in rng.normal(size=(50, 2, 3)):
+        start, end = start / np.linalg.norm(start), end / np.linalg.norm(end)
+        turn = rotations.taking(start, end)
+        np.testing.assert_allclose(turn @ start, end, atol=1e-12)
+        angle = np.linalg.norm(rotations.to_vector(turn))
+        assert angle == pytest.approx(np.arccos(start @ end), abs=1e-9)
