@@ -19,7 +19,8 @@ from assur.errors import MechanismFileError, Problem, UsageError
 from assur.model.faults import path_text
 from assur.model.formula import Formula
 from assur.model.mechanism import MechanismRecord
-from assur.model.schema import Entry, Value, refuse, shown
+from assur.model.schema import Entry
+from assur.model.values import Value, refuse, shown
 from assur.model.toml_source import TomlSource, read_toml
 
 FOLDER = "reference"

@@ -22,7 +22,8 @@ from assur.kinematics.solution import Solution
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
 from assur.model.points import quantity
-from assur.model.schema import Entry, Value
+from assur.model.schema import Entry
+from assur.model.values import Value
 
 FloatArray = NDArray[np.float64]
 

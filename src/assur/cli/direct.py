@@ -14,7 +14,9 @@ def direct(
     mechanism: MechanismName,
     /,
     *inputs: Annotated[str, Parameter(metavar="INPUT", help="One value per input, in the order of `assur show`.")],
-    mode: Annotated[str | None, Parameter(help="Only this assembly mode, as +++ (`assur show` names its signs).")] = None,
+    mode: Annotated[
+        str | None, Parameter(help="Only this assembly mode, as +++ (`assur show` names its signs).")
+    ] = None,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """Every pose of the platform at given inputs.

@@ -14,7 +14,9 @@ def inverse(
     mechanism: MechanismName,
     /,
     *pose: Annotated[str, Parameter(metavar="COORDINATE", help="One value per pose coordinate, such as x y z.")],
-    mode: Annotated[str | None, Parameter(help="Only this working mode, as ++-++ (`assur show` names its signs).")] = None,
+    mode: Annotated[
+        str | None, Parameter(help="Only this working mode, as ++-++ (`assur show` names its signs).")
+    ] = None,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """All inputs that hold the platform at a given pose.

@@ -45,7 +45,12 @@ def _shown(rows: list[dict[str, Any]]) -> Iterable[RenderableType]:
     yield table(
         ("name", "inputs", "pose", "what it is"),
         [
-            (item["name"], " ".join(item["inputs"]), " ".join(item["coordinates"]), f"{item['title']}\n{item['source']}")
+            (
+                item["name"],
+                " ".join(item["inputs"]),
+                " ".join(item["coordinates"]),
+                f"{item['title']}\n{item['source']}",
+            )
             for item in rows
         ],
         left=("name", "inputs", "pose", "what it is"),

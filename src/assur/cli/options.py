@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 
 SHARED = Group("Shared options", sort_key=9)
 
-MechanismName = Annotated[str, Parameter(name="MECHANISM", help="A name (see `assur list`) or the path of a .toml file.")]
+MechanismName = Annotated[
+    str, Parameter(name="MECHANISM", help="A name (see `assur list`) or the path of a .toml file.")
+]
 
 
 @Parameter(name="*", group=SHARED)

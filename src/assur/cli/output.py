@@ -68,9 +68,13 @@ def table(
     *,
     title: str = "",
     left: Sequence[str] = (),
+    wrap: Sequence[str] | None = None,
     styles: Sequence[str] = (),
 ) -> Table:
-    """A table; columns are set right except those in `left`, the last of which may be broken into lines."""
+    """A table; columns are set right except those in `left`, and those in `wrap` may be broken into lines.
+
+    Where nothing is said about breaking, the last of `left` may be.
+    """
     from rich import box
     from rich.table import Table
     from rich.text import Text
@@ -84,7 +88,7 @@ def table(
         header_style="bold",
     )
     for name in columns:
-        free = name in left[-1:]
+        free = name in (left[-1:] if wrap is None else wrap)
         side: Literal["left", "right"] = "left" if name in left else "right"
         found.add_column(Text(name), justify=side, no_wrap=not free, overflow="fold")
     for place, row in enumerate(rows):

@@ -13,7 +13,9 @@ def output_file(text: str, endings: Sequence[str]) -> Path:
     """The path of a file that can be written, with one of the endings; nothing is changed."""
     path = Path(text)
     if path.is_dir():
-        raise OutputError(f"cannot write {path}: it is a folder", hint=f"give a file that ends in {' or '.join(endings)}")
+        raise OutputError(
+            f"cannot write {path}: it is a folder", hint=f"give a file that ends in {' or '.join(endings)}"
+        )
     if path.suffix.lower() not in endings:
         raise OutputError(f"cannot write {path}: its ending is none of {', '.join(endings)}", hint="rename it")
     _try(path.parent, path)

@@ -117,7 +117,12 @@ def _pose_units(data: dict[str, Any], style: Style) -> str:
 def failures(items: list[dict[str, Any]]) -> RenderableType:
     """Why no solution exists: which quantity is negative and by how much, where it comes nearest to zero."""
     rows = [
-        (f"{item['quantity']} < 0", f"{short(item['value'])} {item['unit']}".strip(), item["meaning"], str(item["branches"]))
+        (
+            f"{item['quantity']} < 0",
+            f"{short(item['value'])} {item['unit']}".strip(),
+            item["meaning"],
+            str(item["branches"]),
+        )
         for item in items
     ]
     return table(("negative", "by at least", "which is", "branches"), rows, left=("negative", "which is"))

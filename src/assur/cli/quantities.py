@@ -100,4 +100,3 @@ def count(number: int, noun: str) -> str:
     """
     ending = "es" if noun.endswith(("ch", "s", "x")) else "s"
     return f"{number} {noun}" if number == 1 else f"{number} {noun}{ending}"
-

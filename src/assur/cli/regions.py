@@ -84,16 +84,28 @@ def outcome(record: Mechanism, asked: Question, written: Path | None, shared: Sh
             asked.near,
             step,
         )
-    data = {
-        "mechanism": record.name,
-        "coordinates": list(record.platform.pose),
-        **found.to_json(),
-        "resolution": asked.resolution,
-        "strokes": {name: list(pair) for name, pair in asked.strokes.items()},
-    }
+    data = _data(record, asked, found)
     if written is not None:
         write_whole(written, _content(written, found, data))
     return Outcome(data, lambda: _shown(record, data, written))
+
+
+def _data(record: Mechanism, asked: Question, found: Workspace) -> dict[str, Any]:
+    """The answer as plain data; angles in the mechanism's angle unit."""
+    names = record.platform.pose
+    lengths = {item.name: item.coordinate.kind == "length" for item in record.inputs}
+    data = found.to_json()
+    box = [_outside(record, pair, is_length(name)) for name, pair in zip(names, data["box"], strict=True)]
+    last, factor = names[-1], _factor(record, is_length(names[-1]))
+    return {
+        "mechanism": record.name,
+        "coordinates": list(names),
+        **data,
+        "box": box,
+        "sections": [{**item, last: item[last] / factor} for item in data["sections"]],
+        "resolution": asked.resolution,
+        "strokes": {name: _outside(record, pair, lengths[name]) for name, pair in asked.strokes.items()},
+    }
 
 
 def _box(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
@@ -127,6 +139,11 @@ def _strokes(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
 def _inside(record: Mechanism, pair: Interval, length: bool) -> Interval:
     factor = _factor(record, length)
     return pair[0] * factor, pair[1] * factor
+
+
+def _outside(record: Mechanism, pair: Sequence[float], length: bool) -> list[float]:
+    factor = _factor(record, length)
+    return [pair[0] / factor, pair[1] / factor]
 
 
 def _factor(record: Mechanism, length: bool) -> float:
@@ -166,9 +183,8 @@ def _intervals(record: Mechanism, pairs: dict[str, Sequence[float]]) -> str:
     lengths = {item.name: item.coordinate.kind == "length" for item in record.inputs}
     parts = []
     for name, (low, high) in pairs.items():
-        length = lengths.get(name, is_length(name))
-        factor = _factor(record, length)
-        parts.append(f"{name} {low / factor:g} .. {high / factor:g} {record.unit if length else record.angle}")
+        unit = record.unit if lengths.get(name, is_length(name)) else record.angle
+        parts.append(f"{name} {low:g} .. {high:g} {unit}")
     return ", ".join(parts)
 
 
@@ -186,7 +202,11 @@ def _sections(data: dict[str, Any], surface: str) -> Iterable[RenderableType]:
 def _singular(record: Mechanism, data: dict[str, Any], surface: str) -> Iterable[RenderableType]:
     singular = data["parallel_singular"]
     rows = [
-        (name, "the whole mode" if item["everywhere"] else short(item["area"]) if item["faces"] else "none", item["meaning"])
+        (
+            name,
+            "the whole mode" if item["everywhere"] else short(item["area"]) if item["faces"] else "none",
+            item["meaning"],
+        )
         for name, item in singular["factors"].items()
     ]
     yield heading("parallel singularities inside")

@@ -43,9 +43,7 @@ def description(record: Mechanism) -> dict[str, Any]:
         float(angle_at_border(record, home[item.index]) if item.kind == "angle" else home[item.index])
         for item in record.coordinates
     ]
-    low_high = {
-        name: pair if name in LENGTHS else angle_at_border(record, pair) for name, pair in record.box.items()
-    }
+    low_high = {name: pair if name in LENGTHS else angle_at_border(record, pair) for name, pair in record.box.items()}
     return {
         "mechanism": record.name,
         "title": record.title,

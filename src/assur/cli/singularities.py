@@ -114,7 +114,9 @@ def _shown(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
         (item["factor"], item["kind"], item["mode"], pose_text(style, data["coordinates"], item["pose"]))
         for item in data["examples"]
     ]
-    yield table(("factor", "the configuration is", "mode", "pose"), rows, left=("factor", "the configuration is", "pose"))
+    yield table(
+        ("factor", "the configuration is", "mode", "pose"), rows, left=("factor", "the configuration is", "pose")
+    )
     without = [item["name"] for item in data["factors"] if item["name"] not in {row[0] for row in rows}]
     if without:
         yield f"no example found in the box: {', '.join(without)}"

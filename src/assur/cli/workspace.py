@@ -33,7 +33,8 @@ def workspace(
         str, Parameter(metavar="LENGTH", help="How near to a parallel singularity counts as near, 10 if left out.")
     ] = "10",
     output: Annotated[
-        str | None, Parameter(name=("-o", "--output"), metavar="FILE", help="Write the answer (.json) or surface (.obj).")
+        str | None,
+        Parameter(name=("-o", "--output"), metavar="FILE", help="Write the answer (.json) or surface (.obj)."),
     ] = None,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:

@@ -33,7 +33,8 @@ def build_inputs(file: schema.FileEntry, tables: Tables, scope: Scope, numbers: 
         found[item.index] = Input(
             item, entry.name, entry.latex or entry.name, offset, float(entry.sign), stroke
         )
-    if file.inputs.order is None:
+    complete = len(found) == len(tables.inputs) and not tables.broken.get("inputs")
+    if file.inputs.order is None or not complete:
         return tuple(found.values())
     return _ordered(file.inputs.order, found, scope)
 

@@ -69,6 +69,7 @@ def build_joint(placed: Placed[schema.AnyJoint], scope: Scope, geometry: Geometr
     at = geometry.vector(entry.at, (*path, "at"), instance)
     child_at = geometry.vector(entry.child_at, (*path, "child_at"), instance)
     axes, turn = _axes(placed, geometry)
+    axes.flags.writeable = turn.flags.writeable = False
     limits = _limits(placed, geometry.numbers)
     pitch = _pitch(placed, geometry.numbers)
     cone_axis, cone = _cone(placed, geometry)

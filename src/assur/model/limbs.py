@@ -58,6 +58,7 @@ class Tables:
     Attributes:
         broken: table -> full names of entries that are in the file but not in form; they exist, so that
             whoever refers to them is not blamed.
+        unfinished: templates that do not say how often they repeat, a fault as well.
     """
 
     links: dict[str, Placed[schema.LinkEntry]] = field(default_factory=dict)
@@ -69,6 +70,7 @@ class Tables:
     home: dict[str, Placed[tuple[Formula, ...]]] = field(default_factory=dict)
     instances: tuple[Instance, ...] = ()
     broken: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    unfinished: frozenset[str] = frozenset()
 
 
 def expand(description: Description, faults: Faults) -> Tables:
@@ -78,6 +80,7 @@ def expand(description: Description, faults: Faults) -> Tables:
     tables = Tables(
         instances=tuple(instance for group in instances.values() for instance in group),
         broken=_broken(description, instances),
+        unfinished=frozenset(name for name, limb in file.limbs.items() if _count(limb) is None),
     )
     for table in (*_REPEATED, "chains"):
         entries = file.inputs.entries if table == "inputs" else getattr(file, table)
@@ -101,8 +104,15 @@ def _instances(
     if (repeat.count is None) == (repeat.angles is None):
         found = "count and angles" if repeat.count else "neither count nor angles"
         faults.add(path, found, "allowed: one of the two", "count = 3 means every 120 deg")
-    count = repeat.count or len(repeat.angles or "1")
-    return tuple(Instance(name, number) for number in range(1, count + 1))
+    return tuple(Instance(name, number + 1) for number in range(_count(limb) or 1))
+
+
+def _count(limb: schema.LimbEntry) -> int | None:
+    """How many limbs a template becomes, if it says so."""
+    repeat = limb.repeat
+    if repeat is None:
+        return None
+    return repeat.count or (len(repeat.angles) if repeat.angles else None)
 
 
 def _repeat(tables: Tables, limb: schema.LimbEntry, instance: Instance) -> None:

@@ -32,8 +32,12 @@ def _check_group(uses: list[Use], faults: Faults) -> None:
     for name, kind, path in uses:
         if name in first and path not in told:
             told.add(path)
-            faults.add(path, f"a {first[name]} has the name '{name}' already", "allowed: another name")
+            faults.add(path, f"{_a(first[name])} has the name '{name}' already", "allowed: another name")
         first.setdefault(name, kind)
+
+
+def _a(kind: str) -> str:
+    return f"an {kind}" if kind[0] in "ai" else f"a {kind}"
 
 
 def _elements(tables: Tables) -> Iterator[Use]:

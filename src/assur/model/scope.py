@@ -63,33 +63,29 @@ class Scope:
     def link(self, name: str, path: KeyPath, instance: Instance | None = None) -> str | None:
         """Full name of a link."""
         links = {full: full for full in self.tables.links}
-        return self._find("link", links, self._broken("links"), name, path, instance)
+        return self._find("link", links, ("links",), name, path, instance)
 
     def joint(self, name: str, path: KeyPath, instance: Instance | None = None) -> str | None:
         """Full name of a joint, given by its name or alias."""
-        return self._find("joint", self._joints, self._broken("joints"), name, path, instance)
+        return self._find("joint", self._joints, ("joints",), name, path, instance)
 
     def element(self, name: str, path: KeyPath, instance: Instance | None = None) -> str | None:
         """Full name of a joint or of a generalised joint."""
         elements = {full: full for full in self.tables.generalised} | self._joints
-        broken = self._broken("generalised") | self._broken("joints")
-        return self._find("joint", elements, broken, name, path, instance)
+        return self._find("joint", elements, ("generalised", "joints"), name, path, instance)
 
     def coordinate(self, name: str, path: KeyPath, instance: Instance | None = None) -> Coordinate | None:
         """A component of a joint: `B1` where the joint has only one, else `C.translation`."""
+        seen = self._visible(self._quantities, instance)
         joint = self._visible(self._joints, instance).get(name)
-        if joint and name not in self._visible(self._quantities, instance):
+        if joint and name not in seen:
             components = JOINT_TYPES[self.tables.joints[joint].entry.type].components
             allowed = " or ".join(f"{name}.{component}" for component in components)
             self.faults.add(path, f"'{name}' has {len(components)} components", f"allowed: {allowed}")
             return None
-        broken = self._broken("joints")
-        if name.rpartition(".")[0] in self._visible(dict.fromkeys(broken, ""), instance):
-            return None
-        seen = self._visible(self._quantities, instance)
         if name not in seen:
             short = {text: self._quantities[text] for text in self._short}
-            return self._find("joint", short, broken, name, path, instance)
+            return self._find("joint", short, ("joints",), name, path, instance)
         return seen[name]
 
     def quantity_kind(self, name: str) -> Kind | None:
@@ -102,8 +98,7 @@ class Scope:
         point, _, letter = name.rpartition(".")
         if letter in ("x", "y", "z") and point in self._points:
             return "plain"
-        broken = self._broken("joints") | self._broken("points")
-        return "either" if name in broken or point in broken else None
+        return "either" if self._is_broken(name, ("joints", "points")) else None
 
     @property
     def quantities(self) -> list[str]:
@@ -121,14 +116,19 @@ class Scope:
                 own[name] = f"{self.aliases[joint]}.{part}"
         return formula.renamed(own)
 
-    def _broken(self, table: str) -> frozenset[str]:
-        return self.tables.broken.get(table, frozenset())
+    def _is_broken(self, name: str, tables: tuple[str, ...], instance: Instance | None = None) -> bool:
+        """Whether a name, or what it is a component of, stands in the file, but not in form."""
+        head, owner = name.split(".")[0], name.rpartition(".")[0]
+        own = [f"{instance.prefix}.{text}" for text in (name, owner)] if instance else []
+        broken = {full for table in tables for full in self.tables.broken.get(table, ())}
+        unfinished = head.rstrip("0123456789") in self.tables.unfinished
+        return unfinished or not broken.isdisjoint((name, owner, *own))
 
     def _find(
         self,
         kind: str,
         choices: Mapping[str, Target],
-        broken: frozenset[str],
+        tables: tuple[str, ...],
         name: str,
         path: KeyPath,
         instance: Instance | None,
@@ -136,7 +136,7 @@ class Scope:
         seen = self._visible(choices, instance)
         if name in seen:
             return seen[name]
-        if name not in self._visible(dict.fromkeys(broken, ""), instance):
+        if not self._is_broken(name, tables, instance):
             self.faults.unknown(path, kind, name, seen)
         return None
 

@@ -54,13 +54,13 @@ class _Samples:
     factors: dict[str, FloatArray]
 
     def others(self, name: str) -> NDArray[np.int_]:
-        """How many other factors vanish (N,): the fewer, the clearer the example."""
+        """How many other factors vanish (N,)."""
         rest = [np.abs(value) <= FACTOR_TOLERANCE for key, value in self.factors.items() if key != name]
         return np.asarray(np.sum(rest, axis=0))
 
 
 def singular_examples(record: MechanismRecord, seed: int = 0) -> tuple[SingularExample, ...]:
-    """One example per factor, in the default working mode where it has one, else in the first that does.
+    """One example per factor: the pose at its zero at which the fewest others vanish, the default mode first.
 
     Poses are drawn from the workspace box of the file, and where a factor never vanishes there, from a box
     three times as wide. A factor that vanishes in neither has no example.
@@ -75,46 +75,55 @@ def singular_examples(record: MechanismRecord, seed: int = 0) -> tuple[SingularE
     boxes = [rng.uniform(middle - grown * half, middle + grown * half, (SAMPLES, len(low))) for grown in (1, GROWTH)]
     factors = [factor for factor in closed_form_of(record).factor_list if factor.kind != "other"]
     modes = list(dict.fromkeys([record.modes.default_working, *all_modes(record, "inverse")]))
-    found: dict[str, SingularExample] = {}
+    best: dict[str, _Candidate] = {}
     for poses in boxes:
+        missing = [factor for factor in factors if factor.name not in best]
         for mode in modes:
-            missing = [factor for factor in factors if factor.name not in found]
-            if not missing:
-                break
-            for factor, pose in _zeros_in_mode(record, mode, poses, missing):
-                found[factor.name] = _example(record, factor, mode, pose, bool(np.all((pose >= low) & (pose <= high))))
-    return tuple(found[factor.name] for factor in factors if factor.name in found)
+            unclear = [factor.name for factor in missing if factor.name not in best or best[factor.name].others]
+            for candidate in _zeros_in_mode(record, mode, poses, unclear):
+                if candidate.name not in best or candidate.others < best[candidate.name].others:
+                    best[candidate.name] = candidate
+    return tuple(_example(record, factor, best[factor.name], low, high) for factor in factors if factor.name in best)
 
 
-def _example(record: MechanismRecord, factor: Factor, mode: str, pose: FloatArray, in_box: bool) -> SingularExample:
-    here = inverse(record, pose, mode)
-    return SingularExample(factor, mode, pose, here.inputs[0], here.joints[0], Status(int(here.status[0])), in_box)
+@dataclass(frozen=True, eq=False)
+class _Candidate:
+    """A real pose at the zero of a factor, and how many other factors vanish there: the fewer, the clearer."""
+
+    name: str
+    mode: str
+    pose: FloatArray
+    others: int
 
 
-def _zeros_in_mode(
-    record: MechanismRecord, mode: str, poses: FloatArray, factors: list[Factor]
-) -> list[tuple[Factor, FloatArray]]:
-    """A pose at the zero of each factor that has one in this mode."""
+def _example(
+    record: MechanismRecord, factor: Factor, found: _Candidate, low: FloatArray, high: FloatArray
+) -> SingularExample:
+    here = inverse(record, found.pose, found.mode)
+    in_box = bool(np.all((found.pose >= low) & (found.pose <= high)))
+    status = Status(int(here.status[0]))
+    return SingularExample(factor, found.mode, found.pose, here.inputs[0], here.joints[0], status, in_box)
+
+
+def _zeros_in_mode(record: MechanismRecord, mode: str, poses: FloatArray, names: list[str]) -> list[_Candidate]:
+    """The clearest pose at the zero of each factor that has one in this mode."""
+    if not names:
+        return []
     samples = _evaluate(record, mode, poses)
     border = _evaluate(record, mode, _border_poses(record, mode, samples))
-    zeros = []
-    for factor in factors:
-        crossing = _evaluate(record, mode, _crossing_poses(record, mode, samples, factor.name))
-        pose = _clearest(factor.name, (crossing, border, samples))
-        if pose is not None:
-            zeros.append((factor, pose))
-    return zeros
+    found = []
+    for name in names:
+        crossing = _evaluate(record, mode, _crossing_poses(record, mode, samples, name))
+        candidates = [item for where in (crossing, border, samples) for item in _zeros(where, name, mode)]
+        if candidates:
+            found.append(min(candidates, key=lambda item: item.others))
+    return found
 
 
-def _clearest(name: str, candidates: tuple[_Samples, ...]) -> FloatArray | None:
-    """The real pose at the factor's zero at which the fewest other factors vanish."""
-    best: tuple[int, FloatArray] | None = None
-    for samples in candidates:
-        others = samples.others(name)
-        for k in np.flatnonzero(samples.real & (np.abs(samples.factors[name]) <= FACTOR_TOLERANCE)):
-            if best is None or others[k] < best[0]:
-                best = (int(others[k]), samples.poses[k])
-    return None if best is None else best[1]
+def _zeros(samples: _Samples, name: str, mode: str) -> list[_Candidate]:
+    others = samples.others(name)
+    zero = samples.real & (np.abs(samples.factors[name]) <= FACTOR_TOLERANCE)
+    return [_Candidate(name, mode, samples.poses[k], int(others[k])) for k in np.flatnonzero(zero)]
 
 
 def _evaluate(record: MechanismRecord, mode: str, poses: FloatArray) -> _Samples:

@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.workspace.domain import UniformGrid
+from assur.workspace.grid import UniformGrid
 
 FloatArray = NDArray[np.float64]
 STEPS = 26

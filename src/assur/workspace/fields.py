@@ -23,7 +23,7 @@ from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import Branch
 from assur.model.mechanism import Input, MechanismRecord
 from assur.numerics.number_types import Extended
-from assur.workspace.domain import UniformGrid
+from assur.workspace.grid import UniformGrid
 
 FloatArray = NDArray[np.float64]
 Columns = tuple[FloatArray, ...]
@@ -130,14 +130,16 @@ def _checked(name: str, stroke: Any) -> Stroke:
     except (TypeError, ValueError) as error:
         raise UsageError(f"stroke of {name}: {stroke!r} is not (low, high)") from error
     if not low < high:  # a NaN ends here too
-        raise UsageError(f"stroke of {name}: [{low:g}, {high:g}] is turned round or empty", hint="give low < high")
+        raise UsageError(
+            f"stroke of {name}: [{low:g}, {high:g}] is turned round or empty", hint="give low < high"
+        )
     return low, high
 
 
 def _stroke_fields(
     branch: Callable[[Columns], Branch], index: int, item: Input, stroke: Stroke
 ) -> dict[str, Field]:
-    """q - low and high - q of a printed length; of an angle, cos(q - middle) - cos(half the stroke)."""
+    """Both ends of a printed length, q - low and high - q; of an angle, cos(q - middle) - cos(half stroke)."""
     low, high = stroke
     if item.coordinate.kind == "angle":
         if high - low >= 2 * math.pi:

@@ -9,8 +9,8 @@ from manifold3d import Manifold
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
-from assur.workspace.domain import UniformGrid
 from assur.workspace.fields import Columns, sample
+from assur.workspace.grid import UniformGrid
 from assur.workspace.reach import Reach
 from assur.workspace.solids import intersection, solid_where, union
 
@@ -70,7 +70,10 @@ class _Search:
         """The distance (n,) of points (n, 3); `bound` beyond it."""
         found = np.full(len(points), self.bound)
         count = min(CANDIDATES, len(self.triangles))
-        gaps, index = self.tree.query(points, k=[*range(1, count + 1)], distance_upper_bound=self.bound, workers=-1)
+        nearest = self.tree.query(
+            points, k=[*range(1, count + 1)], distance_upper_bound=self.bound, workers=-1
+        )
+        gaps, index = np.asarray(nearest[0]), np.asarray(nearest[1])
         for k in range(count):
             rows = np.flatnonzero(np.isfinite(gaps[:, k]))
             found[rows] = np.minimum(found[rows], to_triangles(points[rows], self.triangles[index[rows, k]]))

@@ -11,8 +11,8 @@ import numpy as np
 from manifold3d import Manifold
 from numpy.typing import NDArray
 
-from assur.workspace.domain import UniformGrid
 from assur.workspace.fields import Field, at_points, sample
+from assur.workspace.grid import UniformGrid
 from assur.workspace.solids import Faces, area_of, cuboid, intersection, mesh, solid_where, surface_in
 
 FloatArray = NDArray[np.float64]
@@ -52,11 +52,12 @@ class Reach:
         return *in_pose_coordinates(self.grid, vertices, faces), size
 
     def mesh(self) -> tuple[FloatArray, Faces]:
-        """Surface of the region, vertices (n, 3) and faces (k, 3); of a plane one its triangulated inside."""
+        """Surface of the region, vertices (n, 3) and faces (k, 3); of a plane one its inside, triangulated."""
         vertices, faces = mesh(self.solid)
         if self.grid.dimension == 3:
             return vertices, faces
-        return _compact(vertices[:, : self.grid.dimension], faces[np.all(_on_floor(self.grid, vertices)[faces], axis=1)])
+        floor = np.all(_on_floor(self.grid, vertices)[faces], axis=1)
+        return _compact(vertices[:, : self.grid.dimension], faces[floor, ::-1])
 
 
 def reach(

@@ -18,7 +18,7 @@ from assur.errors import UsageError
 from assur.kinematics.border import LENGTHS
 from assur.model.mechanism import MechanismRecord
 from assur.singularity.loci import Locus, parallel_loci
-from assur.workspace.domain import Box, UniformGrid, box_of
+from assur.workspace.domain import Box, box_of
 from assur.workspace.fields import Field, Stroke, at_points, factor_fields, margin_fields
 from assur.workspace.nearness import near_volume, triangles_of
 from assur.workspace.projections import Projection, projection
@@ -88,10 +88,10 @@ class Workspace:
         """What the region covers on the plane of two pose coordinates, e.g. `projection("x", "z")` for XOZ."""
         return projection(self.region, plane)
 
-    def interior(self, cells: int) -> FloatArray:
-        """Centres (N, m) of the cells inside the region, of `cells` along each coordinate: points of equal weight."""
-        points = UniformGrid(self.box, (cells,) * len(self.box.names)).centres()
-        inside = np.ones(len(points), dtype=bool)
+    def interior(self, count: int, rng: np.random.Generator) -> FloatArray:
+        """Poses (N, m) of equal weight inside the region: what it holds of `count` spread over the box."""
+        points = self.box.spread(count, rng)
+        inside = np.ones(count, dtype=bool)
         for field in self.margins.values():
             inside &= at_points(field, len(self.box.names), points) >= 0
         return points[inside]
@@ -122,15 +122,24 @@ def workspace(
 ) -> Workspace:
     """The workspace of a working mode inside a box, by solids (see `assur.workspace.solids`).
 
-    Parameters:
+    Args:
+        record: the mechanism; it must have a closed form, and at most three pose coordinates.
         mode: signs of the working mode; the file's default where none is given.
         box: (low, high) per pose coordinate, in order or by name, in length units and rad; the file's box
             for what is left out.
-        strokes: input name -> (low, high), in length units and rad, or None for no limit; the file's for
-            what is left out.
-        resolution: cells along each coordinate, 2 to 400.
+        strokes: input name -> (low, high) as printed, in length units and rad, or None for no limit; the
+            file's for what is left out.
+        resolution: cells along each coordinate, 4 to 400. What is thinner than a cell may be missed.
         sections: values of the last pose coordinate; by default those of the file that lie in the box.
         near: distance from a parallel-singular surface, in length units.
+        progress: called with (steps done, steps in all).
+
+    Returns:
+        The frozen result; an empty region has the volume 0 and no share.
+
+    Errors:
+        UsageError: a box or a stroke turned round or not finite, a section outside the box, an unknown name
+        or mode, a resolution that is none.
 
     Example: the paper's search box, Table 2 row 4. The volume is 500 mm times an area that quadrature of
     the two circles gives as 45629.17 mm^2, so 22 814 586 mm^3.

@@ -9,8 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from assur.workspace.domain import Box, grid_over
+from assur.errors import UsageError
+from assur.workspace.domain import Box
 from assur.workspace.fields import Field
+from assur.workspace.grid import grid_over
 from assur.workspace.reach import Reach, reach
 
 
@@ -28,8 +30,11 @@ def region_and_error(
     >>> disc = {"disc": lambda pose: 1 - pose[0] ** 2 - pose[1] ** 2}
     >>> region, error = region_and_error(disc, {}, Box(("x", "y"), (-2.0, -2.0), (2.0, 2.0)), 64)
     >>> round(region.volume, 3), round(error, 3)
-    (3.138, 0.01)
+    (3.14, 0.007)
     """
-    fine = reach(margins, factors, grid_over(box, resolution), tick)
-    coarse = reach(margins, factors, grid_over(box, max(2, resolution // 2)), tick)
+    grid = grid_over(box, resolution)
+    if resolution < 4:
+        raise UsageError(f"resolution: {resolution} cells are too few; at least 4 along each coordinate")
+    fine = reach(margins, factors, grid, tick)
+    coarse = reach(margins, factors, grid_over(box, resolution // 2), tick)
     return fine, abs(fine.volume - coarse.volume)

@@ -1,0 +1,78 @@
+"""The audit as data and as a person reads it, and the two documents made of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from assur.cli.options import Outcome, Shared
+from assur.cli.output import heading, table
+from assur.cli.progress import progress
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from assur.audit.rows import Audit, Row
+    from assur.mechanism import Mechanism
+
+CLAIM_FAILS = 1
+COLOURS = {"ok": "", "wrong": "red", "missing": "yellow"}
+
+
+def outcome(record: Mechanism, folder: Path | None, shared: Shared) -> Outcome:
+    """The audit; exit code 1 where the evidence of an erratum does not hold."""
+    from assur.audit.audit import audit
+    from assur.audit.documents import documents
+    from assur.results.files import write_whole
+
+    with progress("audit", shared):
+        found = audit(record)
+    written: list[Path] = []
+    if folder is not None:
+        written = [write_whole(folder / name, text) for name, text in documents(found).items()]
+    return Outcome(found.data(), lambda: _shown(found, written), 0 if found.claims_hold else CLAIM_FAILS)
+
+
+def _shown(found: Audit, written: Sequence[Path]) -> Iterable[RenderableType]:
+    yield heading(f"{found.mechanism}, audit of {found.source}")
+    yield rows_table(found.rows)
+    yield ""
+    yield summary(found)
+    yield ""
+    if found.errata:
+        yield heading("errata, each by evidence that was computed just now")
+        yield table(
+            ("id", "holds", "finding"),
+            [
+                (item.id, "yes" if item.evidence.holds else "NO", f"{item.where}: {item.finding}\n{item.evidence.text}")
+                for item in found.errata
+            ],
+            left=("id", "holds", "finding"),
+            styles=["" if item.evidence.holds else "red" for item in found.errata],
+        )
+    if not found.claims_hold:
+        yield "A claim of ours does not hold."
+    for path in written:
+        yield f"written: {path}"
+
+
+def rows_table(rows: Sequence[Row]) -> RenderableType:
+    """Printed values beside ours, with verdicts."""
+    from assur.audit.documents import computed_text
+
+    return table(
+        ("where", "quantity", "printed", "computed", "verdict"),
+        [
+            (row.source, row.quantity, row.printed, computed_text(row), f"{row.verdict} {row.erratum}".strip())
+            for row in rows
+        ],
+        wrap=("where", "quantity", "printed", "computed"),
+        left=("where", "quantity", "verdict"),
+        styles=[COLOURS[row.verdict] for row in rows],
+    )
+
+
+def summary(found: Audit) -> str:
+    """How many rows are what."""
+    return f"{len(found.rows)} printed numbers: {found.ok} ok, {found.wrong} wrong, {found.missing} missing"

@@ -1,0 +1,181 @@
+"""The checks behind `assur doctor`: what is installed, and whether its numbers hold."""
+
+from __future__ import annotations
+
+import platform
+import sys
+import tempfile
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from assur.cli.options import Outcome
+from assur.cli.output import heading, table
+from assur.cli.quantities import count
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from assur.mechanism import Mechanism
+
+Answer = Literal["ok", "note", "fault"]
+PYTHON = (3, 11)
+PINS = "constraints.txt"
+AGREE = 1e-9
+"""Share of the characteristic length (or rad) within which two configurations are the same."""
+
+
+@dataclass(frozen=True)
+class Check:
+    """One thing that was looked at; a "note" is worth knowing, a "fault" makes the doctor fail."""
+
+    what: str
+    answer: Answer
+    found: str
+
+
+def outcome(folder: str) -> Outcome:
+    """Every check; exit code 1 where one is a fault."""
+    checks = [*_installation(), _writable(folder), *_numbers()]
+    faults = sum(check.answer == "fault" for check in checks)
+    data = {
+        "python": platform.python_version(),
+        "platform": platform.platform(),
+        "checks": [vars(check) for check in checks],
+        "faults": faults,
+    }
+    return Outcome(data, lambda: _shown(checks, faults), 1 if faults else 0)
+
+
+def _shown(checks: list[Check], faults: int) -> Iterable[RenderableType]:
+    yield heading(f"assur on Python {platform.python_version()}, {platform.platform()}")
+    colour = {"ok": "", "note": "yellow", "fault": "red"}
+    yield table(
+        ("", "check", "found"),
+        [(check.answer, check.what, check.found) for check in checks],
+        left=("", "check", "found"),
+        styles=[colour[check.answer] for check in checks],
+    )
+    yield "everything that is needed works" if not faults else f"{count(faults, 'fault')}"
+
+
+def _installation() -> Iterator[Check]:
+    version = sys.version_info[:2]
+    wanted = ".".join(map(str, PYTHON))
+    yield Check("python", "ok" if version >= PYTHON else "fault", f"{platform.python_version()}, {wanted} or newer")
+    try:
+        needed = metadata.requires("assur") or []
+    except metadata.PackageNotFoundError:
+        yield Check("assur", "note", "not installed, run from its source")
+        return
+    pins = _pins()
+    for text in needed:
+        yield _package(text, pins)
+    yield Check(PINS, "ok" if pins else "note", f"{len(pins)} pins" if pins else "not beside this installation")
+
+
+def _package(text: str, pins: dict[str, str]) -> Check:
+    """A line such as `numpy>=2.0` or `ruff>=0.6; extra == "dev"` of the metadata."""
+    from packaging.requirements import Requirement
+    from packaging.utils import canonicalize_name
+
+    requirement = Requirement(text)
+    optional = requirement.marker is not None and not requirement.marker.evaluate({"extra": ""})
+    name = f"{requirement.name} (optional)" if optional else requirement.name
+    try:
+        version = metadata.version(requirement.name)
+    except metadata.PackageNotFoundError:
+        return Check(name, "note" if optional else "fault", f"not installed, {requirement.specifier} wanted")
+    if not requirement.specifier.contains(version, prereleases=True):
+        return Check(name, "note" if optional else "fault", f"{version}, {requirement.specifier} wanted")
+    pin = pins.get(canonicalize_name(requirement.name), version)
+    if pin != version:
+        return Check(name, "note", f"{version}, tested with {pin}")
+    return Check(name, "ok", version)
+
+
+def _pins() -> dict[str, str]:
+    """Versions by name, from the constraints beside the source; empty where there is no source."""
+    from packaging.utils import canonicalize_name
+
+    path = Path(__file__).parents[3] / PINS
+    if not path.is_file():
+        return {}
+    lines = [line.strip() for line in path.read_text(encoding="utf-8").splitlines()]
+    pairs = [line.split("==", 1) for line in lines if "==" in line and not line.startswith("#")]
+    return {canonicalize_name(name): version for name, version in pairs}
+
+
+def _writable(text: str) -> Check:
+    """Whether output can go into a folder that exists or would be made."""
+    path = Path(text).absolute()
+    nearest = next(folder for folder in (path, *path.parents) if folder.exists())
+    try:
+        with tempfile.TemporaryFile(dir=nearest):
+            pass
+    except OSError as error:
+        return Check("output", "fault", f"cannot write {text}: {error.strerror}")
+    return Check("output", "ok", f"{text} can be written")
+
+
+def _numbers() -> Iterator[Check]:
+    """For every mechanism: home closes, and closed form and joint graph agree."""
+    try:
+        from assur.mechanism import load, names
+    except ImportError as error:
+        yield Check("self-check", "fault", f"cannot start: {error}")
+        return
+    for name in names():
+        record = load(name)
+        yield _home(record)
+        if record.closed_form is not None:
+            yield _agreement(record)
+
+
+def _home(record: Mechanism) -> Check:
+    from assur.errors import UsageError
+    from assur.kinematics.closure import CLOSED, characteristic_length, closure_error
+
+    try:
+        gap = float(closure_error(record, record.home_values))
+    except UsageError as error:
+        return Check(f"{record.name} home", "fault", error.message)
+    closed = gap <= CLOSED * characteristic_length(record)
+    return Check(f"{record.name} home", "ok" if closed else "fault", f"loops closed to {gap:.1e} {record.unit}")
+
+
+def _agreement(record: Mechanism) -> Check:
+    """The closed form at home's inputs must list home, and each of its solutions must close the joint graph."""
+    import numpy as np
+
+    from assur.kinematics.closure import characteristic_length
+
+    home, length = record.home_values, characteristic_length(record)
+    inputs = [item.sign * home[item.coordinate.index] + item.offset for item in record.inputs]
+    found = record.direct(inputs)
+    what = f"{record.name} closed form"
+    if not np.any(found.exists):
+        return Check(what, "fault", "finds no solution at home's inputs")
+    worst = float(np.max(found.residuals[found.exists]))
+    apart = float(np.min([_distance(record, row, home) for row in found.joints[found.exists]]))
+    agrees = worst <= AGREE * length and apart <= AGREE
+    text = f"home is one of {count(len(found), 'solution')}, to {apart:.1e}; largest gap {worst:.1e} {record.unit}"
+    return Check(what, "ok" if agrees else "fault", text)
+
+
+def _distance(record: Mechanism, joints: Any, home: Any) -> float:
+    """Largest difference of two rows of joint values: rad, and lengths as shares of the characteristic length."""
+    import numpy as np
+
+    from assur.kinematics.closure import characteristic_length
+
+    length = characteristic_length(record)
+    gaps = [
+        np.angle(np.exp(1j * (joints[item.index] - home[item.index])))
+        if item.kind == "angle"
+        else (joints[item.index] - home[item.index]) / length
+        for item in record.coordinates
+    ]
+    return float(np.max(np.abs(gaps)))

@@ -1,0 +1,136 @@
+"""The sketch: rods, plates, rails and joint symbols of a skeleton as lines on a page, far ones first."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.figures.canvas import Canvas, View
+from assur.figures.companion import Companion
+from assur.figures.placing import Letters
+from assur.figures.skeleton import Mark, Skeleton, rail_half
+from assur.figures.style import BLUE, GREEN, INK, PAPER, PINK, RED, SKY
+from assur.figures.symbols import RADIUS, SLIDER, ground_pivot, ground_rail, joint_symbol
+
+FloatArray = NDArray[np.float64]
+CHAINS = (BLUE, GREEN, RED, PINK, SKY)
+DOWN = np.array([0.0, 0.0, -1.0])
+
+
+@dataclass(frozen=True)
+class Pen:
+    """How thick and in which colours a skeleton is drawn; `colours` per link, `INK` for the others."""
+
+    width: float = 2.0
+    halo: float = 2.4
+    symbol: float = 1.0
+    colours: Mapping[str, str] | None = None
+
+    def colour(self, link: str) -> str:
+        """Colour of a link."""
+        return (self.colours or {}).get(link, INK)
+
+
+def chain_colours(skeleton: Skeleton) -> dict[str, str]:
+    """Link -> colour of the chain that it belongs to."""
+    order = {name: CHAINS[k % len(CHAINS)] for k, name in enumerate(skeleton.record.chains)}
+    return {link: order[chain] for link, chain in skeleton.chain_of().items()}
+
+
+def draw_bodies(page: Canvas, view: View, skeleton: Skeleton, letters: Letters, pen: Pen) -> None:
+    """Rods, plates and joint symbols; a line in front interrupts those behind it."""
+    camera = view.camera
+    middle = float(np.mean(camera.depth(skeleton.cloud)))
+    size = max(skeleton.size, 1e-300)
+
+    def order(points: FloatArray, above: float = 0.0) -> float:
+        return 5.0 + (float(np.mean(camera.depth(points))) - middle) / size + above
+
+    for plate in skeleton.plates:
+        corners = hull(view(plate.points))
+        page.polygon(corners, _tint(pen.colour(plate.link)), pen.colour(plate.link), 0.8 * pen.width, order(plate.points))
+        letters.avoid(np.concatenate([corners, corners[:1]]))
+    for rod in skeleton.rods:
+        ends = view(rod.points)
+        if np.linalg.norm(ends[1] - ends[0]) < 1e-6:
+            continue
+        place = order(rod.points)
+        inner = ends + np.array([[1.0], [-1.0]]) * _step(ends, 0.3)
+        page.line(inner, pen.width + pen.halo, PAPER, place - 0.001, solid_capstyle="butt")
+        page.line(ends, pen.width, pen.colour(rod.link), place)
+        letters.avoid(ends)
+    for mark in skeleton.marks:
+        joint_symbol(page, view, mark, order(mark.at, 0.05), pen.symbol)
+        letters.avoid_disc(view(mark.at), pen.symbol * (SLIDER[1] if mark.slides else RADIUS))
+
+
+def draw_ground(page: Canvas, view: View, skeleton: Skeleton, companion: Companion, letters: Letters) -> None:
+    """Hatched rails of sliding joints and supports of turning ones on the base; coaxial rails are one."""
+    for start, end in rails(skeleton, companion):
+        ends = view(np.array([start, end]))
+        below = view.camera.project(DOWN)
+        below = below if np.linalg.norm(below) > 1e-9 else np.array([0.0, -1.0])
+        ground_rail(page, ends[0], ends[1], 1.0, below)
+        letters.avoid(ends)
+    for mark in skeleton.marks:
+        if mark.grounded and not mark.slides:
+            ground_pivot(page, view(mark.at), 1.5)
+            letters.avoid_disc(view(mark.at) - [0.0, 7.0], 8.0)
+
+
+def rails(skeleton: Skeleton, companion: Companion) -> list[tuple[FloatArray, FloatArray]]:
+    """Ends (3,) of the rails on the base, each once though several sliders may run on it."""
+    marks = [mark for mark in skeleton.marks if mark.grounded and mark.slides]
+    half = rail_half(skeleton.record, companion, marks) if marks else 0.0
+    found: list[tuple[FloatArray, FloatArray]] = []
+    for mark in marks:
+        start, end = mark.rail - half * mark.axes[0], mark.rail + half * mark.axes[0]
+        if not any(np.allclose(np.sort([start, end], axis=0), np.sort(rail, axis=0)) for rail in found):
+            found.append((start, end))
+    return found
+
+
+def cloud_of(skeleton: Skeleton, companion: Companion) -> FloatArray:
+    """Every point (k, 3) that must be on the page, ends of the rails included."""
+    ends = [point for rail in rails(skeleton, companion) for point in rail]
+    return np.concatenate([skeleton.cloud, np.array(ends).reshape(-1, 3)])
+
+
+def sliders_on_one_place(marks: tuple[Mark, ...]) -> bool:
+    """Whether two sliding joints are drawn at one place."""
+    places = [mark.at for mark in marks if mark.slides]
+    return any(np.allclose(a, b) for k, a in enumerate(places) for b in places[:k])
+
+
+def hull(points: FloatArray) -> FloatArray:
+    """Convex hull (k, 2) of points on the page, by a chain along x."""
+    ordered = points[np.lexsort((points[:, 1], points[:, 0]))]
+    return np.array([*_half_hull(ordered), *_half_hull(ordered[::-1])])
+
+
+def _half_hull(points: FloatArray) -> list[FloatArray]:
+    chain: list[FloatArray] = []
+    for point in points:
+        while len(chain) > 1 and _turn(chain[-2], chain[-1], point) <= 0:
+            chain.pop()
+        chain.append(point)
+    return chain[:-1]
+
+
+def _turn(a: FloatArray, b: FloatArray, c: FloatArray) -> float:
+    return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+
+
+def _step(ends: FloatArray, share: float) -> FloatArray:
+    """A step from the first end to the second, at most 7 points long."""
+    way = ends[1] - ends[0]
+    return np.asarray(way * min(share, 7.0 / float(np.linalg.norm(way))))
+
+
+def _tint(colour: str) -> str:
+    """A colour, much lighter."""
+    parts = [int(colour[k : k + 2], 16) for k in (1, 3, 5)]
+    return "#" + "".join(f"{round(255 - 0.22 * (255 - part)):02x}" for part in parts)

@@ -1,0 +1,127 @@
+"""The structure: the mechanism as a kinematic diagram with the symbols of ISO 3952, its joints and links named."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
+
+from assur.figures.camera import oblique
+from assur.figures.canvas import Canvas, View, canvas, fitted
+from assur.figures.context import Context
+from assur.figures.letters import letter, words
+from assur.figures.placing import Letters
+from assur.figures.skeleton import Skeleton
+from assur.figures.sketch import CHAINS, Pen, chain_colours, cloud_of, draw_bodies, draw_ground, rails
+from assur.figures.spec import Drawing, Entry
+from assur.figures.style import GREY, INK, PAGE, SMALL, TEXT
+from assur.figures.symbols import direction
+
+FloatArray = NDArray[np.float64]
+
+
+def _caption(context: Context) -> str:
+    return (
+        "Kinematic diagram in a parallel projection: circles are revolute joints seen along their axes, sleeves those"
+        " seen sideways, boxes on hatched guides are prismatic joints; actuated joints are filled. Numbers in squares"
+        f" are links.{context.schematic_note}"
+    )
+
+
+def _draw(context: Context) -> Drawing:
+    skeleton, companion = context.schematic, context.companion
+    camera = companion.camera("structure", oblique("x", "y", 225, 0.5))
+    view, height = fitted(camera, cloud_of(skeleton, companion), PAGE * 0.86, margin=11)
+    page = canvas(PAGE * 0.86, height)
+    letters = Letters(page)
+    draw_ground(page, view, skeleton, companion, letters)
+    draw_bodies(page, view, skeleton, letters, Pen(colours=chain_colours(skeleton)))
+    _drives(page, view, skeleton)
+    _name_joints(view, skeleton, letters)
+    _name_links(context, view, skeleton, letters)
+    _number_loops(context, page, view, skeleton)
+    _legend(context, page)
+    letters.place()
+    return Drawing(page.figure, _data(context, skeleton))
+
+
+def _name_joints(view: View, skeleton: Skeleton, letters: Letters) -> None:
+    for mark in skeleton.marks:
+        name = mark.joint.alias or mark.joint.name
+        letters.add(view(mark.at), letter(name), clear=8.0 if mark.slides else 5.0, fontsize=TEXT)
+
+
+def _name_links(context: Context, view: View, skeleton: Skeleton, letters: Letters) -> None:
+    square = {"boxstyle": "square,pad=0.18", "facecolor": "white", "edgecolor": GREY, "linewidth": 0.4}
+    style: dict[str, Any] = {"fontsize": SMALL, "bbox": square}
+    for rod in skeleton.rods:
+        if rod.size > 0:
+            letters.add(view(rod.points.mean(axis=0)), rod.label or words(rod.link), clear=3.0, **style)
+    for plate in skeleton.plates:
+        letters.add(view(plate.points.mean(axis=0)), plate.label or words(plate.link), clear=0.0, **style)
+    base = context.companion.links.get(skeleton.record.base, words(skeleton.record.base))
+    for place in _ground_places(context, skeleton):
+        letters.add(view(place), base, clear=7.0, **style)
+
+
+def _ground_places(context: Context, skeleton: Skeleton) -> list[FloatArray]:
+    ends = [end for _, end in rails(skeleton, context.companion)]
+    return ends or [mark.at for mark in skeleton.marks if mark.grounded][:1]
+
+
+def _drives(page: Canvas, view: View, skeleton: Skeleton) -> None:
+    """A double arrow along every driven slider, an arc about every driven revolute."""
+    for mark in skeleton.marks:
+        if not mark.driven:
+            continue
+        at = view(mark.at)
+        along = direction(view, mark.axes[0])
+        if mark.slides:
+            low = at - np.array([0.0, 10.5])
+            page.arrow(low - 12 * along, low + 12 * along, style="<|-|>", head=5, width=0.7, order=9)
+        else:
+            start, end = at + 9.5 * np.array([0.94, -0.34]), at + 9.5 * np.array([-0.5, 0.87])
+            page.arrow(start, end, head=5, width=0.7, order=9, connectionstyle="arc3,rad=0.55")
+
+
+def _number_loops(context: Context, page: Canvas, view: View, skeleton: Skeleton) -> None:
+    for name, label in context.companion.generalised.items():
+        joints = skeleton.record.generalised[name].joints
+        centre = np.mean([view(skeleton.points[joint]) for joint in joints], axis=0)
+        page.disc(centre, 6.0, "white", INK, 0.6, order=12)
+        page.text(centre, label, fontsize=TEXT)
+
+
+def _legend(context: Context, page: Canvas) -> None:
+    names = context.companion.chains or {name: words(name) for name in context.record.chains}
+    order = list(context.record.chains)
+    lines = [Line2D([], [], color=CHAINS[order.index(name) % len(CHAINS)], linewidth=2) for name in names]
+    if lines:
+        page.axes.legend(lines, list(names.values()), loc="upper right", fontsize=SMALL)
+
+
+def _data(context: Context, skeleton: Skeleton) -> dict[str, Any]:
+    return {
+        "unit": skeleton.record.unit,
+        "parameters": vars(skeleton.record.values),
+        "joints": {
+            mark.joint.name: {
+                "type": mark.joint.type.name,
+                "links": [mark.joint.parent, mark.joint.child],
+                "at": mark.at,
+                "axes": mark.axes,
+                "driven": mark.driven,
+            }
+            for mark in skeleton.marks
+        },
+        "bars": [
+            {"link": rod.link, "label": rod.label, "ends": rod.ends, "points": rod.points} for rod in skeleton.rods
+        ],
+        "plates": [{"link": plate.link, "points": plate.points} for plate in skeleton.plates],
+        "rails": [np.array(rail) for rail in rails(skeleton, context.companion)],
+    }
+
+
+STRUCTURE = Entry("structure", "Kinematic structure", lambda context: "", _caption, _draw)
