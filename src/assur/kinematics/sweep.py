@@ -17,9 +17,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics import border
+from assur.kinematics.existence import exists
 from assur.kinematics.modes import Problem, mode_signs, sign_axes, sign_names
-from assur.kinematics.status import MARGIN_TOLERANCE, closed_form_of, scale
-from assur.model.closed_form import Branch, Margin
+from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
 from assur.numerics.small_matrices import determinant
@@ -82,7 +82,6 @@ def inverse_sweep(
     columns, count = _columns(components, record.platform.pose, f"poses of {record.name}")
     names = [item.name for item in form.factor_list]
     answer = _empty(want, {"inputs": len(record.inputs), "factors": len(names)}, count)
-    limits = _limits(record, form.inverse_margins)
     turn = float(np.prod([item.sign for item in record.inputs]))  # of det Jq, from joint values to printed inputs
     with np.errstate(divide="ignore", invalid="ignore"):
         for part, given in _blocks(columns, count, block, progress):
@@ -90,7 +89,7 @@ def inverse_sweep(
             if "inputs" in answer:
                 _store(answer["inputs"], border.printed_inputs(record, branch.inputs), part)
             if "exists" in answer:
-                answer["exists"][part] = _exists(branch, limits)
+                answer["exists"][part] = exists(record, form.inverse_margins, branch.margins)
             if "det_jp" in answer or "det_jq" in answer:
                 jp, jq = form.jacobians(ns, p, branch.core)
                 if "det_jp" in answer:
@@ -196,7 +195,7 @@ def _all_branches(
     """A function from a block (b, k) of problems to its answers and their existence, along the sign axes."""
     form, p, ns = closed_form_of(record), record.values, Floats()
     sign = sign_axes(sign_names(record, problem))
-    limits = _limits(record, form.inverse_margins if problem == "inverse" else form.direct_margins)
+    margins = form.inverse_margins if problem == "inverse" else form.direct_margins
 
     def solve(given: FloatArray) -> tuple[list[FloatArray], BoolArray]:
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -206,23 +205,9 @@ def _all_branches(
             else:
                 branch = form.direct(ns, p, border.input_components(record, given), sign)
                 values = [border.scalar(value) for value in branch.pose]
-            return values, _exists(branch, limits)
+            return values, exists(record, margins, branch.margins)
 
     return solve
-
-
-def _limits(record: MechanismRecord, margins: Sequence[Margin]) -> dict[str, tuple[float, bool]]:
-    """Tolerance of each margin, and whether the formulas degenerate at its zero."""
-    return {item.name: (MARGIN_TOLERANCE * scale(record, item.scale), item.zero == "degenerate") for item in margins}
-
-
-def _exists(branch: Branch, limits: Mapping[str, tuple[float, bool]]) -> BoolArray:
-    """Whether every margin allows the branch: not negative, or not zero where the formulas degenerate."""
-    exists: Any = True
-    for name, (limit, degenerate) in limits.items():
-        value = branch.margins[name]
-        exists = exists & (np.abs(value) > limit if degenerate else value >= -limit)
-    return np.asarray(exists)
 
 
 def _columns(components: Components, names: Sequence[str], what: str) -> tuple[tuple[FloatArray, ...], int]:

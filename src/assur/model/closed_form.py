@@ -134,7 +134,8 @@ class ClosedForm:
         inverse: (ns, p, pose, sign) -> Branch.
         joints: (ns, p, core) -> {joint: value}, a pair (cosine, sine) for a revolute.
         factors: (ns, p, core) -> {factor: value}.
-        jacobians: (ns, p, core) -> (rows of Jp, rows of Jq) with Jp v = Jq qdot.
+        jacobians: (ns, p, core) -> (rows of Jp, rows of Jq) with Jp v = Jq qdot; a plain 0 where an entry
+            vanishes everywhere.
         quantities: (ns, p, core) -> {quantity: value}; a pair (cosine, sine) for an angle.
         constraints: (ns, p, core, inputs) -> {name: (found, wanted)}: the lengths that given inputs
             and a given pose would need, beside the lengths that the parameters say.

@@ -8,7 +8,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import sympy
 from numpy.typing import ArrayLike, NDArray
 
 
@@ -42,12 +41,14 @@ class Extended:
 
 
 class Symbols:
-    """SymPy expressions.
+    """SymPy expressions. SymPy is imported where it is asked for: it is slow to start.
 
-    >>> Symbols().sqrt(sympy.Integer(9))
+    >>> Symbols().sqrt(9)
     3
     """
 
     def sqrt(self, radicand: Any, /) -> Any:
         """SymPy's root."""
+        import sympy
+
         return sympy.sqrt(radicand)

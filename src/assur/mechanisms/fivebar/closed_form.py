@@ -94,8 +94,7 @@ def factors(ns, p, core):
 
 def jacobians(ns, p, core):
     """The rods are rigid: rod_i . v = l1 sin(B_i) dtheta_i."""
-    zero = 0 * core.x
-    return (core.rod1, core.rod2), ((p.l1 * core.sin_b1, zero), (zero, p.l1 * core.sin_b2))
+    return (core.rod1, core.rod2), ((p.l1 * core.sin_b1, 0), (0, p.l1 * core.sin_b2))
 
 
 def quantities(ns, p, core):

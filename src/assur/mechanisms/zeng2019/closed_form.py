@@ -130,9 +130,8 @@ def jacobians(ns, p, core):
     """Regular form of Eq. (25): row 1 - row 2, row 1 times sin(alpha), row 3 times sin(beta)."""
     u1, u2, u3, w, v = core.u1, core.u2, core.u3, core.w, core.v
     ca, sa, cb, sb = core.cos_alpha, core.sin_alpha, core.cos_beta, core.sin_beta
-    zero = 0 * core.x
-    jp = ((zero, u1 - u2, zero), (ca * w, sa * u1, sa * w), (cb * v, sb * u3, sb * v))
-    jq = ((u1, -u2, zero), (sa * u1, zero, zero), (zero, zero, sb * u3))
+    jp = ((0, u1 - u2, 0), (ca * w, sa * u1, sa * w), (cb * v, sb * u3, sb * v))
+    jq = ((u1, -u2, 0), (sa * u1, 0, 0), (0, 0, sb * u3))
     return jp, jq
 
 
@@ -141,9 +140,8 @@ def as_printed(ns, p, core):
     u1, u2, u3, w, v = core.u1, core.u2, core.u3, core.w, core.v
     cot_alpha = core.cos_alpha / core.sin_alpha
     cot_beta = core.cos_beta / core.sin_beta
-    zero = 0 * core.x
     jp = ((cot_alpha * w, u1, w), (cot_alpha * w, u2, w), (cot_beta * v, u3, v))
-    jq = ((u1, zero, zero), (zero, u2, zero), (zero, zero, u3))
+    jq = ((u1, 0, 0), (0, u2, 0), (0, 0, u3))
     return jp, jq
 
 

@@ -1,0 +1,121 @@
+"""Evidence on Eqs. (1)-(6) and the joint graph itself: E10, E12, E13."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assur.audit.audit import reference_entry, reference_of
+from assur.audit.configurations import configurations, random_assemblies
+from assur.audit.rows import Evidence
+from assur.audit.topology import decomposition_rows
+from assur.audit.twists import constraint_rank, freedom_sum, part
+from assur.kinematics.closure import closure_error, mobility
+from assur.kinematics.position import direct
+from assur.model.formula import parse
+from assur.model.joint_graph import joint_graph
+from assur.model.points import quantity
+
+CLOSE = 1e-9
+
+
+def loop_numbers(record):
+    """E10: each dim of Eq. (4) is one xi, not their sum; Delta = -3 occurs."""
+    xis = [row.computed for row in _numbers(record) if row.quantity.startswith("xi")]
+    ours = [row.computed for row in _numbers(record) if row.quantity.startswith("Delta")]
+    tripod = _tripod_with_passive_limb()
+    return Evidence(
+        len(xis) == 2 and sum(xis) not in xis and sum(ours) == 0 and -3 in tripod and sum(tripod) == 0,
+        f"By rank of twists the two loops have ξ = {xis[0]} and {xis[1]}; the right side of Eq. (4) is {xis[1]} for the second "
+        f"one, the sum on its left would be {sum(xis)}. A platform on three UPS limbs and a passive UP limb, added in this "
+        f"order, has Δ = {', '.join(map(str, tripod))} (rank of random twists), with sum 0: -3 occurs.",
+        {"xi": xis, "delta": tripod},
+    )
+
+
+def coupling_is_a_heuristic(record):
+    """E12: kappa > 0 does not forbid a closed form: this mechanism has both."""
+    kappa = next(row.computed for row in _numbers(record) if row.quantity == "kappa")
+    here = configurations(record).values
+    found = direct(record, here[:, list(record.input_indices)])
+    worst = float(np.max(found.residuals[found.exists]))
+    poses = quantity(record, parse("O'.x"), here)
+    nearest = np.min(np.where(found.exists, np.abs(found.poses[..., 0] - poses[:, None]), np.inf), axis=1)
+    return Evidence(
+        kappa > 0 and worst < 1e-6 and float(np.max(nearest)) < 1e-5,
+        f"κ = {kappa:g} by rank of twists, and yet the direct problem has a closed form: at the inputs of {len(here)} random "
+        "configurations of the joint graph its branches close the whole joint graph and each configuration's own pose is among them.",
+        {"kappa": kappa},
+    )
+
+
+def joint_graph_counts(record):
+    """E13: joints, links, loops, rank, freedoms and redundant constraints, with and without parallelograms collapsed."""
+    graph, free = joint_graph(record), mobility(record, configurations(record).values[0])
+    first = reference_of(record).entries["decomposition"][0].loops[0].joints
+    loops = [first, *([name] for name in record.generalised)]
+    xis = [constraint_rank(record, names) for names in loops]
+    xis.append(constraint_rank(record) - sum(xis))
+    inner = sum(xis[1:-1])
+    collapsed_loops = len(graph.cut) - len(record.generalised)
+    collapsed_redundant = 6 * collapsed_loops - (constraint_rank(record) - inner)
+    counts = (len(record.joints), len(record.links), len(graph.cut), int(free.rank), 6 * len(graph.cut))
+    freedoms, redundant = int(free.freedoms), int(free.redundant)
+    inputs = [item.value for item in reference_entry(record, "direct", "Table 1").given]
+    values = random_assemblies(record, tuple(inputs))
+    crossed = [
+        float(
+            np.min(closure_error(record, values[np.abs(np.exp(1j * quantity(record, parse(gap), values)) - 1) > 0.1]))
+        )
+        for gap in ("B3a - B3b", "D3a - D3b")
+    ]
+    return Evidence(
+        counts == (17, 14, 4, 14, 24)
+        and freedoms == freedom_sum(record) - counts[3] == 3
+        and redundant == 10
+        and xis == [3, 3, 3, 5]
+        and collapsed_redundant == 4
+        and max(crossed) < 1e-6
+        and len(part(record).loops) == counts[2],
+        f"{counts[0]} joints, {counts[1]} links, {counts[2]} independent loops with ξ = {', '.join(map(str, xis))}; the closure "
+        f"has rank {counts[3]} of {counts[4]} rows, F = {freedoms}, {redundant} redundant constraints, and {collapsed_redundant} "
+        "with the parallelograms collapsed. At the inputs of Table 1 random search finds assemblies with parallelogram ① "
+        "crossed and with parallelogram ② crossed; they close the joint graph like the others.",
+        {"xi": xis, "redundant": redundant, "collapsed_redundant": collapsed_redundant},
+    )
+
+
+def _numbers(record):
+    reference = reference_of(record)
+    return decomposition_rows(record, reference, reference.entries["decomposition"][0])
+
+
+def _tripod_with_passive_limb(seed=0):
+    """Delta of the loops of a platform on three UPS limbs and one passive UP limb, by rank of twists."""
+    rng = np.random.default_rng(seed)
+    limbs = [_limb(rng, spherical=True) for _ in range(3)] + [_limb(rng, spherical=False)]
+    inputs = [1, 1, 1, 0]
+    deltas, before = [], 0
+    for count in (2, 3, 4):
+        widths = [limb.shape[1] for limb in limbs[:count]]
+        starts = np.cumsum([0, *widths])
+        matrix = np.zeros((6 * (count - 1), starts[-1]))
+        for index in range(1, count):
+            rows = slice(6 * (index - 1), 6 * index)
+            matrix[rows, : starts[1]] = limbs[0]
+            matrix[rows, starts[index] : starts[index + 1]] = -limbs[index]
+        rank = int(np.linalg.matrix_rank(matrix))
+        new = range(2) if count == 2 else [count - 1]
+        deltas.append(sum(widths[i] - inputs[i] for i in new) - (rank - before))
+        before = rank
+    return deltas
+
+
+def _limb(rng, *, spherical):
+    """Twists (6, f) of a U joint at one random point, a P joint along the leg and, if wanted, an S joint at another."""
+    foot, head = rng.normal(size=(2, 3))
+    axes = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    columns = [np.concatenate([axis, np.cross(foot, axis)]) for axis in axes[:2]]
+    columns.append(np.concatenate([np.zeros(3), head - foot]))
+    if spherical:
+        columns += [np.concatenate([axis, np.cross(head, axis)]) for axis in np.eye(3)]
+    return np.stack(columns, axis=1)
