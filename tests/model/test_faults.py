@@ -77,7 +77,8 @@ CASES: list[tuple[str, str, list[str]]] = [
     ("value = 40", 'value = "sqrt(-l3)"',
      ['9: parameters.l1.value: "sqrt(-l3)" has no value: square root of a negative number; allowed: a finite number']),
     ("value = 40", 'value = "1e300*1e300 - 1e300*1e300"',
-     ['9: parameters.l1.value: "1e300*1e300 - 1e300*1e300" has no value: too large; allowed: a finite number']),
+     ['9: parameters.l1.value: "1e300*1e300 - 1e300*1e300" is too large; allowed: numbers up to 1e+100']),
+    ("value = 40", "value = 1e101", ['9: parameters.l1.value: "1e+101" is too large; allowed: numbers up to 1e+100']),
     ("value = 40", 'value = "3 deg"', ['9: parameters.l1.value: "3 deg" is an angle; allowed: a number in mm']),
     ("value = 40", 'value = "sin(l3)"',
      [f'9: parameters.l1.value: "sin(l3)": sin of a plain number; {MIXED}', f"? {DEG}"]),
@@ -149,7 +150,8 @@ CASES: list[tuple[str, str, list[str]]] = [
       "? did you mean 'axes' or 'alias'?", '22: joints.A.axes: "z"; allowed: a list of two axes']),
     ('"revolute", parent = "ground", child = "crank", axis = "z" }\nB',
      '"universal", parent = "ground", child = "crank", axes = ["z", [0, 0, -3]] }\nB',
-     ["22: joints.A.axes: two parallel axes; allowed: two that are not", "? two parallel axes are one freedom: use a revolute",
+     ["22: joints.A.axes: two parallel axes; allowed: two that are not",
+      "? two parallel axes are one freedom: use a revolute",
       "28: inputs.A: 'A' has 2 components; allowed: A.first or A.second",
       "45: home.A: 1 values; allowed: 2 (first, second)"]),
     ('"revolute", parent = "ground", child = "crank", axis = "z" }\nB',
@@ -183,7 +185,7 @@ CASES: list[tuple[str, str, list[str]]] = [
     ("[inputs]", '[inputs]\nB = { name = "q" }\norder = ["A"]',
      ["29: inputs.order: lacks B; allowed: the inputs, each once"]),
     ("[inputs]", '[inputs]\nB = { name = "theta" }',
-     ["29: inputs.A.name: a input has the name 'theta' already; allowed: another name"]),
+     ["29: inputs.A.name: an input has the name 'theta' already; allowed: another name"]),
     ("[inputs]", '[inputs]\nR2 = { name = "q1" }\nB = { name = "q2" }',
      ["29: inputs.B: 'B' is an input already; allowed: each joint once"]),
     ("[inputs]", "[inputs]\nB.rotation = { name = 'q' }",
@@ -285,6 +287,14 @@ def test_a_broken_entry_is_no_unknown_name(fourbar: str, faults: Faults) -> None
     assert found == ["parameters.l1.value", "links.crank", "joints.B.parent"]
 
 
+@pytest.mark.parametrize("tag", ["3", "[]", "{}", "true", "nan", "1979-05-27", '"Revolute"'])
+def test_a_type_that_is_none_is_told(fourbar: str, faults: Faults, tag: str) -> None:
+    found = faults(fourbar.replace('type = "revolute"', f"type = {tag}", 1))
+    assert found[0].startswith("f.toml:22: joints.A.type: ")
+    assert TYPES in found[0]
+    assert len([line for line in found if not line.startswith("    ")]) == 1
+
+
 @pytest.mark.parametrize("table", ["links", "joints", "home", "inputs", "parameters", "limbs"])
 def test_a_table_that_is_none_ends_the_reading(faults: Faults, table: str) -> None:
     assert faults(f"format = 1\n{table} = 3") == [f"f.toml:2: {table}: 3; allowed: a table {{ ... }}"]
@@ -292,6 +302,4 @@ def test_a_table_that_is_none_ends_the_reading(faults: Faults, table: str) -> No
 
 def test_an_empty_file_says_what_a_mechanism_needs(faults: Faults) -> None:
     needed = ["format", "name", "unit", "angle", "base", "platform", "links", "joints", "inputs", "home"]
-    assert [line.split(": ")[1:3] for line in faults("")] == [
-        [key, "missing; this must be there"] for key in needed
-    ]
+    assert [line.split(": ")[1:3] for line in faults("")] == [[key, "missing; this must be there"] for key in needed]

@@ -108,9 +108,7 @@ WRONG = [
 
 
 @pytest.mark.parametrize(("text", "position", "found", "expected", "hint"), WRONG)
-def test_a_syntax_error_says_where_and_what(
-    text: str, position: int, found: str, expected: str, hint: str
-) -> None:
+def test_a_syntax_error_says_where_and_what(text: str, position: int, found: str, expected: str, hint: str) -> None:
     with pytest.raises(FormulaError) as caught:
         parse(text)
     error = caught.value

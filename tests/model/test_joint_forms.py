@@ -39,8 +39,8 @@ def joint_of(read: Read, kind: str, keys: str) -> tuple[Joint, MechanismRecord]:
 
 
 def test_revolute(read: Read) -> None:
-    keys = 'axis = ["sin(slant)", 0, "cos(slant)"], at = ["h", 1, "-h/2"], child_at = [0, 0.5, 2], limits = [-45, "1 rad"]'
-    joint, record = joint_of(read, "revolute", keys)
+    keys = 'axis = ["sin(slant)", 0, "cos(slant)"], at = ["h", 1, "-h/2"], child_at = [0, 0.5, 2]'
+    joint, record = joint_of(read, "revolute", keys + ', limits = [-45, "1 rad"]')
     assert joint.axes == pytest.approx(np.array([[0.5, 0, math.sqrt(0.75)]]))
     assert joint.at.tolist() == [30, 1, -15]
     assert joint.child_at.tolist() == [0, 0.5, 2]
@@ -68,7 +68,7 @@ def test_helical(read: Read) -> None:
 
 
 def test_cylindrical(read: Read) -> None:
-    joint, record = joint_of(read, "cylindrical", 'axis = [3, 0, 4], limits = { rotation = [-90, 90] }')
+    joint, record = joint_of(read, "cylindrical", "axis = [3, 0, 4], limits = { rotation = [-90, 90] }")
     assert joint.axes == pytest.approx(np.array([[0.6, 0, 0.8]]))
     assert joint.limits == (None, pytest.approx((-math.pi / 2, math.pi / 2)))
     assert record.home == pytest.approx([30.0, math.radians(31)])

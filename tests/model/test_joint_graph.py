@@ -122,7 +122,10 @@ def test_screws_are_the_derivatives_of_the_frames(every):
             omega, velocity = sense * twists[:3, index], sense * twists[3:, index]
             np.testing.assert_allclose(turn, omega, atol=1e-8, err_msg=f"{joint.name} {near} {far}")
             np.testing.assert_allclose(
-                (ahead[1] - behind[1]) / (2 * step), velocity + np.cross(omega, middle), atol=1e-6, err_msg=joint.name
+                (ahead[1] - behind[1]) / (2 * step),
+                velocity + np.cross(omega, middle),
+                atol=1e-6,
+                err_msg=joint.name,
             )
 
 

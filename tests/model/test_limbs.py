@@ -16,7 +16,7 @@ Read = Callable[[str], MechanismRecord]
 Faults = Callable[[str], list[str]]
 
 DELTA = Path(__file__).with_name("delta.toml").read_text(encoding="utf-8")
-ANGLES = ANGLES
+ANGLES = 'angles = ["turn", 120, "4*pi/3 + turn"]'
 
 
 def turn(angle: float) -> np.ndarray:
@@ -27,7 +27,11 @@ def turn(angle: float) -> np.ndarray:
 def test_every_part_of_a_template_gets_its_number(read: Read) -> None:
     record = read(DELTA)
     limbs = ("leg1", "leg2", "leg3")
-    assert list(record.links) == ["base", "hand", *(f"{leg}.{x}" for leg in limbs for x in ("arm", "rod1", "rod2"))]
+    assert list(record.links) == [
+        "base",
+        "hand",
+        *(f"{leg}.{x}" for leg in limbs for x in ("arm", "rod1", "rod2")),
+    ]
     assert list(record.joints) == [f"{leg}.{x}" for leg in limbs for x in ("A", "B1", "B2", "C1", "C2")]
     assert list(record.points) == ["leg1.E", "leg2.E", "leg3.E"]
     assert (record.joints["leg2.B1"].parent, record.joints["leg2.C1"].child) == ("leg2.arm", "hand")
@@ -142,29 +146,34 @@ CASES: list[tuple[str, str, list[str]]] = [
       "allowed: cylindrical, helical, prismatic, revolute, spherical, universal"]),
     ('E = { link = "arm"', 'A = { link = "arm"',
      ["29: limbs.leg.points.A: a joint has the name 'leg1.A' already; allowed: another name",
-      "38: modes.working.s2: unknown quantity 'leg2.E.z'; there is:"]),
-    (ANGLES, "count = 1", ["14: limbs.leg.repeat.count: 1; allowed: greater than or equal to 2"]),
-    (ANGLES, "count = 1000000000", ["14: limbs.leg.repeat.count: 1000000000; allowed: less than or equal to 60"]),
-    (ANGLES, "count = 3.0", ["14: limbs.leg.repeat.count: 3.0; allowed: a whole number"]),
-    (ANGLES, "count = true", ["14: limbs.leg.repeat.count: true; allowed: a whole number"]),
-    (ANGLES, "angles = []", ["14: limbs.leg.repeat.angles: a list of 0; allowed: at least 1"]),
+      "37: modes.working.s2: unknown quantity 'leg2.E.z'; there is:"]),
+    (ANGLES, "count = 1", ["15: limbs.leg.repeat.count: 1; allowed: greater than or equal to 2"]),
+    (ANGLES, "count = 1000000000", ["15: limbs.leg.repeat.count: 1000000000; allowed: less than or equal to 60"]),
+    (ANGLES, "count = 3.0", ["15: limbs.leg.repeat.count: 3.0; allowed: a whole number"]),
+    (ANGLES, "count = true", ["15: limbs.leg.repeat.count: true; allowed: a whole number"]),
+    (ANGLES, "angles = []", ["15: limbs.leg.repeat.angles: a list of 0; allowed: at least 1"]),
     (ANGLES, 'angles = ["R", 1, 2]', []),
     (ANGLES, 'angles = ["R*turn", 1, "R + turn"]',
-     ['14: limbs.leg.repeat.angles[2]: "R + turn": the sum of an angle and a plain number; '
+     ['15: limbs.leg.repeat.angles[2]: "R + turn": the sum of an angle and a plain number; '
       "allowed: angles with angles, plain numbers with plain numbers", "? a unit makes an angle of a number: 90 deg"]),
     (ANGLES, "angles = [0, 5, 9], count = 3",
-     ["14: limbs.leg.repeat: count and angles; allowed: one of the two", "? count = 3 means every 120 deg"]),
+     ["15: limbs.leg.repeat: count and angles; allowed: one of the two", "? count = 3 means every 120 deg"]),
+    (ANGLES, "angles = [0, 5, 9], count = 60",
+     ["15: limbs.leg.repeat: count and angles; allowed: one of the two", "? count = 3 means every 120 deg"]),
+    ("[limbs.leg.links]\narm", "[limbs.leg.joints.X]\n[limbs.leg.links]\narm",
+     ["16: limbs.leg.joints.X.type: missing; "
+      "allowed: cylindrical, helical, prismatic, revolute, spherical, universal"]),
     (", " + ANGLES, "",
-     ["14: limbs.leg.repeat: neither count nor angles; allowed: one of the two", "? count = 3 means every 120 deg"]),
+     ["15: limbs.leg.repeat: neither count nor angles; allowed: one of the two", "? count = 3 means every 120 deg"]),
     ('repeat = { about = "z", ' + ANGLES + " }\n", "",
-     ["13: limbs.leg.repeat: missing; this key must be there", '? repeat = { about = "z", count = 3 }']),
+     ["14: limbs.leg.repeat: missing; this key must be there", '? repeat = { about = "z", count = 3 }']),
     ('about = "z"', 'about = "w"',
-     ['14: limbs.leg.repeat.about: "w"; '
+     ['15: limbs.leg.repeat.about: "w"; '
       'allowed: x, y, z, -x, -y, -z, or a vector such as ["0", "cos(30 deg)", "sin(30 deg)"]']),
     ('about = "z"', "about = [0, 0, 0]",
-     ["14: limbs.leg.repeat.about: an axis of length zero; allowed: a vector that has a direction"]),
+     ["15: limbs.leg.repeat.about: an axis of length zero; allowed: a vector that has a direction"]),
     ("[links]", "[points]\nleg2 = { link = 'hand' }\n[links]",
-     ["15: limbs.leg: a point has the name 'leg2' already; allowed: another name"]),
+     ["16: limbs.leg: a point has the name 'leg2' already; allowed: another name"]),
 ]  # fmt: skip
 
 
@@ -192,3 +201,9 @@ def test_the_limbs_of_two_templates_may_not_have_one_name(faults: Faults) -> Non
         f"f.toml:{text[: text.index('[limbs.leg1]')].count(chr(10)) + 1}: limbs.leg1: "
         "a limb has the name 'leg11' already; allowed: another name"
     ]
+
+
+@pytest.mark.parametrize("table", ["links", "joints", "inputs", "generalised", "points", "home"])
+def test_a_table_of_a_template_that_is_none_ends_the_reading(faults: Faults, table: str) -> None:
+    text = f"[limbs.leg]\nrepeat = {{ about = 'z', count = 3 }}\n{table} = 3"
+    assert faults(text) == [f"f.toml:3: limbs.leg.{table}: 3; allowed: a table {{ ... }}"]

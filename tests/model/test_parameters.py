@@ -23,7 +23,12 @@ def test_parameters_may_be_formulas_in_any_order(read: Read, fourbar: str) -> No
 
 
 def test_an_angle_keeps_its_unit_in_the_record_and_is_in_rad_inside(read: Read, fourbar: str) -> None:
-    for text, shown in (("15", 15.0), ('"pi/12"', 15.0), ('"10 deg + 5 deg"', 15.0), ('"0.5 rad"', math.degrees(0.5))):
+    for text, shown in (
+        ("15", 15.0),
+        ('"pi/12"', 15.0),
+        ('"10 deg + 5 deg"', 15.0),
+        ('"0.5 rad"', math.degrees(0.5)),
+    ):
         record = read(fourbar.replace("tilt = { value = 15", f"tilt = {{ value = {text}"))
         assert record.parameters["tilt"].value == pytest.approx(shown)
         assert record.values.tilt == pytest.approx(math.radians(shown))

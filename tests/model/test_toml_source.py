@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterator
 from importlib.resources import files
 from typing import Any
@@ -103,16 +104,17 @@ def test_what_is_not_toml_is_refused_with_its_line(text: str, line: int, row: st
 @pytest.mark.parametrize(
     ("text", "found"),
     [
-        ("a = " + "[" * 5000, "brackets nested too deeply"),
-        ("a = " + "[" * 300 + "]" * 300, ""),
+        ("a = " + "[" * 5000 + "]" * 5000, "brackets nested too deeply"),
         ("a = " + "1" * 5000, "not TOML"),
         ("#" * 1_000_001, "1000001 characters"),
     ],
 )
 def test_what_is_too_large_is_refused(text: str, found: str) -> None:
-    try:
+    with pytest.raises(MechanismFileError, match=found):
         read_toml(text, "f.toml")
-    except MechanismFileError as error:
-        assert found in str(error)
-        return
-    assert not found
+
+
+def test_brackets_as_deep_as_the_toml_reader_goes_are_no_crash() -> None:
+    for depth in range(50, 500, 25):
+        with contextlib.suppress(MechanismFileError):
+            read_toml("a = " + "[" * depth + "]" * depth, "f.toml")

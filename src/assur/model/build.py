@@ -130,6 +130,4 @@ def _sections(file: schema.FileEntry, numbers: Numbers) -> tuple[float, ...]:
     last = file.platform.pose[-1] if file.platform else ""
     path = ("workspace", "sections")
     given = enumerate(file.workspace.sections)
-    return tuple(
-        numbers.of("angle" if last == "phi" else "length", value, (*path, at)) for at, value in given
-    )
+    return tuple(numbers.of("angle" if last == "phi" else "length", value, (*path, at)) for at, value in given)

@@ -30,9 +30,7 @@ def build_inputs(file: schema.FileEntry, tables: Tables, scope: Scope, numbers: 
         stroke = numbers.interval(item.kind, entry.stroke, (*path, "stroke")) if entry.stroke else None
         if item.index in found:
             scope.faults.add(path, f"'{placed.local}' is an input already", "allowed: each joint once")
-        found[item.index] = Input(
-            item, entry.name, entry.latex or entry.name, offset, float(entry.sign), stroke
-        )
+        found[item.index] = Input(item, entry.name, entry.latex or entry.name, offset, float(entry.sign), stroke)
     complete = len(found) == len(tables.inputs) and not tables.broken.get("inputs")
     if file.inputs.order is None or not complete:
         return tuple(found.values())
@@ -48,9 +46,7 @@ def _ordered(order: tuple[str, ...], found: Mapping[int, Input], scope: Scope) -
             continue
         if item.index not in found:
             hint = f'add {name} = {{ name = "q" }}'
-            scope.faults.add(
-                path, f"'{name}' has no entry in [inputs]", "allowed: the inputs, each once", hint
-            )
+            scope.faults.add(path, f"'{name}' has no entry in [inputs]", "allowed: the inputs, each once", hint)
         elif item.index in indices:
             scope.faults.add(path, f"'{name}' twice", "allowed: the inputs, each once")
         indices.append(item.index)
@@ -91,6 +87,4 @@ def _check_complete(given: set[str], tables: Tables, scope: Scope) -> None:
             lacking.setdefault(path, []).append(placed.local)
     for path, names in lacking.items():
         allowed = "every joint needs a value near one assembled configuration"
-        scope.faults.add(
-            path, f"lacks {listed(set(names))}", allowed, f"add {names[0]} = 0, or a better guess"
-        )
+        scope.faults.add(path, f"lacks {listed(set(names))}", allowed, f"add {names[0]} = 0, or a better guess")

@@ -100,14 +100,10 @@ def _axes(placed: Placed[schema.AnyJoint], geometry: Geometry) -> tuple[FloatArr
     if isinstance(entry, schema.SphericalEntry):
         return np.zeros((0, 3)), np.eye(3)
     if isinstance(entry, schema.UniversalEntry):
-        pair = [
-            geometry.axis(axis, (*path, "axes", place), instance) for place, axis in enumerate(entry.axes)
-        ]
+        pair = [geometry.axis(axis, (*path, "axes", place), instance) for place, axis in enumerate(entry.axes)]
         if float(np.linalg.norm(np.cross(pair[0], pair[1]))) < SMALL:
             hint = "two parallel axes are one freedom: use a revolute"
-            geometry.numbers.faults.add(
-                (*path, "axes"), "two parallel axes", "allowed: two that are not", hint
-            )
+            geometry.numbers.faults.add((*path, "axes"), "two parallel axes", "allowed: two that are not", hint)
         return np.array(pair), np.eye(3)
     axis = geometry.axis(entry.axis, (*path, "axis"), instance)
     if entry.child_axis is None:

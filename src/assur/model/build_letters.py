@@ -38,9 +38,7 @@ def _check_mode(formula: Formula, path: KeyPath, scope: Scope, letters: Mapping[
     unknown = sorted(text for text, kind in kinds.items() if kind is None)
     for text in unknown:
         scope.faults.unknown(path, "quantity", text, [*scope.quantities, *letters])
-    if not unknown and not any(
-        scope.quantity_kind(text) or letters.get(text) == "angle" for text in formula.names
-    ):
+    if not unknown and not any(scope.quantity_kind(text) or letters.get(text) == "angle" for text in formula.names):
         scope.faults.add(path, f'"{formula.text}" never changes', "allowed: a formula of joints and points")
     try:
         kind_of(formula.root, {text: kind or "either" for text, kind in kinds.items()})
@@ -51,9 +49,7 @@ def _check_mode(formula: Formula, path: KeyPath, scope: Scope, letters: Mapping[
 def _check_default(table: str, default: str, names: list[str], scope: Scope) -> None:
     path = ("modes", "default", table)
     if len(default) != len(names) or set(default) - {"+", "-"}:
-        allowed = (
-            f"allowed: + or - for each of {', '.join(names)}" if names else f"there are no {table} signs"
-        )
+        allowed = f"allowed: + or - for each of {', '.join(names)}" if names else f"there are no {table} signs"
         scope.faults.add(path, f'"{default}"' if default else "missing", allowed)
 
 
@@ -63,9 +59,7 @@ def build_angles(file: schema.FileEntry, scope: Scope) -> dict[str, Coordinate]:
     for name, text in file.angles.items():
         item = scope.coordinate(text, ("angles", name))
         if item and item.kind != "angle":
-            scope.faults.add(
-                ("angles", name), f"'{text}' is a length", "allowed: a joint value that is an angle"
-            )
+            scope.faults.add(("angles", name), f"'{text}' is a length", "allowed: a joint value that is an angle")
         if item:
             found[name] = item
     return found

@@ -38,6 +38,7 @@ _TYPES = {
 
 
 _NEEDED = {(table,) for table in (*_TABLES, "joints", "limbs", "home")}
+_NEEDED_OF_LIMB = {(), *((table,) for table in schema.LimbEntry.model_fields)} - {("repeat",), ("chain",)}
 
 
 def check_form(data: dict[str, Any], faults: Faults) -> tuple[schema.FileEntry | None, frozenset[KeyPath]]:
@@ -59,7 +60,7 @@ def check_form(data: dict[str, Any], faults: Faults) -> tuple[schema.FileEntry |
         for details, path in [] if unknown else errors:
             _note(details, path, faults)
             entry = _entry(path)
-            if entry in _NEEDED or (len(entry) == 2 and entry[0] == "limbs"):
+            if entry in _NEEDED or (entry[0] == "limbs" and entry[2:] in _NEEDED_OF_LIMB):
                 return None, frozenset(cut)
             cut.add(entry)
             _take(rest, entry)
@@ -70,18 +71,11 @@ def _path(location: tuple[str | int, ...], data: Any) -> KeyPath:
     """The place in the document: pydantic's location less the tags and marks that it adds."""
     path: list[str | int] = []
     for index, part in enumerate(location):
-        inside = (isinstance(data, dict) and part in data) or (
-            isinstance(data, list) and isinstance(part, int)
-        )
+        inside = (isinstance(data, dict) and part in data) or (isinstance(data, list) and isinstance(part, int))
         if inside:
             data = data[part] if isinstance(data, dict) else data[int(part)]
             path.append(part)
-        elif (
-            index == len(location) - 1
-            and isinstance(part, str)
-            and part != "[key]"
-            and isinstance(data, dict)
-        ):
+        elif index == len(location) - 1 and isinstance(part, str) and part != "[key]" and isinstance(data, dict):
             path.append(part)
     return tuple(path)
 
@@ -105,9 +99,7 @@ def _note_unknown(details: ErrorDetails, path: KeyPath, data: dict[str, Any], fa
     keys = allowed_keys(path[:-1], data)
     dotted = path[0] in _REFERENCES and isinstance(details["input"], dict)
     key = str(path[-1])
-    faults.add(
-        path, "unknown key", f"allowed here: {listed(keys)}", _DOTTED if dotted else nearest(key, keys)
-    )
+    faults.add(path, "unknown key", f"allowed here: {listed(keys)}", _DOTTED if dotted else nearest(key, keys))
     table, value = _take(data, path)
     meant = difflib.get_close_matches(key, keys, n=1)
     if meant and meant[0] not in table:
@@ -121,9 +113,7 @@ def _note(details: ErrorDetails, path: KeyPath, faults: Faults) -> None:
         dotted = path[0] in _REFERENCES and isinstance(details["input"], dict)
         faults.add(path, context["found"], context["allowed"], _DOTTED if dotted else context["hint"])
     elif kind in ("too_short", "too_long"):
-        bound = (
-            f"at least {context['min_length']}" if kind == "too_short" else f"at most {context['max_length']}"
-        )
+        bound = f"at least {context['min_length']}" if kind == "too_short" else f"at most {context['max_length']}"
         faults.add(path, value, f"allowed: {bound}")
     elif kind == "missing":
         faults.add(path, "missing", "this key must be there")
@@ -139,9 +129,7 @@ def _note(details: ErrorDetails, path: KeyPath, faults: Faults) -> None:
     elif path[0] == "parameters" and len(path) == 2 and isinstance(details["input"], int | float | str):
         faults.add(path, value, _TYPES[kind], f"write {path[1]} = {{ value = {value} }}")
     else:
-        faults.add(
-            path, value, _TYPES.get(kind, f"allowed: {details['msg'].removeprefix('Input should be ')}")
-        )
+        faults.add(path, value, _TYPES.get(kind, f"allowed: {details['msg'].removeprefix('Input should be ')}"))
 
 
 def allowed_keys(path: KeyPath, data: dict[str, Any]) -> tuple[str, ...]:

@@ -68,9 +68,7 @@ class FormulaError(UsageError):
         start = max(0, position - 40)
         shown = text[start : position + 40].replace("\n", " ").replace("\t", " ")
         caret = " " * (position - start) + "^"
-        super().__init__(
-            f"cannot read this formula:\n  {shown}\n  {caret} {found}; expected {expected}", hint=hint
-        )
+        super().__init__(f"cannot read this formula:\n  {shown}\n  {caret} {found}; expected {expected}", hint=hint)
         self.text = text
         self.position = position
         self.found = found
@@ -165,9 +163,7 @@ class _Reader:
             match = _TOKEN.match(self.text, position)
             if match is None:
                 found = self.text[position]
-                self._fail(
-                    position, repr(found), "a number, a name, an operator or a bracket", _HINTS.get(found, "")
-                )
+                self._fail(position, repr(found), "a number, a name, an operator or a bracket", _HINTS.get(found, ""))
             tokens.append(_Token(match.lastgroup or "", match.group(), position))
             position = match.end()
         return [*tokens, _Token("end", "", len(self.text))]

@@ -44,26 +44,18 @@ def _check_connected(record: MechanismRecord, tables: Tables, faults: Faults) ->
     for name, placed in tables.links.items():
         joints = graph.degree(name)
         if name not in reached:
-            faults.add(
-                placed.path, f"'{placed.local}' is not connected to the base", "allowed: one connected graph"
-            )
+            faults.add(placed.path, f"'{placed.local}' is not connected to the base", "allowed: one connected graph")
         elif joints == 1 and name not in (record.base, record.platform.link):
             hint = "a body that only rides along belongs to the link that carries it, as a point"
-            faults.add(
-                placed.path, f"'{placed.local}' dangles: it has one joint only", "allowed: two or more", hint
-            )
+            faults.add(placed.path, f"'{placed.local}' dangles: it has one joint only", "allowed: two or more", hint)
 
 
-def _check_parallelogram(
-    record: MechanismRecord, item: GeneralisedJoint, path: KeyPath, faults: Faults
-) -> None:
+def _check_parallelogram(record: MechanismRecord, item: GeneralisedJoint, path: KeyPath, faults: Faults) -> None:
     """Four joints in turn around a loop of four links, opposite sides of equal length."""
     joints = [record.joints[name] for name in item.joints]
     wrong = [joint.name for joint in joints if joint.type.name != _CORNERS[item.kind]]
     if wrong:
-        faults.add(
-            (*path, "joints"), f"{listed(wrong)}", f"allowed in {item.kind}: {_CORNERS[item.kind]} joints"
-        )
+        faults.add((*path, "joints"), f"{listed(wrong)}", f"allowed in {item.kind}: {_CORNERS[item.kind]} joints")
         return
     links = _common_links(joints)
     if links is None:
@@ -73,9 +65,7 @@ def _check_parallelogram(
     opposite = ({links[0], links[2]}, {links[1], links[3]})
     if {item.parent, item.child} not in opposite:
         pairs = " or ".join(" and ".join(sorted(pair)) for pair in opposite)
-        faults.add(
-            (*path, "stands_for"), f"{item.parent} and {item.child}", f"allowed: opposite links, {pairs}"
-        )
+        faults.add((*path, "stands_for"), f"{item.parent} and {item.child}", f"allowed: opposite links, {pairs}")
     sides = [_side(joints[place], joints[(place + 1) % 4], links[place], faults, path) for place in range(4)]
     scale = max(sides)
     for first, second in ((0, 2), (1, 3)):
@@ -103,9 +93,7 @@ def _side(first: Joint, second: Joint, link: str, faults: Faults, path: KeyPath)
     span = end[0] - start[0]
     if first.type.axes == 1:
         if float(np.linalg.norm(np.cross(start[1], end[1]))) > _EQUAL:
-            faults.add(
-                path, f"the axes of {first.name} and {second.name} are not parallel", "allowed: parallel axes"
-            )
+            faults.add(path, f"the axes of {first.name} and {second.name} are not parallel", "allowed: parallel axes")
         span = np.cross(start[1], span)
     return float(np.linalg.norm(span))
 

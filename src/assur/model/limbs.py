@@ -92,9 +92,7 @@ def expand(description: Description, faults: Faults) -> Tables:
     return tables
 
 
-def _instances(
-    name: str, limb: schema.LimbEntry, cut: frozenset[KeyPath], faults: Faults
-) -> tuple[Instance, ...]:
+def _instances(name: str, limb: schema.LimbEntry, cut: frozenset[KeyPath], faults: Faults) -> tuple[Instance, ...]:
     path = ("limbs", name, "repeat")
     repeat = limb.repeat
     if repeat is None:
@@ -112,7 +110,7 @@ def _count(limb: schema.LimbEntry) -> int | None:
     repeat = limb.repeat
     if repeat is None:
         return None
-    return repeat.count or (len(repeat.angles) if repeat.angles else None)
+    return len(repeat.angles) if repeat.angles else repeat.count
 
 
 def _repeat(tables: Tables, limb: schema.LimbEntry, instance: Instance) -> None:
@@ -133,9 +131,7 @@ def _numbered(entry: schema.InputEntry, number: int) -> schema.InputEntry:
     return entry.model_copy(update={"name": f"{entry.name}{number}", "latex": latex})
 
 
-def _broken(
-    description: Description, instances: Mapping[str, tuple[Instance, ...]]
-) -> dict[str, frozenset[str]]:
+def _broken(description: Description, instances: Mapping[str, tuple[Instance, ...]]) -> dict[str, frozenset[str]]:
     """Full names, aliases among them, of the entries that were cut out."""
     broken: dict[str, set[str]] = {}
     for path in description.cut:

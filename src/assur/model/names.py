@@ -21,9 +21,7 @@ def check_names(file: schema.FileEntry, tables: Tables, faults: Faults) -> None:
     """
     _check_group([*_elements(tables), *_links(tables)], faults)
     _check_group([*_elements(tables), *_letters(file)], faults)
-    _check_group(
-        [(item.entry.name, "input", (*item.path, "name")) for item in tables.inputs.values()], faults
-    )
+    _check_group([(item.entry.name, "input", (*item.path, "name")) for item in tables.inputs.values()], faults)
 
 
 def _check_group(uses: list[Use], faults: Faults) -> None:

@@ -25,6 +25,9 @@ AngleUnit = Literal["deg", "rad"]
 Triple = tuple[Formula, Formula, Formula]
 MIXED = "allowed: angles with angles, plain numbers with plain numbers"
 MIXED_HINT = "a unit makes an angle of a number: 90 deg"
+SHORTEST = 1e-12
+# so that products of a few numbers stay within the floats
+LARGEST = 1e100
 _REASONS = {
     ZeroDivisionError: "division by zero",
     ValueError: "square root of a negative number",
@@ -122,9 +125,9 @@ class Numbers:
             reason = _REASONS[type(error)]
             self.faults.add(path, f'"{formula.text}" has no value: {reason}', "allowed: a finite number")
         else:
-            if math.isfinite(value):
+            if abs(value) <= LARGEST:
                 return value, kind
-            self.faults.add(path, f'"{formula.text}" has no value: too large', "allowed: a finite number")
+            self.faults.add(path, f'"{formula.text}" is too large', f"allowed: numbers up to {LARGEST:g}")
         return math.nan, "either"
 
     def plain(self, formula: Formula, path: KeyPath) -> float:
@@ -161,8 +164,7 @@ class Numbers:
         """A unit vector (3,)."""
         vector = self.vector(components, path)
         length = float(np.linalg.norm(vector))
-        if length < 1e-12 or math.isinf(length):
-            what = "of length zero" if length < 1e-12 else "too long"
-            self.faults.add(path, f"an axis {what}", "allowed: a vector that has a direction")
+        if length < SHORTEST:
+            self.faults.add(path, "an axis of length zero", "allowed: a vector that has a direction")
             return np.full(3, np.nan)
         return vector / length

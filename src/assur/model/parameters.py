@@ -125,9 +125,7 @@ def _order(formulas: Mapping[str, Formula], faults: Faults) -> tuple[list[str], 
             edges = nx.find_cycle(graph.subgraph(group).reverse(), first)
             circle = " -> ".join([first, *(edge[1] for edge in edges)])
             found = f"a formula that needs itself: {circle}"
-            faults.add(
-                ("parameters", first, "value"), found, "allowed: formulas of parameters that do not need it"
-            )
+            faults.add(("parameters", first, "value"), found, "allowed: formulas of parameters that do not need it")
             cyclic |= group
     rest = graph.subgraph(graph.nodes - cyclic)
     return list(nx.topological_sort(rest)), cyclic

@@ -41,7 +41,7 @@ def quantity(record: MechanismRecord, formula: Formula, joint_values: FloatArray
 
 def _named(record: MechanismRecord, name: str, joint_values: FloatArray) -> FloatArray:
     if name in record.parameters:
-        return np.asarray(record.parameters[name].value)
+        return np.asarray(record.parameters[name].inside)
     if name in record.angles:
         return joint_values[..., record.angles[name].index]
     letter, _, axis = name.rpartition(".")

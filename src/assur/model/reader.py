@@ -26,7 +26,7 @@ def read_mechanism(path: Path) -> MechanismRecord:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise UsageError(f"cannot read '{path}': {reason}") from None
     try:
-        text = content.decode("utf-8")
+        text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = content[: error.start].count(b"\n") + 1
         found = f"byte 0x{content[error.start]:02x}"
@@ -52,7 +52,5 @@ def read_text(text: str, path: Path) -> MechanismRecord:
     entry, cut = check_form(source.data, faults)
     if entry is None:
         faults.raise_any()
-        raise MechanismFileError(
-            [Problem(str(path), None, "", "a broken document", "allowed: the form of a file")]
-        )
+        raise MechanismFileError([Problem(str(path), None, "", "a broken document", "allowed: the form of a file")])
     return build(Description(path, source, entry, cut), {}, faults)

@@ -86,6 +86,8 @@ def _folder() -> Path:
 
 
 def _find(name_or_path: str | Path) -> Path:
+    if not isinstance(name_or_path, str | Path):
+        raise UsageError(f"a mechanism is given by its name or the path of its file, not by {name_or_path!r}")
     text = str(name_or_path)
     if text in names():
         return _folder() / text / FILE

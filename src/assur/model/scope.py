@@ -37,11 +37,7 @@ class Scope:
             kind = JOINT_TYPES[placed.entry.type]
             names = [name]
             if placed.entry.alias:
-                alias = (
-                    f"{placed.instance.prefix}.{placed.entry.alias}"
-                    if placed.instance
-                    else placed.entry.alias
-                )
+                alias = f"{placed.instance.prefix}.{placed.entry.alias}" if placed.instance else placed.entry.alias
                 if alias not in tables.joints:
                     self.aliases[alias] = name
                     names.append(alias)
@@ -121,8 +117,8 @@ class Scope:
         head, owner = name.split(".")[0], name.rpartition(".")[0]
         own = [f"{instance.prefix}.{text}" for text in (name, owner)] if instance else []
         broken = {full for table in tables for full in self.tables.broken.get(table, ())}
-        unfinished = head.rstrip("0123456789") in self.tables.unfinished
-        return unfinished or not broken.isdisjoint((name, owner, *own))
+        unfinished = [limb for limb in self.tables.unfinished if head.removeprefix(limb).isdigit()]
+        return bool(unfinished) or not broken.isdisjoint((name, owner, *own))
 
     def _find(
         self,
@@ -146,6 +142,4 @@ class Scope:
             return dict(choices)
         outside = {name: item for name, item in choices.items() if name.split(".")[0] not in self._prefixes}
         own = instance.prefix + "."
-        return outside | {
-            name.removeprefix(own): item for name, item in choices.items() if name.startswith(own)
-        }
+        return outside | {name.removeprefix(own): item for name, item in choices.items() if name.startswith(own)}

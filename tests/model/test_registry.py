@@ -1,0 +1,123 @@
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from assur.errors import MechanismFileError, UnknownNameError, UsageError
+from assur.model.registry import load_record, names, with_parameters
+
+FORM = """
+from dataclasses import dataclass
+from assur.model.closed_form import ClosedForm
+
+@dataclass
+class Own:
+    number: int
+
+def nothing(*_):
+    return {}
+
+CLOSED_FORM = ClosedForm(
+    complete_for="joint_graph", direct=nothing, inverse=nothing, joints=nothing, factors=nothing, jacobians=nothing,
+    signs={"s": "sine"}, direct_margins=(), inverse_margins=(), factor_list=(),
+)
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path, fourbar: str) -> Path:
+    (tmp_path / "mechanism.toml").write_text(fourbar, encoding="utf-8")
+    return tmp_path
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_built_in_mechanism_is_a_folder_with_its_name(name: str) -> None:
+    record = load_record(name)
+    assert record.name == name
+    assert record.folder is not None
+    assert record.folder.name == name
+    assert record.source
+    assert all(parameter.meaning for parameter in record.parameters.values())
+    same = load_record(record.file)
+    assert (same.name, same.home.tolist()) == (record.name, record.home.tolist())
+
+
+def test_a_file_a_folder_and_its_name_in_text_are_the_same(folder: Path) -> None:
+    for path in (folder, folder / "mechanism.toml", str(folder), str(folder / "mechanism.toml")):
+        record = load_record(path, l1=41)
+        assert (record.name, record.values.l1, record.folder) == ("fourbar", 41.0, folder)
+        assert record.closed_form is None
+
+
+def test_the_closed_form_beside_a_file_belongs_to_it(folder: Path) -> None:
+    (folder / "closed_form.py").write_text(FORM, encoding="utf-8")
+    record = load_record(folder)
+    assert record.closed_form is not None
+    assert record.closed_form.signs == {"s": "sine"}
+    assert with_parameters(record, l1=41).closed_form is record.closed_form
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("x = 1\ny = x +", ":2: SyntaxError: invalid syntax (closed_form.py, line 2); it must run"),
+        ("x = 1\n\ny = 1 / 0", ":3: ZeroDivisionError: division by zero; it must run"),
+        ("import assur.nothing", ":1: ModuleNotFoundError: No module named 'assur.nothing'; it must run"),
+        ("x = 1", ": no CLOSED_FORM; it must define CLOSED_FORM = ClosedForm(...)"),
+        ("CLOSED_FORM = 3", ": no CLOSED_FORM; it must define CLOSED_FORM = ClosedForm(...)"),
+        (
+            FORM.replace('"s": "sine"', '"t": "sine", "s": "sine"'),
+            ": signs s, t; those of [modes] in mechanism.toml: s",
+        ),
+    ],
+)
+def test_a_broken_closed_form_is_a_fault_of_its_file(folder: Path, text: str, expected: str) -> None:
+    path = folder / "closed_form.py"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(MechanismFileError) as caught:
+        load_record(folder)
+    assert [str(problem) for problem in caught.value.problems] == [f"{path}{expected}"]
+
+
+def test_an_unknown_name_is_answered_with_the_near_ones() -> None:
+    name = names()[-1]
+    for text in (name[:-1], name.upper()[:0] + name + "x", "", "no such mechanism"):
+        with pytest.raises(UnknownNameError) as caught:
+            load_record(text)
+        assert caught.value.choices == names()
+    with pytest.raises(UnknownNameError, match=f"did you mean .*{name}"):
+        load_record(name + "x")
+
+
+@pytest.mark.parametrize("name", ["my.toml", "./my.toml", "a/b", Path("nothing"), "\0.toml"])
+def test_a_path_without_a_file_is_said(name: str | Path) -> None:
+    with pytest.raises(UsageError, match=r"cannot read '") as caught:
+        load_record(name)
+    assert not isinstance(caught.value, UnknownNameError | MechanismFileError)
+
+
+@pytest.mark.parametrize("name", [None, 3, b"zeng2019", ["zeng2019"]])
+def test_what_is_no_name_is_refused(name: object) -> None:
+    with pytest.raises(UsageError, match="a mechanism is given by its name or the path of its file"):
+        load_record(name)  # type: ignore[arg-type]  # that is the point
+
+
+def test_a_file_that_is_not_text_is_a_fault_with_its_line(tmp_path: Path) -> None:
+    path = tmp_path / "bad.toml"
+    path.write_bytes(b'format = 1\nname = "\xff"\n')
+    with pytest.raises(MechanismFileError) as caught:
+        load_record(path)
+    assert [str(problem) for problem in caught.value.problems] == [f"{path}:2: byte 0xff; allowed: UTF-8 text"]
+
+
+def test_a_file_with_a_byte_order_mark_is_read(folder: Path, fourbar: str) -> None:
+    (folder / "mechanism.toml").write_text("\ufeff" + fourbar, encoding="utf-8")
+    assert load_record(folder).name == "fourbar"
+
+
+def test_the_faults_of_a_file_come_before_those_of_a_call(folder: Path, fourbar: str) -> None:
+    (folder / "mechanism.toml").write_text(re.sub("value = 80", "value = -80", fourbar), encoding="utf-8")
+    with pytest.raises(MechanismFileError):
+        load_record(folder, nothing=3)
