@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from assur.errors import MechanismFileError
+from assur.model.file.reader import read_text
 from assur.model.mechanism import MechanismRecord
-from assur.model.reader import read_text
 
 FOURBAR = Path(__file__).with_name("fourbar.toml").read_text(encoding="utf-8")
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from assur.audit.counts import Count, count_rows
@@ -17,22 +18,30 @@ from assur.audit.statements import Statement, statement_rows
 from assur.audit.tables import Table, direct_rows, inverse_rows
 from assur.audit.topology import Decomposition, PocSet, decomposition_rows, poc_rows
 from assur.errors import UnknownNameError
+from assur.model.file.schema import Entry
 from assur.model.mechanism import MechanismRecord
-from assur.model.schema import Entry
 
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of reference entry: its form in the file, and what makes rows of it."""
+    """A kind of reference entry: its form in the file, and what makes rows of it.
+
+    `make` takes the record and the entry, and the source's letters too where `with_letters`.
+    """
 
     form: type[Entry]
-    rows: Callable[[MechanismRecord, Reference, Any], list[Row]]
+    make: Callable[..., list[Row]]
+    with_letters: bool = False
+
+    def rows(self, record: MechanismRecord, reference: Reference, entry: Entry) -> list[Row]:
+        """The rows of one entry."""
+        return self.make(record, entry, *([reference.definitions] if self.with_letters else []))
 
 
 KINDS: Mapping[str, Kind] = {
     "poc": Kind(PocSet, poc_rows),
     "decomposition": Kind(Decomposition, decomposition_rows),
-    "equation": Kind(Equation, equation_rows),
+    "equation": Kind(Equation, equation_rows, with_letters=True),
     "dependence": Kind(Dependence, dependence_rows),
     "direct": Kind(Table, direct_rows),
     "inverse": Kind(Table, inverse_rows),
@@ -60,14 +69,35 @@ def audit(record: MechanismRecord) -> Audit:
         ...      if (row.source, row.quantity) == ("Table 1 row 4", "x"))
         ('-128.8290', -83.0873, 'wrong', 'E3')
     """
-    reference = read_reference(record, FORMS)
+    reference = reference_of(record)
     checked = errata(record)
-    rows = [
-        row for name, kind in KINDS.items() for entry in reference.entries[name] for row in kind.rows(record, reference, entry)
-    ]
-    rows += statement_rows(reference.entries["statement"], checked)
+    rows = rows_of(record, tuple(KINDS))
+    for entry in reference.entries["statement"]:
+        rows += statement_rows(record, entry, checked)
     _check_ids(rows, checked, record)
     return Audit(record.name, record.source, reference.about.origin, tuple(rows), checked)
+
+
+def rows_of(record: MechanismRecord, kinds: Sequence[str]) -> list[Row]:
+    """The rows of some kinds of reference entry only (names of `KINDS`), without errata and statements."""
+    reference = reference_of(record)
+    return [
+        row for name in kinds for entry in reference.entries[name] for row in KINDS[name].rows(record, reference, entry)
+    ]
+
+
+@lru_cache(maxsize=8)
+def reference_of(record: MechanismRecord) -> Reference:
+    """The reference data of a mechanism, of all kinds that an audit knows."""
+    return read_reference(record, FORMS)
+
+
+def reference_entry(record: MechanismRecord, kind: str, source: str) -> Any:
+    """The entry of a kind with an address, as the reference data have it: for evidence that needs printed digits."""
+    entries = {getattr(item, "source", ""): item for item in reference_of(record).entries[kind]}
+    if source not in entries:
+        raise UnknownNameError(f"{kind} of the reference data of {record.name}", source, entries)
+    return entries[source]
 
 
 def _check_ids(rows: list[Row], checked: tuple[Erratum, ...], record: MechanismRecord) -> None:

@@ -21,6 +21,8 @@ FloatArray = NDArray[np.float64]
 COUNT = 60
 DRAWN = 600
 SHAKE = 1e-2
+STARTS = 600
+AROUND = 3.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +72,7 @@ def random_poses(record: MechanismRecord, count: int, rng: np.random.Generator) 
     """Poses (count, m) around the home pose, lengths within three characteristic lengths, angles at will."""
     placed = frames(record, home_values(record))[record.platform.link]
     point = placed[0] @ record.platform.point + placed[1]
-    length = 3.0 * characteristic_length(record)
+    length = AROUND * characteristic_length(record)
     columns = []
     for name in record.platform.pose:
         if name in ("x", "y", "z"):
@@ -84,6 +86,20 @@ def joint_scales(record: MechanismRecord) -> FloatArray:
     """Per joint coordinate (n,): 1 rad, or the characteristic length."""
     length = characteristic_length(record)
     return np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
+
+
+@lru_cache(maxsize=8)
+def random_assemblies(record: MechanismRecord, inputs: tuple[float, ...], seed: int = 0) -> FloatArray:
+    """Joint values (N, n) of assemblies of the whole joint graph at given inputs, from random starts.
+
+    Nothing but the loop closure is asked, so that assemblies which the closed form leaves out are found too;
+    that all are found is not certain.
+    """
+    rng = np.random.default_rng(seed)
+    start = rng.uniform(-np.pi, np.pi, size=(STARTS, len(record.coordinates))) * joint_scales(record)
+    start[:, record.input_indices] = inputs
+    found = assemble(record, start, held=record.input_indices)
+    return np.asarray(found.values[found.closed])
 
 
 def null_space(matrix: FloatArray, relative: float = 1e-8) -> FloatArray:

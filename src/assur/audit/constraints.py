@@ -40,9 +40,7 @@ def needs(record: MechanismRecord, pose: FloatArray, inputs: FloatArray) -> tupl
     if form.constraints is None:
         return ()
     names = sign_names(record, "inverse")
-    branch = form.inverse(
-        Floats(), record.values, border.pose_components(record, pose[None, :]), sign_axes(names)
-    )
+    branch = form.inverse(Floats(), record.values, border.pose_components(record, pose[None, :]), sign_axes(names))
     components = border.input_components(record, inputs[None, :])
     pairs = form.constraints(Floats(), record.values, branch.core, components)
     shape = (*(2 for _ in names), 1)
@@ -65,10 +63,12 @@ def broken(
     for step_pose, step_inputs in _steps(pose_half, inputs_half):
         there = needs(record, pose + step_pose, inputs + step_inputs)
         slack += np.abs([near.found - need.found for near, need in zip(there, here, strict=True)])
-    for need, room in zip(here, slack, strict=True):
-        if abs(need.found - need.wanted) > room:
-            reasons.append(f"needs |{need.name}| = {need.found:.2f} instead of {need.wanted:g}")
-    return ", ".join(reasons)
+    lengths = [
+        f"|{need.name}| = {need.found:.2f} instead of {need.wanted:g}"
+        for need, room in zip(here, slack, strict=True)
+        if abs(need.found - need.wanted) > room
+    ]
+    return "; ".join([*reasons, *([f"needs {', '.join(lengths)}"] if lengths else [])])
 
 
 def _steps(pose_half: FloatArray, inputs_half: FloatArray) -> list[tuple[FloatArray, FloatArray]]:

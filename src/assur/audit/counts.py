@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Literal
 
-from assur.audit.reference import Digits, Reference
+from assur.audit.reference import Digits
 from assur.audit.rows import Row
 from assur.audit.tables import solve
 from assur.kinematics.modes import all_modes
+from assur.model.file.schema import Entry
 from assur.model.mechanism import MechanismRecord
-from assur.model.schema import Entry
 
 
 class Count(Entry):
@@ -24,7 +24,7 @@ class Count(Entry):
     erratum: str = ""
 
 
-def count_rows(record: MechanismRecord, reference: Reference, entry: Count) -> list[Row]:
+def count_rows(record: MechanismRecord, entry: Count) -> list[Row]:
     """One row: the number of the closed form's branches, or of those that exist."""
     branches = len(all_modes(record, entry.problem))
     real = len(solve(record, entry.problem, entry.given))

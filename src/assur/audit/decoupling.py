@@ -6,14 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.audit.configurations import configurations
-from assur.audit.reference import Reference
 from assur.audit.rows import Row
 from assur.errors import UnknownNameError
 from assur.kinematics.border import input_names
 from assur.kinematics.velocity import velocity_map
+from assur.model.file.schema import Entry
 from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
-from assur.model.schema import Entry
 
 FloatArray = NDArray[np.float64]
 ZERO = 1e-9
@@ -29,7 +28,7 @@ class Dependence(Entry):
     erratum: str = ""
 
 
-def dependence_rows(record: MechanismRecord, reference: Reference, entry: Dependence) -> list[Row]:
+def dependence_rows(record: MechanismRecord, entry: Dependence) -> list[Row]:
     """One row: the inputs whose partial derivative is not zero at some random regular configuration."""
     names = input_names(record)
     for name in entry.on:

@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.audit.configurations import configurations
-from assur.audit.reference import Components, Reference
+from assur.audit.reference import Components
 from assur.audit.rows import Row
 from assur.errors import UsageError
 from assur.kinematics.answers import power
 from assur.kinematics.closure import characteristic_length
+from assur.model.file.schema import Entry
 from assur.model.formula import Formula, parse
 from assur.model.mechanism import MechanismRecord
 from assur.model.points import quantity
-from assur.model.schema import Entry
 
 FloatArray = NDArray[np.float64]
+Letters = Mapping[str, Formula]
 RATE = "rate."
 STEP = 1e-3
 ROUNDING = 1e-8
@@ -39,14 +40,14 @@ class Equation(Entry):
     erratum: str = ""
 
 
-def equation_rows(record: MechanismRecord, reference: Reference, entry: Equation) -> list[Row]:
+def equation_rows(record: MechanismRecord, entry: Equation, letters: Letters) -> list[Row]:
     """One row: the largest difference of the two sides, over configurations and components."""
     if len(entry.left) != len(entry.right):
         raise UsageError(f"{entry.source}: {len(entry.left)} formulas on the left, {len(entry.right)} on the right")
     here = configurations(record)
     gaps = [
-        evaluate(record, left, here.values, here.rates, reference)
-        - evaluate(record, right, here.values, here.rates, reference)
+        evaluate(record, left, here.values, here.rates, letters)
+        - evaluate(record, right, here.values, here.rates, letters)
         for left, right in zip(entry.left, entry.right, strict=True)
     ]
     worst = float(max(np.max(np.abs(gap)) for gap in gaps))
@@ -69,31 +70,33 @@ def equation_rows(record: MechanismRecord, reference: Reference, entry: Equation
     ]
 
 
+def rates_of(record: MechanismRecord, formulas: Sequence[str], values: FloatArray, rates: FloatArray) -> FloatArray:
+    """Time derivatives (k,) of quantities of the joint graph at joint values (n,) and rates (n,)."""
+    return np.array([evaluate(record, parse(RATE + text), values, rates, {}) for text in formulas])
+
+
 def evaluate(
-    record: MechanismRecord, formula: Formula, values: FloatArray, rates: FloatArray, reference: Reference
+    record: MechanismRecord, formula: Formula, values: FloatArray, rates: FloatArray, letters: Letters
 ) -> FloatArray:
     """Value (...) of a formula over quantities of the joint graph, letters of the source, and their rates.
 
-    Args:
-        values, rates: (..., n) joint values and rates.
+    Joint values and rates are (..., n); `letters` are the source's definitions.
     """
-    lookup = {name: _named(record, name, values, rates, reference) for name in formula.names}
+    lookup = {name: _named(record, name, values, rates, letters) for name in formula.names}
     return np.asarray(formula.evaluate(lookup), dtype=float)
 
 
-def _named(
-    record: MechanismRecord, name: str, values: FloatArray, rates: FloatArray, reference: Reference
-) -> FloatArray:
+def _named(record: MechanismRecord, name: str, values: FloatArray, rates: FloatArray, letters: Letters) -> FloatArray:
     if name.startswith(RATE):
         inner = name.removeprefix(RATE)
-        return _rate(lambda at: _named(record, inner, at, rates, reference), values, rates)
-    if name in reference.definitions:
-        return evaluate(record, reference.definitions[name], values, rates, reference)
+        return _rate(lambda at: _named(record, inner, at, rates, letters), values, rates)
+    if name in letters:
+        return evaluate(record, letters[name], values, rates, letters)
     return quantity(record, parse(name), values)
 
 
 def _rate(of: Callable[[FloatArray], FloatArray], values: FloatArray, rates: FloatArray) -> FloatArray:
     """Derivative along the rates by central differences of fourth order."""
     weights: Sequence[tuple[int, float]] = ((1, 8.0), (-1, -8.0), (2, -1.0), (-2, 1.0))
-    total: FloatArray = sum(weight * of(values + side * STEP * rates) for side, weight in weights) / (12 * STEP)
-    return total
+    terms = [weight * of(values + side * STEP * rates) for side, weight in weights]
+    return np.asarray(np.sum(terms, axis=0) / (12 * STEP))

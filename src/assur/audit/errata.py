@@ -1,7 +1,8 @@
 """Errata of a source: each stands with evidence that is computed anew whenever it is asked for.
 
-`reference/errata.toml` has a table for every erratum; `evidence` names a function of `reference/evidence.py`,
-which takes the record and returns an `Evidence`. It is loaded by path, as `closed_form.py` is.
+`reference/errata.toml` has a table for every erratum. Its `evidence`, as "direct.false_root", names a function
+of `reference/evidence/direct.py`, which takes the record and returns an `Evidence`; the file is loaded by path,
+as `closed_form.py` is.
 """
 
 from __future__ import annotations
@@ -10,18 +11,18 @@ import importlib.util
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import cast
 
 from pydantic import RootModel
 
 from assur.audit.reference import ERRATA, checked, reference_folder
 from assur.audit.rows import Erratum, Evidence
 from assur.errors import MechanismFileError, Problem
+from assur.model.file.schema import Entry
+from assur.model.file.toml_source import read_toml
 from assur.model.mechanism import MechanismRecord
-from assur.model.schema import Entry
-from assur.model.toml_source import read_toml
 
-EVIDENCE = "evidence.py"
+EVIDENCE = "evidence"
 
 
 class ErratumEntry(Entry):
@@ -50,21 +51,13 @@ def errata(record: MechanismRecord) -> tuple[Erratum, ...]:
         return ()
     source = read_toml(path.read_text(encoding="utf-8"), str(path))
     entries = checked(ErrataFile, source, path).root
-    module = _load(path.parent / EVIDENCE, f"assur_evidence_of_{record.name}")
-    return tuple(_erratum(record, name, entry, module, path) for name, entry in entries.items())
+    return tuple(_erratum(record, name, entry, path) for name, entry in entries.items())
 
 
-def _erratum(record: MechanismRecord, name: str, entry: ErratumEntry, module: ModuleType, path: Path) -> Erratum:
-    function: Callable[[MechanismRecord], Any] | None = getattr(module, entry.evidence, None)
-    if function is None:
-        raise MechanismFileError(
-            [Problem(str(path), None, f"{name}.evidence", f"no function '{entry.evidence}'", f"one of {EVIDENCE}")]
-        )
-    found = function(record)
+def _erratum(record: MechanismRecord, name: str, entry: ErratumEntry, path: Path) -> Erratum:
+    found = _function(record, name, entry.evidence, path)(record)
     if not isinstance(found, Evidence):
-        raise MechanismFileError(
-            [Problem(str(path), None, f"{name}.evidence", f"{entry.evidence} returns no Evidence", "an Evidence")]
-        )
+        raise _fault(path, name, f"'{entry.evidence}' returns no Evidence", "a function that returns an Evidence")
     return Erratum(
         id=name,
         where=entry.where,
@@ -77,12 +70,27 @@ def _erratum(record: MechanismRecord, name: str, entry: ErratumEntry, module: Mo
     )
 
 
-def _load(path: Path, name: str) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(name, path) if path.is_file() else None
+def _function(record: MechanismRecord, name: str, evidence: str, path: Path) -> Callable[[MechanismRecord], object]:
+    """The function that an erratum names, from a file of the evidence folder."""
+    stem, _, function = evidence.partition(".")
+    file = path.parent / EVIDENCE / f"{stem}.py"
+    found = (
+        getattr(_module(file, f"assur_evidence_of_{record.name}_{stem}"), function, None) if file.is_file() else None
+    )
+    if not callable(found):
+        raise _fault(path, name, f"no function '{evidence}'", f"file.function of the folder '{EVIDENCE}'")
+    return cast("Callable[[MechanismRecord], object]", found)
+
+
+def _module(file: Path, name: str) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(name, file)
     if spec is None or spec.loader is None:
-        raise MechanismFileError(
-            [Problem(str(path), None, "", "no such file", f"the functions that {ERRATA} names")]
-        )
+        raise _fault(file, "", "no Python file", "a Python file")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+def _fault(path: Path, name: str, found: str, allowed: str) -> MechanismFileError:
+    place = f"{name}.evidence" if name else ""
+    return MechanismFileError([Problem(str(path), None, place, found, f"allowed: {allowed}")])

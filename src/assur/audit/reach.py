@@ -5,21 +5,20 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.audit.configurations import random_poses
+from assur.audit.configurations import AROUND, random_poses
 from assur.audit.printed import Printed
-from assur.audit.reference import Digits, Reference
+from assur.audit.reference import Digits
 from assur.audit.rows import Row
-from assur.errors import UnknownNameError
+from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.closure import characteristic_length
 from assur.kinematics.sweep import inverse_sweep
+from assur.model.file.schema import Entry
 from assur.model.mechanism import MechanismRecord
-from assur.model.schema import Entry
 
 FloatArray = NDArray[np.float64]
 SAMPLES = 3000
 ROUNDS = 90
 SHRINK = 0.75
-FAR = 3.0
 
 
 class Range(Entry):
@@ -33,7 +32,7 @@ class Range(Entry):
     erratum: str = ""
 
 
-def range_rows(record: MechanismRecord, reference: Reference, entry: Range) -> list[Row]:
+def range_rows(record: MechanismRecord, entry: Range) -> list[Row]:
     """Two rows, low and high end: wrong where the range cuts off poses that can be reached."""
     if entry.quantity not in record.platform.pose:
         raise UnknownNameError(f"pose coordinate of {record.name}", entry.quantity, record.platform.pose)
@@ -85,24 +84,20 @@ def extreme(record: MechanismRecord, name: str, side: float, mode: str, seed: in
     poses = random_poses(record, 10 * SAMPLES, rng)
     bound = float(np.max(side * poses[:, index]))
     best = _furthest(record, poses, index, side, mode)
-    if best is None:
-        return None
-    spread = FAR * characteristic_length(record)
+    spread = AROUND * characteristic_length(record)
     for _ in range(ROUNDS):
-        step = rng.uniform(-spread, spread, size=(SAMPLES, len(best)))
+        step = rng.uniform(-spread, spread, size=(SAMPLES, poses.shape[1]))
         step[:, index] = side * np.abs(step[:, index])
-        trial = np.vstack([best, best + step])
-        best = _furthest(record, trial, index, side, mode)
+        best = _furthest(record, np.vstack([best, best + step]), index, side, mode)
         spread *= SHRINK
-    reached = side * float(best[index])
-    return None if reached >= bound else side * reached
+    reached = float(best[0, index])
+    return None if side * reached >= bound else reached
 
 
-def _furthest(
-    record: MechanismRecord, poses: FloatArray, index: int, side: float, mode: str
-) -> FloatArray | None:
-    """The pose that exists in a mode and lies furthest along a coordinate."""
+def _furthest(record: MechanismRecord, poses: FloatArray, index: int, side: float, mode: str) -> FloatArray:
+    """The pose (1, m) that exists in a mode and lies furthest along a coordinate."""
     real = inverse_sweep(record, list(poses.T), mode, want=("exists",))["exists"]
     if not np.any(real):
-        return None
-    return np.asarray(poses[real][np.argmax(side * poses[real, index])])
+        raise UsageError(f"{record.name}: no pose of mode {mode} was found near home")
+    furthest = int(np.argmax(side * poses[real, index]))
+    return np.asarray(poses[real][furthest : furthest + 1])

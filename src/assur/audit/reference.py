@@ -12,20 +12,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar
 
-from pydantic import BeforeValidator, Field, PlainValidator, ValidationError, create_model
+from pydantic import BaseModel, BeforeValidator, Field, PlainValidator, ValidationError, create_model
 
 from assur.audit.printed import Printed
 from assur.errors import MechanismFileError, Problem, UsageError
-from assur.model.faults import path_text
+from assur.model.file.faults import path_text
+from assur.model.file.schema import Entry
+from assur.model.file.toml_source import TomlSource, read_toml
+from assur.model.file.values import Value, refuse, shown
 from assur.model.formula import Formula
 from assur.model.mechanism import MechanismRecord
-from assur.model.schema import Entry
-from assur.model.values import Value, refuse, shown
-from assur.model.toml_source import TomlSource, read_toml
 
 FOLDER = "reference"
 ERRATA = "errata.toml"
-EntryType = TypeVar("EntryType", bound=Entry)
+EntryType = TypeVar("EntryType", bound=BaseModel)
 
 
 def _digits(value: object) -> Printed:
@@ -37,9 +37,7 @@ def _digits(value: object) -> Printed:
 
 
 Digits = Annotated[Printed, PlainValidator(_digits)]
-Components = Annotated[
-    tuple[Value, ...], BeforeValidator(lambda value: value if isinstance(value, list) else [value])
-]
+Components = Annotated[tuple[Value, ...], BeforeValidator(lambda value: value if isinstance(value, list) else [value])]
 """A formula, or a list of formulas: the components of an equation."""
 
 
@@ -61,7 +59,7 @@ class Reference:
 
     about: About
     definitions: Mapping[str, Formula]
-    entries: Mapping[str, tuple[Entry, ...]]
+    entries: Mapping[str, tuple[Any, ...]]
 
 
 def reference_folder(record: MechanismRecord) -> Path:
@@ -82,8 +80,7 @@ def reference_folder(record: MechanismRecord) -> Path:
 def read_reference(record: MechanismRecord, kinds: Mapping[str, type[Entry]]) -> Reference:
     """Read the reference data of a mechanism.
 
-    Args:
-        kinds: name of an array of tables -> the form of its entries.
+    `kinds` is the name of an array of tables -> the form of its entries.
 
     Errors:
         UsageError: there are none, or the mechanism does not have the dimensions that they were printed for.
@@ -93,11 +90,10 @@ def read_reference(record: MechanismRecord, kinds: Mapping[str, type[Entry]]) ->
     files = [read_form(path, kinds) for path in sorted(folder.glob("*.toml")) if path.name != ERRATA]
     abouts = [item.about for item in files if item.about]
     if len(abouts) != 1:
-        raise MechanismFileError(
-            [Problem(str(folder), None, "about", f"{len(abouts)} tables [about]", "allowed: one")]
-        )
+        raise MechanismFileError([Problem(str(folder), None, "about", f"{len(abouts)} tables [about]", "allowed: one")])
     _check_parameters(record, {name: digits for item in files for name, digits in item.parameters.items()})
     definitions = {name: formula for item in files for name, formula in item.definitions.items()}
+    _check_definitions(definitions, folder)
     entries = {kind: tuple(entry for item in files for entry in getattr(item, kind)) for kind in kinds}
     return Reference(abouts[0], definitions, entries)
 
@@ -129,11 +125,22 @@ def checked(form: type[EntryType], source: TomlSource, path: Path) -> EntryType:
 def _problem(details: Any, source: TomlSource, path: Path) -> Problem:
     place = tuple(details["loc"])
     context = details.get("ctx", {})
-    found = context.get("found") or (
-        "unknown key" if details["type"] == "extra_forbidden" else shown(details["input"])
-    )
+    found = context.get("found") or ("unknown key" if details["type"] == "extra_forbidden" else shown(details["input"]))
     allowed = context.get("allowed") or f"allowed: {details['msg'].removeprefix('Input should be ')}"
     return Problem(str(path), source.line(place), path_text(place), found, allowed, context.get("hint", ""))
+
+
+def _check_definitions(definitions: Mapping[str, Formula], folder: Path) -> None:
+    """A letter may need those before it only, so that none needs itself."""
+    later = set(definitions)
+    for name, formula in definitions.items():
+        needed = sorted(later & formula.names)
+        if needed:
+            found = f"needs {', '.join(needed)}, which stands after it or is itself"
+            raise MechanismFileError(
+                [Problem(str(folder), None, f"definitions.{name}", found, "allowed: letters before it")]
+            )
+        later.remove(name)
 
 
 def _check_parameters(record: MechanismRecord, printed: Mapping[str, Printed]) -> None:

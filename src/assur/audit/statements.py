@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import cast
 
 from assur.audit.rows import Erratum, Row
 from assur.errors import UnknownNameError
-from assur.model.schema import Entry
+from assur.model.file.schema import Entry
+from assur.model.mechanism import MechanismRecord
 
 
 class Statement(Entry):
@@ -19,23 +19,20 @@ class Statement(Entry):
     erratum: str
 
 
-def statement_rows(entries: Sequence[Entry], errata: Sequence[Erratum]) -> list[Row]:
-    """One row for each statement: wrong where the evidence of its erratum holds, else ok."""
+def statement_rows(record: MechanismRecord, entry: Statement, errata: Sequence[Erratum]) -> list[Row]:
+    """One row: wrong where the evidence of the statement's erratum holds, else ok."""
     by_id = {erratum.id: erratum for erratum in errata}
-    rows = []
-    for entry in cast("Sequence[Statement]", entries):
-        if entry.erratum not in by_id:
-            raise UnknownNameError("erratum", entry.erratum, by_id)
-        evidence = by_id[entry.erratum].evidence
-        rows.append(
-            Row(
-                source=entry.source,
-                quantity=entry.quantity,
-                printed=entry.printed,
-                computed=evidence.text,
-                verdict="wrong" if evidence.holds else "ok",
-                erratum=entry.erratum,
-                note=f"by the evidence of {entry.erratum}",
-            )
+    if entry.erratum not in by_id:
+        raise UnknownNameError(f"erratum of {record.name}", entry.erratum, by_id)
+    holds = by_id[entry.erratum].evidence.holds
+    return [
+        Row(
+            source=entry.source,
+            quantity=entry.quantity,
+            printed=entry.printed,
+            computed="does not hold" if holds else "not refuted",
+            verdict="wrong" if holds else "ok",
+            erratum=entry.erratum,
+            note=f"by the evidence of {entry.erratum}",
         )
-    return rows
+    ]

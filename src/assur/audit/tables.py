@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.audit.constraints import broken
 from assur.audit.printed import Printed
-from assur.audit.reference import Digits, Reference
+from assur.audit.reference import Digits
 from assur.audit.rows import Row
 from assur.audit.tolerance import half_units, tolerances
 from assur.errors import UsageError
@@ -20,10 +20,10 @@ from assur.kinematics.modes import Problem
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.solution import Solution
 from assur.kinematics.status import Status
+from assur.model.file.schema import Entry
+from assur.model.file.values import Value
 from assur.model.mechanism import MechanismRecord
 from assur.model.points import quantity
-from assur.model.schema import Entry
-from assur.model.values import Value
 
 FloatArray = NDArray[np.float64]
 
@@ -101,12 +101,12 @@ class _Border:
         return float(np.linalg.norm(gap * size))
 
 
-def direct_rows(record: MechanismRecord, reference: Reference, entry: Table) -> list[Row]:
+def direct_rows(record: MechanismRecord, entry: Table) -> list[Row]:
     """Rows for a table of direct solutions."""
     return _table_rows(_Border(record, "direct"), entry)
 
 
-def inverse_rows(record: MechanismRecord, reference: Reference, entry: Table) -> list[Row]:
+def inverse_rows(record: MechanismRecord, entry: Table) -> list[Row]:
     """Rows for a table of inverse solutions."""
     return _table_rows(_Border(record, "inverse"), entry)
 
@@ -142,20 +142,17 @@ def _table_rows(view: _Border, entry: Table) -> list[Row]:
     return rows
 
 
-def _line_rows(
-    view: _Border, entry: Table, line: TableRow, solutions: Sequence[Solution]
-) -> tuple[list[Row], int]:
+def _line_rows(view: _Border, entry: Table, line: TableRow, solutions: Sequence[Solution]) -> tuple[list[Row], int]:
     """Rows of one printed line, and the index of the nearest solution."""
     printed = np.array([item.value for item in line.values])
     results = [view.aligned(view.result(solution), printed) for solution in solutions]
     nearest = int(np.argmin([view.distance(result, printed) for result in results]))
     solution, computed = solutions[nearest], results[nearest]
-    allowed = tolerances(
-        view.record, view.problem, solution.pose, solution.working_mode, entry.given, line.values
-    )
+    allowed = tolerances(view.record, view.problem, solution.pose, solution.working_mode, entry.given, line.values)
     off = printed - computed
     agrees = np.abs(off) <= allowed
     note = _note(view, entry, line, solution, agrees)
+    notes = [note if np.all(agrees) or not agrees[k] else "" for k in range(len(agrees))]
     return [
         Row(
             source=f"{entry.source} row {line.row}",
@@ -163,11 +160,11 @@ def _line_rows(
             printed=digits.text,
             computed=float(computed[k]),
             verdict="ok" if agrees[k] else "wrong",
-            erratum=line.erratum if note or not agrees[k] else "",
+            erratum=line.erratum if notes[k] or not agrees[k] else "",
             tolerance=float(allowed[k]),
             off_by=float(off[k]),
             unit=view.units[k],
-            note=note,
+            note=notes[k],
         )
         for k, (name, digits) in enumerate(zip(view.names, line.values, strict=True))
     ], nearest
@@ -181,11 +178,9 @@ def _note(view: _Border, entry: Table, line: TableRow, solution: Solution, agree
         reasons = broken(view.record, *_both(view.record, pose, inputs), *_halves(view.record, pose, inputs))
         what = "no solution" if 2 * np.sum(agrees) < len(agrees) else "not this solution"
         return f"{what}: {reasons or 'every length is right'}; nearest is {solution.mode}"
-    notes = [] if solution.status <= Status.near_singular else [f"status {solution.status.name}"]
+    notes = [] if solution.status <= Status.near_singular else [f"its status is {solution.status.name}"]
     joints = np.array(list(solution.joints.values()))
-    notes += [
-        item.otherwise for item in entry.requires if not float(quantity(view.record, item.positive, joints)) > 0
-    ]
+    notes += [item.otherwise for item in entry.requires if not float(quantity(view.record, item.positive, joints)) > 0]
     return "; ".join(notes)
 
 
@@ -221,6 +216,4 @@ def _missing_rows(view: _Border, entry: Table, number: int, solution: Solution) 
 
 
 def _with_note(row: Row, note: str, erratum: str) -> Row:
-    from dataclasses import replace
-
     return replace(row, note="; ".join(filter(None, (row.note, note))), erratum=row.erratum or erratum)

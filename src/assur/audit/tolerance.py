@@ -36,9 +36,8 @@ def tolerances(
 ) -> FloatArray:
     """Tolerance (k,) of each printed result at a solution, in the unit that it is printed in.
 
-    Args:
-        pose: (m,) of the solution, lengths and rad; mode: its working mode.
-        given: the printed numbers that the problem was solved for.
+    The solution is its pose (m,), in lengths and rad, and its working mode; `given` are the printed numbers
+    that the problem was solved for.
 
     Where the sensitivity does not exist (a singular solution, two merged branches) only the results' own digits count.
     """

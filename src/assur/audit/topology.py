@@ -6,10 +6,10 @@ from collections.abc import Mapping
 
 from assur.audit import twists
 from assur.audit.configurations import COUNT
-from assur.audit.reference import Digits, Reference
+from assur.audit.reference import Digits
 from assur.audit.rows import Row
+from assur.model.file.schema import Entry
 from assur.model.mechanism import MechanismRecord
-from assur.model.schema import Entry
 
 KNOWN_BY = f"rank of twists at {COUNT} random configurations"
 
@@ -47,7 +47,7 @@ class Decomposition(Entry):
     kappa: Digits
 
 
-def poc_rows(record: MechanismRecord, reference: Reference, entry: PocSet) -> list[Row]:
+def poc_rows(record: MechanismRecord, entry: PocSet) -> list[Row]:
     """One row: the dimensions of a link's POC set."""
     translations, rotations, dimension = twists.poc_dimensions(record, entry.link, entry.joints)
     computed = f"t{translations} r{rotations}"
@@ -65,7 +65,7 @@ def poc_rows(record: MechanismRecord, reference: Reference, entry: PocSet) -> li
     ]
 
 
-def decomposition_rows(record: MechanismRecord, reference: Reference, entry: Decomposition) -> list[Row]:
+def decomposition_rows(record: MechanismRecord, entry: Decomposition) -> list[Row]:
     """Rows for f, I, xi and Delta of every loop, then for v, F and kappa."""
     rows: list[Row] = []
     earlier: tuple[str, ...] = ()
@@ -87,7 +87,9 @@ def decomposition_rows(record: MechanismRecord, reference: Reference, entry: Dec
             _row(entry.sources["delta"], f"Delta, {loop.name}", loop.delta, deltas[-1]),
         ]
     collapsed = sum(len(record.generalised[name].joints) - 1 for name in earlier if name in record.generalised)
-    links = len(record.links) - sum(len(record.generalised[name].joints) - 2 for name in earlier if name in record.generalised)
+    links = len(record.links) - sum(
+        len(record.generalised[name].joints) - 2 for name in earlier if name in record.generalised
+    )
     loop_count = len(record.joints) - collapsed - links + 1
     freedom = twists.freedom_sum(record) - twists.constraint_rank(record)
     kappa = sum(abs(delta) for delta in deltas) / 2

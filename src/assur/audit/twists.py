@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.audit.configurations import configurations, joint_scales, null_space
+from assur.audit.configurations import configurations, joint_scales, null_space, scaled_closure
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.closure import characteristic_length
 from assur.model.joint_graph import frames, joint_graph, screws
@@ -90,6 +90,14 @@ def constraint_rank(record: MechanismRecord, names: Sequence[str] = ()) -> int:
     return int(np.max(np.sum(singular > RANK_GAP * singular[..., :1], axis=-1)))
 
 
+def freedoms_with_inputs_locked(record: MechanismRecord, values: FloatArray, threshold: float = 1e-7) -> int:
+    """Freedoms that the joint graph keeps at joint values (n,) when every input is locked: 0 where regular."""
+    matrix = scaled_closure(record, values)
+    free = [index for index in range(matrix.shape[-1]) if index not in record.input_indices]
+    singular = np.linalg.svd(matrix[:, free], compute_uv=False)
+    return len(free) - int(np.sum(singular > threshold * singular[0]))
+
+
 def freedom_sum(record: MechanismRecord, names: Sequence[str] = ()) -> int:
     """Sum of the freedoms f_i of some joints."""
     return sum(record.joints[name].type.freedoms for name in expanded(record, names))
@@ -126,7 +134,7 @@ def poc_dimensions(record: MechanismRecord, link: str, names: Sequence[str] = ()
         twist = moved @ basis
         point = origin[index] / characteristic_length(record)
         velocity = twist[3:] + np.cross(twist[:3], point[:, None], axis=0)
-        ranks.append(tuple(_rank(block) for block in (velocity, twist[:3], np.vstack([velocity, twist[:3]]))))
+        ranks.append((_rank(velocity), _rank(twist[:3]), _rank(np.vstack([velocity, twist[:3]]))))
     return max(ranks, key=lambda item: item[2])
 
 

@@ -77,7 +77,7 @@ def _difference(first: Mapping[str, int], second: Mapping[str, int]) -> dict[str
 def motion(joint: Joint, values: FloatArray) -> Frame:
     """Pose of the child's joint frame in the parent's, for values (..., k): the joint's own displacement."""
     if joint.type is SPHERICAL:
-        return rotations.from_vector(values), np.zeros(values.shape[:-1] + (3,))
+        return rotations.from_vector(values), np.zeros((*values.shape[:-1], 3))
     axis = joint.axes[0]
     first = values[..., 0]
     if joint.type is PRISMATIC:
@@ -122,9 +122,7 @@ def frames(record: MechanismRecord, values: FloatArray) -> dict[str, Frame]:
     """
     graph = joint_graph(record)
     batch = values.shape[:-1]
-    placed: dict[str, Frame] = {
-        record.base: (np.broadcast_to(np.eye(3), (*batch, 3, 3)), np.zeros((*batch, 3)))
-    }
+    placed: dict[str, Frame] = {record.base: (np.broadcast_to(np.eye(3), (*batch, 3, 3)), np.zeros((*batch, 3)))}
     for joint, forward in graph.tree:
         near, far = (joint.parent, joint.child) if forward else (joint.child, joint.parent)
         move = child_frame if forward else parent_frame

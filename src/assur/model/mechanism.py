@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError
 from assur.model.closed_form import ClosedForm
-from assur.model.description import Description
+from assur.model.file.description import Description
 from assur.model.formula import Formula
 from assur.topology.joints import JointType
 

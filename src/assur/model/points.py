@@ -50,6 +50,4 @@ def _named(record: MechanismRecord, name: str, joint_values: FloatArray) -> Floa
     for item in record.coordinates:
         if name in (item.joint, f"{item.joint}.{item.component}"):
             return joint_values[..., item.index]
-    raise UnknownNameError(
-        f"quantity of {record.name}", name, (*record.points, *record.joints, *record.parameters)
-    )
+    raise UnknownNameError(f"quantity of {record.name}", name, (*record.points, *record.joints, *record.parameters))

@@ -11,12 +11,12 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from assur.errors import MechanismFileError, Problem, UnknownNameError, UsageError
-from assur.model.build import build
 from assur.model.closed_form import ClosedForm
-from assur.model.faults import Faults, listed
+from assur.model.file.build import build
+from assur.model.file.faults import Faults, listed
+from assur.model.file.parameters import checked_overrides
+from assur.model.file.reader import read_mechanism
 from assur.model.mechanism import MechanismRecord
-from assur.model.parameters import checked_overrides
-from assur.model.reader import read_mechanism
 
 FILE = "mechanism.toml"
 CLOSED_FORM = "closed_form.py"

@@ -11,11 +11,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
-from assur.model import schema
-from assur.model.description import Description
-from assur.model.faults import Faults
+from assur.model.file import schema
+from assur.model.file.description import Description
+from assur.model.file.faults import Faults
+from assur.model.file.toml_source import KeyPath
 from assur.model.formula import Formula
-from assur.model.toml_source import KeyPath
 
 Item = TypeVar("Item")
 

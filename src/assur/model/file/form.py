@@ -10,10 +10,10 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from assur.model import schema
-from assur.model.faults import Faults, listed, nearest
-from assur.model.toml_source import KeyPath
-from assur.model.values import shown
+from assur.model.file import schema
+from assur.model.file.faults import Faults, listed, nearest
+from assur.model.file.toml_source import KeyPath
+from assur.model.file.values import shown
 
 _TABLES: dict[str, type[schema.Entry]] = {
     "parameters": schema.ParameterEntry,

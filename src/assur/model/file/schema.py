@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, StrictBool
 
-from assur.model.values import (
+from assur.model.file.values import (
     ZERO,
     Axis,
     Format,

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from assur.model.limbs import Tables
+from assur.model.file.limbs import Tables
+from assur.model.file.scope import Scope
 from assur.model.mechanism import Chain, GeneralisedJoint
-from assur.model.scope import Scope
 
 
 def build_generalised(tables: Tables, scope: Scope) -> dict[str, GeneralisedJoint]:

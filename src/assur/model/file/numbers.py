@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.model import syntax as s
-from assur.model.faults import Faults
+from assur.model.file.faults import Faults
+from assur.model.file.toml_source import KeyPath
 from assur.model.formula import Formula
-from assur.model.toml_source import KeyPath
 
 FloatArray = NDArray[np.float64]
 Kind = Literal["plain", "angle", "either"]

@@ -18,12 +18,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from assur.errors import MechanismFileError
+from assur.model.file.reader import read_text
 from assur.model.mechanism import MechanismRecord
-from assur.model.reader import read_text
 
 HERE = Path(__file__).parent
 SOURCES = [
-    (HERE / "fourbar.toml").read_text(encoding="utf-8"),
+    (HERE.parent / "fourbar.toml").read_text(encoding="utf-8"),
     (HERE / "delta.toml").read_text(encoding="utf-8"),
     files("assur").joinpath("mechanisms/zeng2019/mechanism.toml").read_text(encoding="utf-8"),
 ]

@@ -7,13 +7,13 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.model import schema
-from assur.model.faults import listed
-from assur.model.limbs import Tables
+from assur.model.file import schema
+from assur.model.file.faults import listed
+from assur.model.file.limbs import Tables
+from assur.model.file.numbers import Numbers
+from assur.model.file.scope import Scope
+from assur.model.file.toml_source import KeyPath
 from assur.model.mechanism import Input
-from assur.model.numbers import Numbers
-from assur.model.scope import Scope
-from assur.model.toml_source import KeyPath
 
 FloatArray = NDArray[np.float64]
 

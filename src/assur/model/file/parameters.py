@@ -9,12 +9,12 @@ from numbers import Real
 import networkx as nx
 
 from assur.errors import UnknownNameError, UsageError
-from assur.model.faults import Faults
+from assur.model.file.faults import Faults
+from assur.model.file.numbers import AngleUnit, Kind, Numbers
+from assur.model.file.schema import ParameterEntry
+from assur.model.file.values import ANGLE_UNITS
 from assur.model.formula import Formula, parse
 from assur.model.mechanism import Parameter
-from assur.model.numbers import AngleUnit, Kind, Numbers
-from assur.model.schema import ParameterEntry
-from assur.model.values import ANGLE_UNITS
 
 ALLOWED = {
     "positive": "a positive number",

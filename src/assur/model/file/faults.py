@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Iterable
 
 from assur.errors import MechanismFileError, Problem
-from assur.model.toml_source import KeyPath, TomlSource
+from assur.model.file.toml_source import KeyPath, TomlSource
 
 _SHOWN = 24
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from assur.model import schema
-from assur.model.build_joints import Geometry
+from assur.model.file import schema
+from assur.model.file.build_joints import Geometry
+from assur.model.file.limbs import Tables
+from assur.model.file.numbers import MIXED, MIXED_HINT, Kind, KindError, Numbers, kind_of
+from assur.model.file.scope import Scope
+from assur.model.file.toml_source import KeyPath
 from assur.model.formula import Formula
-from assur.model.limbs import Tables
 from assur.model.mechanism import Coordinate, Modes, Point
-from assur.model.numbers import MIXED, MIXED_HINT, Kind, KindError, Numbers, kind_of
-from assur.model.scope import Scope
-from assur.model.toml_source import KeyPath
 
 
 def build_modes(file: schema.FileEntry, scope: Scope, numbers: Numbers) -> Modes:

@@ -6,21 +6,21 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from assur.model import schema
-from assur.model.build_chains import build_chains, build_generalised
-from assur.model.build_inputs import build_home, build_inputs
-from assur.model.build_joints import Geometry, build_joint
-from assur.model.build_letters import build_angles, build_modes, build_points
-from assur.model.description import Description
-from assur.model.faults import Faults
-from assur.model.graph_checks import check_graph
-from assur.model.limbs import expand
+from assur.model.file import schema
+from assur.model.file.build_chains import build_chains, build_generalised
+from assur.model.file.build_inputs import build_home, build_inputs
+from assur.model.file.build_joints import Geometry, build_joint
+from assur.model.file.build_letters import build_angles, build_modes, build_points
+from assur.model.file.description import Description
+from assur.model.file.faults import Faults
+from assur.model.file.graph_checks import check_graph
+from assur.model.file.limbs import expand
+from assur.model.file.names import check_names
+from assur.model.file.numbers import Numbers
+from assur.model.file.parameters import evaluate_parameters
+from assur.model.file.scope import Scope
+from assur.model.file.toml_source import KeyPath
 from assur.model.mechanism import Link, MechanismRecord, Platform
-from assur.model.names import check_names
-from assur.model.numbers import Numbers
-from assur.model.parameters import evaluate_parameters
-from assur.model.scope import Scope
-from assur.model.toml_source import KeyPath
 
 _REQUIRED = {
     "format": "1, the format that this version reads",

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from assur.model import schema
-from assur.model.faults import Faults
-from assur.model.limbs import Tables
-from assur.model.toml_source import KeyPath
+from assur.model.file import schema
+from assur.model.file.faults import Faults
+from assur.model.file.limbs import Tables
+from assur.model.file.toml_source import KeyPath
 
 Use = tuple[str, str, KeyPath]
 """A name, what it names, and where."""

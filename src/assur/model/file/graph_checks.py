@@ -8,10 +8,10 @@ from collections.abc import Sequence
 import networkx as nx
 import numpy as np
 
-from assur.model.faults import Faults, listed
-from assur.model.limbs import Instance, Tables
+from assur.model.file.faults import Faults, listed
+from assur.model.file.limbs import Instance, Tables
+from assur.model.file.toml_source import KeyPath
 from assur.model.mechanism import Chain, GeneralisedJoint, Joint, MechanismRecord
-from assur.model.toml_source import KeyPath
 from assur.numerics.rotations import FloatArray
 
 _CORNERS = {"P(4R)": "revolute", "P(4U)": "universal", "P(4S)": "spherical"}

@@ -7,12 +7,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.model import schema
-from assur.model.limbs import Instance, Placed
+from assur.model.file import schema
+from assur.model.file.limbs import Instance, Placed
+from assur.model.file.numbers import Numbers, Triple
+from assur.model.file.scope import Scope
+from assur.model.file.toml_source import KeyPath
 from assur.model.mechanism import Joint
-from assur.model.numbers import Numbers, Triple
-from assur.model.scope import Scope
-from assur.model.toml_source import KeyPath
 from assur.numerics import rotations
 from assur.topology.joints import JOINT_TYPES
 

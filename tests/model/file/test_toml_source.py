@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from assur.errors import MechanismFileError
-from assur.model.toml_source import KeyPath, read_toml
+from assur.model.file.toml_source import KeyPath, read_toml
 
 DOCUMENT = r'''
 top = 1                       # a comment with "quotes" and = signs

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from assur.model.schema import FileEntry
-from assur.model.toml_source import KeyPath, TomlSource
+from assur.model.file.schema import FileEntry
+from assur.model.file.toml_source import KeyPath, TomlSource
 
 
 @dataclass(frozen=True, eq=False)

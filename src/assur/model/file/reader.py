@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 from assur.errors import MechanismFileError, Problem, UsageError
-from assur.model.build import build
-from assur.model.description import Description
-from assur.model.faults import Faults
-from assur.model.form import check_form
+from assur.model.file.build import build
+from assur.model.file.description import Description
+from assur.model.file.faults import Faults
+from assur.model.file.form import check_form
+from assur.model.file.toml_source import read_toml
 from assur.model.mechanism import MechanismRecord
-from assur.model.toml_source import read_toml
 
 
 def read_mechanism(path: Path) -> MechanismRecord:

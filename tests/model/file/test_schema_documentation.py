@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from assur.model import schema
-from assur.model.reader import read_text
+from assur.model.file import schema
+from assur.model.file.reader import read_text
 
-PAGE = (Path(__file__).parents[2] / "docs" / "mechanism-file.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[3] / "docs" / "mechanism-file.md").read_text(encoding="utf-8")
 
 
 def test_the_example_is_a_mechanism() -> None:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TypeVar
 
-from assur.model.faults import Faults
+from assur.model.file.faults import Faults
+from assur.model.file.limbs import Instance, Tables
+from assur.model.file.numbers import Kind
+from assur.model.file.toml_source import KeyPath
 from assur.model.formula import Formula
-from assur.model.limbs import Instance, Tables
 from assur.model.mechanism import Coordinate
-from assur.model.numbers import Kind
-from assur.model.toml_source import KeyPath
 from assur.topology.joints import JOINT_TYPES, JointType
 
 Target = TypeVar("Target")
