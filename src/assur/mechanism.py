@@ -1,9 +1,12 @@
-"""`Mechanism`: a record with its analyses as methods, each one line to the function that does the work."""
+"""`Mechanism`: a record with its analyses as methods, each one line to the function that does the work.
+
+Analyses that need slow libraries are imported where they are called.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,6 +19,10 @@ from assur.model.joint_graph import Frame, frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.points import point
 from assur.singularity.verdict import Verdict, verdict
+
+if TYPE_CHECKING:
+    from assur.performance.dexterity import Dexterity
+    from assur.workspace.region import Workspace
 
 FloatArray = NDArray[np.float64]
 
@@ -52,6 +59,18 @@ class Mechanism(MechanismRecord):
     def singularity(self, pose: ArrayLike, mode: str | None = None) -> Verdict:
         """The verdict on one pose (m,): see `assur.singularity.verdict`."""
         return verdict(self, pose, mode)
+
+    def workspace(self, mode: str | None = None, **options: Any) -> Workspace:
+        """The workspace of a working mode: see `assur.workspace.region.workspace` for the options."""
+        from assur.workspace.region import workspace
+
+        return workspace(self, mode, **options)
+
+    def dexterity(self, poses: ArrayLike, mode: str | None = None) -> Dexterity:
+        """Condition index and velocity factors at poses (..., m): see `assur.performance.dexterity`."""
+        from assur.performance.dexterity import dexterity
+
+        return dexterity(self, poses, mode)
 
     def point(self, name: str, joint_values: FloatArray) -> FloatArray:
         """Position (..., 3) of a lettered point or of a joint: see `assur.model.points.point`."""

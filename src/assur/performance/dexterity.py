@@ -25,6 +25,8 @@ FloatArray = NDArray[np.float64]
 BLOCK = 2**15
 POINTS = 2**15
 SHIFTS = 8
+STUDENT = 2.365
+"""95 % of Student's distribution lies within this for 7 degrees of freedom."""
 
 
 class Region(Protocol):
@@ -76,7 +78,7 @@ class GlobalIndex:
 
     Attributes:
         value: the mean; None where the region holds no point.
-        error: twice its standard error over eight independent shifts of the points; None without a value.
+        error: half of its 95 % interval, from eight independent shifts of the points; None without a value.
         points: how many points the mean is taken over.
         singular: how many points were left out because Jp is singular there.
     """
@@ -99,12 +101,10 @@ def dexterity(record: MechanismRecord, poses: ArrayLike, mode: str | None = None
     """
     given = border.checked(poses, record.platform.pose, f"pose of {record.name}")
     flat = given.reshape(-1, given.shape[-1])
-    parts = [
-        _block(record, flat[start : start + BLOCK], mode) for start in range(0, max(1, len(flat)), BLOCK)
-    ]
+    parts = [_block(record, flat[start : start + BLOCK], mode) for start in range(0, max(1, len(flat)), BLOCK)]
     status, index, factors = (np.concatenate(column) for column in zip(*parts, strict=True))
     batch = given.shape[:-1]
-    return Dexterity(given, status.reshape(batch), index.reshape(batch), factors.reshape(*batch, -1))
+    return Dexterity(given, status.reshape(batch), index.reshape(batch), factors.reshape(*batch, factors.shape[-1]))
 
 
 def global_condition_index(
@@ -129,9 +129,7 @@ def global_condition_index(
     if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 16 * SHIFTS:
         raise UsageError(f"count: {count!r} is not a whole number of at least {16 * SHIFTS}")
     rng = rng or np.random.default_rng(20190719)
-    found = [
-        dexterity(record, region.interior(int(count) // SHIFTS, rng), region.mode) for _ in range(SHIFTS)
-    ]
+    found = [dexterity(record, region.interior(int(count) // SHIFTS, rng), region.mode) for _ in range(SHIFTS)]
     sums = np.array([np.sum(part.condition_index[part.defined]) for part in found])
     counts = np.array([np.sum(part.defined) for part in found])
     total, missing = int(np.sum(counts)), int(sum(np.sum(~part.defined) for part in found))
@@ -140,7 +138,7 @@ def global_condition_index(
     value = float(np.sum(sums)) / total
     # standard error of a ratio of means, by its residuals
     spread = float(np.std(sums - value * counts, ddof=1)) * SHIFTS**0.5 / total
-    return GlobalIndex(value, 2 * spread, total, missing)
+    return GlobalIndex(value, STUDENT * spread, total, missing)
 
 
 def _block(

@@ -32,9 +32,7 @@ class Box:
             if not (np.isfinite(low) and np.isfinite(high)):
                 raise UsageError(f"box: {name} = [{low}, {high}] is not finite")
             if not low < high:
-                raise UsageError(
-                    f"box: {name} = [{low:g}, {high:g}] is turned round or empty", hint="give low < high"
-                )
+                raise UsageError(f"box: {name} = [{low:g}, {high:g}] is turned round or empty", hint="give low < high")
 
     @property
     def intervals(self) -> list[list[float]]:
@@ -79,9 +77,7 @@ def box_of(record: MechanismRecord, box: Mapping[str, Sequence[float]] | ArrayLi
             raise UnknownNameError(f"pose coordinate of {record.name}", name, names)
     missing = [name for name in names if name not in pairs]
     if missing:
-        raise UsageError(
-            f"box: no interval for {', '.join(missing)}", hint="the mechanism's file gives no box"
-        )
+        raise UsageError(f"box: no interval for {', '.join(missing)}", hint="the mechanism's file gives no box")
     limits = _pairs(names, [pairs[name] for name in names])
     return Box(names, tuple(limits[:, 0].tolist()), tuple(limits[:, 1].tolist()))
 
@@ -90,11 +86,7 @@ def _pairs(names: tuple[str, ...], box: ArrayLike) -> FloatArray:
     try:
         limits = np.asarray(box, dtype=float)
     except (TypeError, ValueError) as error:
-        raise UsageError(
-            "box: not an array of numbers", hint=f"give (low, high) for {', '.join(names)}"
-        ) from error
+        raise UsageError("box: not an array of numbers", hint=f"give (low, high) for {', '.join(names)}") from error
     if limits.shape != (len(names), 2):
-        raise UsageError(
-            f"box: shape {limits.shape}, ({len(names)}, 2) wanted: (low, high) for {', '.join(names)}"
-        )
+        raise UsageError(f"box: shape {limits.shape}, ({len(names)}, 2) wanted: (low, high) for {', '.join(names)}")
     return limits

@@ -50,9 +50,7 @@ def margin_fields(
     form = closed_form_of(record)
     branch = _branch(record, mode)
     fields: dict[str, Field] = {
-        margin.name: partial(_margin, branch, margin.name)
-        for margin in form.inverse_margins
-        if margin.zero == "merge"
+        margin.name: partial(_margin, branch, margin.name) for margin in form.inverse_margins if margin.zero == "merge"
     }
     for index, (item, stroke) in enumerate(_strokes(record, strokes)):
         if stroke is not None:
@@ -102,17 +100,13 @@ def _margin(branch: Callable[[Columns], Branch], name: str, columns: Columns) ->
     return np.asarray(branch(columns).margins[name], dtype=float)
 
 
-def _factor(
-    record: MechanismRecord, branch: Callable[[Columns], Branch], name: str, columns: Columns
-) -> FloatArray:
+def _factor(record: MechanismRecord, branch: Callable[[Columns], Branch], name: str, columns: Columns) -> FloatArray:
     with np.errstate(divide="ignore", invalid="ignore"):
         factors = closed_form_of(record).factors(Extended(), record.values, branch(columns).core)
     return np.asarray(factors[name], dtype=float)
 
 
-def _strokes(
-    record: MechanismRecord, strokes: Mapping[str, Stroke | None] | None
-) -> list[tuple[Input, Stroke | None]]:
+def _strokes(record: MechanismRecord, strokes: Mapping[str, Stroke | None] | None) -> list[tuple[Input, Stroke | None]]:
     """Each input with its stroke: the user's, else the file's, else none."""
     given = dict(strokes or {})
     names = [item.name for item in record.inputs]
@@ -130,15 +124,11 @@ def _checked(name: str, stroke: Any) -> Stroke:
     except (TypeError, ValueError) as error:
         raise UsageError(f"stroke of {name}: {stroke!r} is not (low, high)") from error
     if not low < high:  # a NaN ends here too
-        raise UsageError(
-            f"stroke of {name}: [{low:g}, {high:g}] is turned round or empty", hint="give low < high"
-        )
+        raise UsageError(f"stroke of {name}: [{low:g}, {high:g}] is turned round or empty", hint="give low < high")
     return low, high
 
 
-def _stroke_fields(
-    branch: Callable[[Columns], Branch], index: int, item: Input, stroke: Stroke
-) -> dict[str, Field]:
+def _stroke_fields(branch: Callable[[Columns], Branch], index: int, item: Input, stroke: Stroke) -> dict[str, Field]:
     """Both ends of a printed length, q - low and high - q; of an angle, cos(q - middle) - cos(half stroke)."""
     low, high = stroke
     if item.coordinate.kind == "angle":

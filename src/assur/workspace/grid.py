@@ -83,9 +83,7 @@ class UniformGrid:
 
     def blocks(self, size: int = 2**18) -> Iterator[tuple[slice, tuple[FloatArray, ...]]]:
         """Slabs of nodes along the first axis, about `size` nodes each, as components that broadcast."""
-        axes = [
-            self.position(np.arange(count)[:, None] + np.zeros(3))[:, k] for k, count in enumerate(self.shape)
-        ]
+        axes = [self.position(np.arange(count)[:, None] + np.zeros(3))[:, k] for k, count in enumerate(self.shape)]
         rows = max(1, size // int(np.prod(self.shape[1:])))
         for start in range(0, self.shape[0], rows):
             part = slice(start, start + rows)

@@ -70,9 +70,7 @@ class _Search:
         """The distance (n,) of points (n, 3); `bound` beyond it."""
         found = np.full(len(points), self.bound)
         count = min(CANDIDATES, len(self.triangles))
-        nearest = self.tree.query(
-            points, k=[*range(1, count + 1)], distance_upper_bound=self.bound, workers=-1
-        )
+        nearest = self.tree.query(points, k=[*range(1, count + 1)], distance_upper_bound=self.bound, workers=-1)
         gaps, index = np.asarray(nearest[0]), np.asarray(nearest[1])
         for k in range(count):
             rows = np.flatnonzero(np.isfinite(gaps[:, k]))

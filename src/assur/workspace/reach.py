@@ -40,7 +40,9 @@ class Reach:
         return float(self.solid.volume()) / self.grid.thickness
 
     def factor_inside(self, name: str) -> NDArray[np.float32]:
-        """A factor at the nodes (k,) of the grid that the region reaches, one cell beyond the box included."""
+        """A factor at the nodes (k,) that the region reaches, one cell beyond the box included; none if it is empty."""
+        if self.solid.is_empty():
+            return np.empty(0, dtype=np.float32)
         return sample(self.factors[name], self.grid)[self.inside]
 
     def zero_surface(self, name: str) -> tuple[FloatArray, Faces, float]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -57,14 +57,14 @@ class Workspace:
     unit: str
     volume: float
     volume_error: float
-    sections: tuple[Section, ...]
-    loci: tuple[Locus, ...]
+    sections: tuple[Section, ...] = field(repr=False)
+    loci: tuple[Locus, ...] = field(repr=False)
     near: float
     share: float | None
-    vertices: FloatArray
-    faces: NDArray[np.int64]
-    margins: Mapping[str, Field]
-    region: Reach
+    vertices: FloatArray = field(repr=False)
+    faces: NDArray[np.int64] = field(repr=False)
+    margins: Mapping[str, Field] = field(repr=False)
+    region: Reach = field(repr=False)
 
     @property
     def parallel_singular(self) -> dict[str, Any]:
@@ -92,8 +92,8 @@ class Workspace:
         """Poses (N, m) of equal weight inside the region: what it holds of `count` spread over the box."""
         points = self.box.spread(count, rng)
         inside = np.ones(count, dtype=bool)
-        for field in self.margins.values():
-            inside &= at_points(field, len(self.box.names), points) >= 0
+        for margin in self.margins.values():
+            inside &= at_points(margin, len(self.box.names), points) >= 0
         return points[inside]
 
     def to_json(self) -> dict[str, Any]:
@@ -151,8 +151,8 @@ def workspace(
     """
     mode = mode or record.modes.default_working
     domain = box_of(record, box)
-    if not (np.isfinite(near) and near > 0):
-        raise UsageError(f"near: {near} is not a positive distance")
+    if not (isinstance(near, (int, float, np.number)) and np.isfinite(near) and near > 0):
+        raise UsageError(f"near: {near!r} is not a positive distance")
     margins = margin_fields(record, mode, strokes)
     tick = _ticker(2 * len(margins) + 3, progress)
     region, error = region_and_error(margins, factor_fields(record, mode), domain, resolution, tick)

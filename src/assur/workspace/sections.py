@@ -48,9 +48,7 @@ def flat_polygons(cross: CrossSection, axis: int) -> tuple[FloatArray, ...]:
     return tuple(polygons)
 
 
-def cut(
-    solid: Manifold, axis: int, value: float, span: tuple[float, float]
-) -> tuple[float, tuple[FloatArray, ...]]:
+def cut(solid: Manifold, axis: int, value: float, span: tuple[float, float]) -> tuple[float, tuple[FloatArray, ...]]:
     """Area and polygons of the cut across `axis` at `value`; `span` is the solid's domain along that axis.
 
     A cut at an end of the span is taken just inside it.
@@ -69,6 +67,8 @@ def section(region: Reach, value: float, coordinate: str) -> Section:
     box = region.grid.box
     axis = box.axis(coordinate)
     span = box.low[axis], box.high[axis]
+    if not isinstance(value, (int, float, np.number)):
+        raise UsageError(f"section: {value!r} is not a number")
     if not span[0] <= value <= span[1]:
         raise UsageError(f"section: {coordinate} = {value:g} is outside the box [{span[0]:g}, {span[1]:g}]")
     area, polygons = cut(region.solid, axis, float(value), span)

@@ -33,7 +33,7 @@ def solid_where(
     Example: half the ball of radius 1, to 1 % with 8 cells across.
 
     >>> from assur.workspace.domain import Box
-    from assur.workspace.grid import grid_over
+    >>> from assur.workspace.grid import grid_over
     >>> grid = grid_over(Box(("x", "y", "z"), (-1.0, -1.0, 0.0), (1.0, 1.0, 1.0)), 16)
     >>> x, y, z = np.moveaxis(grid.position(np.stack(np.indices(grid.shape), axis=-1)), -1, 0)
     >>> ball = solid_where((1 - x**2 - y**2 - z**2).astype(np.float32), grid)
@@ -51,9 +51,7 @@ def solid_where(
     index = vertices.astype(float) - 1.0
     if at is not None:
         index = on_surface(index, at, grid)
-    solid = Manifold(
-        Mesh64(np.ascontiguousarray(grid.position(index)), np.ascontiguousarray(faces, dtype=np.uint64))
-    )
+    solid = Manifold(Mesh64(np.ascontiguousarray(grid.position(index)), np.ascontiguousarray(faces, dtype=np.uint64)))
     if solid.status() != Error.NoError:
         raise AssurError(f"marching cubes gave a mesh that is no solid: {solid.status()}")
     return solid.as_original()
