@@ -17,7 +17,7 @@ from pydantic import RootModel
 
 from assur.audit.reference import ERRATA, checked, reference_folder
 from assur.audit.rows import Erratum, Evidence
-from assur.errors import MechanismFileError, Problem
+from assur.errors import MechanismFileError, Problem, UnknownNameError
 from assur.model.file.schema import Entry
 from assur.model.file.toml_source import read_toml
 from assur.model.mechanism import MechanismRecord
@@ -47,17 +47,39 @@ def errata(record: MechanismRecord) -> tuple[Erratum, ...]:
         MechanismFileError: a file has faults, or an erratum names evidence that is not there.
     """
     path = reference_folder(record) / ERRATA
+    return tuple(_erratum(record, name, entry, path) for name, entry in _entries(path).items())
+
+
+def erratum(record: MechanismRecord, name: str) -> Erratum:
+    """One erratum by its id, with its evidence.
+
+    >>> from assur.model.registry import load_record
+    >>> erratum(load_record("zeng2019"), "E10").evidence.holds
+    True
+    """
+    path = reference_folder(record) / ERRATA
+    entries = _entries(path)
+    if name not in entries:
+        raise UnknownNameError(f"erratum of {record.name}", name, entries)
+    return _erratum(record, name, entries[name], path)
+
+
+def _entries(path: Path) -> dict[str, ErratumEntry]:
     if not path.is_file():
-        return ()
+        return {}
     source = read_toml(path.read_text(encoding="utf-8"), str(path))
-    entries = checked(ErrataFile, source, path).root
-    return tuple(_erratum(record, name, entry, path) for name, entry in entries.items())
+    return checked(ErrataFile, source, path).root
 
 
 def _erratum(record: MechanismRecord, name: str, entry: ErratumEntry, path: Path) -> Erratum:
     found = _function(record, name, entry.evidence, path)(record)
-    if not isinstance(found, Evidence):
-        raise _fault(path, name, f"'{entry.evidence}' returns no Evidence", "a function that returns an Evidence")
+    if not isinstance(found, Evidence) or not isinstance(found.holds, bool):
+        raise _fault(
+            path,
+            name,
+            f"'{entry.evidence}' returns no Evidence whose `holds` is a bool",
+            "a function that returns an Evidence",
+        )
     return Erratum(
         id=name,
         where=entry.where,

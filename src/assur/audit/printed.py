@@ -8,7 +8,7 @@ from decimal import Decimal
 
 from assur.errors import UsageError
 
-_DIGITS = re.compile(r"[+-]?\d+(\.\d+)?")
+_DIGITS = re.compile(r"[+-]?[0-9]+(\.[0-9]+)?")
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from types import SimpleNamespace
 
 import numpy as np
@@ -36,9 +35,9 @@ def false_root(record):
     both = bool(np.min(sines) < 0 < np.max(sines))
     return Evidence(
         identity and right < CLOSE and wrong > 0.1 and both,
-        f"Eq. (8) with the coordinates of Eq. (7) expands to A B cos γ + B² = 0 (SymPy, exactly). On {len(here)} random "
-        f"configurations of the joint graph |cos γ + B/A| stays below {CLOSE:g} while |cos γ - B/A| reaches {wrong:.2f}, "
-        "and sin γ takes both signs.",
+        "Eq. (8) with the coordinates of Eq. (7) expands to A B cos γ + B² = 0 (SymPy, exactly). On "
+        f"{len(here)} random configurations of the joint graph |cos γ + B/A| stays below {CLOSE:g} while "
+        f"|cos γ - B/A| reaches {wrong:.2f}, and sin γ takes both signs.",
         {"right": right, "wrong": wrong},
     )
 
@@ -64,9 +63,10 @@ def false_root_rows(record):
     length = found[0][1]
     return Evidence(
         all(item[0] for item in found) and abs(predicted - length.found) < 1e-2,
-        "The paper's Eqs. (9)-(17) with cos γ = +B/A give rows 1 and 2 to the last printed digit. They need "
-        f"|B2C2| = √(l2² + 2B²) = {predicted:.2f} {record.unit} instead of {length.wanted:g}. No assembly of the joint "
-        f"graph that random search finds at these inputs is nearer than {min(item[2] for item in found):.1f} {record.unit}.",
+        "The paper's Eqs. (9)-(17) with cos γ = +B/A give rows 1 and 2 to the last printed digit. They "
+        f"need |B2C2| = √(l2² + 2B²) = {predicted:.2f} {record.unit} instead of {length.wanted:g}. No "
+        "assembly of the joint graph that random search finds at these inputs is nearer than "
+        f"{min(item[2] for item in found):.1f} {record.unit}.",
         {"predicted": predicted, "needed": [item[1].found for item in found], "away": [item[2] for item in found]},
     )
 
@@ -106,9 +106,10 @@ def missing_solutions(record):
     listed = "; ".join("(" + ", ".join(f"{value:.4f}" for value in pose) + ")" for pose in ours)
     return Evidence(
         same and len(ours) == 4 and counts == {0, 4, 8} and others == {0, 2, 4, 6, 8},
-        f"Three routes give the same {len(ours)} poses: the closed form, the paper's own Eqs. (9)-(17) with γ = ±arccos(-B/A), "
-        f"and random search on the joint graph with uncrossed parallelograms: {listed}. Over random inputs the numbers of "
-        f"real solutions are {_listed(counts)}; with l7 + l8 = 100 or 400 {record.unit} they are {_listed(others)}.",
+        f"Three routes give the same {len(ours)} poses: the closed form, the paper's own Eqs. (9)-(17) "
+        "with γ = ±arccos(-B/A), and random search on the joint graph with uncrossed parallelograms: "
+        f"{listed}. Over random inputs the numbers of real solutions are {_listed(counts)}; with l7 + l8 "
+        f"= 100 or 400 {record.unit} they are {_listed(others)}.",
         {"poses": ours, "counts": sorted(counts), "counts_with_l7_l8": sorted(others)},
     )
 
@@ -131,15 +132,17 @@ def decoupling(record):
     spread = max(float(np.ptp(curve.poses()[:, 1])) for curve in curves) if curves else 0.0
     return Evidence(
         exact and invariant and closes < CLOSE and off < CLOSE and spread > 1,
-        "In the closed form (SymPy, exactly) y = (yA1 + yA2)/2, and x and z are unchanged when the same amount is added to "
-        "all three inputs: they depend on yA1 - yA2 and (yA1 + yA2)/2 - yA3 only. That motion of the three sliders closes "
-        f"the joint graph on {len(here.values)} random configurations. At B = 0 (Table 2 row 1) y runs over {spread:.1f} "
-        f"{record.unit} with every input locked.",
+        "In the closed form (SymPy, exactly) y = (yA1 + yA2)/2, and x and z are unchanged when the same "
+        "amount is added to all three inputs: they depend on yA1 - yA2 and (yA1 + yA2)/2 - yA3 only. "
+        f"That motion of the three sliders closes the joint graph on {len(here.values)} random "
+        f"configurations. At B = 0 (Table 2 row 1) y runs over {spread:.1f} {record.unit} with every "
+        "input locked.",
         {"spread": spread, "closure": closes},
     )
 
 
-SIGNS = tuple(itertools.product((1.0, -1.0), repeat=2))
+SIGNS = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
+"""Signs of the roots in Eqs. (14) and (17)."""
 
 
 def as_printed(record, inputs, root, t_sign, a_sign, gamma_sign=1.0):

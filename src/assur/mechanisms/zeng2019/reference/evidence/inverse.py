@@ -32,8 +32,9 @@ def self_motion_rows(record):
         if not free and solution.inputs[0] > solution.inputs[1]:
             buildable.append(line.row)
     curves = direct(record, np.array([item.value for item in table.rows[0].values])).curves
-    gap = max(float(np.max(closure_error(record, curve.joints()))) for curve in curves)
-    length = max(float(np.sum(np.linalg.norm(np.diff(curve.poses(), axis=0), axis=1))) for curve in curves)
+    gaps = [float(np.max(closure_error(record, curve.joints()))) for curve in curves]
+    lengths = [float(np.sum(np.linalg.norm(np.diff(curve.poses(), axis=0), axis=1))) for curve in curves]
+    gap, length = max(gaps, default=0.0), max(lengths, default=0.0)
     in_motion, others = _modes_in_self_motion(record)
     return Evidence(
         moving == ["1", "2", "7", "8"]
@@ -43,10 +44,12 @@ def self_motion_rows(record):
         and length > 1
         and in_motion == (16, 16)
         and others == (0, 16),
-        f"With every input locked the joint graph keeps a freedom at rows {', '.join(moving)} and none at the others. From "
-        f"row 1 the platform runs along curves of up to {length:.0f} {record.unit} that close the whole joint graph. yA1 < yA2 "
-        f"at rows {' and '.join(passed)}. Rows {' and '.join(buildable)} are left. On random poses the joint graph keeps a "
-        f"freedom in all {in_motion[0]} working modes with sign u1 = sign u2, and in {others[0]} of the {others[1]} others.",
+        f"With every input locked the joint graph keeps a freedom at rows {', '.join(moving)} and none at "
+        f"the others. From row 1 the platform runs along curves of up to {length:.0f} {record.unit} that "
+        f"close the whole joint graph. yA1 < yA2 at rows {' and '.join(passed)}. Rows "
+        f"{' and '.join(buildable)} are left. On random poses the joint graph keeps a freedom in all "
+        f"{in_motion[0]} working modes with sign u1 = sign u2, and in {others[0]} of the {others[1]} "
+        "others.",
         {"moving": moving, "passed": passed, "buildable": buildable, "length": length},
     )
 

@@ -35,6 +35,8 @@ def flat_parallelogram(record):
     identity = sympy.simplify(sympy.Matrix(jp).det() - product) == 0
     mode = record.modes.default_working
     flat, level = (_on_surface(record, name, mode) for name in ("v", "w"))
+    if not flat or not level:
+        return Evidence(False, "v = 0 or w = 0 does not cross the search box.")
     locked = [freedoms_with_inputs_locked(record, joints, LOOSE) for _, joints in (*flat[:5], *level[:5])]
     pose = flat[0][0]
     rows = printed_velocity_map(record, pose, mode).jp
@@ -42,11 +44,11 @@ def flat_parallelogram(record):
     gap = float(np.max(np.abs(combination @ rows[[0, 2]] - rows[1])))
     size = float(np.max(np.abs(rows)))
     return Evidence(
-        identity and bool(flat and level) and min(locked) >= 1 and gap < CLOSE * size and min(abs(combination)) > 1e-3,
-        "det Jp = -(u1 - u2) w v (cot α - cot β) (SymPy, exactly). Both v = 0 (parallelogram ① flat) and w = 0 (links 9 and "
-        f"10 along Y) cross the search box in mode {mode}, and there the joint graph moves with every input locked. At "
-        f"({_numbers(pose)}), v = 0, e2 = k1 e1 + k2 e3 with k1 = {combination[0]:.4f} and k2 = {combination[1]:.4f}: the case "
-        "that the paper excludes.",
+        bool(identity and min(locked) >= 1 and gap < CLOSE * size and min(abs(combination)) > 1e-3),
+        "det Jp = -(u1 - u2) w v (cot α - cot β) (SymPy, exactly). Both v = 0 (parallelogram ① flat) and "
+        f"w = 0 (links 9 and 10 along Y) cross the search box in mode {mode}, and there the joint graph "
+        f"moves with every input locked. At ({_numbers(pose)}), v = 0, e2 = k1 e1 + k2 e3 with k1 = "
+        f"{combination[0]:.4f} and k2 = {combination[1]:.4f}: the case that the paper excludes.",
         {"pose": pose, "k": combination},
     )
 
@@ -76,11 +78,12 @@ def parallel_links(record):
     boxed = int(np.sum((heights >= box[0]) & (heights <= box[1])))
     return Evidence(
         largest < CLOSE and min(locked) >= 1 and not low <= elsewhere <= high and least > 1e-3,
-        f"At x = -(b - d)(l6 - l4)/(l6 + l4) = {float(plane):.4f} {record.unit} |sin(α - β)| stays below {CLOSE:g} "
-        "at every random pose that a mode with sin α sin β < 0 reaches, and the joint graph moves with every input locked "
-        f"({boxed or 'none'} of these poses {'lie' if boxed else 'lies'} between the z of the search box). For "
-        f"sin α sin β > 0 it would take x = {float(elsewhere):.4f}, and only {float(low):g} to {float(high):g} is reached; "
-        f"there |sin(α - β)| is at least {least:.3f} on a grid.",
+        f"At x = -(b - d)(l6 - l4)/(l6 + l4) = {float(plane):.4f} {record.unit} |sin(α - β)| stays below "
+        f"{CLOSE:g} at every random pose that a mode with sin α sin β < 0 reaches, and the joint graph "
+        f"moves with every input locked ({boxed or 'none'} of these poses {'lie' if boxed else 'lies'} "
+        f"between the z of the search box). For sin α sin β > 0 it would take x = {float(elsewhere):.4f}, "
+        f"and only {float(low):g} to {float(high):g} is reached; there |sin(α - β)| is at least "
+        f"{least:.3f} on a grid.",
         {"plane": float(plane), "elsewhere": float(elsewhere)},
     )
 
@@ -111,19 +114,16 @@ def regular_form(record):
     edge = next(item for item in _all_examples(record) if item.factor.name == "sin_alpha")
     printed_size = np.max(np.abs(printed_velocity_map(record, edge.pose, edge.mode).jp))
     size = np.max(np.abs(velocity_map(record, edge.pose, edge.mode).jp))
-    diverges = not np.isfinite(printed_size) or printed_size > LARGE
+    finite = size < LARGE and (not np.isfinite(printed_size) or printed_size > LARGE)
+    expected = {"w", "u1_minus_u2", "u3", "sin_alpha"}
     return Evidence(
-        exact
-        and regular
-        and agree
-        and {"w", "u1_minus_u2", "u3", "sin_alpha"} <= set(judged)
-        and diverges
-        and size < LARGE,
-        "(row 1 - row 2, sin α row 1, sin β row 3) of the printed Jp and Jq is the regular form, with det Jp = (u1 - u2) w v "
-        "sin(α - β) and det Jq = u1 u2 u3 sin α sin β (SymPy, exactly). By the null space of the joint graph 20 random "
-        f"configurations are neither parallel nor serial, and examples at which {', '.join(judged)} vanish (those at which "
-        "the closure keeps its rank) are what the factor says; at sin α = 0 the platform loses a freedom although no u_i "
-        f"vanishes. There the printed Jp has entries beyond {LARGE:g}, the regular one has not.",
+        bool(exact and regular and agree and finite and expected <= set(judged)),
+        "(row 1 - row 2, sin α row 1, sin β row 3) of the printed Jp and Jq is the regular form, with "
+        "det Jp = (u1 - u2) w v sin(α - β) and det Jq = u1 u2 u3 sin α sin β (SymPy, exactly). By the "
+        "null space of the joint graph 20 random configurations are neither parallel nor serial, and "
+        f"examples at which {', '.join(judged)} vanish (those at which the closure keeps its rank) are "
+        "what the factor says; at sin α = 0 the platform loses a freedom although no u_i vanishes. There "
+        f"the printed Jp has entries beyond {LARGE:g}, the regular one has not.",
         {"judged": judged},
     )
 
@@ -144,7 +144,8 @@ def constraint_rank(record):
     listed = ", ".join(f"{'/'.join(map(str, sorted(ranks)))} at {name}" for name, ranks in found.items())
     return Evidence(
         len(general) == 1 and expected,
-        f"Rank of the closure of the joint graph: {rank} on {len(configurations(record).values)} random configurations, {listed}.",
+        f"Rank of the closure of the joint graph: {rank} on {len(configurations(record).values)} random "
+        f"configurations, {listed}.",
         {"general": rank, **{name: sorted(ranks) for name, ranks in found.items()}},
     )
 
@@ -189,7 +190,7 @@ def _self_motion(record):
     """Joint values in the working modes with sign u1 = sign u2, away from every other singularity."""
     pose = np.median([pose for pose, _ in _on_surface(record, "w", record.modes.default_working)], axis=0)
     modes = [mode for mode in all_modes(record, "inverse") if mode[2] == mode[3]]
-    found = [inverse(record, pose + [0.0, 0.0, 40.0], mode) for mode in modes]
+    found = [inverse(record, pose + np.array([0.0, 0.0, 40.0]), mode) for mode in modes]
     return [item.joints[0] for item in found if item.exists[0]]
 
 

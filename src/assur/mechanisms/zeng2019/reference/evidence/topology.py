@@ -25,9 +25,10 @@ def loop_numbers(record):
     tripod = _tripod_with_passive_limb()
     return Evidence(
         len(xis) == 2 and sum(xis) not in xis and sum(ours) == 0 and -3 in tripod and sum(tripod) == 0,
-        f"By rank of twists the two loops have ξ = {xis[0]} and {xis[1]}; the right side of Eq. (4) is {xis[1]} for the second "
-        f"one, the sum on its left would be {sum(xis)}. A platform on three UPS limbs and a passive UP limb, added in this "
-        f"order, has Δ = {', '.join(map(str, tripod))} (rank of random twists), with sum 0: -3 occurs.",
+        f"By rank of twists the two loops have ξ = {xis[0]} and {xis[1]}; the right side of Eq. (4) is "
+        f"{xis[1]} for the second one, the sum on its left would be {sum(xis)}. A platform on three UPS "
+        f"limbs and a passive UP limb, added in this order, has Δ = {', '.join(map(str, tripod))} (rank "
+        "of random twists), with sum 0: -3 occurs.",
         {"xi": xis, "delta": tripod},
     )
 
@@ -42,16 +43,17 @@ def coupling_is_a_heuristic(record):
     nearest = np.min(np.where(found.exists, np.abs(found.poses[..., 0] - poses[:, None]), np.inf), axis=1)
     return Evidence(
         kappa > 0 and worst < 1e-6 and float(np.max(nearest)) < 1e-5,
-        f"κ = {kappa:g} by rank of twists, and yet the direct problem has a closed form: at the inputs of {len(here)} random "
-        "configurations of the joint graph its branches close the whole joint graph and each configuration's own pose is among them.",
+        f"κ = {kappa:g} by rank of twists, and yet the direct problem has a closed form: at the inputs of "
+        f"{len(here)} random configurations of the joint graph its branches close the whole joint graph "
+        "and each configuration's own pose is among them.",
         {"kappa": kappa},
     )
 
 
 def joint_graph_counts(record):
-    """E13: joints, links, loops, rank, freedoms and redundant constraints, with and without parallelograms collapsed."""
+    """E13: links, loops, rank, freedoms and redundant constraints, with parallelograms as loops and collapsed."""
     graph, free = joint_graph(record), mobility(record, configurations(record).values[0])
-    first = reference_of(record).entries["decomposition"][0].loops[0].joints
+    first = _decomposition(record).loops[0].joints
     loops = [first, *([name] for name in record.generalised)]
     xis = [constraint_rank(record, names) for names in loops]
     xis.append(constraint_rank(record) - sum(xis))
@@ -76,17 +78,23 @@ def joint_graph_counts(record):
         and collapsed_redundant == 4
         and max(crossed) < 1e-6
         and len(part(record).loops) == counts[2],
-        f"{counts[0]} joints, {counts[1]} links, {counts[2]} independent loops with ξ = {', '.join(map(str, xis))}; the closure "
-        f"has rank {counts[3]} of {counts[4]} rows, F = {freedoms}, {redundant} redundant constraints, and {collapsed_redundant} "
-        "with the parallelograms collapsed. At the inputs of Table 1 random search finds assemblies with parallelogram ① "
-        "crossed and with parallelogram ② crossed; they close the joint graph like the others.",
+        f"{counts[0]} joints, {counts[1]} links, {counts[2]} independent loops with ξ = "
+        f"{', '.join(map(str, xis))}; the closure has rank {counts[3]} of {counts[4]} rows, F = "
+        f"{freedoms}, {redundant} redundant constraints, and {collapsed_redundant} with the "
+        "parallelograms collapsed. At the inputs of Table 1 random search finds assemblies with "
+        "parallelogram ① crossed and with parallelogram ② crossed; they close the joint graph like the "
+        "others.",
         {"xi": xis, "redundant": redundant, "collapsed_redundant": collapsed_redundant},
     )
 
 
+def _decomposition(record):
+    """The printed decomposition into loops."""
+    return reference_of(record).entries["decomposition"][0]
+
+
 def _numbers(record):
-    reference = reference_of(record)
-    return decomposition_rows(record, reference, reference.entries["decomposition"][0])
+    return decomposition_rows(record, _decomposition(record))
 
 
 def _tripod_with_passive_limb(seed=0):

@@ -38,16 +38,17 @@ def small_print(record):
         and chain == (3, 0, 3)
         and not_real == printed
         and fifteen < CLOSE,
-        f"P1 and P2 share one axis; P3 is parallel to it, {apart:g} {record.unit} away. With {dimensions} there are inputs with "
-        "J2 = J3, where the closed form has a solution with α = π that closes the joint graph and Eq. (17) divides by zero. "
-        f"Right are: chain II alone has t3 r0 by rank of twists; {not_real} of {len(all_modes(record, 'inverse'))} inverse "
-        f"solutions are not real at Table 1 row 3; Eq. (15) holds on {len(here)} random configurations within {CLOSE:g}.",
+        f"P1 and P2 share one axis; P3 is parallel to it, {apart:g} {record.unit} away. With {dimensions} "
+        "there are inputs with J2 = J3, where the closed form has a solution with α = π that closes the "
+        "joint graph and Eq. (17) divides by zero. Right are: chain II alone has t3 r0 by rank of "
+        f"twists; {not_real} of {len(all_modes(record, 'inverse'))} inverse solutions are not real at "
+        f"Table 1 row 3; Eq. (15) holds on {len(here)} random configurations within {CLOSE:g}.",
         {"apart": apart, "not_real": not_real, "fifteen": fifteen},
     )
 
 
 def _straight_angle(record):
-    """(Eq. (17) divides by zero, alpha = pi is a solution, dimensions) where J2 = J3; the printed lengths never get there."""
+    """(Eq. (17) divides by 0, alpha = pi is a solution, dimensions) where J2 = J3; not with the printed lengths."""
     other = with_parameters(record, b=60, d=50, l4=100)
     p = other.values
     w = -np.sqrt(p.l2**2 - 50.0**2)  # B = 100

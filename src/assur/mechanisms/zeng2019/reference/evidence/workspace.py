@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from assur.audit.audit import reference_of
 from assur.audit.reach import extreme
 from assur.audit.rows import Evidence
 
@@ -17,21 +18,27 @@ def search_box(record):
     low, high = max(-l4 - width, width - l6), min(l4 - width, width + l6)  # |cos| <= 1 in Eqs. (18), (19)
     mode = record.modes.default_working
     modes = {mode, *(signs + mode[2:] for signs in ("++", "+-", "-+", "--"))}
-    ends = [(extreme(record, "x", -1.0, item), extreme(record, "x", 1.0, item)) for item in sorted(modes)]
-    same = all(abs(first - low) < 1e-6 and abs(last - high) < 1e-6 for first, last in ends)
-    unbounded = extreme(record, "y", -1.0, mode) is None and extreme(record, "y", 1.0, mode) is None
-    z_low, z_high = extreme(record, "z", -1.0, mode), extreme(record, "z", 1.0, mode)
-    lines = _z_by_lines(record, float(low), float(high))
-    agree = abs(z_low - lines[0]) < 1e-2 and abs(z_high - lines[1]) < 1e-2
-    box = record.box
+    exactly = (float(low), float(high))
+    same = all(np.allclose(_ends(record, "x", item), exactly, rtol=0, atol=1e-6) for item in modes)
+    unbounded = bool(np.all(np.isnan(_ends(record, "y", mode))))
+    z_low, z_high = _ends(record, "z", mode)
+    agree = bool(np.allclose((z_low, z_high), _z_by_lines(record, *exactly), rtol=0, atol=1e-2))
+    box = {entry.quantity: (entry.low.value, entry.high.value) for entry in reference_of(record).entries["range"]}
+    cuts = bool(box["x"][0] > low and box["x"][1] > high and box["z"][0] > z_low)
     return Evidence(
-        same and unbounded and agree and box["x"][0] > low and box["x"][1] > high and box["z"][0] > z_low,
-        f"|cos α| <= 1 and |cos β| <= 1 in Eqs. (18), (19) give {float(low):g} <= x <= {float(high):g} {record.unit} exactly, and "
-        f"random search ends there for every choice of sin α and sin β: the box reaches to {box['x'][1]:g} and cuts off "
-        f"{float(low):g} to {box['x'][0]:g}. y has no bound but the strokes. In mode {mode} z goes from {z_low:.2f} to {z_high:.2f}, "
-        "by random search and by a search along lines.",
-        {"x": (float(low), float(high)), "z": (z_low, z_high)},
+        same and unbounded and agree and cuts,
+        f"|cos α| <= 1 and |cos β| <= 1 in Eqs. (18), (19) give {float(low):g} <= x <= {float(high):g} "
+        f"{record.unit} exactly, and random search ends there for every choice of sin α and sin β: the "
+        f"box reaches to {box['x'][1]:g} and cuts off {float(low):g} to {box['x'][0]:g}. y has no bound "
+        f"but the strokes. In mode {mode} z goes from {z_low:.2f} to {z_high:.2f}, by random search and "
+        "by a search along lines.",
+        {"x": exactly, "z": (z_low, z_high)},
     )
+
+
+def _ends(record, name, mode):
+    """Least and greatest value that a mode reaches, NaN where there is no bound."""
+    return np.array([extreme(record, name, side, mode) for side in (-1.0, 1.0)], dtype=float)
 
 
 def _z_by_lines(record, low, high):
