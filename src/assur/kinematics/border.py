@@ -43,8 +43,12 @@ def input_components(record: MechanismRecord, inputs: FloatArray) -> tuple[Any, 
 
 
 def printed_inputs(record: MechanismRecord, components: tuple[Any, ...]) -> list[FloatArray]:
-    """Printed inputs from a kernel's, one array each."""
-    return [item.sign * scalar(value) + item.offset for value, item in zip(components, record.inputs, strict=True)]
+    """Printed inputs from a kernel's, one array each; no arithmetic where a printed input is the joint's value."""
+    values = [scalar(value) for value in components]
+    return [
+        value if (item.sign, item.offset) == (1.0, 0.0) else item.sign * value + item.offset
+        for value, item in zip(values, record.inputs, strict=True)
+    ]
 
 
 def pose_components(record: MechanismRecord, poses: FloatArray) -> tuple[Any, ...]:

@@ -1,4 +1,4 @@
-"""Errata E1 to E15 of Zeng et al. 2019: the evidence of each holds, and would not if the matter were otherwise."""
+"""Errata E1 to E17 of Zeng et al. 2019: the evidence of each holds, and would not if the matter were otherwise."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 from assur.audit.errata import erratum
 from assur.model.registry import load_record, with_parameters
 
-IDS = [f"E{k}" for k in range(1, 16)]
+IDS = [f"E{k}" for k in range(1, 18)]
 
 
 def test_every_finding_is_an_erratum(found):
@@ -165,3 +165,16 @@ def test_e14_fails_if_the_short_links_of_the_second_parallelogram_stood_upright(
 
 def test_e15_fails_for_another_number(misprint):
     assert fails(misprint("tables.toml", 'printed = "24"', 'printed = "23"'), "E15")
+
+
+def test_one_collinear_set_would_fail_if_the_two_could_part(record):
+    form = record.closed_form
+
+    def factors(ns, p, core):
+        return {**form.factors(ns, p, core), "u2": core.u2 + 1.0}
+
+    assert fails(with_form(record, factors=factors), "E16")
+
+
+def test_stroke_would_fail_on_a_longer_base(record):
+    assert fails(with_parameters(record, a=400.0), "E17")

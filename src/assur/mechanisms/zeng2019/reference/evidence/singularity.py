@@ -1,4 +1,4 @@
-"""Evidence on Eqs. (22)-(26) and the singularities: E7, E8, E9, E14."""
+"""Evidence on Eqs. (22)-(26) and the singularities: E7, E8, E9, E14, E16."""
 
 from __future__ import annotations
 
@@ -16,9 +16,12 @@ from assur.audit.twists import freedoms_with_inputs_locked
 from assur.kinematics.closure import mobility
 from assur.kinematics.modes import all_modes
 from assur.kinematics.position import inverse
+from assur.kinematics.status import FACTOR_TOLERANCE
 from assur.kinematics.velocity import printed_velocity_map, velocity_map
+from assur.model.points import quantity
 from assur.numerics.number_types import Symbols
 from assur.singularity.examples import singular_examples
+from assur.singularity.verdict import verdict
 
 CLOSE = 1e-9
 LARGE = 1e6
@@ -50,6 +53,25 @@ def flat_parallelogram(record):
         f"moves with every input locked. At ({_numbers(pose)}), v = 0, e2 = k1 e1 + k2 e3 with k1 = "
         f"{combination[0]:.4f} and k2 = {combination[1]:.4f}: the case that the paper excludes.",
         {"pose": pose, "k": combination},
+    )
+
+
+def one_collinear_set(record):
+    """E16: u1^2 = u2^2 always, so u1 = 0 and u2 = 0 come together, with det Jp = 0 and a lower rank."""
+    joints = configurations(record).values
+    u1, u2 = (quantity(record, record.modes.working[name], joints) for name in ("u1", "u2"))
+    length = record.values.l2
+    gap = float(np.max(np.abs(u1 * u1 - u2 * u2))) / length**2
+    examples = [example for example in singular_examples(record) if example.factor.name in ("u1", "u2")]
+    verdicts = [verdict(record, example.pose, example.mode) for example in examples]
+    together = all(max(abs(item.relative[name]) for name in ("u1", "u2")) <= FACTOR_TOLERANCE for item in verdicts)
+    dependent = all(item.reduced_kind == "comprehensive" and item.rank < item.generic_rank for item in verdicts)
+    return Evidence(
+        len(verdicts) == 2 and gap < CLOSE and together and dependent,
+        f"On {len(joints)} random configurations of the joint graph |u1² - u2²| stays below {CLOSE:g} l2². At the "
+        f"examples of u1 = 0 and of u2 = 0 both vanish, det Jp and det Jq are zero together, and the rank of the "
+        f"closure is {verdicts[0].rank} instead of {verdicts[0].generic_rank}.",
+        {"gap": gap, "ranks": tuple(item.rank for item in verdicts)},
     )
 
 

@@ -1,4 +1,4 @@
-"""Evidence on the search box: E11."""
+"""Evidence on the search box and the workspace: E11, E17."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ import numpy as np
 from assur.audit.audit import reference_of
 from assur.audit.reach import extreme
 from assur.audit.rows import Evidence
+from assur.workspace.region import workspace
+
+RESOLUTION = 48
 
 
 def search_box(record):
@@ -33,6 +36,25 @@ def search_box(record):
         f"but the strokes. In mode {mode} z goes from {z_low:.2f} to {z_high:.2f}, by random search and "
         "by a search along lines.",
         {"x": exactly, "z": (z_low, z_high)},
+    )
+
+
+def stroke(record):
+    """E17: the workspace in the box with |yA| <= a and without a stroke, and its parallel-singular surfaces."""
+    p = record.values
+    limits = {item.name: (-p.a, p.a) for item in record.inputs}
+    free, kept = workspace(record, resolution=RESOLUTION), workspace(record, resolution=RESOLUTION, strokes=limits)
+    share = kept.volume / free.volume
+    areas = [{locus.factor: locus.area for locus in found.loci} for found in (free, kept)]
+    needed = p.l3 + 2 * p.l2  # w = 0 stretches links 9, 11 and 10 along Y
+    holds = share < 0.1 and needed > 2 * p.a and areas[1]["w"] == 0.0 and areas[1]["v"] < 0.01 * areas[0]["v"]
+    return Evidence(
+        bool(holds and areas[0]["w"] > 0.0),
+        f"Without a stroke the working mode reaches {free.volume / 1e6:.1f} million {free.unit} of the box, with "
+        f"|yA| <= a = {p.a:g} {record.unit} only {kept.volume / 1e6:.2f} million ({share:.0%}). w = 0 needs "
+        f"yA1 - yA2 = l3 + 2 l2 = {needed:g} {record.unit}, and the sliders are at most {2 * p.a:g} apart; of v = 0 "
+        f"{areas[1]['v'] / areas[0]['v']:.1%} of the area is left.",
+        {"share": share, "areas": areas},
     )
 
 
