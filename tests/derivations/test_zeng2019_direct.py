@@ -180,6 +180,12 @@ def test_eq17_with_plus_is_e3_positive(any_branch, model):
     assert roots.vanishes(half_tangent, MODE)
 
 
+def test_e1_and_e2_are_the_signs_of_w_and_v(any_branch):
+    branch, roots = any_branch
+    (w_root, _), (v_root, _), _ = roots.radicands
+    assert (branch.core.w, branch.core.v) == (E1 * w_root, E2 * v_root)
+
+
 def test_every_branch_of_the_kernel_closes_the_mechanism(any_branch, model):
     """All lengths, all inputs, all eight modes at once: an identity of polynomials."""
     branch, roots = any_branch

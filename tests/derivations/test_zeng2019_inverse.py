@@ -55,6 +55,14 @@ def test_eqs_20_21_margins_are_M1_and_M3(model, any_branch):
     assert roots.vanishes(branch.margins["M3"] - m3, MODE)
 
 
+def test_each_sign_is_that_of_its_quantity(any_branch):
+    branch, roots = any_branch
+    alpha, beta, m12, m3 = (root for root, _ in roots.radicands)
+    core = branch.core
+    found = (core.sin_alpha, core.sin_beta, core.u1, core.u2, core.u3)
+    assert found == tuple(sign * root for sign, root in zip(MODE, (alpha, beta, m12, m12, m3), strict=True))
+
+
 def test_all_32_branches_of_the_kernel_close_the_mechanism(model, any_branch):
     branch, roots = any_branch
     joints = model.kernel_joints(model.p, branch.core)

@@ -54,6 +54,14 @@ def test_the_curve_is_all_of_B_zero(model, locked):
         assert sp.expand(difference - model.p.l2 * (function(first) - function(second))) == 0
 
 
+def test_its_signs_are_those_of_v_and_of_sin_beta_minus_alpha(model, curve):
+    branch, roots, _ = curve
+    _, (v_root, _), (meeting_root, _) = roots.radicands
+    assert roots.vanishes(branch.core.v - E2 * v_root, MODE)
+    scale = 2 * model.p.l4 * model.p.l6
+    assert roots.vanishes(scale * branch.core.sin_beta_minus_alpha - E3 * meeting_root, MODE)
+
+
 def test_the_pose_moves_along_the_curve(curve):
     branch, _, gamma = curve
     assert gamma[0] in branch.pose[1].free_symbols
@@ -88,6 +96,6 @@ def test_its_tangent_is_a_motion_that_jp_does_not_see(model, gamma, e2, e3):
     jp, _ = model.kernels.jacobians(Duals(), p, branch.core)
     speed = np.array([coordinate.derivative for coordinate in branch.pose])
     assert np.linalg.norm(speed) > 1.0
-    matrix = np.array([[entry.value for entry in row] for row in jp])
+    matrix = np.array([[getattr(entry, "value", entry) for entry in row] for row in jp])
     np.testing.assert_allclose(matrix @ speed, 0.0, atol=1e-9 * np.linalg.norm(speed) * 280.0)
     assert np.linalg.matrix_rank(matrix, tol=1e-6) == 2

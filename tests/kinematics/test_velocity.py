@@ -49,3 +49,13 @@ def test_a_batch_keeps_regular_rows_beside_singular_ones(paper):
 def test_mechanism_without_printed_jacobian_says_so():
     with pytest.raises(assur.UsageError, match="no printed Jacobian"):
         printed_velocity_map(assur.load("fivebar"), [0.0, 224.0])
+
+
+def test_acceleration_is_labelled_where_a_kernel_has_no_derivative(paper):
+    """At sin(alpha) = 0 the velocity map is regular and the acceleration is not known."""
+    pose = [80.0, -74.3479, 237.9038]
+    here = velocity_map(paper, pose)
+    assert (bool(here.singular_input), bool(here.singular_output)) == (True, False)
+    velocity, acceleration = paper.acceleration(pose, [1.0, 2.0, 3.0], [0.0, 0.0, 0.0])
+    assert np.all(np.isfinite(velocity))
+    assert np.all(np.isnan(acceleration))

@@ -114,7 +114,8 @@ def acceleration(
     """Velocity v and acceleration (..., m) of the pose for given rates and accelerations (..., n) of the inputs.
 
     a = Jp^-1 (Jq qddot + Jq' qdot - Jp' v), the primes being derivatives along the motion, exact by dual
-    numbers through the same kernels; NaN where Jp is singular.
+    numbers through the same kernels. Both are NaN where Jp is singular; the acceleration is NaN where Jq is
+    singular too, because the kernels have no derivative at the root of zero.
     """
     here = velocity_map(record, poses, mode)
     rates = np.asarray(input_rates, dtype=float)
@@ -130,7 +131,7 @@ def acceleration(
     jq_rate = _matrix(jq, given.shape[:-1], derivative=True) * _input_signs(record)
     accelerations = np.asarray(input_accelerations, dtype=float)
     right = (here.jq @ accelerations[..., None]) + (jq_rate @ rates[..., None]) - (jp_rate @ velocity[..., None])
-    return velocity, _solve(here.jp, right, here.singular_output)[..., 0]
+    return velocity, _solve(here.jp, right, here.singular_output | here.singular_input)[..., 0]
 
 
 def branch_at(record: MechanismRecord, poses: ArrayLike, mode: str | None, ns: Any) -> tuple[FloatArray, Branch]:

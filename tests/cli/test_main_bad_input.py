@@ -1,0 +1,162 @@
+"""Bad input gets a clear error, the right exit code, and nothing on standard output."""
+
+from __future__ import annotations
+
+import pytest
+
+GIVE = "give it like -143.3209 or 1.5e3, without a unit"
+WORKING = "one sign + or - for each of: s_alpha, s_beta, u1, u2, u3"
+DIMENSIONS = "a, b, d, l1, l2, l3, l4, l5, l6, l7, l8"
+BAD = {
+    "direct zeng2019 1 2": "inputs of zeng2019: 2 values, 3 wanted\nhint: give yA1, yA2, yA3",
+    "direct zeng2019": "inputs of zeng2019: 0 values, 3 wanted\nhint: give yA1, yA2, yA3",
+    "direct zeng2019 1 2 3 4": "inputs of zeng2019: 4 values, 3 wanted\nhint: give yA1, yA2, yA3",
+    "inverse zeng2019 1": "pose of zeng2019: 1 value, 3 wanted\nhint: give x, y, z",
+    "direct zeng2019 1 nan 3": "yA2: nan is not a finite number",
+    "direct zeng2019 1 2 -inf": "yA3: -inf is not a finite number",
+    "inverse zeng2019 1e400 2 3": "x: 1e400 is too large",
+    "direct zeng2019 1 2 abc": f"yA3: 'abc' is not a number\nhint: {GIVE}",
+    "direct zeng2019 1 2 -1,5": "yA3: '-1,5' is not a number\nhint: write a decimal point: -1.5",
+    "direct zeng2019 1 2 -3mm": f"yA3: '-3mm' is not a number\nhint: {GIVE}",
+    "direct zen 1 2 3": "unknown mechanism 'zen'; there is: fivebar, zeng2019\nhint: did you mean zeng2019?",
+    "show": 'command "show" parameter MECHANISM requires an argument\nhint: see assur show --help',
+    "direct zeng2019 1 2 3 --set l2=0": (
+        "parameter 'l2' of zeng2019 (links 9 and 10) cannot be 0; allowed: a positive number in mm"
+    ),
+    "direct zeng2019 1 2 3 --set l2=-5": (
+        "parameter 'l2' of zeng2019 (links 9 and 10) cannot be -5; allowed: a positive number in mm"
+    ),
+    "direct zeng2019 1 2 3 --set l7=-1": (
+        "parameter 'l7' of zeng2019 (link 5, C3 to D3) cannot be -1; allowed: zero or a positive number in mm"
+    ),
+    "direct zeng2019 1 2 3 --set l22=5": (
+        f"unknown parameter of zeng2019 'l22'; there is: {DIMENSIONS}\nhint: did you mean l2?"
+    ),
+    "direct zeng2019 1 2 3 --set self=5": f"unknown parameter of zeng2019 'self'; there is: {DIMENSIONS}",
+    "direct zeng2019 1 2 3 --set name=5": f"unknown parameter of zeng2019 'name'; there is: {DIMENSIONS}",
+    "direct zeng2019 1 2 3 --set l2=abc": f"--set l2: 'abc' is not a number\nhint: {GIVE}",
+    "direct zeng2019 1 2 3 --set l2=3,5": "--set l2: '3,5' is not a number\nhint: write a decimal point: 3.5",
+    "direct zeng2019 1 2 3 --set l2=nan": "--set l2: nan is not a finite number",
+    "direct zeng2019 1 2 3 --set l2": "--set: 'l2' is not NAME=VALUE\nhint: for example --set l2=300",
+    "direct zeng2019 1 2 3 --set l2=1 --set l2=2": "--set: l2 is given twice",
+    "list --set l2=1": "unknown option: --set\nhint: see assur list --help",
+    "direct zeng2019 1 2 3 --jsno": "unknown option: --jsno. Did you mean --json?\nhint: see assur direct --help",
+    "direct zeng2019 1 2 3 --mode": (
+        'command "direct" parameter --mode requires an argument\nhint: see assur direct --help'
+    ),
+    "direct zeng2019 1 2 3 --mode ++0": (
+        "unknown assembly mode of zeng2019 '++0'; there is: +++, ++-, +-+, +--, -++, -+-, --+, ---\n"
+        "hint: one sign + or - for each of: e1, e2, e3"
+    ),
+    "singularity zeng2019 --pose 1 2": "pose of zeng2019: 2 values, 3 wanted\nhint: give x, y, z",
+    "singularity zeng2019 1 2 3": "too many values: 1, 2, 3\nhint: see assur singularity --help",
+    "workspace zeng2019 --box x=90:-110": "--box x = 90:-110 is turned round or empty\nhint: give LOW < HIGH",
+    "workspace zeng2019 --box q=-1:1": "unknown pose coordinate of zeng2019 'q'; there is: x, y, z",
+    "workspace zeng2019 --box -110:90": "--box: '-110:90' is not NAME=VALUE\nhint: for example --box x=-110:90",
+    "workspace zeng2019 --box x=-110": "--box x: '-110' is not LOW:HIGH\nhint: for example --box x=-110:90",
+    "workspace zeng2019 --box x=-1,5:3": "--box x: '-1,5' is not a number\nhint: write a decimal point: -1.5",
+    "workspace zeng2019 --stroke 300:-300": "--stroke = 300:-300 is turned round or empty\nhint: give LOW < HIGH",
+    "workspace zeng2019 --stroke q=-1:1": "unknown input of zeng2019 'q'; there is: yA1, yA2, yA3",
+    "workspace zeng2019 --stroke -1:1 --stroke -2:2": (
+        "--stroke: two intervals for all inputs\nhint: name the input, as --stroke yA1=-300:300"
+    ),
+    "workspace zeng2019 --near -5": "--near: -5 is not a positive length",
+    "workspace zeng2019 --near 0": "--near: 0 is not a positive length",
+    "workspace zeng2019 --resolution 5.5": "--resolution: '5.5' is not a whole number",
+    "workspace zeng2019 --resolution -5": "resolution: (-5, -5, -5); 2 to 400 cells along each coordinate",
+    "workspace zeng2019 -o /nowhere/x.json": (
+        "cannot write /nowhere/x.json: the folder /nowhere does not exist\nhint: mkdir -p /nowhere"
+    ),
+    "workspace zeng2019 -o x.stl": "cannot write x.stl: its ending is none of .json, .obj\nhint: rename it",
+    "show nowhere.toml": "cannot read 'nowhere.toml': No such file or directory",
+}
+
+
+@pytest.mark.parametrize("words", BAD)
+@pytest.mark.parametrize("json", [False, True])
+def test_a_clear_error(assur_cli, words, json):
+    run = assur_cli(*words.split(), *["--json"] * json)
+    assert (run.code, run.out, run.err) == (2, "", f"error: {BAD[words]}\n")
+
+
+def test_an_unknown_mode_lists_all_of_them(assur_cli):
+    run = assur_cli("inverse", "zeng2019", "1", "2", "3", "--mode", "+++")
+    assert run.code == 2
+    assert run.err.startswith("error: unknown working mode of zeng2019 '+++'; there is: +++++, ++++-, ")
+    assert run.err.endswith(f"\nhint: {WORKING}\n")
+
+
+def test_an_unknown_command_is_answered_with_the_near_one(assur_cli):
+    run = assur_cli("dirct", "zeng2019", "1", "2", "3")
+    assert run.code == 2
+    assert run.err.startswith('error: unknown command "dirct". Did you mean "direct"? Available commands: ')
+    assert run.err.endswith("\nhint: see assur --help\n")
+
+
+def test_a_bad_file_exits_3_and_lists_all_its_problems(assur_cli, tmp_path):
+    path = tmp_path / "bad.toml"
+    path.write_text('format = 1\nname = 3\nunit = "mm"\ncolour = "red"\n')
+    run = assur_cli("show", str(path))
+    assert (run.code, run.out) == (3, "")
+    assert f"{path}:2: name: 3; allowed: a text in quotes" in run.err
+    assert f"{path}:4: colour" in run.err
+
+
+def test_a_mechanism_without_closed_form_says_so(assur_cli):
+    from pathlib import Path
+
+    path = Path(__file__).parents[1] / "model" / "fourbar.toml"
+    assert assur_cli("show", str(path)).code == 0
+    run = assur_cli("direct", str(path), "30")
+    assert run.code == 2
+    assert run.err.startswith("error: fourbar has no closed form\nhint: ")
+
+
+def test_an_output_that_cannot_be_written_leaves_the_old_file_whole(assur_cli, tmp_path, monkeypatch):
+    path = tmp_path / "out.json"
+    path.write_text("old")
+
+    def full(self, target):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("pathlib.Path.replace", full)
+    run = assur_cli("workspace", "fivebar", "--resolution", "8", "-o", str(path))
+    assert (run.code, run.out) == (2, "")
+    assert run.err.startswith(f"error: cannot write {path}: No space left on device\n")
+    assert path.read_text() == "old"
+    assert [item.name for item in tmp_path.iterdir()] == ["out.json"]
+
+
+def test_a_folder_is_no_output_file(assur_cli, tmp_path):
+    run = assur_cli("workspace", "fivebar", "-o", str(tmp_path))
+    assert (run.code, run.out) == (2, "")
+    assert run.err == f"error: cannot write {tmp_path}: it is a folder\nhint: give a file that ends in .json or .obj\n"
+
+
+def test_debug_shows_the_traceback_and_keeps_the_exit_code(assur_cli):
+    run = assur_cli("direct", "zeng2019", "1", "--debug")
+    assert run.code == 2
+    assert run.err.startswith("Traceback (most recent call last):")
+    assert run.err.endswith("error: inputs of zeng2019: 1 value, 3 wanted\nhint: give yA1, yA2, yA3\n")
+
+
+@pytest.mark.parametrize("json", [False, True])
+def test_a_bug_of_ours_is_one_line_and_exits_70(assur_cli, monkeypatch, json):
+    def broken(*_):
+        raise ZeroDivisionError("a\nb")
+
+    monkeypatch.setattr("assur.mechanism.Mechanism.direct", broken)
+    words = ["direct", "zeng2019", "1", "2", "3", *["--json"] * json]
+    run = assur_cli(*words)
+    assert (run.code, run.out) == (70, "")
+    assert run.err == "error: a bug in assur: ZeroDivisionError: a b\nhint: run with --debug\n"
+    assert "Traceback" in assur_cli(*words, "--debug").err
+
+
+def test_an_interrupt_exits_130(assur_cli, monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("assur.mechanism.Mechanism.direct", interrupted)
+    run = assur_cli("direct", "zeng2019", "1", "2", "3")
+    assert (run.code, run.out, run.err) == (130, "", "interrupted\n")

@@ -1,0 +1,110 @@
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import assur
+from assur.kinematics.answers import answer
+
+INPUTS = ["162.6907", "-143.3209", "-24.6776"]
+POSE = ["-15.4714", "9.6849", "456.3315"]
+COMMON = {"mechanism", "unit", "coordinates", "status", "complete", "complete_for", "solutions", "curves", "failures"}
+
+
+def test_direct_prints_what_the_library_answers(assur_cli):
+    run = assur_cli("direct", "zeng2019", *INPUTS, "--json")
+    assert (run.code, run.err) == (0, "")
+    assert run.json == answer(assur.load("zeng2019").direct([float(text) for text in INPUTS]))
+    assert run.json.keys() >= {*COMMON, "inputs"}
+    assert {"pose", "mode", "residual", "status"} <= run.json["solutions"][0].keys()
+
+
+def test_inverse_prints_what_the_library_answers(assur_cli):
+    run = assur_cli("inverse", "zeng2019", *POSE, "--json")
+    assert run.json == answer(assur.load("zeng2019").inverse([float(text) for text in POSE]))
+    assert run.json.keys() >= {*COMMON, "pose"}
+    assert {"inputs", "mode", "residual", "status"} <= run.json["solutions"][0].keys()
+
+
+def test_direct_and_inverse_are_inverse_to_each_other(assur_cli):
+    solution = assur_cli("direct", "zeng2019", *INPUTS, "--json").json["solutions"][0]
+    back = assur_cli("inverse", "zeng2019", *map(str, solution["pose"]), "--mode", solution["working_mode"], "--json")
+    assert back.json["solutions"][0]["inputs"] == pytest.approx([float(text) for text in INPUTS], abs=1e-9)
+
+
+def test_angles_are_in_degrees_both_ways(assur_cli):
+    there = assur_cli("direct", "fivebar", "127", "53", "--json").json
+    assert there["inputs"] == pytest.approx([127.0, 53.0])
+    pose = there["solutions"][0]["pose"]
+    crank = np.array([-70.0, 0.0]) + 100.0 * np.array([math.cos(math.radians(127)), math.sin(math.radians(127))])
+    assert math.dist(pose, crank) == pytest.approx(194.0)
+    back = assur_cli("inverse", "fivebar", *map(str, pose), "--mode", "-+", "--json").json
+    assert back["solutions"][0]["inputs"] == pytest.approx([127.0, 53.0])
+
+
+def test_one_mode_may_be_asked_for_though_it_begins_with_two_hyphens(assur_cli):
+    run = assur_cli("inverse", "zeng2019", "-60", "0", "50", "--mode", "--+-+", "--json")
+    every = assur_cli("inverse", "zeng2019", "-60", "0", "50", "--json").json["solutions"]
+    assert [item["mode"] for item in run.json["solutions"]] == ["--+-+"]
+    assert run.json["solutions"][0] in every
+    assert not run.json["complete"]
+
+
+def test_dimensions_can_be_set(assur_cli):
+    run = assur_cli("direct", "zeng2019", *INPUTS, "--set", "l2=300", "--set", "l7=-0", "--json")
+    assert run.json == answer(assur.load("zeng2019", l2=300).direct([float(text) for text in INPUTS]))
+
+
+def test_unreachable_exits_4_and_names_the_quantity(assur_cli):
+    run = assur_cli("direct", "zeng2019", "900", "-900", "0", "--json")
+    assert run.code == 4
+    assert (run.json["status"], run.json["solutions"], run.json["complete"]) == ("unreachable", [], True)
+    assert run.json["failures"][0]["quantity"] == "w2"
+    assert run.json["failures"][0]["value"] == pytest.approx(280.0**2 - 830.0**2)
+    text = assur_cli("direct", "zeng2019", "900", "-900", "0")
+    assert text.code == 4
+    assert "unreachable, no solution among 8 branches" in text.out
+    assert "w2 < 0" in text.out
+    assert "-610500 mm^2" in text.out
+
+
+def test_a_mode_that_does_not_reach_exits_4(assur_cli):
+    run = assur_cli("inverse", "zeng2019", "900", "0", "300", "--mode", "++-++")
+    assert run.code == 4
+    assert "no solution in this mode" in run.out
+    assert "Only this mode was asked for" in run.out
+
+
+def test_self_motion_is_a_curve_and_no_sample(assur_cli):
+    words = ("direct", "zeng2019", "210", "70", "-24.5")
+    data = assur_cli(*words, "--json").json
+    assert (data["status"], data["solutions"]) == ("self_motion", [])
+    assert data["curves"]
+    assert all({"parameter", "interval", "mode", "poses"} <= curve.keys() for curve in data["curves"])
+    run = assur_cli(*words)
+    assert run.code == 0
+    assert "The platform moves while every input stands still" in run.out
+    assert f"self_motion, {len(data['curves'])} curves" in run.out
+    low, _ = data["curves"][0]["interval"]
+    assert f"gamma = {low:.4f}" in run.out
+
+
+def test_a_person_sees_units_modes_status_and_the_gap(assur_cli):
+    run = assur_cli("direct", "zeng2019", *INPUTS)
+    assert run.code == 0
+    head, given, _, titles, _, first, *_ = run.out.splitlines()
+    assert head == "zeng2019, direct: regular, 4 solutions among 8 branches"
+    assert given == "at yA1 = 162.6907 mm, yA2 = -143.3209 mm, yA3 = -24.6776 mm"
+    assert titles.split() == ["mode", "x", "[mm]", "y", "[mm]", "z", "[mm]", "working", "status", "gap", "[mm]"]
+    assert first.split()[:6] == ["+++", "-15.4714", "9.6849", "456.3315", "++-++", "regular"]
+    assert "Complete, by the closed form, for the reduced model" in run.out
+    assert "mode: the signs of e1, e2, e3" in run.out
+
+
+@pytest.mark.parametrize("words", [("direct", "zeng2019", *INPUTS), ("inverse", "zeng2019", *POSE), ("list",)])
+def test_lines_fit_into_80_columns_and_have_no_colour_codes(assur_cli, words):
+    out = assur_cli(*words).out
+    assert max(map(len, out.splitlines())) <= 80
+    assert "\x1b" not in out

@@ -1,0 +1,50 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import assur
+
+
+def test_list_has_every_mechanism(assur_cli):
+    rows = assur_cli("list", "--json").json["mechanisms"]
+    assert [row["name"] for row in rows] == list(assur.names())
+    assert all({"title", "source", "unit", "angle", "inputs", "coordinates"} <= row.keys() for row in rows)
+    assert all(name in assur_cli("list").out for name in assur.names())
+
+
+@pytest.mark.parametrize("name", assur.names())
+def test_show_says_what_the_record_holds(assur_cli, name):
+    record = assur.load(name)
+    data = assur_cli("show", name, "--json").json
+    assert {row["name"]: row["value"] for row in data["parameters"]} == {
+        key: item.value for key, item in record.parameters.items()
+    }
+    assert [row["name"] for row in data["joints"]] == list(record.joints)
+    assert data["mobility"]["freedoms"] == len(record.inputs)
+    assert data["home"]["residual"] < 1e-9
+    out = assur_cli("show", name).out
+    assert all(joint in out for joint in record.joints)
+
+
+def test_home_is_at_the_border_in_degrees(assur_cli):
+    home = assur_cli("show", "fivebar", "--json").json["home"]["joints"]
+    assert home["A1"] == pytest.approx([127.0], abs=2.0)
+
+
+def test_a_path_is_as_good_as_a_name(assur_cli):
+    path = str(assur.load("zeng2019").file)
+    assert assur_cli("show", path, "--json").json == assur_cli("show", "zeng2019", "--json").json
+
+
+def test_set_changes_what_is_shown(assur_cli):
+    data = assur_cli("show", "zeng2019", "--set", "l2=300", "--json").json
+    assert {row["name"]: row["value"] for row in data["parameters"]}["l2"] == 300.0
+
+
+def test_joints_with_several_freedoms_are_shown(assur_cli):
+    path = Path(__file__).parents[1] / "model" / "file" / "delta.toml"
+    home = assur_cli("show", str(path), "--json").json["home"]["joints"]
+    assert (len(home["leg1.A"]), len(home["leg1.B1"]), len(home["leg1.C1"])) == (1, 2, 3)
+    assert "spherical" in assur_cli("show", str(path)).out

@@ -1,0 +1,82 @@
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+
+import assur
+from assur.workspace.region import workspace
+
+SHAPE = {"volume", "volume_error", "unit", "mode", "box", "parallel_singular", "sections"}
+COARSE = ("--resolution", "12")
+
+
+def test_shape_and_numbers_are_those_of_the_library(assur_cli):
+    data = assur_cli("workspace", "zeng2019", *COARSE, "--json").json
+    assert data.keys() >= SHAPE
+    found = workspace(assur.load("zeng2019"), resolution=12)
+    assert {name: data[name] for name in SHAPE} == json.loads(json.dumps(found.to_json()))
+    assert [item["z"] for item in data["sections"]] == [300.0, 350.0, 400.0, 450.0]
+
+
+def test_box_strokes_and_sections_are_taken(assur_cli):
+    words = ("--box", "x=-50:50", "--stroke", "-300:300", "--stroke", "yA1=-100:250", "--section", "333", "--near", "5")
+    data = assur_cli("workspace", "zeng2019", *COARSE, *words, "--json").json
+    assert data["box"] == [[-50.0, 50.0], [-250.0, 250.0], [180.0, 480.0]]
+    assert data["strokes"] == {"yA1": [-100.0, 250.0], "yA2": [-300.0, 300.0], "yA3": [-300.0, 300.0]}
+    assert [item["z"] for item in data["sections"]] == [333.0]
+    assert data["parallel_singular"]["near"] == 5.0
+    strokes = {"yA1": (-100, 250), "yA2": (-300, 300), "yA3": (-300, 300)}
+    found = workspace(assur.load("zeng2019"), box={"x": (-50, 50)}, strokes=strokes, resolution=12)
+    assert data["volume"] == found.volume
+
+
+def test_strokes_of_angles_are_in_degrees(assur_cli):
+    data = assur_cli("workspace", "fivebar", *COARSE, "--stroke", "theta1=0:90", "--json").json
+    found = workspace(assur.load("fivebar"), strokes={"theta1": (0, math.pi / 2)}, resolution=12)
+    assert data["volume"] == pytest.approx(found.volume)
+    assert data["strokes"]["theta1"] == pytest.approx([0.0, 90.0])
+
+
+def test_another_mode(assur_cli):
+    data = assur_cli("workspace", "fivebar", *COARSE, "--mode", "--", "--json").json
+    assert data["mode"] == "--"
+
+
+def test_a_person_sees_volume_error_sections_and_loci(assur_cli):
+    run = assur_cli("workspace", "zeng2019", *COARSE, "--stroke", "-300:300")
+    assert run.code == 0
+    assert "strokes: yA1 -300 .. 300 mm" in run.out
+    assert "error: difference to half the resolution" in run.out
+    assert "section at z" in run.out
+    assert "share within 10 mm of one" in run.out
+    assert max(map(len, run.out.splitlines())) <= 80
+
+
+def test_the_answer_is_written_with_its_polygons(assur_cli, tmp_path):
+    path = tmp_path / "w.json"
+    run = assur_cli("workspace", "zeng2019", *COARSE, "-o", str(path), "--json")
+    written = json.loads(path.read_text())
+    polygons = written.pop("section_polygons")
+    assert written == run.json
+    assert len(polygons) == len(run.json["sections"])
+
+
+def test_the_surface_is_written_as_triangles(assur_cli, tmp_path):
+    path = tmp_path / "w.obj"
+    run = assur_cli("workspace", "zeng2019", *COARSE, "-o", str(path))
+    assert f"written: {path}" in run.out.replace("\n", "")
+    lines = path.read_text().splitlines()
+    points = [list(map(float, line.split()[1:])) for line in lines if line.startswith("v ")]
+    faces = [list(map(int, line.split()[1:])) for line in lines if line.startswith("f ")]
+    volume = workspace(assur.load("zeng2019"), resolution=12).volume
+    assert _volume(points, faces) == pytest.approx(volume, rel=1e-5)
+
+
+def _volume(points, faces):
+    total = 0.0
+    for i, j, k in faces:
+        (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (points[index - 1] for index in (i, j, k))
+        total += (ax * (by * cz - bz * cy) - ay * (bx * cz - bz * cx) + az * (bx * cy - by * cx)) / 6
+    return total
