@@ -6,17 +6,20 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from assur.cli.numbers import NUMBER
 from assur.cli.options import Outcome, Shared
-from assur.cli.output import heading, table
+from assur.cli.output import heading, table, words
 from assur.cli.progress import progress
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
+    from rich.text import Text
 
     from assur.audit.rows import Audit, Row
     from assur.mechanism import Mechanism
 
 CLAIM_FAILS = 1
+EQUATION = "left - right"
 COLOURS = {"ok": "", "wrong": "red", "missing": "yellow"}
 
 
@@ -62,15 +65,24 @@ def rows_table(rows: Sequence[Row]) -> RenderableType:
     from assur.audit.documents import computed_text
 
     return table(
-        ("where", "quantity", "printed", "computed", "verdict"),
+        ("where", "printed", "computed", "verdict"),
         [
-            (row.source, row.quantity, row.printed, computed_text(row), f"{row.verdict} {row.erratum}".strip())
+            (_where(row), _cell(row.printed), _cell(computed_text(row)), f"{row.verdict} {row.erratum}".strip())
             for row in rows
         ],
-        wrap=("where", "quantity", "printed", "computed"),
-        left=("where", "quantity", "verdict"),
+        wrap=("where", "printed", "computed"),
+        left=("where", "verdict"),
         styles=[COLOURS[row.verdict] for row in rows],
     )
+
+
+def _where(row: Row) -> str:
+    return row.source if row.quantity == EQUATION else f"{row.source}: {row.quantity}"
+
+
+def _cell(text: str) -> str | Text:
+    """Numbers are set right, words and formulas left."""
+    return text if NUMBER.fullmatch(text) else words(text)
 
 
 def summary(found: Audit) -> str:

@@ -11,8 +11,9 @@ from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from assur.cli.options import Outcome
+from assur.cli.options import Outcome, Plain
 from assur.cli.output import heading, table
+from assur.cli.progress import progress
 from assur.cli.quantities import count
 
 if TYPE_CHECKING:
@@ -36,9 +37,10 @@ class Check:
     found: str
 
 
-def outcome(folder: str) -> Outcome:
+def outcome(folder: str, shared: Plain) -> Outcome:
     """Every check; exit code 1 where one is a fault."""
-    checks = [*_installation(), _writable(folder), *_numbers()]
+    with progress("self-check", shared):
+        checks = [*_installation(), _writable(folder), *_numbers()]
     faults = sum(check.answer == "fault" for check in checks)
     data = {
         "python": platform.python_version(),

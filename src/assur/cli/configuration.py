@@ -77,6 +77,7 @@ def _factors(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType
     exists = data["condition"] is not None
     yield f"condition number of Jp^-1 Jq: {short(data['condition']) if exists else 'none, singular'}"
     yield f"by det Jp and det Jq alone: {data['reduced_kind']}"
-    yield f"joint graph: rank {data['rank']} here, {data['generic_rank']} in general; {count(data['freedoms'], 'freedom')}"
+    freedoms = count(data["freedoms"], "freedom")
+    yield f"joint graph: rank {data['rank']} here, {data['generic_rank']} in general; {freedoms}"
     if data["kind"] != "regular" or data["near"]:
         yield f"closest to zero: {data['closest']}"

@@ -29,4 +29,4 @@ def doctor(
     """
     from assur.cli import checkup
 
-    return checkup.outcome(output)
+    return checkup.outcome(output, shared)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
 
-def list_(*, shared: Plain = PLAIN) -> Outcome:
+def list_(*, shared: Plain = PLAIN) -> Outcome:  # noqa: ARG001  # read by main
     """The built-in mechanisms, with their inputs and poses.
 
     A mechanism of your own is named by the path of its file: assur show ./my.toml

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import contextlib
-import os
 import sys
 from collections.abc import Sequence
 
-from cyclopts import App, CycloptsError, Parameter
+from cyclopts import App, CycloptsError, Parameter, UnusedCliTokensError
 
 import assur
 from assur.cli.numbers import shielded
-from assur.cli.options import Outcome, Plain
-from assur.cli.output import complain, emit
+from assur.cli.options import PLAIN
+from assur.cli.output import complain, console, emit, written
 from assur.errors import AssurError, UsageError
 
 BUG = 70
@@ -48,6 +47,7 @@ def application() -> App:
         help=HELP,
         version=assur.__version__,
         help_format="plaintext",
+        console=console(),
         default_parameter=Parameter(negative="", show_default=False),
     )
     app.command(list_, name="list")
@@ -69,7 +69,6 @@ def main(words: Sequence[str] | None = None) -> int:
         complain(error)
         return error.exit_code
     except BrokenPipeError:
-        _forget_output()
         return BROKEN_PIPE
     except KeyboardInterrupt:
         sys.stderr.write("interrupted\n")
@@ -87,16 +86,18 @@ def _run(words: Sequence[str]) -> int:
         command, bound, _ = app.parse_args(words, exit_on_error=False, print_error=False, verbose=False)
     except CycloptsError as error:
         raise UsageError(_message(error), hint=f"see {' '.join(_path(app, words))} --help") from error
+    if "shared" not in bound.signature.parameters:
+        with written():  # help or version, printed by the parser
+            command(*bound.args, **bound.kwargs)
+        return 0
     outcome = command(*bound.args, **bound.kwargs)
-    if isinstance(outcome, Outcome):
-        shared = bound.arguments.get("shared")
-        emit(outcome, json=isinstance(shared, Plain) and shared.json)
-        return outcome.exit_code
-    sys.stdout.flush()
-    return 0
+    emit(outcome, json=bound.arguments.get("shared", PLAIN).json)
+    return int(outcome.exit_code)
 
 
 def _message(error: CycloptsError) -> str:
+    if isinstance(error, UnusedCliTokensError):
+        return f"too many values: {', '.join(word.strip() for word in error.unused_tokens or ())}"
     text = " ".join(str(error).split())
     text = text if text.endswith("...") else text.rstrip(".")
     return text[:1].lower() + text[1:]
@@ -112,9 +113,3 @@ def _traceback(wanted: bool) -> None:
         import traceback
 
         traceback.print_exc()
-
-
-def _forget_output() -> None:
-    """Nobody reads on: let the interpreter's last flush go nowhere."""
-    with contextlib.suppress(OSError, ValueError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

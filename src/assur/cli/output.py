@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Literal
 
 from assur.errors import AssurError, OutputError
@@ -11,6 +14,7 @@ from assur.errors import AssurError, OutputError
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
     from rich.table import Table
+    from rich.text import Text
 
     from assur.cli.options import Outcome
 
@@ -19,7 +23,13 @@ def console(*, error: bool = False) -> Console:
     """A console on standard output or error; plain text where that is no terminal, 80 columns unless told."""
     from rich.console import Console
 
-    return Console(stderr=error, markup=False, highlight=False, emoji=False)
+    class Faithful(Console):
+        """A console that leaves a closed pipe to its caller."""
+
+        def on_broken_pipe(self) -> None:
+            raise
+
+    return Faithful(stderr=error, markup=False, highlight=False, emoji=False)
 
 
 def emit(outcome: Outcome, *, json: bool) -> None:
@@ -27,27 +37,39 @@ def emit(outcome: Outcome, *, json: bool) -> None:
     if json:
         from assur.results.json_text import json_text
 
-        sys.stdout.write(json_text(outcome.data) + "\n")
+        text = json_text(outcome.data) + "\n"
+        with written():
+            sys.stdout.write(text)
     else:
         show(outcome.shown())
-    flush()
 
 
 def show(items: Iterable[RenderableType]) -> None:
     """Print items one below the other."""
     out = console()
     for item in items:
-        out.print(item)
+        with written():
+            out.print(item)
 
 
-def flush() -> None:
-    """Hand what was printed to the system; a full disk is an error like any other, a closed pipe is not."""
+@contextmanager
+def written() -> Iterator[None]:
+    """What is written inside reaches the system; a full disk is an error of the user's, a closed pipe is none."""
     try:
+        yield
         sys.stdout.flush()
     except BrokenPipeError:
+        forget_output()
         raise
     except OSError as error:
+        forget_output()
         raise OutputError(f"cannot write standard output: {error.strerror}") from error
+
+
+def forget_output() -> None:
+    """Let the interpreter's last flush go nowhere: it would fail again."""
+    with contextlib.suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def complain(error: AssurError) -> None:
@@ -64,7 +86,7 @@ def heading(text: str) -> RenderableType:
 
 def table(
     columns: Sequence[str],
-    rows: Iterable[Sequence[str]],
+    rows: Iterable[Sequence[str | Text]],
     *,
     title: str = "",
     left: Sequence[str] = (),
@@ -84,6 +106,7 @@ def table(
         title_justify="left",
         box=box.SIMPLE_HEAD,
         pad_edge=False,
+        collapse_padding=True,
         show_edge=False,
         header_style="bold",
     )
@@ -92,5 +115,18 @@ def table(
         side: Literal["left", "right"] = "left" if name in left else "right"
         found.add_column(Text(name), justify=side, no_wrap=not free, overflow="fold")
     for place, row in enumerate(rows):
-        found.add_row(*(Text(cell) for cell in row), style=styles[place] if styles else None)
+        found.add_row(*(_cell(cell) for cell in row), style=styles[place] if styles else None)
     return found
+
+
+def _cell(cell: str | Text) -> Text:
+    from rich.text import Text
+
+    return Text(cell) if isinstance(cell, str) else cell
+
+
+def words(text: str) -> Text:
+    """A cell of words, set left also in a column of numbers."""
+    from rich.text import Text
+
+    return Text(text, justify="left")

@@ -1,4 +1,4 @@
-"""Where output goes: looked at before the work begins, so that a long run does not end in a path that cannot be written."""
+"""Where output goes, looked at before the work begins, so that no long run ends in a path that cannot be written."""
 
 from __future__ import annotations
 

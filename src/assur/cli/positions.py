@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
-from assur.cli.quantities import Style, count, pose_text, short, style_of, tiny
+from assur.cli.quantities import Style, count, point_text, point_title, pose_text, short, style_of, tiny
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -25,9 +25,14 @@ def outcome(record: Mechanism, found: SolutionSet) -> Outcome:
     from assur.kinematics.answers import answer
 
     data = answer(found)
-    branches = len(found.modes_asked)
-    shown = lambda: _shown(record, data, branches)  # noqa: E731  # built only where a person reads
-    return Outcome(data, shown, EXIT_CODES.get(data["status"], 0))
+    return Outcome(data, lambda: _shown(record, data, len(found.modes_asked)), EXIT_CODES.get(data["status"], 0))
+
+
+def lines(record: Mechanism, found: SolutionSet) -> Iterable[RenderableType]:
+    """An answer as a person reads it."""
+    from assur.kinematics.answers import answer
+
+    return _shown(record, answer(found), len(found.modes_asked))
 
 
 def _shown(record: Mechanism, data: dict[str, Any], branches: int) -> Iterable[RenderableType]:
@@ -96,22 +101,14 @@ def _curves(data: dict[str, Any], style: Style) -> Iterable[RenderableType]:
         low, high = curve["interval"]
         poses = curve["poses"]
         picked = (poses[0], poses[len(poses) // 2], poses[-1])
-        points = "\n".join(
-            f"({', '.join(style.coordinate(*pair) for pair in zip(data['coordinates'], pose, strict=True))})"
-            for pose in picked
-        )
+        points = "\n".join(point_text(style, data["coordinates"], pose) for pose in picked)
         arc = f"{curve['parameter']} = {style.degrees(low)}\n.. {style.degrees(high)}"
         rows.append((curve["mode"], arc, points))
     yield table(
-        ("mode", f"arc [{style.angle}]", f"pose at its start, middle and end [{_pose_units(data, style)}]"),
+        ("mode", f"arc [{style.angle}]", f"start, middle, end {point_title(style, data['coordinates'])}"),
         rows,
         left=("mode",),
     )
-
-
-def _pose_units(data: dict[str, Any], style: Style) -> str:
-    units = [style.coordinate_unit(name) for name in data["coordinates"]]
-    return units[0] if len(set(units)) == 1 else ", ".join(units)
 
 
 def failures(items: list[dict[str, Any]]) -> RenderableType:

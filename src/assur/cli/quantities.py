@@ -59,6 +59,17 @@ def pose_text(style: Style, names: Sequence[str], pose: Sequence[float]) -> str:
     return ", ".join(f"{name} = {style.coordinate(name, value)} {style.coordinate_unit(name)}" for name, value in pairs)
 
 
+def point_text(style: Style, names: Sequence[str], pose: Sequence[float]) -> str:
+    """A pose without names: (1.0000, 2.0000)."""
+    return f"({', '.join(style.coordinate(name, value) for name, value in zip(names, pose, strict=True))})"
+
+
+def point_title(style: Style, names: Sequence[str]) -> str:
+    """What stands over such poses: (x, y) [mm]."""
+    units = [style.coordinate_unit(name) for name in names]
+    return f"({', '.join(names)}) [{units[0] if len(set(units)) == 1 else ', '.join(units)}]"
+
+
 def is_length(name: str) -> bool:
     """Whether a pose coordinate is a length; every other is an angle."""
     from assur.kinematics.border import LENGTHS

@@ -170,7 +170,8 @@ def _shown(record: Mechanism, data: dict[str, Any], written: Path | None) -> Ite
     if data["strokes"]:
         yield f"strokes: {_intervals(record, data['strokes'])}"
     what = "volume" if dimension == 3 else "area"
-    yield f"{what}: {with_error(data['volume'], data['volume_error'])} {data['unit']} (error: against half the resolution)"
+    size = f"{with_error(data['volume'], data['volume_error'])} {data['unit']}"
+    yield f"{what}: {size} (error: difference to half the resolution)"
     yield ""
     surface = power(record.unit, dimension - 1)
     yield from _sections(data, surface)

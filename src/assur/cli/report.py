@@ -1,6 +1,45 @@
+"""`assur report`: everything about one mechanism in one file."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from cyclopts import Parameter
+
 from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
 
+ENDINGS = (".html", ".htm")
 
-def report(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> Outcome:
-    """report."""
-    raise NotImplementedError
+
+def report(
+    mechanism: MechanismName,
+    /,
+    *,
+    output: Annotated[
+        str,
+        Parameter(name=("-o", "--output"), metavar="FILE", help="The file to be written; report.html if left out."),
+    ] = "report.html",
+    shared: Shared = SHARED_DEFAULTS,
+) -> Outcome:
+    """Write one self-contained HTML file about a mechanism.
+
+    Formulas, tables beside the source's values, figures, errata, citations and
+    versions, with nothing outside the file. An old file is replaced whole or
+    not at all.
+
+    For example:
+        assur report zeng2019 -o report.html
+        assur report ./my.toml --set l2=300 -o my.html
+    """
+    record = shared.mechanism(mechanism)
+    from assur.cli.output import heading
+    from assur.cli.paths import output_file
+    from assur.cli.progress import progress
+    from assur.report import write_report
+
+    path = output_file(output, ENDINGS)
+    with progress("report", shared) as step:
+        write_report(record, path, step)
+    size = path.stat().st_size
+    data = {"mechanism": record.name, "file": str(path), "bytes": size}
+    return Outcome(data, lambda: [heading(f"{record.name}, report"), f"written: {path} ({size / 1e6:.1f} MB)"])

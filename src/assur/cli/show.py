@@ -104,7 +104,7 @@ def _platform_point(record: Mechanism, home: Any) -> list[float]:
 def _shown(data: dict[str, Any], style: Style) -> Iterable[RenderableType]:
     free, form, home = data["mobility"], data["closed_form"], data["home"]
     yield heading(f"{data['mechanism']}: {data['title']}")
-    yield f"source   {data['source']}"
+    yield f"source   {data['source'] or 'not stated'}"
     yield f"file     {data['file']}"
     yield f"units    {data['unit']}, {data['angle']}"
     yield f"pose     {', '.join(data['coordinates'])} of link '{data['platform']}', orientation {data['orientation']}"
@@ -151,4 +151,5 @@ def _joint_row(item: dict[str, Any], home: dict[str, list[float]], style: Style)
 def _modes(modes: dict[str, Any]) -> Iterable[RenderableType]:
     for problem in ("working", "assembly"):
         signs = ", ".join(f"{name} = sign of {text}" for name, text in modes[problem].items())
-        yield f"{problem} mode: {signs}; default {modes['default_' + problem]}"
+        if signs:
+            yield f"{problem} mode: {signs}; default {modes['default_' + problem]}"

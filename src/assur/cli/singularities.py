@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.progress import progress
-from assur.cli.quantities import pose_text, short, style_of
+from assur.cli.quantities import point_text, point_title, short, style_of
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -87,6 +87,7 @@ def _example(record: Mechanism, example: Any) -> dict[str, Any]:
         "mode": example.mode,
         "pose": plain(pose_at_border(record, example.pose)),
         "inputs": plain(inputs_at_border(record, example.inputs)),
+        "in_box": example.in_box,
     }
 
 
@@ -111,15 +112,14 @@ def _shown(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
     yield ""
     yield heading("example configurations")
     rows = [
-        (item["factor"], item["kind"], item["mode"], pose_text(style, data["coordinates"], item["pose"]))
+        (item["factor"], item["kind"], item["mode"], point_text(style, data["coordinates"], item["pose"]))
         for item in data["examples"]
     ]
-    yield table(
-        ("factor", "the configuration is", "mode", "pose"), rows, left=("factor", "the configuration is", "pose")
-    )
+    pose = point_title(style, data["coordinates"])
+    yield table(("factor", "the pose is", "mode", pose), rows, left=("factor", "the pose is", pose))
     without = [item["name"] for item in data["factors"] if item["name"] not in {row[0] for row in rows}]
     if without:
-        yield f"no example found in the box: {', '.join(without)}"
+        yield f"no example found: {', '.join(without)}"
 
 
 def _area(item: dict[str, Any]) -> str:

@@ -1,4 +1,4 @@
-"""The canvas: a page measured in points, and views that put space on it, so that symbols and letters keep their size."""
+"""The canvas: a page measured in points, and views that put space on it, so that symbols keep their size."""
 
 from __future__ import annotations
 
@@ -40,24 +40,42 @@ class Canvas:
     figure: Figure
     axes: Axes
 
-    def line(self, points: FloatArray, width: float = 1.0, colour: str = INK, order: float = 2.0, **more: Any) -> None:
+    def line(
+        self, points: FloatArray, width: float = 1.0, colour: str = INK, order: float = 2.0, **more: Any
+    ) -> None:
         """A polyline (k, 2)."""
         flat = np.asarray(points, dtype=float)
         more.setdefault("solid_capstyle", "round")
         self.axes.plot(flat[:, 0], flat[:, 1], color=colour, linewidth=width, zorder=order, **more)
 
     def polygon(
-        self, corners: FloatArray, fill: str = PAPER, edge: str = INK, width: float = 0.8, order: float = 2.0, **more: Any
+        self,
+        corners: FloatArray,
+        fill: str = PAPER,
+        edge: str = INK,
+        width: float = 0.8,
+        order: float = 2.0,
+        **more: Any,
     ) -> None:
         """A closed polygon (k, 2)."""
-        patch = Polygon(corners, closed=True, facecolor=fill, edgecolor=edge, linewidth=width, zorder=order, **more)
+        patch = Polygon(
+            corners, closed=True, facecolor=fill, edgecolor=edge, linewidth=width, zorder=order, **more
+        )
         self.axes.add_patch(patch)
 
     def disc(
-        self, centre: FloatArray, radius: float, fill: str = PAPER, edge: str = INK, width: float = 0.8, order: float = 2.0
+        self,
+        centre: FloatArray,
+        radius: float,
+        fill: str = PAPER,
+        edge: str = INK,
+        width: float = 0.8,
+        order: float = 2.0,
     ) -> None:
         """A disc."""
-        patch = Circle((centre[0], centre[1]), radius, facecolor=fill, edgecolor=edge, linewidth=width, zorder=order)
+        patch = Circle(
+            (centre[0], centre[1]), radius, facecolor=fill, edgecolor=edge, linewidth=width, zorder=order
+        )
         self.axes.add_patch(patch)
 
     def arrow(
@@ -104,18 +122,27 @@ def canvas(width: float, height: float) -> Canvas:
     return Canvas(figure, axes)
 
 
-def fitted(camera: Camera, cloud: FloatArray, width: float, margin: float = 8.0) -> tuple[View, float]:
-    """The view in which a cloud (k, 3) fills a width in mm less margins, and the height in mm that it takes.
+def fitted(
+    camera: Camera, cloud: FloatArray, width: float, tallest: float, margin: float = 8.0
+) -> tuple[View, Canvas]:
+    """A canvas at most width x tallest mm for a cloud (k, 3) with margins, and the view that fills it.
 
     >>> from assur.figures.camera import plane
-    >>> view, height = fitted(plane("x", "y"), np.array([[0.0, 0, 0], [2, 1, 0]]), width=40, margin=10)
-    >>> round(height, 9), (view(np.array([0.0, 0, 0])) / POINTS).round(9).tolist()
-    (30.0, [10.0, 10.0])
+    >>> view, page = fitted(plane("x", "y"), np.array([[0.0, 0, 0], [2, 1, 0]]), width=40, tallest=90, margin=10)
+    >>> (page.figure.get_size_inches() / MILLIMETRE).round(9).tolist(), (view(np.zeros(3)) / POINTS).round(9).tolist()
+    ([40.0, 30.0], [10.0, 10.0])
     """
     flat = camera.project(cloud)
     low, high = flat.min(axis=0), flat.max(axis=0)
-    scale = (width - 2 * margin) * POINTS / max(high[0] - low[0], 1e-300)
-    return View(camera, scale, margin * POINTS - scale * low), (high[1] - low[1]) * scale / POINTS + 2 * margin
+    span = np.maximum(high - low, 1e-300)
+    scale = min((width - 2 * margin) / span[0], (tallest - 2 * margin) / span[1])
+    sides = (
+        np.array([width, tallest])
+        if scale * span[0] < 0.5 * (width - 2 * margin)
+        else scale * span + 2 * margin
+    )
+    view = View(camera, scale * POINTS, POINTS * (sides / 2 - scale * (low + high) / 2))
+    return view, canvas(float(sides[0]), float(sides[1]))
 
 
 def inside(camera: Camera, cloud: FloatArray, rectangle: tuple[float, float, float, float]) -> View:

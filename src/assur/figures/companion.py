@@ -11,10 +11,10 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from assur.errors import MechanismFileError, UnknownNameError
 from assur.figures.camera import Camera, oblique, orthographic
-from assur.model.faults import Faults
+from assur.model.file.faults import Faults
+from assur.model.file.toml_source import TomlSource, read_toml
 from assur.model.formula import FormulaError, parse
 from assur.model.mechanism import MechanismRecord
-from assur.model.toml_source import TomlSource, read_toml
 
 FILE = "figures.toml"
 
@@ -50,6 +50,15 @@ class Bar(_Part):
     length: str = ""
 
 
+class Measure(_Part):
+    """A distance of two points along one axis, with its letter, in the figure of a plane."""
+
+    ends: Annotated[list[str], Field(min_length=2, max_length=2)]
+    along: Literal["x", "y", "z"]
+    latex: str
+    length: str = ""
+
+
 class Schematic(_Part):
     """Other dimensions and another pose for the figures that show how the mechanism is made."""
 
@@ -66,13 +75,18 @@ class Examples(_Part):
 
 
 class Step(_Part):
-    """A box of the flow of the direct solution, or what is changed in the box of a quantity."""
+    """A box of the flow of the direct solution, or what is said of the box of a quantity beside its declaration.
+
+    `needs` replaces what it is computed from, `adds` adds to it; `sign` is the mode sign that is chosen in it;
+    a `condition` is a geometric constraint that is put in, not computed.
+    """
 
     needs: list[str] | None = None
+    adds: list[str] = []
     latex: str = ""
     equation: str = ""
     sign: str = ""
-    text: str = ""
+    condition: bool = False
 
 
 class Flow(_Part):
@@ -88,6 +102,7 @@ class Companion(_Part):
     inputs: list[float] = []
     rail: str = ""
     bars: list[Bar] = []
+    measures: list[Measure] = []
     links: dict[str, str] = {}
     chains: dict[str, str] = {}
     generalised: dict[str, str] = {}
@@ -149,8 +164,16 @@ def _check_names(record: MechanismRecord, found: Companion, faults: Faults) -> N
         for end in bar.ends:
             _known(faults, ("bars", k, "ends"), "joint or point", end, named)
         _formula(record, faults, ("bars", k, "length"), bar.length)
+    for k, measure in enumerate(found.measures):
+        for end in measure.ends:
+            _known(faults, ("measures", k, "ends"), "joint or point", end, named)
+        _formula(record, faults, ("measures", k, "length"), measure.length)
     _formula(record, faults, ("rail",), found.rail)
-    for part, choices in (("links", record.links), ("chains", record.chains), ("generalised", record.generalised)):
+    for part, choices in (
+        ("links", record.links),
+        ("chains", record.chains),
+        ("generalised", record.generalised),
+    ):
         for name in getattr(found, part):
             _known(faults, (part, name), part, name, choices)
     for name in found.schematic.parameters:

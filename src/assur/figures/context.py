@@ -6,16 +6,20 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from manifold3d import Manifold
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
+from assur.figures.camera import Camera, plane
 from assur.figures.companion import Companion, companion
+from assur.figures.near import near_solid
 from assur.figures.skeleton import Skeleton, skeleton
 from assur.kinematics.home import home_values
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.solutions import SolutionSet
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import with_parameters
+from assur.performance.dexterity import GlobalIndex, global_condition_index
 from assur.singularity.examples import SingularExample, singular_examples
 from assur.workspace.region import Workspace, workspace
 
@@ -43,10 +47,19 @@ class Context:
     def home(self) -> FloatArray:
         """Joint values (n,) of the configuration that is drawn: at the companion's inputs, else home."""
         if self.companion.inputs and self.record.closed_form:
-            found = direct(self.record, self._inside(self.companion.inputs), self.record.modes.default_assembly or None)
+            found = direct(
+                self.record, self._inside(self.companion.inputs), self.record.modes.default_assembly or None
+            )
             if found.exists[0]:
-                return found.joints[0]
+                return np.asarray(found.joints[0])
         return home_values(self.record)
+
+    @cached_property
+    def pose(self) -> FloatArray:
+        """Pose (m,) of the platform in that configuration, in the file's coordinates."""
+        found = self.assemblies
+        gaps = np.where(found.exists[:, None], np.abs(found.joints - self.home), np.inf)
+        return np.asarray(found.poses[int(np.argmin(gaps.max(axis=1)))])
 
     @cached_property
     def skeleton(self) -> Skeleton:
@@ -69,8 +82,21 @@ class Context:
         if pose and record.closed_form:
             found = inverse(record, pose, record.modes.default_working or None)
             if found.exists[0]:
-                return found.joints[0]
+                return np.asarray(found.joints[0])
         return home_values(record)
+
+    def camera(self, figure: str, otherwise: Camera) -> Camera:
+        """The view of a figure: the companion's, the plane of a mechanism that moves in one, or another."""
+        return self.companion.camera(figure, plane("x", "y") if self.planar else otherwise)
+
+    @property
+    def planar(self) -> bool:
+        """Whether every axis that turns is parallel to Z and every one that slides is across it, at home."""
+        return all(
+            abs(abs(float(axis[2])) - (0.0 if mark.slides else 1.0)) < 1e-9
+            for mark in self.skeleton.marks
+            for axis in (mark.axes if len(mark.axes) else np.zeros((1, 3)) + 0.5)
+        )
 
     @property
     def schematic_note(self) -> str:
@@ -78,7 +104,9 @@ class Context:
         plan = self.companion.schematic
         if not plan.parameters or self.schematic.record is self.record:
             return ""
-        values = ", ".join(f"{name} = {value:g} {self.record.unit}" for name, value in plan.parameters.items())
+        values = ", ".join(
+            f"{name} = {value:g} {self.record.unit}" for name, value in plan.parameters.items()
+        )
         return f" Drawn with {values} {plan.because}.".replace("  ", " ")
 
     @cached_property
@@ -98,6 +126,16 @@ class Context:
     def workspace(self) -> Workspace:
         """The workspace in the default working mode and the file's box."""
         return self.given_workspace or workspace(self.record)
+
+    @cached_property
+    def near(self) -> Manifold:
+        """What of it is within its stated distance of a parallel-singular surface."""
+        return near_solid(self.workspace)
+
+    @cached_property
+    def mean_index(self) -> GlobalIndex:
+        """The mean of the local condition index over the workspace."""
+        return global_condition_index(self.record, self.workspace)
 
     def _inside(self, printed: list[float]) -> list[float]:
         """Inputs of the companion, angles of which are in the mechanism's angle unit."""

@@ -5,19 +5,23 @@ from __future__ import annotations
 import re
 
 GREEK = frozenset(
-    "alpha beta gamma delta epsilon zeta eta theta kappa lambda mu nu xi rho sigma tau phi chi psi omega".split()
+    {"alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "kappa", "lambda"}
+    | {"mu", "nu", "xi", "rho", "sigma", "tau", "phi", "chi", "psi", "omega"}
 )
+PRIME = "\N{PRIME}"
 _LETTER = re.compile(r"([A-Z]|[a-z])(\d*)([a-z]?)('*)")
 _WORD = re.compile(r"([A-Za-z]+?)(\d+)([a-z]?)")
 
 
 def letter(name: str) -> str:
-    """A name as it is printed: a letter with its index in italics, a Greek letter, or the words themselves.
+    r"""A name as it is printed: a letter with its index in italics, a Greek letter, or the words themselves.
 
     >>> letter("B3a"), letter("O'"), letter("gamma"), letter("slider1")
-    ('$B_{3a}$', "$O'$", '$\\\\gamma$', 'slider 1')
+    ('$B_{3a}$', '$O$′', '$\\gamma$', 'slider 1')
     """
-    return f"${inside}$" if (inside := mathematics(name)) else words(name)
+    plain = name.rstrip("'")
+    primes = PRIME * (len(name) - len(plain))  # the font sets a mathematical prime too far off
+    return f"${inside}${primes}" if (inside := mathematics(plain)) else words(name)
 
 
 def mathematics(name: str) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -15,23 +14,26 @@ from assur.figures.canvas import Canvas
 from assur.figures.style import GREY, INK, LETTER
 
 FloatArray = NDArray[np.float64]
-DIRECTIONS = 32
+DIRECTIONS = 24
 RINGS = (0.0, 2.0, 5.0, 9.0, 14.0, 20.0, 28.0)
 LEADER_FROM = 8.0
 SWEEPS = 4
+SHARES = (0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74)
 GAP = 1.0
 """Distances in points."""
 
 
 @dataclass(eq=False)
 class _Label:
-    at: FloatArray
+    anchors: FloatArray
     text: Text
     clear: float
+    own: FloatArray | None = None
     size: FloatArray = field(default_factory=lambda: np.zeros(2))
     boxes: FloatArray = field(default_factory=lambda: np.zeros((0, 4)))
     fixed: FloatArray = field(default_factory=lambda: np.zeros(0))
     rings: FloatArray = field(default_factory=lambda: np.zeros(0))
+    feet: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
     chosen: int = 0
 
 
@@ -54,20 +56,37 @@ class Letters:
         x, y = float(centre[0]), float(centre[1])
         self._boxes.append((x - radius, y - radius, x + radius, y + radius))
 
+    def avoid_box(self, corners: FloatArray) -> None:
+        """The box about some points (k, 2) that labels should not lie on."""
+        low, high = np.min(corners, axis=0), np.max(corners, axis=0)
+        self._boxes.append((float(low[0]), float(low[1]), float(high[0]), float(high[1])))
+
     def add(self, at: FloatArray, text: str, clear: float = 3.0, **style: Any) -> None:
         """A label at a distance of at least `clear` points from a point (2,)."""
+        self._labels.append(_Label(np.reshape(at, (1, 2)), self._text(at, text, style), clear))
+
+    def add_along(self, ends: FloatArray, text: str, clear: float = 3.0, **style: Any) -> None:
+        """A label beside the line between two ends (2, 2), nearer to it than to any other line."""
+        flat = np.asarray(ends, dtype=float)
+        anchors = flat[0] + np.array(SHARES)[:, None] * (flat[1] - flat[0])
+        self._labels.append(_Label(anchors, self._text(anchors[0], text, style), clear, flat))
+
+    def _text(self, at: FloatArray, text: str, style: dict[str, Any]) -> Text:
         style = {"fontsize": LETTER, "color": INK, "zorder": 20, **style}
-        drawn = self.page.text((float(at[0]), float(at[1])), text, **style)
-        self._labels.append(_Label(np.asarray(at, dtype=float), drawn, clear))
+        drawn: Text = self.page.text((float(at[0]), float(at[1])), text, **style)
+        return drawn
 
     def place(self) -> None:
         """Choose a position for every label and draw leaders; the same input gives the same output."""
-        renderer = FigureCanvasAgg(self.page.figure).get_renderer()
+        renderer = FigureCanvasAgg(self.page.figure).get_renderer()  # type: ignore[no-untyped-call]  # matplotlib does not say
         lines = np.array(self._lines) if self._lines else np.zeros((0, 2, 2))
         boxes = np.array(self._boxes) if self._boxes else np.zeros((0, 4))
         page = np.array([*self.page.axes.get_xlim(), *self.page.axes.get_ylim()])
         for label in self._labels:
-            extent = label.text.get_window_extent(renderer)
+            patch = label.text.get_bbox_patch()
+            if patch is not None:
+                label.text.update_bbox_position_size(renderer)
+            extent = (patch or label.text).get_window_extent(renderer)
             label.size = np.array([extent.width, extent.height])
             _candidates(label)
             label.fixed = _cost(label, lines, boxes, page)
@@ -84,56 +103,73 @@ class Letters:
         x0, y0, x1, y1 = label.boxes[label.chosen]
         label.text.set_position(((x0 + x1) / 2, (y0 + y1) / 2))
         if label.rings[label.chosen] >= LEADER_FROM:
-            end = np.clip(label.at, [x0, y0], [x1, y1])
-            gap = end - label.at
-            start = label.at + gap * label.clear / max(float(np.linalg.norm(gap)), 1e-9)
-            self.page.line(np.array([start, end]), 0.4, GREY, 19)
+            foot = label.feet[label.chosen]
+            gap = np.clip(foot, [x0, y0], [x1, y1]) - foot
+            start = foot + gap * label.clear / max(float(np.linalg.norm(gap)), 1e-9)
+            self.page.line(np.array([start, foot + gap]), 0.4, GREY, 19)
 
 
 def _candidates(label: _Label) -> None:
     angles = 2 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
     way = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     half = label.size / 2 + GAP
-    boxes, rings = [], []
-    for ring in RINGS:
-        # the centre of the box is where the box just clears a disc about the point
-        reach = np.min(half / np.maximum(np.abs(way), 1e-9), axis=1)
-        centre = label.at + way * (label.clear + ring + 0.85 * reach)[:, None]
-        boxes.append(np.concatenate([centre - half, centre + half], axis=1))
-        rings.append(np.full(DIRECTIONS, ring))
-    label.boxes, label.rings = np.concatenate(boxes), np.concatenate(rings)
+    # the centre of the box is where the box just clears a disc about the point
+    reach = np.min(half / np.maximum(np.abs(way), 1e-9), axis=1)
+    every = RINGS if label.own is None else RINGS[:5]
+    feet = np.repeat(label.anchors, len(every) * DIRECTIONS, axis=0)
+    rings = np.tile(np.repeat(every, DIRECTIONS), len(label.anchors))
+    away = label.clear + rings + np.resize(0.85 * reach, len(rings))
+    centres = feet + np.resize(way, feet.shape) * away[:, None]
+    label.boxes = np.concatenate([centres - half, centres + half], axis=1)
+    label.rings, label.feet = rings, feet
 
 
 def _cost(label: _Label, lines: FloatArray, boxes: FloatArray, page: FloatArray) -> FloatArray:
-    """What a candidate (c,) hides: length of lines, area of symbols, and how far off it is."""
-    covered = np.array([_length_inside(box, lines) for box in label.boxes])
+    """What a candidate (c,) hides: length of lines, area of symbols, how far off it is, and what it is nearer to."""
+    covered = _length_inside(label.boxes, lines)
     area = _overlap(label.boxes, boxes).sum(axis=1)
     left, right, bottom, top = page
     outside = np.maximum(left - label.boxes[:, 0], 0) + np.maximum(label.boxes[:, 2] - right, 0)
     outside += np.maximum(bottom - label.boxes[:, 1], 0) + np.maximum(label.boxes[:, 3] - top, 0)
-    return np.asarray(4.0 * covered + 2.0 * area + 100.0 * outside + 1.0 * label.rings)
+    cost = 4.0 * covered + 2.0 * area + 100.0 * outside + 1.0 * label.rings
+    slid = np.linalg.norm(label.feet - label.anchors[0], axis=1)
+    if label.own is not None:
+        centres = (label.boxes[:, :2] + label.boxes[:, 2:]) / 2
+        others = np.array([line for line in lines if not np.allclose(line, label.own)]).reshape(-1, 2, 2)
+        gap = np.min(_distances(centres, others), axis=1, initial=np.inf)
+        cost += 8.0 * np.maximum(_distances(centres, label.own[None])[:, 0] + 3.0 - gap, 0.0)
+    return np.asarray(cost + 0.05 * slid)
+
+
+def _distances(points: FloatArray, lines: FloatArray) -> FloatArray:
+    """Distances (p, k) of points (p, 2) from segments (k, 2, 2)."""
+    start, way = lines[:, 0], lines[:, 1] - lines[:, 0]
+    to = points[:, None] - start[None]
+    share = np.clip(np.sum(to * way, axis=2) / np.maximum(np.sum(way * way, axis=1), 1e-12), 0.0, 1.0)
+    return np.asarray(np.linalg.norm(to - share[..., None] * way, axis=2))
 
 
 def _overlap(first: FloatArray, second: FloatArray) -> FloatArray:
     """Areas (a, b) that boxes (a, 4) and (b, 4) share."""
-    low = np.maximum(first[:, None, :2], second[None, :, :2])
-    high = np.minimum(first[:, None, 2:], second[None, :, 2:])
-    return np.asarray(np.prod(np.maximum(high - low, 0.0), axis=2))
+    sides = [
+        np.maximum(
+            np.minimum(first[:, None, k + 2], second[:, k + 2]) - np.maximum(first[:, None, k], second[:, k]),
+            0.0,
+        )
+        for k in (0, 1)
+    ]
+    return np.asarray(sides[0] * sides[1])
 
 
-def _length_inside(box: FloatArray, lines: FloatArray) -> float:
-    """Total length of the parts of segments (k, 2, 2) inside a box."""
+def _length_inside(boxes: FloatArray, lines: FloatArray) -> FloatArray:
+    """Total length (c,) of the parts of segments (k, 2, 2) inside each of the boxes (c, 4)."""
     start, way = lines[:, 0], lines[:, 1] - lines[:, 0]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        first, second = (box[:2] - start) / way, (box[2:] - start) / way
+    low, high = boxes[:, None, :2], boxes[:, None, 2:]
     still = np.abs(way) < 1e-12
-    within = (start >= box[:2]) & (start <= box[2:])
+    safe = np.where(still, 1.0, way)
+    first, second = (low - start) / safe, (high - start) / safe
+    within = (start >= low) & (start <= high)
     enter = np.where(still, np.where(within, -np.inf, np.inf), np.minimum(first, second))
     leave = np.where(still, np.where(within, np.inf, -np.inf), np.maximum(first, second))
-    share = np.minimum(leave.min(axis=1), 1.0) - np.maximum(enter.max(axis=1), 0.0)
-    return float(np.sum(np.maximum(share, 0.0) * np.linalg.norm(way, axis=1)))
-
-
-def spread(points: Sequence[FloatArray]) -> FloatArray:
-    """Middle (2,) of a few points on the page."""
-    return np.asarray(np.mean(np.array(points), axis=0))
+    share = np.minimum(leave.min(axis=2), 1.0) - np.maximum(enter.max(axis=2), 0.0)
+    return np.asarray(np.maximum(share, 0.0) @ np.linalg.norm(way, axis=1))

@@ -122,7 +122,9 @@ def skeleton(record: MechanismRecord, companion: Companion, values: FloatArray) 
     ['crank1', 'crank2', 'rod1', 'rod2']
     """
     placed = frames(record, values)
-    points = {name: placed[item.link][0] @ item.at + placed[item.link][1] for name, item in record.points.items()}
+    points = {
+        name: placed[item.link][0] @ item.at + placed[item.link][1] for name, item in record.points.items()
+    }
     points |= {name: _on_parent(placed, joint) for name, joint in record.joints.items()}
     rods, plates = _bodies(record, companion, placed)
     return Skeleton(record, values, placed, points, rods, plates, tuple(_marks(record, placed)))

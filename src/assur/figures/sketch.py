@@ -13,7 +13,7 @@ from assur.figures.companion import Companion
 from assur.figures.placing import Letters
 from assur.figures.skeleton import Mark, Skeleton, rail_half
 from assur.figures.style import BLUE, GREEN, INK, PAPER, PINK, RED, SKY
-from assur.figures.symbols import RADIUS, SLIDER, ground_pivot, ground_rail, joint_symbol
+from assur.figures.symbols import ground_pivot, ground_rail, joint_symbol
 
 FloatArray = NDArray[np.float64]
 CHAINS = (BLUE, GREEN, RED, PINK, SKY)
@@ -22,12 +22,16 @@ DOWN = np.array([0.0, 0.0, -1.0])
 
 @dataclass(frozen=True)
 class Pen:
-    """How thick and in which colours a skeleton is drawn; `colours` per link, `INK` for the others."""
+    """How thick and in which colours a skeleton is drawn; `colours` per link, `INK` for the others.
+
+    `level` puts all of it before (above) or behind (below zero) others of the same page.
+    """
 
     width: float = 2.0
     halo: float = 2.4
     symbol: float = 1.0
     colours: Mapping[str, str] | None = None
+    level: float = 0.0
 
     def colour(self, link: str) -> str:
         """Colour of a link."""
@@ -46,25 +50,30 @@ def draw_bodies(page: Canvas, view: View, skeleton: Skeleton, letters: Letters, 
     middle = float(np.mean(camera.depth(skeleton.cloud)))
     size = max(skeleton.size, 1e-300)
 
-    def order(points: FloatArray, above: float = 0.0) -> float:
-        return 5.0 + (float(np.mean(camera.depth(points))) - middle) / size + above
+    def order(points: FloatArray) -> float:
+        return 5.0 + pen.level + (float(np.mean(camera.depth(points))) - middle) / size
 
+    # the parts of one link are at one depth, so that none interrupts another
+    bodies = {*(rod.link for rod in skeleton.rods), *(plate.link for plate in skeleton.plates)}
+    place = {link: order(np.concatenate(_points_of(skeleton, link))) for link in bodies}
     for plate in skeleton.plates:
         corners = hull(view(plate.points))
-        page.polygon(corners, _tint(pen.colour(plate.link)), pen.colour(plate.link), 0.8 * pen.width, order(plate.points))
+        page.polygon(
+            corners, _tint(pen.colour(plate.link)), pen.colour(plate.link), 0.8 * pen.width, place[plate.link]
+        )
         letters.avoid(np.concatenate([corners, corners[:1]]))
     for rod in skeleton.rods:
         ends = view(rod.points)
         if np.linalg.norm(ends[1] - ends[0]) < 1e-6:
             continue
-        place = order(rod.points)
         inner = ends + np.array([[1.0], [-1.0]]) * _step(ends, 0.3)
-        page.line(inner, pen.width + pen.halo, PAPER, place - 0.001, solid_capstyle="butt")
-        page.line(ends, pen.width, pen.colour(rod.link), place)
+        page.line(inner, pen.width + pen.halo, PAPER, place[rod.link] - 0.001, solid_capstyle="butt")
+        page.line(ends, pen.width, pen.colour(rod.link), place[rod.link])
         letters.avoid(ends)
     for mark in skeleton.marks:
-        joint_symbol(page, view, mark, order(mark.at, 0.05), pen.symbol)
-        letters.avoid_disc(view(mark.at), pen.symbol * (SLIDER[1] if mark.slides else RADIUS))
+        own = [place[link] for link in (mark.joint.parent, mark.joint.child) if link in place]
+        reach = joint_symbol(page, view, mark, max([order(mark.at), *own]) + 0.001, pen.symbol)
+        letters.avoid_box(reach)
 
 
 def draw_ground(page: Canvas, view: View, skeleton: Skeleton, companion: Companion, letters: Letters) -> None:
@@ -78,13 +87,19 @@ def draw_ground(page: Canvas, view: View, skeleton: Skeleton, companion: Compani
     for mark in skeleton.marks:
         if mark.grounded and not mark.slides:
             ground_pivot(page, view(mark.at), 1.5)
-            letters.avoid_disc(view(mark.at) - [0.0, 7.0], 8.0)
+            letters.avoid_disc(view(mark.at) - [0.0, 8.0], 10.0)
+
+
+def _points_of(skeleton: Skeleton, link: str) -> list[FloatArray]:
+    rods = [rod.points for rod in skeleton.rods if rod.link == link]
+    return rods + [plate.points for plate in skeleton.plates if plate.link == link]
 
 
 def rails(skeleton: Skeleton, companion: Companion) -> list[tuple[FloatArray, FloatArray]]:
     """Ends (3,) of the rails on the base, each once though several sliders may run on it."""
     marks = [mark for mark in skeleton.marks if mark.grounded and mark.slides]
     half = rail_half(skeleton.record, companion, marks) if marks else 0.0
+    half = max([half, *(1.06 * float(np.linalg.norm(mark.at - mark.rail)) for mark in marks)])
     found: list[tuple[FloatArray, FloatArray]] = []
     for mark in marks:
         start, end = mark.rail - half * mark.axes[0], mark.rail + half * mark.axes[0]

@@ -21,6 +21,11 @@ class FigureSpec:
     caption: str
 
 
+def always(_context: Context) -> str:
+    """Every mechanism has this figure."""
+    return ""
+
+
 @dataclass(frozen=True, eq=False)
 class Drawing:
     """A drawn figure and the numbers that it shows."""

@@ -9,14 +9,14 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from assur.figures.camera import oblique
-from assur.figures.canvas import Canvas, View, canvas, fitted
+from assur.figures.canvas import Canvas, View, fitted
 from assur.figures.context import Context
 from assur.figures.letters import letter, words
 from assur.figures.placing import Letters
 from assur.figures.skeleton import Skeleton
 from assur.figures.sketch import CHAINS, Pen, chain_colours, cloud_of, draw_bodies, draw_ground, rails
-from assur.figures.spec import Drawing, Entry
-from assur.figures.style import GREY, INK, PAGE, SMALL, TEXT
+from assur.figures.spec import Drawing, Entry, always
+from assur.figures.style import GREY, INK, SMALL, TEXT
 from assur.figures.symbols import direction
 
 FloatArray = NDArray[np.float64]
@@ -32,16 +32,15 @@ def _caption(context: Context) -> str:
 
 def _draw(context: Context) -> Drawing:
     skeleton, companion = context.schematic, context.companion
-    camera = companion.camera("structure", oblique("x", "y", 225, 0.5))
-    view, height = fitted(camera, cloud_of(skeleton, companion), PAGE * 0.86, margin=11)
-    page = canvas(PAGE * 0.86, height)
+    camera = context.camera("structure", oblique("y", "z", 216, 0.6))
+    view, page = fitted(camera, cloud_of(skeleton, companion), 150, 100, margin=10)
     letters = Letters(page)
     draw_ground(page, view, skeleton, companion, letters)
     draw_bodies(page, view, skeleton, letters, Pen(colours=chain_colours(skeleton)))
-    _drives(page, view, skeleton)
+    _drives(page, view, skeleton, letters)
     _name_joints(view, skeleton, letters)
     _name_links(context, view, skeleton, letters)
-    _number_loops(context, page, view, skeleton)
+    _number_loops(context, page, view, skeleton, letters)
     _legend(context, page)
     letters.place()
     return Drawing(page.figure, _data(context, skeleton))
@@ -58,20 +57,18 @@ def _name_links(context: Context, view: View, skeleton: Skeleton, letters: Lette
     style: dict[str, Any] = {"fontsize": SMALL, "bbox": square}
     for rod in skeleton.rods:
         if rod.size > 0:
-            letters.add(view(rod.points.mean(axis=0)), rod.label or words(rod.link), clear=3.0, **style)
+            letters.add_along(view(rod.points), rod.label or words(rod.link), **style)
     for plate in skeleton.plates:
         letters.add(view(plate.points.mean(axis=0)), plate.label or words(plate.link), clear=0.0, **style)
     base = context.companion.links.get(skeleton.record.base, words(skeleton.record.base))
-    for place in _ground_places(context, skeleton):
-        letters.add(view(place), base, clear=7.0, **style)
+    for _, end in rails(skeleton, context.companion):
+        letters.add(view(end), base, clear=7.0, **style)
+    for mark in skeleton.marks:
+        if mark.grounded and not mark.slides:
+            letters.add(view(mark.at) - [0.0, 11.0], base, clear=6.0, **style)
 
 
-def _ground_places(context: Context, skeleton: Skeleton) -> list[FloatArray]:
-    ends = [end for _, end in rails(skeleton, context.companion)]
-    return ends or [mark.at for mark in skeleton.marks if mark.grounded][:1]
-
-
-def _drives(page: Canvas, view: View, skeleton: Skeleton) -> None:
+def _drives(page: Canvas, view: View, skeleton: Skeleton, letters: Letters) -> None:
     """A double arrow along every driven slider, an arc about every driven revolute."""
     for mark in skeleton.marks:
         if not mark.driven:
@@ -81,17 +78,20 @@ def _drives(page: Canvas, view: View, skeleton: Skeleton) -> None:
         if mark.slides:
             low = at - np.array([0.0, 10.5])
             page.arrow(low - 12 * along, low + 12 * along, style="<|-|>", head=5, width=0.7, order=9)
+            letters.avoid(np.array([low - 12 * along, low + 12 * along]))
         else:
             start, end = at + 9.5 * np.array([0.94, -0.34]), at + 9.5 * np.array([-0.5, 0.87])
             page.arrow(start, end, head=5, width=0.7, order=9, connectionstyle="arc3,rad=0.55")
+            letters.avoid_disc(at + 5.0, 7.0)
 
 
-def _number_loops(context: Context, page: Canvas, view: View, skeleton: Skeleton) -> None:
+def _number_loops(context: Context, page: Canvas, view: View, skeleton: Skeleton, letters: Letters) -> None:
     for name, label in context.companion.generalised.items():
         joints = skeleton.record.generalised[name].joints
         centre = np.mean([view(skeleton.points[joint]) for joint in joints], axis=0)
         page.disc(centre, 6.0, "white", INK, 0.6, order=12)
         page.text(centre, label, fontsize=TEXT)
+        letters.avoid_disc(centre, 6.0)
 
 
 def _legend(context: Context, page: Canvas) -> None:
@@ -117,11 +117,12 @@ def _data(context: Context, skeleton: Skeleton) -> dict[str, Any]:
             for mark in skeleton.marks
         },
         "bars": [
-            {"link": rod.link, "label": rod.label, "ends": rod.ends, "points": rod.points} for rod in skeleton.rods
+            {"link": rod.link, "label": rod.label, "ends": rod.ends, "points": rod.points}
+            for rod in skeleton.rods
         ],
         "plates": [{"link": plate.link, "points": plate.points} for plate in skeleton.plates],
         "rails": [np.array(rail) for rail in rails(skeleton, context.companion)],
     }
 
 
-STRUCTURE = Entry("structure", "Kinematic structure", lambda context: "", _caption, _draw)
+STRUCTURE = Entry("structure", "Kinematic structure", always, _caption, _draw)

@@ -39,8 +39,10 @@ LETTER = 9.0
 """Font sizes in points: notes, text, letters of points."""
 
 DOTS_PER_INCH = 300
+SHADED = 250
+"""Pixels per inch of files, and of shaded pictures inside them."""
 
-_SETTINGS: dict[str, Any] = {
+_SETTINGS: Any = {
     "font.family": "STIXGeneral",
     "mathtext.fontset": "stix",
     "font.size": TEXT,

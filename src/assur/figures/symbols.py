@@ -1,5 +1,4 @@
-"""Symbols of joints after ISO 3952: a circle for a revolute seen along its axis, a sleeve for one seen sideways,
-a slider on a guide, and hatching for the base."""
+"""Symbols of joints after ISO 3952: circle or sleeve for a revolute, slider on a guide, hatching for the base."""
 
 from __future__ import annotations
 
@@ -18,30 +17,35 @@ SLIDER = np.array([8.5, 4.6])
 HATCH = 3.6
 """Half sizes of the symbols in points."""
 
+ROUND = np.array([[-1.0, -1.0], [1.0, 1.0]])
 
-def joint_symbol(page: Canvas, view: View, mark: Mark, order: float, size: float = 1.0) -> None:
-    """The symbol of one joint; a driven one is filled."""
+
+def joint_symbol(page: Canvas, view: View, mark: Mark, order: float, size: float = 1.0) -> FloatArray:
+    """The symbol of one joint; a driven one is filled. Returns points (k, 2) about it."""
     at = view(mark.at)
     fill = ORANGE if mark.driven else PAPER
     if mark.joint.type is SPHERICAL:
         page.disc(at, 1.2 * size * RADIUS, fill, order=order)
         page.disc(at, 0.5 * size * RADIUS, INK, order=order)
-        return
+        return at + 1.2 * size * RADIUS * ROUND
     if mark.joint.type is PRISMATIC:
-        page.polygon(box(at, direction(view, mark.axes[0]), size * SLIDER), fill, order=order)
-        return
-    for axis in mark.axes:
-        _turning(page, view, at, axis, fill, order, size)
+        corners = box(at, direction(view, mark.axes[0]), size * SLIDER)
+        page.polygon(corners, fill, order=order)
+        return corners
+    drawn = [_turning(page, view, at, axis, fill, order, size) for axis in mark.axes]
     if mark.slides:
         page.polygon(box(at, direction(view, mark.axes[0]), size * SLIDER * [1.2, 0.9]), fill, order=order)
         page.disc(at, 0.6 * size * RADIUS, PAPER, order=order)
+    return np.concatenate(drawn)
 
 
-def _turning(page: Canvas, view: View, at: FloatArray, axis: FloatArray, fill: str, order: float, size: float) -> None:
+def _turning(
+    page: Canvas, view: View, at: FloatArray, axis: FloatArray, fill: str, order: float, size: float
+) -> FloatArray:
     """A circle where the axis points out of the plane in true shape, else a sleeve between two flanges."""
     if abs(float(axis @ view.camera.front)) > 0.9:
         page.disc(at, size * RADIUS, fill, width=0.9, order=order)
-        return
+        return at + size * RADIUS * ROUND
     along = direction(view, axis)
     across = np.array([-along[1], along[0]])
     shown = float(np.clip(np.linalg.norm(view.camera.project(axis)), 0.45, 1.0))
@@ -51,6 +55,7 @@ def _turning(page: Canvas, view: View, at: FloatArray, axis: FloatArray, fill: s
     for sense in (-1.0, 1.0):
         foot = at + sense * (half[0] + 1.6) * along
         page.line(np.array([foot - 0.9 * half[1] * across, foot + 0.9 * half[1] * across]), 0.9, INK, order)
+    return box(at, along, half + np.array([5.5, 0.0]))
 
 
 def ground_rail(page: Canvas, start: FloatArray, end: FloatArray, order: float, below: FloatArray) -> None:
@@ -72,6 +77,8 @@ def hatching(page: Canvas, start: FloatArray, end: FloatArray, order: float, bel
     """Short slanted strokes along a line, on the side of `below`."""
     way = end - start
     length = float(np.linalg.norm(way))
+    if length < 1.0:  # seen from its end
+        return
     along = way / length
     normal = np.array([-along[1], along[0]])
     normal = normal if normal @ below > 0 else -normal

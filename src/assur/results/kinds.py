@@ -1,10 +1,9 @@
-"""The kinds of result: scalar, table, matrix, field, curve, surface. Analyses give them, outer layers render them."""
+"""The kinds of result: scalar, table, matrix, field, curve, surface, formula, picture. Outer layers render them."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,24 +13,58 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Scalar:
-    """One number with its unit, and how it is known ("closed form", "error estimate 0.2 %", "exact")."""
+    """One number with its unit, an estimate of its error, and how it is known ("closed form", "rank", "exact")."""
 
     name: str
     value: float | None
     unit: str = ""
     known_by: str = ""
+    error: float | None = None
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Things said in words: (label, text) pairs."""
+
+    title: str
+    items: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A line of mathematics as MathML, with the number that it has in the source and what it says."""
+
+    mathml: str
+    equation: str = ""
+    meaning: str = ""
+
+
+@dataclass(frozen=True)
+class Formulas:
+    """Formulas that belong together, one under the other."""
+
+    title: str
+    lines: tuple[Formula, ...]
+    caption: str = ""
+
+
+Cell = str | float | None | Formula
+"""Of a table: text, a number, None (does not exist) or mathematics."""
 
 
 @dataclass(frozen=True)
 class Table:
-    """Rows under column titles; a cell is text, a number or None (does not exist)."""
+    """Rows under column titles."""
 
     title: str
     columns: tuple[str, ...]
-    rows: tuple[tuple[str | float | None, ...], ...]
+    rows: tuple[tuple[Cell, ...], ...]
     caption: str = ""
     marks: tuple[str, ...] = ()
     """Per row: "", "ok", "wrong" or "missing", for colour; never the only carrier of meaning."""
+
+    folded: bool = False
+    """Whether only the title need be seen at first."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,14 +109,30 @@ class Surface:
     unit: str = ""
 
 
-Result = Scalar | Table | Matrix | Field | Curve | Surface
+@dataclass(frozen=True)
+class Picture:
+    """A drawn figure as PNG, with its number, and in words for who cannot see it."""
+
+    name: str
+    number: str
+    title: str
+    caption: str
+    png: bytes
+    width: int
+    height: int
 
 
 @dataclass(frozen=True)
 class Section:
-    """A titled group of results and plain text, as an analysis hands it to a report."""
+    """A titled group of results, plain text before them, and sections inside it.
+
+    `absent` says why an analysis does not apply; then there are no results.
+    """
 
     title: str
     text: str = ""
-    results: Sequence[Result] = field(default_factory=tuple)
-    extra: dict[str, Any] = field(default_factory=dict)
+    results: Sequence[Result | Section] = field(default_factory=tuple)
+    absent: str = ""
+
+
+Result = Scalar | Facts | Table | Matrix | Field | Curve | Surface | Formulas | Picture

@@ -1,0 +1,65 @@
+"""The demonstration's end: the audit, the figures and the report."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from assur.cli.auditing import rows_table, summary
+from assur.cli.claims import Ledger
+from assur.cli.options import Plain
+from assur.cli.paths import output_folder
+from assur.cli.progress import progress
+
+if TYPE_CHECKING:
+    from assur.report.findings import Findings
+
+BEGINNINGS = {".png": b"\x89PNG", ".pdf": b"%PDF", ".json": b"{"}
+"""How a sound file of each kind begins."""
+
+
+def audit(ledger: Ledger, findings: Findings, shared: Plain) -> None:
+    """Every printed number beside ours; every erratum is a claim of ours."""
+    record = findings.record
+    ledger.section(f"Audit of {record.source}")
+    with progress("audit", shared):
+        found = findings.audit
+    differing = [row for row in found.rows if row.verdict != "ok"]
+    ledger.show([rows_table(differing), "", f"{summary(found)} (the ones that agree: assur audit {record.name})", ""])
+    for erratum in found.errata:
+        ledger.claim(f"{erratum.id}, {erratum.where}", erratum.evidence.holds, erratum.finding)
+
+
+def figures(ledger: Ledger, findings: Findings, folder: Path, shared: Plain) -> list[Path]:
+    """Every figure as a picture, for print and as data."""
+    from assur.figures import write
+
+    ledger.section("Figures")
+    with progress("figures", shared) as step:
+        paths = write(findings.record, output_folder(str(folder)), progress=step, context=findings.context)
+    ledger.show([", ".join(path.name for path in paths if path.suffix == ".png")])
+    kinds = {suffix: [path for path in paths if path.suffix == suffix] for suffix in BEGINNINGS}
+    sound = [path for path in paths if path.read_bytes().startswith(BEGINNINGS[path.suffix])]
+    ledger.claim(
+        "every figure is there as a picture, for print, and as data",
+        len(sound) == len(paths) and len({len(group) for group in kinds.values()}) == 1,
+        ", ".join(f"{len(group)} {suffix[1:]}" for suffix, group in kinds.items()),
+    )
+    return paths
+
+
+def report(ledger: Ledger, findings: Findings, path: Path, shared: Plain) -> list[Path]:
+    """The report in one file, made of what has been found already."""
+    from assur.cli.self_contained import outside_needs
+    from assur.report.render import page_html
+    from assur.report.report import report_page
+    from assur.results.files import write_whole
+
+    ledger.section("Report")
+    with progress("report", shared) as step:
+        write_whole(path, page_html(report_page(findings, step)))
+    text = path.read_text(encoding="utf-8")
+    needs = outside_needs(text)
+    found = f"{path.name}, {len(text) / 1e6:.1f} MB, loads {', '.join(needs) or 'nothing'}"
+    ledger.claim("the report is one file that needs nothing outside itself", not needs, found)
+    return [path]

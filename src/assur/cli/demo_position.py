@@ -1,0 +1,134 @@
+"""The demonstration's first half: topology, direct and inverse solutions of the printed problems."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from assur.cli.auditing import rows_table
+from assur.cli.claims import Ledger
+from assur.cli.positions import lines
+from assur.cli.quantities import count
+
+if TYPE_CHECKING:
+    from assur.audit.rows import Row
+    from assur.kinematics.solutions import SolutionSet
+    from assur.mechanism import Mechanism
+
+BACK = 1e-9
+"""Share of the characteristic length within which a number must come back."""
+
+
+def topology(ledger: Ledger, record: Mechanism) -> None:
+    """What the source prints of topology, beside ranks of twists and of the joint graph."""
+    ledger.section("Topology")
+    rows = _rows(record, ("poc", "decomposition"))
+    ledger.show([rows_table(rows)])
+    free = record.mobility(record.home_values)
+    joints, rank = len(record.coordinates), int(free.rank)
+    ledger.claim(
+        "F is the number of inputs, by the rank of the closure of the whole joint graph",
+        int(free.freedoms) == len(record.inputs),
+        f"{joints} joint freedoms - rank {rank} = {int(free.freedoms)}",
+    )
+    printed = [row for row in rows if row.quantity == "F"]
+    ledger.claim(
+        "the same F comes out of the loops of the source",
+        all(row.computed == int(free.freedoms) for row in printed),
+        ", ".join(str(row.computed) for row in printed) or "no row",
+    )
+
+
+def direct(ledger: Ledger, record: Mechanism) -> None:
+    """Every pose at the printed inputs."""
+    from assur.kinematics.answers import inputs_from_border
+
+    entry = entry_of(record, "direct")
+    ledger.section(f"Direct solutions ({entry.source})")
+    found = record.direct(inputs_from_border(record, [digits.value for digits in entry.given]))
+    ledger.show(lines(record, found))
+    _closes(ledger, record, found)
+    gaps = [_nearest(record.inverse(item.pose, item.working_mode).inputs, item.inputs) for item in found]
+    _comes_back(ledger, record, "the inverse problem at each pose gives the inputs back", gaps)
+
+
+def inverse(ledger: Ledger, record: Mechanism) -> None:
+    """All inputs at the printed pose."""
+    from assur.kinematics.answers import pose_from_border
+    from assur.kinematics.status import Status
+
+    entry = entry_of(record, "inverse")
+    ledger.section(f"Inverse solutions ({entry.source})")
+    found = record.inverse(pose_from_border(record, [digits.value for digits in entry.given]))
+    ledger.show(lines(record, found))
+    _closes(ledger, record, found)
+    regular = [item for item in found if item.status <= Status.near_singular]
+    gaps = [_nearest(record.direct(item.inputs).poses, item.pose) for item in regular]
+    _comes_back(ledger, record, "the direct problem at each regular solution gives the pose back", gaps)
+    moving = [item for item in found if item.status == Status.self_motion]
+    spans = [_span(record.direct(item.inputs)) for item in moving]
+    if moving:
+        ledger.claim(
+            "where the status is self_motion the platform moves with every input locked",
+            min(spans) > 0,
+            f"{count(len(moving), 'solution')}, by {min(spans):.1f} {record.unit} or more, all loops closed on the way",
+        )
+
+
+def _rows(record: Mechanism, kinds: tuple[str, ...]) -> list[Row]:
+    from assur.audit.audit import FORMS, KINDS
+    from assur.audit.reference import read_reference
+
+    reference = read_reference(record, FORMS)
+    return [
+        row for kind in kinds for entry in reference.entries[kind] for row in KINDS[kind].rows(record, reference, entry)
+    ]
+
+
+def entry_of(record: Mechanism, kind: str) -> Any:
+    """The first printed problem of a kind."""
+    from assur.audit.audit import FORMS
+    from assur.audit.reference import read_reference
+
+    return read_reference(record, FORMS).entries[kind][0]
+
+
+def _closes(ledger: Ledger, record: Mechanism, found: SolutionSet) -> None:
+    from assur.kinematics.closure import CLOSED, characteristic_length
+
+    worst = max(item.residual for item in found)
+    ledger.claim(
+        "every solution closes every loop of the joint graph",
+        worst <= CLOSED * characteristic_length(record),
+        f"largest gap {worst:.1e} {record.unit}",
+    )
+
+
+def _comes_back(ledger: Ledger, record: Mechanism, text: str, gaps: list[float]) -> None:
+    from assur.kinematics.closure import characteristic_length
+
+    worst = max(gaps)
+    ledger.claim(
+        text, worst <= BACK * characteristic_length(record), f"{len(gaps)} times, to {worst:.1e} {record.unit}"
+    )
+
+
+def _nearest(rows: Any, wanted: Any) -> float:
+    """Distance of the nearest of some rows (K, n); rows of NaN do not exist."""
+    import numpy as np
+
+    return float(np.nanmin(np.linalg.norm(rows - wanted, axis=-1), initial=np.inf))
+
+
+def _span(found: SolutionSet) -> float:
+    """How far the platform gets on the longest curve, 0 where the loops do not close on the way."""
+    import numpy as np
+
+    from assur.kinematics.closure import CLOSED, characteristic_length, closure_error
+
+    reach = [0.0]
+    for curve in found.curves:
+        gap = float(np.max(closure_error(found.record, curve.joints())))
+        poses = curve.poses()
+        far = float(np.max(np.linalg.norm(poses - poses[0], axis=-1)))
+        reach.append(far if gap <= CLOSED * characteristic_length(found.record) else 0.0)
+    return max(reach)

@@ -1,0 +1,60 @@
+"""The demonstration: its parts in order, and what comes out of it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from assur.cli.claims import Ledger
+from assur.cli.options import Outcome, Plain
+from assur.cli.output import heading
+from assur.cli.quantities import count
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+MECHANISM = "zeng2019"
+CLAIM_FAILS = 1
+
+
+def outcome(folder: Path, shared: Plain) -> Outcome:
+    """Run every part; exit code 1 where a claim fails."""
+    from assur.cli import demo_analysis, demo_documents, demo_position
+    from assur.mechanism import load
+    from assur.report.findings import Findings
+
+    begin = time.monotonic()
+    record = load(MECHANISM)
+    ledger = Ledger(silent=shared.json)
+    ledger.show([heading(f"{record.name}: {record.title}"), record.source])
+    demo_position.topology(ledger, record)
+    demo_position.direct(ledger, record)
+    demo_position.inverse(ledger, record)
+    demo_analysis.velocity(ledger, record)
+    findings = Findings(record)
+    demo_analysis.singularities(ledger, findings, shared)
+    demo_analysis.workspace(ledger, findings, shared)
+    demo_documents.audit(ledger, findings, shared)
+    files = demo_documents.figures(ledger, findings, folder / "figures", shared)
+    files += demo_documents.report(ledger, findings, folder / "report.html", shared)
+    seconds = time.monotonic() - begin
+    data = {
+        "mechanism": record.name,
+        "claims": [vars(claim) for claim in ledger.claims],
+        "failed": ledger.failed,
+        "files": [str(path) for path in files],
+        "seconds": round(seconds, 1),
+    }
+    return Outcome(data, lambda: _shown(ledger, folder, files, seconds), CLAIM_FAILS if ledger.failed else 0)
+
+
+def _shown(ledger: Ledger, folder: Path, files: list[Path], seconds: float) -> Iterable[RenderableType]:
+    total = count(len(ledger.claims), "claim")
+    yield ""
+    yield heading(f"{total} checked, {'all hold' if not ledger.failed else f'{ledger.failed} FAIL'}; {seconds:.0f} s")
+    yield f"{count(len(files), 'file')} in {folder}"
+    for claim in ledger.claims:
+        if not claim.holds:
+            yield f"fails: {claim.section}: {claim.claim}: {claim.found}"

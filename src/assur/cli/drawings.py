@@ -1,0 +1,75 @@
+"""What `assur figures` writes, and what it says of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from assur.cli.options import Outcome, Shared
+from assur.cli.output import heading, table
+from assur.cli.paths import output_folder
+from assur.cli.progress import progress
+from assur.cli.quantities import count
+from assur.errors import UnknownNameError
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from assur.figures import Context
+    from assur.mechanism import Mechanism
+
+
+def outcome(record: Mechanism, output: str, only: Sequence[str], formats: Sequence[str], shared: Shared) -> Outcome:
+    """The figures, written; those that the mechanism does not have with the reason."""
+    from assur.figures import Context, left_out, write
+
+    context = Context(record)
+    wanted = _wanted(record, context, only)
+    _check_formats(formats)
+    folder = output_folder(output)
+    with progress("figures", shared) as step:
+        paths = write(record, folder, wanted, formats, step, context)
+    missing = {} if only else left_out(record, context)
+    data = {
+        "mechanism": record.name,
+        "folder": str(folder),
+        "figures": [
+            {"name": name, "files": [str(path) for path in paths if path.stem.endswith(f"-{name}")]} for name in wanted
+        ],
+        "left_out": missing,
+    }
+    return Outcome(data, lambda: _shown(record, wanted, paths, folder, missing))
+
+
+def _wanted(record: Mechanism, context: Context, only: Sequence[str]) -> list[str]:
+    """Names in the order of the catalogue, all where none are given; looked at before anything is written."""
+    from assur.figures import left_out, names
+
+    known = names(record, context)
+    for name in only:
+        if name not in known:
+            hint = left_out(record, context).get(name, "")
+            raise UnknownNameError(f"figure of {record.name}", name, known, hint=hint)
+    return [name for name in known if not only or name in only]
+
+
+def _check_formats(formats: Sequence[str]) -> None:
+    from assur.figures.encode import FORMATS
+
+    for name in formats:
+        if name not in FORMATS:
+            raise UnknownNameError("figure format", name, FORMATS)
+
+
+def _shown(
+    record: Mechanism, wanted: Sequence[str], paths: Sequence[Path], folder: Path, missing: dict[str, str]
+) -> Iterable[RenderableType]:
+    yield heading(f"{record.name}, {count(len(wanted), 'figure')} in {folder}")
+    yield table(
+        ("figure", "files"),
+        [(name, "\n".join(path.name for path in paths if path.stem.endswith(f"-{name}"))) for name in wanted],
+        left=("figure", "files"),
+    )
+    for name, why in missing.items():
+        yield f"no {name}: {why}"

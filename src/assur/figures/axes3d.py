@@ -1,0 +1,71 @@
+"""Axes in space: the box of a region with ticks and units on the three edges that lie best for the reader."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from assur.figures.canvas import Canvas, View
+from assur.figures.style import GREY, INK, PALE, SMALL, TEXT
+
+FloatArray = NDArray[np.float64]
+
+
+def draw_box(page: Canvas, view: View, low: FloatArray, high: FloatArray) -> None:
+    """The twelve edges of a box, the three at the corner farthest from the reader thinnest."""
+    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+    toward = view.camera.toward > 0
+    for start in corners:
+        for axis in range(3):
+            if start[axis]:
+                continue
+            end = start.copy()
+            end[axis] = 1
+            behind = all(bool(start[k]) != bool(toward[k]) for k in range(3) if k != axis)
+            ends = view(low + np.array([start, end]) * (high - low))
+            page.line(ends, 0.4, PALE if behind else GREY, 1.0 if behind else 1.2)
+
+
+def draw_axes(
+    page: Canvas, view: View, low: FloatArray, high: FloatArray, names: tuple[str, ...], unit: str
+) -> None:
+    """Ticks and titles of three coordinates on edges of the box between `low` and `high` (3,)."""
+    middle = view((low + high) / 2)
+    for axis in range(3):
+        base = _edge(view, low, high, axis)
+        ends = np.array([base, base])
+        ends[0, axis], ends[1, axis] = low[axis], high[axis]
+        flat = view(ends)
+        away = _outwards(flat, middle)
+        page.line(flat, 0.7, INK, 3)
+        for tick in MaxNLocator(5, steps=[1, 2, 5, 10]).tick_values(low[axis], high[axis]):
+            if low[axis] - 1e-9 <= tick <= high[axis] + 1e-9:
+                at = base.copy()
+                at[axis] = tick
+                foot = view(at)
+                page.line(np.array([foot, foot + 3 * away]), 0.5, INK, 3)
+                page.text(foot + 8.5 * away, f"{tick:g}".replace("-", "−"), fontsize=SMALL)
+        page.text(flat.mean(axis=0) + 20 * away, f"${names[axis]}$ ({unit})", fontsize=TEXT)
+
+
+def _edge(view: View, low: FloatArray, high: FloatArray, axis: int) -> FloatArray:
+    """A point of the edge for an axis: on the outline, low on the page; of Z the one farthest to the left."""
+    others = [k for k in range(3) if k != axis]
+    best, place = -np.inf, low.copy()
+    for first in (low, high):
+        for second in (low, high):
+            point = (low + high) / 2
+            point[others[0]], point[others[1]] = first[others[0]], second[others[1]]
+            flat = view(point)
+            score = -flat[0] if axis == 2 else -flat[1]
+            if score > best + 1e-9:
+                best, place = score, point
+    return place
+
+
+def _outwards(ends: FloatArray, middle: FloatArray) -> FloatArray:
+    """Unit direction across an edge, away from the middle of the box."""
+    way = ends[1] - ends[0]
+    across = np.array([-way[1], way[0]]) / max(float(np.linalg.norm(way)), 1e-9)
+    return across if across @ (ends.mean(axis=0) - middle) > 0 else -across

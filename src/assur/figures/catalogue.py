@@ -1,0 +1,165 @@
+"""The catalogue: every figure that a mechanism has, in the order of a paper; drawing and writing them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from assur.errors import UnknownNameError
+from assur.figures.context import Context
+from assur.figures.dexterity import DEXTERITY
+from assur.figures.encode import FORMATS, encoded
+from assur.figures.flow import FLOW
+from assur.figures.model import MODEL
+from assur.figures.planes import PLANES_FIGURE
+from assur.figures.projections import PROJECTIONS
+from assur.figures.region import WORKSPACE
+from assur.figures.sections import SECTIONS
+from assur.figures.singular import PARALLEL, SERIAL, SINGULAR
+from assur.figures.solid import SOLID
+from assur.figures.solutions import SOLUTIONS
+from assur.figures.spec import Drawing, Entry, FigureSpec
+from assur.figures.structure import STRUCTURE
+from assur.figures.style import styled
+from assur.model.mechanism import MechanismRecord
+from assur.results.files import write_whole
+from assur.results.json_text import json_text
+
+ENTRIES: tuple[Entry, ...] = (
+    STRUCTURE,
+    MODEL,
+    PLANES_FIGURE,
+    SOLUTIONS,
+    FLOW,
+    SOLID,
+    SERIAL,
+    PARALLEL,
+    SINGULAR,
+    WORKSPACE,
+    PROJECTIONS,
+    SECTIONS,
+    DEXTERITY,
+)
+Progress = Callable[[int, int], None]
+"""Called with (figures done, figures in all)."""
+
+
+def catalogue(record: MechanismRecord, context: Context | None = None) -> list[FigureSpec]:
+    """The figures of a mechanism, in order. Captions are computed: this takes as long as the analyses do.
+
+    >>> from assur.model.registry import load_record
+    >>> [spec.name for spec in catalogue(load_record("fivebar"))]
+    ['structure', 'model', 'solutions', 'flow', 'solid', 'serial', 'parallel', 'singular', 'workspace', 'dexterity']
+    """
+    shared = context or Context(record)
+    return [
+        FigureSpec(entry.name, _number(shared, entry), entry.title, entry.caption(shared))
+        for entry in _present(shared)
+    ]
+
+
+def names(record: MechanismRecord, context: Context | None = None) -> list[str]:
+    """Names of the figures of a mechanism, without their captions, which is quick."""
+    return [entry.name for entry in _present(context or Context(record))]
+
+
+def left_out(record: MechanismRecord, context: Context | None = None) -> dict[str, str]:
+    """Figures that a mechanism does not have -> why.
+
+    >>> from assur.model.registry import load_record
+    >>> left_out(load_record("fivebar"))["projections"]
+    'the workspace is plane; its figure shows all of it'
+    """
+    shared = context or Context(record)
+    return {entry.name: why for entry in ENTRIES if (why := entry.missing(shared))}
+
+
+def drawing(record: MechanismRecord, name: str, context: Context | None = None) -> Drawing:
+    """One figure with its numbers.
+
+    Args:
+        record: the mechanism.
+        name: of the catalogue.
+        context: what several figures share; give the same one to each of them.
+
+    Errors:
+        UnknownNameError: the mechanism has no such figure; the hint says why, where there is a reason.
+    """
+    shared = context or Context(record)
+    entry = next((item for item in ENTRIES if item.name == name), None)
+    why = entry.missing(shared) if entry else ""
+    if entry is None or why:
+        raise UnknownNameError(f"figure of {record.name}", name, names(record, shared), hint=why)
+    with styled():
+        return entry.draw(shared)
+
+
+def draw(record: MechanismRecord, name: str, context: Context | None = None) -> Figure:
+    """One figure, as matplotlib's; nothing holds on to it. See `drawing`."""
+    return drawing(record, name, context).figure
+
+
+def write(
+    record: MechanismRecord,
+    folder: str | Path,
+    names: Iterable[str] | None = None,
+    formats: Sequence[str] = ("png", "pdf", "json"),
+    progress: Progress | None = None,
+    context: Context | None = None,
+) -> list[Path]:
+    """Write figures (all, where none are named) as `<number>-<name>.<format>` and return the paths.
+
+    Errors:
+        UnknownNameError: a figure or a format that there is not; nothing is written then.
+        OutputError: a file that cannot be written; what was there before stays whole.
+    """
+    shared = context or Context(record)
+    chosen = _chosen(record, shared, names)
+    for form in formats:
+        if form not in FORMATS:
+            raise UnknownNameError("figure format", form, FORMATS)
+    paths = []
+    for done, entry in enumerate(chosen):
+        made = drawing(record, entry.name, shared)
+        stem = f"{_number(shared, entry).lower()}-{entry.name}"
+        for form in formats:
+            content = _json(record, shared, entry, made) if form == "json" else encoded(made.figure, form)
+            paths.append(write_whole(Path(folder) / f"{stem}.{form}", content))
+        if progress:
+            progress(done + 1, len(chosen))
+    return paths
+
+
+def _present(context: Context) -> list[Entry]:
+    return [entry for entry in ENTRIES if not entry.missing(context)]
+
+
+def _chosen(record: MechanismRecord, context: Context, wanted: Iterable[str] | None) -> list[Entry]:
+    present = _present(context)
+    if wanted is None:
+        return present
+    by_name = {entry.name: entry for entry in present}
+    for name in (asked := list(wanted)):
+        if name not in by_name:
+            why = left_out(record, context).get(name, "")
+            raise UnknownNameError(f"figure of {record.name}", name, by_name, hint=why)
+    return [by_name[name] for name in asked]
+
+
+def _number(context: Context, entry: Entry) -> str:
+    """The source's number, else the place in the mechanism's own order."""
+    own = [item.name for item in _present(context)].index(entry.name) + 1
+    return context.companion.numbers.get(entry.name, str(own))
+
+
+def _json(record: MechanismRecord, context: Context, entry: Entry, made: Drawing) -> str:
+    head = {
+        "mechanism": record.name,
+        "figure": _number(context, entry),
+        "name": entry.name,
+        "title": entry.title,
+        "caption": entry.caption(context),
+    }
+    return json_text({**head, **made.data}) + "\n"

@@ -1,0 +1,178 @@
+"""Dexterity: maps of the local condition index in planes through the workspace."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colorbar import Colorbar
+from matplotlib.patches import PathPatch
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from assur.figures.context import Context
+from assur.figures.plots import axis_title, mode_words, no_workspace, outline
+from assur.figures.spec import Drawing, Entry
+from assur.figures.style import GREY, INK, PAGE, TEXT, new_figure
+from assur.performance.dexterity import dexterity
+
+FloatArray = NDArray[np.float64]
+NODES = 160
+
+
+def _missing(context: Context) -> str:
+    if no_workspace(context):
+        return no_workspace(context)
+    record = context.record
+    kinds = {item.coordinate.kind for item in record.inputs}
+    pose = {name in ("x", "y", "z") for name in record.platform.pose}
+    return (
+        ""
+        if len(kinds) == 1 and len(pose) == 1
+        else "lengths and angles are mixed, so the index has no meaning"
+    )
+
+
+def _caption(context: Context) -> str:
+    found = context.mean_index
+    mean = (
+        ""
+        if found.value is None or found.error is None
+        else f" Its mean over the workspace is {found.value:.4f} ± {found.error:.4f}."
+    )
+    return (
+        f"Local condition index $1/\\kappa$ of $J = J_p^{{-1}}J_q$ ({mode_words(context)}):"
+        f" 0 is singular, 1 isotropic.{mean}"
+    )
+
+
+def planes(context: Context) -> list[tuple[str, str, str, float]]:
+    """The planes that are mapped: two coordinates, and a third held at a value ("" and 0 in a plane workspace)."""
+    box = context.workspace.box
+    if len(box.names) == 2:
+        return [(box.names[0], box.names[1], "", 0.0)]
+    middle = {name: (low + high) / 2 for name, (low, high) in zip(box.names, box.intervals, strict=True)}
+    first, second, third = box.names
+    sections = [item.value for item in context.workspace.sections if item.area > 0]
+    level = sections[len(sections) // 2] if sections else middle[third]
+    return [(first, third, second, middle[second]), (first, second, third, level)]
+
+
+def _draw(context: Context) -> Drawing:
+    box = context.workspace.box
+    found = planes(context)
+    spans = [tuple(float(np.ptp(box.intervals[box.axis(name)])) for name in plane[:2]) for plane in found]
+    left, gap, bottom, right = 14.0, 18.0, 17.0, 22.0
+    room = PAGE - left - right - gap * (len(found) - 1)
+    scale = min(90.0 / max(tall for _, tall in spans), room / sum(wide for wide, _ in spans))
+    width = left + right + gap * (len(found) - 1) + scale * sum(wide for wide, _ in spans)
+    height = bottom + 5.0 + scale * max(tall for _, tall in spans)
+    figure = new_figure(width, height)
+    maps = [_values(context, plane) for plane in found]
+    top = max(float(np.max(values, where=np.isfinite(values), initial=0.0)) for _, _, values in maps) or 1.0
+    start, data = left, []
+    for k, (plane, (wide, tall), (xs, ys, values)) in enumerate(zip(found, spans, maps, strict=True)):
+        axes = figure.add_axes((start / width, bottom / height, scale * wide / width, scale * tall / height))
+        image = _map(context, axes, plane, xs, ys, values, top)
+        place = f", ${plane[2]}$ = {plane[3]:g} {context.record.unit}" if plane[2] else ""
+        label = f"({chr(97 + k)}) {plane[0].upper()}O{plane[1].upper()}{place}"
+        figure.text((start + scale * wide / 2) / width, 1.5 / height, label, ha="center", fontsize=TEXT)
+        start += scale * wide + gap
+        data.append(
+            {
+                "plane": plane[:2],
+                "held": {plane[2]: plane[3]} if plane[2] else {},
+                plane[0]: xs,
+                plane[1]: ys,
+                "index": values,
+            }
+        )
+    bar = figure.add_axes(
+        ((width - right + 5.0) / width, bottom / height, 3.5 / width, (height - bottom - 5.0) / height)
+    )
+    colorbar: Colorbar = figure.colorbar(image, cax=bar)
+    colorbar.set_label("$1/\\kappa$", fontsize=TEXT)
+    colorbar.set_ticks([0.0, *_levels(top)])
+    for level in _levels(top):
+        colorbar.ax.axhline(level, color="white", linewidth=0.6)
+    return Drawing(figure, {"unit": context.record.unit, "mode": context.workspace.mode, "maps": data})
+
+
+def _values(
+    context: Context, plane: tuple[str, str, str, float]
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Nodes along both coordinates and the index (len(ys), len(xs)) at them; NaN outside the workspace."""
+    box = context.workspace.box
+    xs, ys = (np.linspace(box.low[box.axis(name)], box.high[box.axis(name)], NODES) for name in plane[:2])
+    grid = np.zeros((NODES, NODES, len(box.names)))
+    grid[..., box.axis(plane[0])] = xs
+    grid[..., box.axis(plane[1])] = ys[:, None]
+    if plane[2]:
+        grid[..., box.axis(plane[2])] = plane[3]
+    return xs, ys, dexterity(context.record, grid, context.workspace.mode).condition_index
+
+
+def _map(
+    context: Context,
+    axes: Axes,
+    plane: tuple[str, str, str, float],
+    xs: FloatArray,
+    ys: FloatArray,
+    values: FloatArray,
+    top: float,
+) -> Any:
+    """Colours and level lines, cut off exactly at the border of the workspace."""
+    found = context.workspace
+    polygons = (
+        found.section(plane[3], plane[2]).polygons if plane[2] else found.projection(*plane[:2]).polygons
+    )
+    shown = _continued(values)
+    image = axes.imshow(
+        shown,
+        origin="lower",
+        extent=(xs[0], xs[-1], ys[0], ys[-1]),
+        cmap="cividis",
+        vmin=0.0,
+        vmax=top,
+        interpolation="bilinear",
+        aspect="auto",
+    )
+    path = outline(polygons)
+    if path is not None and np.any(np.isfinite(shown)):
+        lines = axes.contour(xs, ys, shown, levels=_levels(top), colors="white", linewidths=0.6)
+        border = PathPatch(path, facecolor="none", edgecolor=INK, linewidth=0.8, zorder=5)
+        axes.add_patch(border)
+        image.set_clip_path(border)
+        lines.set_clip_path(border)
+    axes.set_xlabel(axis_title(context, plane[0]))
+    axes.set_ylabel(axis_title(context, plane[1]))
+    axes.tick_params(color=GREY)
+    return image
+
+
+def _levels(top: float) -> list[float]:
+    """Round levels between 0 and the largest value, at most ten of them."""
+    ticks = MaxNLocator(10, steps=[1, 2, 5, 10]).tick_values(0.0, top)
+    return [float(level) for level in ticks if 0.0 < level < top]
+
+
+def _continued(values: FloatArray) -> FloatArray:
+    """Values with two rings of nodes past the border filled from their neighbours, for the eye only."""
+    filled = values.copy()
+    for _ in range(2):
+        padded = np.pad(filled, 1, constant_values=np.nan)
+        stack = np.stack(
+            [
+                padded[1 + i : padded.shape[0] - 1 + i, 1 + k : padded.shape[1] - 1 + k]
+                for i in (-1, 0, 1)
+                for k in (-1, 0, 1)
+            ]
+        )
+        known = np.isfinite(stack)
+        mean = np.where(known, stack, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1)
+        filled = np.where(np.isfinite(filled) | ~known.any(axis=0), filled, mean)
+    return filled
+
+
+DEXTERITY = Entry("dexterity", "Local condition index", _missing, _caption, _draw)

@@ -1,0 +1,122 @@
+"""The kinematic model: the mechanism with the letters of its points, its frames, angles, inputs and lengths."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.figures.camera import oblique
+from assur.figures.canvas import View, fitted
+from assur.figures.context import Context
+from assur.figures.dimensions import arcs, draw_arcs, draw_frame, draw_measures, formula_text
+from assur.figures.letters import PRIME, letter
+from assur.figures.placing import Letters
+from assur.figures.skeleton import Skeleton
+from assur.figures.sketch import Pen, chain_colours, cloud_of, draw_bodies, draw_ground, hull, rails
+from assur.figures.spec import Drawing, Entry, always
+from assur.figures.style import GREY, TEXT
+from assur.model.mechanism import MechanismRecord
+from assur.topology.joints import PRISMATIC
+
+FloatArray = NDArray[np.float64]
+
+
+def _caption(context: Context) -> str:
+    record = context.record
+    angles = (
+        ""
+        if not record.angles
+        else f" Angles {', '.join(letter(name) for name in record.angles)} are joint values."
+    )
+    return (
+        "Kinematic model: points, base frame O-XYZ, moving frame O'-X'Y'Z', inputs and lengths."
+        f"{angles}{context.schematic_note}"
+    )
+
+
+def _draw(context: Context) -> Drawing:
+    skeleton, companion = context.schematic, context.companion
+    camera = context.camera("model", oblique("y", "z", 216, 0.6))
+    view, page = fitted(
+        camera, np.concatenate([cloud_of(skeleton, companion), np.zeros((1, 3))]), 150, 105, margin=11
+    )
+    letters = Letters(page)
+    draw_ground(page, view, skeleton, companion, letters)
+    ends = [point for rail in rails(skeleton, companion) for point in rail]
+    if len(ends) > 2:
+        page.polygon(hull(view(np.array(ends))), "none", GREY, 0.5, 0.5, linestyle=(0, (4, 3)))
+    draw_bodies(page, view, skeleton, letters, Pen(width=1.5, symbol=0.75, colours=chain_colours(skeleton)))
+    found = arcs(skeleton, 0.1 * skeleton.size)
+    draw_arcs(page, view, found, letters)
+    size = 0.13 * skeleton.size
+    base = skeleton.frames[skeleton.record.base]
+    draw_frame(page, view, base, base[1], size, "", letters)
+    letters.add(view(base[1]), "$O$")
+    platform = skeleton.record.platform
+    moving = skeleton.frames[platform.link]
+    origin = moving[0] @ platform.point + moving[1]
+    draw_frame(page, view, moving, origin, size, PRIME, letters)
+    draw_measures(page, view, skeleton, letters)
+    for name, at in lettered(skeleton).items():
+        page.disc(view(at), 1.2, "black", "black", 0.3, 9.5)
+        letters.add(view(at), letter(name), clear=4.0)
+    if all(np.linalg.norm(origin - at) > 1e-9 for at in lettered(skeleton).values()):
+        letters.add(view(origin), letter("O'"), clear=4.0)
+    _name_lengths(view, skeleton, letters)
+    letters.place()
+    return Drawing(page.figure, _data(skeleton, context))
+
+
+def lettered(skeleton: Skeleton) -> dict[str, FloatArray]:
+    """Letters of a drawing: the lettered points, and the joints whose place has no letter yet."""
+    record = skeleton.record
+    found = {name: skeleton.points[name] for name in record.points}
+    for name, joint in record.joints.items():
+        if joint.type is PRISMATIC or _one_of_many(record, name):
+            continue
+        if all(np.linalg.norm(skeleton.points[name] - at) > 1e-9 for at in found.values()):
+            found[name] = skeleton.points[name]
+    return found
+
+
+def _one_of_many(record: MechanismRecord, name: str) -> bool:
+    """Whether a joint is one of several about a lettered point, as B3a and B3b about B3."""
+    return name[:-1] in record.points
+
+
+def _name_lengths(view: View, skeleton: Skeleton, letters: Letters) -> None:
+    done: set[tuple[str, str]] = set()
+    chain = skeleton.chain_of()
+    for rod in skeleton.rods:
+        key = (chain.get(rod.link, ""), rod.length)
+        if rod.length and rod.size > 0 and key not in done:
+            done.add(key)
+            letters.add_along(
+                view(rod.points), formula_text(rod.length), clear=2.0, fontsize=TEXT, style="italic"
+            )
+
+
+def _data(skeleton: Skeleton, context: Context) -> dict[str, Any]:
+    record = skeleton.record
+    platform = skeleton.frames[record.platform.link]
+    return {
+        "unit": record.unit,
+        "parameters": vars(record.values),
+        "points": {name: skeleton.points[name] for name in lettered(skeleton)},
+        "platform": platform[0] @ record.platform.point + platform[1],
+        "angles_rad": {arc.name: arc.value for arc in arcs(skeleton, 1.0)},
+        "joint_values": dict(
+            zip(
+                [f"{item.joint}.{item.component}" for item in record.coordinates],
+                skeleton.values,
+                strict=True,
+            )
+        ),
+        "lengths": {f"{rod.ends[0]}-{rod.ends[1]}": rod.length for rod in skeleton.rods if rod.length},
+        "note": context.schematic_note.strip(),
+    }
+
+
+MODEL = Entry("model", "Kinematic model", always, _caption, _draw)

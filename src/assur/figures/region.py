@@ -1,0 +1,179 @@
+"""The workspace: the region of a working mode coloured by how near it is to a parallel singularity."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+from assur.figures.axes3d import draw_axes, draw_box
+from assur.figures.camera import orthographic
+from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
+from assur.figures.context import Context
+from assur.figures.letters import mathematics
+from assur.figures.mesh import Mesh, creases, joined, surface
+from assur.figures.plots import (
+    CLOSE,
+    FREE,
+    LOCI,
+    axis_title,
+    curves,
+    factor_of,
+    fill,
+    legend_of,
+    locus_words,
+    mode_words,
+    near_words,
+    no_workspace,
+    present,
+)
+from assur.figures.raster import picture
+from assur.figures.singular import condition
+from assur.figures.spec import Drawing, Entry
+from assur.figures.style import GREY, PAGE, SHADED, SMALL, TEXT, mm, new_figure
+from assur.workspace.projections import shadow
+from assur.workspace.region import Workspace
+from assur.workspace.solids import mesh as mesh_of
+
+FloatArray = NDArray[np.float64]
+FLATTER = 2e-4
+"""Faces are joined where that moves the surface by less than this share of the box; for the picture only."""
+
+
+def _caption(context: Context) -> str:
+    found = context.workspace
+    what = "Area" if len(found.box.names) == 2 else "Volume"
+    share = "" if found.share is None else f", {100 * found.share:.1f} % of it {near_words(context)}"
+    return (
+        f"Workspace in {mode_words(context)} inside the box of the mechanism's file. {what} {size_words(found)}{share}."
+        f" {locus_words(context)}"
+    )
+
+
+def size_words(found: Workspace) -> str:
+    """Volume or area with its error in a power of ten.
+
+    >>> from types import SimpleNamespace
+    >>> size_words(SimpleNamespace(volume=22_813_484.0, volume_error=3674.0, unit="mm^3"))
+    '(2.2813 ± 0.0004)·10$^{7}$ mm$^3$'
+    """
+    if found.volume == 0:
+        return f"0 {mm(found.unit)}"
+    power = int(np.floor(np.log10(found.volume)))
+    digits = int(np.clip(power - np.floor(np.log10(max(found.volume_error, 1e-6 * found.volume))), 1, 6))
+    value, error = found.volume / 10.0**power, found.volume_error / 10.0**power
+    return f"({value:.{digits}f} ± {error:.{digits}f})·10$^{{{power}}}$ {mm(found.unit)}"
+
+
+def _draw(context: Context) -> Drawing:
+    figure = _plane(context) if len(context.workspace.box.names) == 2 else _space(context)
+    found = context.workspace
+    data = {
+        **found.to_json(),
+        "vertices": found.vertices,
+        "faces": found.faces,
+        "loci": [
+            {"factor": item.factor, "vertices": item.vertices, "faces": item.faces} for item in found.loci
+        ],
+    }
+    return Drawing(figure, data)
+
+
+def _plane(context: Context) -> Any:
+    """A plane region as an area."""
+    found = context.workspace
+    (left, right), (low, high) = found.box.intervals
+    width = 110.0
+    height = 18.0 + (width - 20.0) * (high - low) / (right - left)
+    figure = new_figure(width, height)
+    axes = figure.add_axes((16.0 / width, 11.0 / height, (width - 20.0) / width, (height - 18.0) / height))
+    fill(axes, found.projection(*found.box.names).polygons, FREE, GREY)
+    fill(axes, shadow(context.near, 2)[1], CLOSE)
+    for k, locus in enumerate(present(found)):
+        curves(axes, locus.vertices[locus.faces], k)
+    axes.set_xlim(left, right)
+    axes.set_ylim(low, high)
+    axes.set_aspect("equal")
+    axes.set_xlabel(axis_title(context, found.box.names[0]))
+    axes.set_ylabel(axis_title(context, found.box.names[1]))
+    figure.legend(handles=legend_of(context), loc="upper center", ncols=2)
+    return figure
+
+
+def _space(context: Context) -> Any:
+    """Left the region from outside, right the singular surfaces in it."""
+    found = context.workspace
+    low, high = np.array(found.box.low), np.array(found.box.high)
+    camera = context.companion.camera("workspace", orthographic(-60, 24))
+    corners = np.array(
+        [[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
+    )
+    span = np.ptp(camera.project(corners), axis=0)
+    panel = (PAGE - 3 * 14.0) / 2
+    height = panel * float(span[1] / span[0])
+    page = canvas(PAGE, height + 26.0)
+    views = [inside(camera, corners, (14.0 + k * (panel + 14.0), 15.0, panel, height)) for k in (0, 1)]
+    for view in views:
+        draw_box(page, view, low, high)
+        draw_axes(
+            page,
+            view,
+            low,
+            high,
+            tuple(mathematics(name) or name for name in found.box.names),
+            context.record.unit,
+        )
+    if len(found.faces):
+        fine = FLATTER * float(np.max(high - low))
+        parts = [(found.region.solid - context.near, FREE), (context.near, CLOSE)]
+        solids = [
+            surface(*mesh_of(part.simplify(fine)), colour) for part, colour in parts if not part.is_empty()
+        ]
+        _paste(page, views[0], joined(solids), solid=True)
+        for edge in creases(found.vertices, found.faces):
+            page.line(views[1](edge), 0.35, GREY, 5)
+    surfaces = [
+        surface(item.vertices, item.faces, LOCI[k % len(LOCI)]) for k, item in enumerate(present(found))
+    ]
+    if surfaces:
+        _paste(page, views[1], joined(surfaces), solid=False)
+    _captions(context, page, panel)
+    return page.figure
+
+
+def _paste(page: Canvas, view: View, mesh: Mesh, *, solid: bool) -> None:
+    """The picture of a mesh, where it is on the page."""
+    flat = view(mesh.corners.reshape(-1, 3))
+    (left, bottom), (right, top) = flat.min(axis=0) - 2.0, flat.max(axis=0) + 2.0
+    local = View(view.camera, view.scale, view.offset - [left, bottom])
+    image = picture(mesh, local, (right - left, top - bottom), SHADED, solid=solid)
+    page.axes.imshow(
+        image, extent=(left, right, bottom, top), interpolation="antialiased", zorder=2, aspect="auto"
+    )
+
+
+def _captions(context: Context, page: Canvas, panel: float) -> None:
+    found = context.workspace
+    areas = [Patch(facecolor=FREE, label="non-singular"), Patch(facecolor=CLOSE, label=near_words(context))]
+    lines = [
+        Line2D(
+            [], [], color=LOCI[k % len(LOCI)], linewidth=4, label=condition(factor_of(context, item.factor))
+        )
+        for k, item in enumerate(present(found))
+    ]
+    shown: tuple[list[Any], list[Any]] = (areas, lines)
+    for k, handles in enumerate(shown):
+        middle = 14.0 + k * (panel + 14.0) + panel / 2
+        page.text((middle * POINTS, 3.5 * POINTS), f"({chr(97 + k)})", fontsize=TEXT)
+        place = (middle / PAGE, 1.0)
+        if handles:
+            legend = page.axes.legend(
+                handles=handles, loc="upper center", bbox_to_anchor=place, ncols=len(handles), fontsize=SMALL
+            )
+            page.axes.add_artist(legend)
+
+
+WORKSPACE = Entry("workspace", "Workspace and parallel singularities", no_workspace, _caption, _draw)

@@ -1,0 +1,180 @@
+"""The sections of the workspace across its last coordinate, with their areas, borders and singular curves."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
+
+from assur.figures.borders import border_words, kinds
+from assur.figures.context import Context
+from assur.figures.plots import (
+    CLOSE,
+    FREE,
+    axis_title,
+    curves,
+    fill,
+    in_plane,
+    legend_of,
+    mode_words,
+    no_solid_workspace,
+    present,
+)
+from assur.figures.spec import Drawing, Entry
+from assur.figures.style import BLUE, GREEN, GREY, INK, PAGE, PINK, SMALL, TEXT, mm, new_figure
+from assur.workspace.sections import Section, cut
+
+FloatArray = NDArray[np.float64]
+BORDERS = (INK, BLUE, PINK, GREEN)
+
+
+def _missing(context: Context) -> str:
+    if no_solid_workspace(context):
+        return no_solid_workspace(context)
+    if context.given_workspace is not None:
+        return "" if context.given_workspace.sections else "the workspace was computed without a section in its box"
+    low, high = context.record.box[context.record.platform.pose[-1]]
+    inside = [value for value in context.record.sections if low <= value <= high]
+    return "" if inside else "the mechanism's file names no section in its box"
+
+
+def _caption(context: Context) -> str:
+    found = context.workspace
+    areas = ", ".join(f"{item.area:.0f}" for item in found.sections)
+    values = ", ".join(f"{item.value:g}" for item in found.sections)
+    curved = any(
+        len(in_plane(locus, len(found.box.names) - 1, item.value))
+        for locus in present(found)
+        for item in found.sections
+    )
+    rest = "" if curved else " No parallel-singular surface of this working mode meets them."
+    return (
+        f"Sections of the workspace ({mode_words(context)}) at ${found.box.names[-1]}$ = {values}"
+        f" {context.record.unit};"
+        f" areas {areas} {mm(context.record.unit + '^2')}."
+        " Borders are named by the margin that is zero there, with the factors that vanish with it in brackets."
+        f"{rest}"
+    )
+
+
+def _draw(context: Context) -> Drawing:
+    found = context.workspace
+    names = found.sections[0].plane
+    (x0, x1), (y0, y1) = (found.box.intervals[found.box.axis(name)] for name in names)
+    left, bottom, top, gap = 13.0, 21.0, 13.0, 4.5
+    count = len(found.sections)
+    columns = min(4, count)
+    rows = -(-count // columns)
+    wide = (PAGE - left - 3.0 - gap * (columns - 1)) / columns
+    tall = wide * (y1 - y0) / (x1 - x0)
+    height = top + rows * (tall + bottom)
+    figure = new_figure(PAGE, height)
+    used: dict[str, Line2D] = {}
+    for k, item in enumerate(found.sections):
+        start = left + (k % columns) * (wide + gap)
+        low = (rows - 1 - k // columns) * (tall + bottom) + bottom
+        axes = figure.add_axes((start / PAGE, low / height, wide / PAGE, tall / height))
+        _panel(context, axes, item, used)
+        axes.set_xlim(x0, x1)
+        axes.set_ylim(y0, y1)
+        axes.set_xlabel(axis_title(context, names[0]))
+        if k % columns == 0:
+            axes.set_ylabel(axis_title(context, names[1]))
+        else:
+            axes.set_yticklabels([])
+        middle = (start + wide / 2) / PAGE
+        title = f"({chr(97 + k)}) ${item.coordinate}$ = {item.value:g} {context.record.unit}"
+        figure.text(middle, (low - 14.0) / height, title, ha="center", fontsize=TEXT)
+        area = f"area {_thousands(item.area)} {mm(context.record.unit + '^2')}"
+        figure.text(middle, (low - 18.0) / height, area, ha="center", fontsize=SMALL)
+    borders = sorted(used, key=lambda name: name == "")
+    figure.legend(handles=[*_areas(context), *(used[name] for name in borders)], loc="upper center", ncols=4)
+    return Drawing(figure, _data(context))
+
+
+def _panel(context: Context, axes: Axes, item: Section, used: dict[str, Line2D]) -> None:
+    found = context.workspace
+    axis = found.box.axis(item.coordinate)
+    fill(axes, item.polygons, FREE)
+    fill(axes, _close(context, item)[1], CLOSE, order=2)
+    keep = [found.box.axis(name) for name in item.plane]
+    for k, locus in enumerate(present(found)):
+        curves(axes, in_plane(locus, axis, item.value)[:, :, keep], k)
+    for polygon in item.polygons:
+        edges = np.stack([polygon, np.roll(polygon, -1, axis=0)], axis=1)  # (k, 2, 2)
+        middles = np.full((len(edges), 3), item.value)
+        middles[:, keep] = edges.mean(axis=1)
+        names = kinds(context, middles)
+        for name in dict.fromkeys(names):
+            if name not in used:
+                words = border_words(context, name, middles[names.index(name)]) if name else "box"
+                colour = BORDERS[len(used.keys() - {""}) % len(BORDERS)] if name else GREY
+                used[name] = Line2D(
+                    [], [], color=colour, linewidth=1.2, linestyle="-" if name else (0, (3, 2)), label=words
+                )
+            style: dict[str, Any] = {"color": used[name].get_color(), "linestyle": used[name].get_linestyle()}
+            for run in _runs(edges, [other == name for other in names]):
+                axes.plot(run[:, 0], run[:, 1], linewidth=1.2, zorder=5, clip_on=False, **style)
+
+
+def _areas(context: Context) -> list[Any]:
+    """Handles for what the sections show: without singular curves where none meets them."""
+    met = any(_close(context, item)[0] > 0 for item in context.workspace.sections)
+    return legend_of(context) if met else legend_of(context, near=False, loci=False)
+
+
+def _runs(edges: FloatArray, wanted: list[bool]) -> list[FloatArray]:
+    """Polylines of the edges (k, 2, 2) of a closed polygon that are wanted, each as long as it runs on."""
+    if all(wanted):
+        return [np.concatenate([edges[:, 0], edges[:1, 0]])]
+    start = wanted.index(False)
+    order = [*range(start, len(edges)), *range(start)]
+    found: list[list[FloatArray]] = []
+    running = False
+    for k in order:
+        if wanted[k]:
+            if not running:
+                found.append([edges[k, 0]])
+            found[-1].append(edges[k, 1])
+        running = wanted[k]
+    return [np.array(run) for run in found]
+
+
+def _close(context: Context, item: Section) -> tuple[float, tuple[FloatArray, ...]]:
+    """Area and polygons of what is near a parallel singularity in a section."""
+    box = context.workspace.box
+    axis = box.axis(item.coordinate)
+    return cut(context.near, axis, item.value, (box.low[axis], box.high[axis]))
+
+
+def _thousands(value: float) -> str:
+    """A whole number in groups of three, by spaces.
+
+    >>> _thousands(95000.2)
+    '95 000'
+    """
+    return f"{value:,.0f}".replace(",", " ")
+
+
+def _data(context: Context) -> dict[str, Any]:
+    found = context.workspace
+    sections = []
+    for item in found.sections:
+        near = _close(context, item)
+        sections.append(
+            {
+                item.coordinate: item.value,
+                "plane": item.plane,
+                "area": item.area,
+                "polygons": item.polygons,
+                "near_area": near[0],
+                "near": near[1],
+            }
+        )
+    return {"unit": context.record.unit, "mode": found.mode, "near": found.near, "sections": sections}
+
+
+SECTIONS = Entry("sections", "Sections of the workspace", _missing, _caption, _draw)

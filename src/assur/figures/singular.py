@@ -1,0 +1,274 @@
+"""Singular configurations: a model at a zero of each factor, with what vanishes and what that means."""
+
+from __future__ import annotations
+
+import textwrap
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.figures.camera import Camera
+from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
+from assur.figures.context import Context
+from assur.figures.letters import letter, mathematics
+from assur.figures.meaning import Named, accented, named, typeset
+from assur.figures.mesh import Mesh
+from assur.figures.placing import Letters
+from assur.figures.skeleton import Skeleton, skeleton
+from assur.figures.solid import model_camera, paste, triad
+from assur.figures.solids import model
+from assur.figures.spec import Drawing, Entry
+from assur.figures.style import LETTER, PAGE, PAPER, RED, SMALL, TEXT
+from assur.kinematics.border import LENGTHS
+from assur.kinematics.position import inverse
+from assur.kinematics.status import FACTOR_TOLERANCE, Status, relative_factors
+from assur.model.closed_form import Factor
+from assur.singularity.examples import SingularExample
+
+FloatArray = NDArray[np.float64]
+ACCENT = "#e07b45"
+COLUMNS = 3
+TEXT_HEIGHT = 17.0
+
+
+def example_of(context: Context, kind: str) -> SingularExample | None:
+    """The example that the source draws of a kind, else the first of that kind."""
+    wanted = getattr(context.companion.examples, kind)
+    found = [item for item in context.examples if item.factor.kind == kind]
+    return next((item for item in found if item.factor.name == wanted), found[0] if found else None)
+
+
+def further(context: Context) -> list[SingularExample]:
+    """The examples that have no figure of their own."""
+    own = [example_of(context, "serial"), example_of(context, "parallel")]
+    return [item for item in context.examples if all(item is not other for other in own)]
+
+
+def _no_closed_form(context: Context) -> str:
+    return "" if context.record.closed_form else "the mechanism has no closed form, so no factors"
+
+
+def _missing(kind: str, context: Context) -> str:
+    if _no_closed_form(context) or example_of(context, kind):
+        return _no_closed_form(context)
+    return f"no {kind} factor vanishes in or near the file's workspace box"
+
+
+def _missing_further(context: Context) -> str:
+    return _no_closed_form(context) or (
+        "" if further(context) else "no further factor vanishes in or near the file's box"
+    )
+
+
+def condition(factor: Factor) -> str:
+    """E.g. "$u_3 = 0$"."""
+    return f"${factor.latex or mathematics(factor.name) or factor.name} = 0$"
+
+
+def _caption(kind: str, context: Context) -> str:
+    example = example_of(context, kind)
+    if example is None:
+        return ""
+    return (
+        f"Example of a {kind} singularity: {condition(example.factor)}, {_geometry(context, example.factor)}."
+        f" {_where(context, shown(context, example))}"
+    )
+
+
+def _caption_further(_context: Context) -> str:
+    return (
+        "One configuration for each further factor that vanishes in the file's workspace box or near it, with the"
+        " factor, its kind and its geometric meaning. Where several vanish together the most severe status is given."
+    )
+
+
+def _geometry(context: Context, factor: Factor) -> str:
+    """The meaning of a factor with its letters as they are drawn, and where the source says so."""
+    source = f" [Eq. {factor.equation}]" if factor.equation.startswith("(") else ""
+    return typeset(factor.meaning, context.skeleton) + source
+
+
+def _where(context: Context, example: SingularExample) -> str:
+    pose = ", ".join(
+        _value(context, name, value)
+        for name, value in zip(context.record.platform.pose, example.pose, strict=True)
+    )
+    unit = f" {context.record.unit}" if all(name in LENGTHS for name in context.record.platform.pose) else ""
+    status = example.status.name.replace("_", "-")
+    return f"Working mode {signs(example.mode)}, pose ({pose}){unit}; status {status}."
+
+
+def _value(context: Context, name: str, value: float) -> str:
+    degrees = name not in LENGTHS and context.record.angle == "deg"
+    shown = np.degrees(value) if degrees else value
+    return f"{round(shown, 2) + 0.0:.2f}".replace("-", "−") + ("°" if degrees else "")
+
+
+def signs(mode: str) -> str:
+    """A mode with minus signs as wide as plus signs."""
+    return mode.replace("-", "−")
+
+
+def _draw_one(kind: str, context: Context) -> Drawing:
+    example = example_of(context, kind)
+    if example is None:
+        raise ValueError(_missing(kind, context))
+    scene = _scene(context, example)
+    width = 120.0
+    height = min(130.0, (width - 8.0) * scene.aspect)
+    page = canvas(width, height + 23.0)
+    _panel(page, scene, (4.0, 19.0, width - 8.0, height), LETTER)
+    lines = textwrap.wrap(example.factor.meaning, 56)
+    for k, line in enumerate(lines):
+        start = f"{condition(example.factor)}: " if k == 0 else ""
+        at = (width / 2 * POINTS, (8.5 + 4.5 * (len(lines) - 1 - k)) * POINTS)
+        page.text(at, start + typeset(line, scene.body), fontsize=LETTER)
+    page.text((width / 2 * POINTS, 3.3 * POINTS), _where(context, scene.example), fontsize=SMALL)
+    triad(page, model_camera(context), np.array([18.0, 70.0]))
+    return Drawing(page.figure, {"unit": context.record.unit, "examples": [_data(scene)]})
+
+
+def _draw_further(context: Context) -> Drawing:
+    scenes = [_scene(context, example) for example in further(context)]
+    columns = min(COLUMNS, len(scenes))
+    rows = [scenes[k : k + columns] for k in range(0, len(scenes), columns)]
+    width = PAGE / COLUMNS
+    heights = [TEXT_HEIGHT + 2 + (width - 4) * max(scene.aspect for scene in row) for row in rows]
+    page = canvas(width * columns, sum(heights))
+    for k, scene in enumerate(scenes):
+        place = (k % columns) * width, sum(heights[k // columns + 1 :])
+        _small(page, scene, f"({chr(97 + k)})", (*place, width, heights[k // columns]))
+    data = {"unit": context.record.unit, "examples": [_data(scene) for scene in scenes]}
+    return Drawing(page.figure, data)
+
+
+def _small(page: Canvas, scene: _Scene, label: str, cell: tuple[float, float, float, float]) -> None:
+    """One of several: the model above, its words below, in a cell (left, bottom, width, height) in mm."""
+    left, bottom, width, height = cell
+    _panel(page, scene, (left + 2, bottom + TEXT_HEIGHT, width - 4, height - TEXT_HEIGHT - 2), TEXT)
+    factor = scene.example.factor
+    meaning = [typeset(line, scene.body) for line in textwrap.wrap(factor.meaning, 46)[:2]]
+    note = f"mode {signs(scene.example.mode)}, status {scene.example.status.name.replace('_', '-')}"
+    note += "" if scene.example.in_box else ", outside the box"
+    at = np.array([left + width / 2, bottom + TEXT_HEIGHT - 3.5])
+    page.text(at * POINTS, f"{label} {condition(factor)} ({factor.kind})", fontsize=TEXT)
+    for k, line in enumerate([*meaning, note]):
+        page.text((at - [0, 3.9 + 3.2 * k]) * POINTS, line, fontsize=SMALL)
+
+
+@dataclass(frozen=True, eq=False)
+class _Scene:
+    """An example as a model: its skeleton, what its factor's meaning names, and its mesh from where it is seen."""
+
+    example: SingularExample
+    body: Skeleton
+    named: Named
+    mesh: Mesh
+    camera: Camera
+
+    @property
+    def aspect(self) -> float:
+        """Height over width on the page."""
+        flat = self.camera.project(self.mesh.corners.reshape(-1, 3))
+        across, upward = np.ptp(flat, axis=0)
+        return float(upward / across)
+
+
+def shown(context: Context, example: SingularExample) -> SingularExample:
+    """The example moved to the drawn configuration in as many pose coordinates as leave it what it is."""
+    home = context.pose
+    size = len(example.pose)
+    for count in range(size, 0, -1):
+        for chosen in combinations(range(size), count):
+            pose = example.pose.copy()
+            pose[list(chosen)] = home[list(chosen)]
+            here = inverse(context.record, pose, example.mode)
+            value = relative_factors(context.record, here.factors)[example.factor.name][0]
+            same = bool(here.exists[0]) and Status(int(here.status[0])) == example.status
+            if same and abs(float(value)) <= FACTOR_TOLERANCE:
+                return replace(example, pose=pose, inputs=here.inputs[0], joints=here.joints[0])
+    return example
+
+
+def _scene(context: Context, example: SingularExample) -> _Scene:
+    example = shown(context, example)
+    body = skeleton(context.record, context.companion, example.joints)
+    found = named(example.factor.meaning, body)
+    mesh = model(body, context.companion, dict.fromkeys(accented(found, body), ACCENT))
+    return _Scene(example, body, found, mesh, model_camera(context))
+
+
+def _panel(page: Canvas, scene: _Scene, rectangle: tuple[float, float, float, float], size: float) -> None:
+    """The model with the links that the meaning names in colour, and lines through its points."""
+    left, bottom, width, height = rectangle
+    view = inside(
+        scene.camera, scene.mesh.corners.reshape(-1, 3), (left + 1, bottom + 1, width - 2, height - 2)
+    )
+    paste(page, scene.mesh, view, (left * POINTS, bottom * POINTS, width * POINTS, height * POINTS))
+    letters = Letters(page)
+    _lines(page, view, scene.named, letters)
+    for name in scene.named.letters:
+        at = view(scene.body.points[name])
+        page.disc(at, 1.8, RED, PAPER, 0.5, order=13)
+        letters.add(at, letter(name), clear=4.0, fontsize=size, color=RED, weight="bold", bbox=_plate())
+    letters.place()
+
+
+def _plate() -> dict[str, Any]:
+    return {"boxstyle": "round,pad=0.08", "facecolor": "#ffffffd0", "edgecolor": "none"}
+
+
+def _lines(page: Canvas, view: View, found: Named, letters: Letters) -> None:
+    """Each line through the points that are named together, a little longer than they reach."""
+    for line in found.lines:
+        flat = view(line)
+        gaps = np.linalg.norm(flat[:, None] - flat[None], axis=2)
+        first, last = np.unravel_index(np.argmax(gaps), gaps.shape)
+        way = flat[last] - flat[first]
+        length = max(float(np.linalg.norm(way)), 1e-9)
+        ends = np.array([flat[first] - 14 * way / length, flat[last] + 14 * way / length])
+        page.line(ends, 2.6, PAPER, 12, solid_capstyle="butt", alpha=0.7)
+        page.line(ends, 1.1, RED, 12.1, linestyle=(0, (5, 2)), solid_capstyle="butt")
+        letters.avoid(ends)
+
+
+def _data(scene: _Scene) -> dict[str, Any]:
+    example = scene.example
+    return {
+        "factor": example.factor.name,
+        "kind": example.factor.kind,
+        "meaning": example.factor.meaning,
+        "mode": example.mode,
+        "status": example.status,
+        "in_box": example.in_box,
+        "pose": example.pose,
+        "inputs": example.inputs,
+        "points": scene.body.points,
+    }
+
+
+SERIAL = Entry(
+    "serial",
+    "Serial singularity",
+    partial(_missing, "serial"),
+    partial(_caption, "serial"),
+    partial(_draw_one, "serial"),
+)
+PARALLEL = Entry(
+    "parallel",
+    "Parallel singularity",
+    partial(_missing, "parallel"),
+    partial(_caption, "parallel"),
+    partial(_draw_one, "parallel"),
+)
+SINGULAR = Entry(
+    "singular",
+    "Singular configurations of the further factors",
+    _missing_further,
+    _caption_further,
+    _draw_further,
+)

@@ -1,0 +1,175 @@
+"""The solutions: every assembly at the same inputs, the drawn one in black and the others as ghosts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.figures.camera import oblique, plane
+from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
+from assur.figures.context import Context
+from assur.figures.letters import mathematics
+from assur.figures.placing import Letters
+from assur.figures.skeleton import Skeleton, skeleton
+from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
+from assur.figures.spec import Drawing, Entry
+from assur.figures.style import BLUE, GREEN, INK, ORANGE, PAGE, PINK, RED, SKY, SMALL, TEXT
+from assur.kinematics.border import LENGTHS
+from assur.kinematics.solution import Solution
+
+FloatArray = NDArray[np.float64]
+TALLEST = 105.0
+GAP = 12.0
+"""Of the drawings, in mm."""
+
+GHOSTS = (RED, BLUE, GREEN, PINK, SKY, ORANGE, "#7f7f7f")
+
+
+@dataclass(frozen=True, eq=False)
+class Ghost:
+    """One assembly: its number, its solution, its skeleton and its colour."""
+
+    number: int
+    solution: Solution
+    skeleton: Skeleton
+    colour: str
+    origin: FloatArray
+
+
+def ghosts(context: Context) -> list[Ghost]:
+    """Every listed direct solution at the inputs of the configuration that is drawn; that one comes first."""
+    record = context.record
+    values = [np.array(list(item.joints.values())) for item in context.assemblies]
+    order = np.argsort(
+        [float(np.linalg.norm(_wrapped(context, joints - context.home))) for joints in values], kind="stable"
+    )
+    listed = list(context.assemblies)
+    found = []
+    for number, k in enumerate(order):
+        body = skeleton(record, context.companion, values[k])
+        rotation, origin = body.frames[record.platform.link]
+        colour = INK if number == 0 else GHOSTS[(number - 1) % len(GHOSTS)]
+        found.append(Ghost(number + 1, listed[k], body, colour, rotation @ record.platform.point + origin))
+    return found
+
+
+def _wrapped(context: Context, gap: FloatArray) -> FloatArray:
+    """Differences of joint values, angles of which count up to whole turns."""
+    angles = np.array([item.kind == "angle" for item in context.record.coordinates])
+    return np.where(angles, np.arctan2(np.sin(gap), np.cos(gap)), gap)
+
+
+def _missing(context: Context) -> str:
+    return (
+        ""
+        if context.record.closed_form
+        else "the mechanism has no closed form, so not every solution is known"
+    )
+
+
+def _caption(context: Context) -> str:
+    found = context.assemblies
+    names = ", ".join(
+        f"${item.latex or mathematics(item.name)}$ = {_printed(context, value, item.coordinate.kind)}"
+        for item, value in zip(context.record.inputs, found.given, strict=True)
+    )
+    return f"All {len(found)} real direct solutions at {names}, with the coordinates of O' and the assembly mode."
+
+
+def _printed(context: Context, value: float, kind: str) -> str:
+    if kind == "length":
+        return f"{value:.4f} {context.record.unit}"
+    return f"{np.degrees(value):.3f}°" if context.record.angle == "deg" else f"{value:.4f} rad"
+
+
+def _draw(context: Context) -> Drawing:
+    found = ghosts(context)
+    table = 9.0 + 4.2 * len(found)
+    cameras = [context.camera("solutions", oblique("y", "z", 211, 0.85))]
+    if not context.planar:
+        cameras.append(plane("x", "z"))
+    cloud = np.concatenate([cloud_of(item.skeleton, context.companion) for item in found])
+    spans = np.array([np.ptp(camera.project(cloud), axis=0) for camera in cameras])  # (panels, 2)
+    scale = min(TALLEST / spans[:, 1].max(), (PAGE - GAP * (len(cameras) + 1)) / spans[:, 0].sum())
+    rooms = scale * spans
+    width = max(110.0, float(rooms[:, 0].sum()) + GAP * (len(cameras) + 1))
+    height = float(rooms[:, 1].max())
+    page = canvas(width, height + table + 12.0)
+    left = (width - float(rooms[:, 0].sum()) - GAP * (len(cameras) - 1)) / 2
+    for camera, room in zip(cameras, rooms, strict=True):
+        _panel(context, page, inside(camera, cloud, (left, table + 6.0, float(room[0]), height)), found)
+        left += float(room[0]) + GAP
+    _table(context, page, found, width, table)
+    return Drawing(page.figure, _data(context, found))
+
+
+def _panel(context: Context, page: Canvas, view: View, found: list[Ghost]) -> None:
+    letters = Letters(page)
+    draw_ground(page, view, found[0].skeleton, context.companion, letters)
+    for ghost in found[::-1]:
+        links = dict.fromkeys(context.record.links, ghost.colour)
+        width = 1.7 if ghost.number == 1 else 1.1
+        draw_bodies(
+            page,
+            view,
+            ghost.skeleton,
+            letters,
+            Pen(width, 1.6, 0.6, links, 0.0 if ghost.number == 1 else -1.0),
+        )
+    for ghost in found:
+        page.disc(view(ghost.origin), 1.6, ghost.colour, ghost.colour, order=15)
+        letters.add(view(ghost.origin), str(ghost.number), clear=4.0, color=ghost.colour, weight="bold")
+    letters.place()
+
+
+def _table(context: Context, page: Canvas, found: list[Ghost], width: float, height: float) -> None:
+    """Coordinates of every solution, in its colour."""
+    record = context.record
+    heads = ["", *(f"${name}$ ({_unit(context, name)})" for name in record.platform.pose), "mode"]
+    step = min(34.0, (width - 24.0) / len(heads))
+    left = (width - step * (len(heads) - 1)) / 2
+    top = height - 3.0
+    for k, head in enumerate(heads):
+        page.text(((left + k * step) * POINTS, top * POINTS), head, fontsize=TEXT)
+    ends = np.array([[left - 0.4 * step, top - 2.4], [left + (len(heads) - 0.55) * step, top - 2.4]])
+    page.line(ends * POINTS, 0.5)
+    for row, ghost in enumerate(found):
+        cells = [str(ghost.number), *_cells(context, ghost), ghost.solution.assembly_mode.replace("-", "−")]
+        for k, cell in enumerate(cells):
+            place = ((left + k * step) * POINTS, (top - 5.0 - 4.2 * row) * POINTS)
+            page.text(place, cell, fontsize=SMALL + 0.5, color=ghost.colour)
+
+
+def _cells(context: Context, ghost: Ghost) -> list[str]:
+    degrees = context.record.angle == "deg"
+    values = zip(context.record.platform.pose, ghost.solution.pose, strict=True)
+    shown = [np.degrees(value) if degrees and name not in LENGTHS else value for name, value in values]
+    return [f"{round(value, 4) + 0.0:.4f}".replace("-", "−") for value in shown]
+
+
+def _unit(context: Context, name: str) -> str:
+    return context.record.unit if name in LENGTHS else context.record.angle
+
+
+def _data(context: Context, found: list[Ghost]) -> dict[str, Any]:
+    return {
+        "unit": context.record.unit,
+        "inputs": context.assemblies.given,
+        "complete_for": context.assemblies.complete_for,
+        "solutions": [
+            {
+                "number": ghost.number,
+                "pose": ghost.solution.pose,
+                "mode": ghost.solution.mode,
+                "residual": ghost.solution.residual,
+                "points": ghost.skeleton.points,
+            }
+            for ghost in found
+        ],
+    }
+
+
+SOLUTIONS = Entry("solutions", "All direct solutions at the same inputs", _missing, _caption, _draw)

@@ -1,0 +1,208 @@
+"""What the sections of one report share: each analysis is made once, and only where a section asks for it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.audit import audit as auditing
+from assur.audit.reference import Reference, read_reference
+from assur.audit.rows import Audit, Row
+from assur.audit.tables import Table
+from assur.errors import UsageError
+from assur.figures import Context
+from assur.kinematics.answers import inputs_from_border, pose_from_border
+from assur.kinematics.home import home_values
+from assur.kinematics.modes import Problem
+from assur.kinematics.position import direct, inverse
+from assur.kinematics.solution import Solution
+from assur.kinematics.solutions import SolutionSet
+from assur.kinematics.status import closed_form_of
+from assur.kinematics.velocity import VelocityMap, velocity_map
+from assur.model.closed_form import ClosedForm
+from assur.model.mechanism import MechanismRecord
+from assur.performance.dexterity import GlobalIndex, global_condition_index
+from assur.report.formulas.reading import Reading, reading
+from assur.report.numbers import Style, style_of
+from assur.report.pictures import pictures
+from assur.results.kinds import Picture
+from assur.singularity.examples import SingularExample
+from assur.workspace.region import RESOLUTION, Workspace, workspace
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Findings:
+    """A mechanism and what is found about it.
+
+    Attributes:
+        resolution: cells of the workspace along each coordinate.
+        illustrated: whether figures are drawn.
+    """
+
+    record: MechanismRecord
+    resolution: int = RESOLUTION
+    illustrated: bool = True
+
+    @cached_property
+    def style(self) -> Style:
+        """How numbers are written."""
+        return style_of(self.record)
+
+    @property
+    def form(self) -> ClosedForm:
+        """The closed form; `UsageError` where there is none."""
+        return closed_form_of(self.record)
+
+    @cached_property
+    def home(self) -> FloatArray:
+        """Joint values (n,) of the assembled home."""
+        return home_values(self.record)
+
+    # ---- the source's numbers ----------------------------------------------------------------------------------
+
+    @cached_property
+    def audit(self) -> Audit:
+        """The audit; `UsageError` where there are no reference data for these dimensions."""
+        return auditing.audit(self.record)
+
+    @cached_property
+    def reference(self) -> Reference | None:
+        """The reference data, None where there are none for these dimensions."""
+        try:
+            return read_reference(self.record, auditing.FORMS)
+        except UsageError:
+            return None
+
+    @cached_property
+    def unaudited(self) -> str:
+        """Why there is no audit; empty where there is one."""
+        try:
+            read_reference(self.record, auditing.FORMS)
+        except UsageError as error:
+            return error.message
+        return ""
+
+    @property
+    def given(self) -> str:
+        """What to call the numbers of the reference data: printed in a source, or a reference of ours."""
+        return "reference" if self.reference and self.reference.about.origin == "derived" else "printed"
+
+    @property
+    def giver(self) -> str:
+        """Who says these numbers."""
+        return "reference data" if self.given == "reference" else "source"
+
+    def rows(self, kind: str) -> tuple[Row, ...]:
+        """Audit rows of one kind of reference entry, none without reference data."""
+        if self.reference is None:
+            return ()
+        make = auditing.KINDS[kind].rows
+        return tuple(row for entry in self.reference.entries[kind] for row in make(self.record, self.reference, entry))
+
+    def table(self, problem: Problem) -> Table | None:
+        """The source's first table of solutions of a problem."""
+        entries = self.reference.entries[problem] if self.reference else ()
+        return cast("Table", entries[0]) if entries else None
+
+    # ---- position ----------------------------------------------------------------------------------------------
+
+    def formulas(self, problem: Problem) -> Reading:
+        """The closed form, written down."""
+        return self._direct_formulas if problem == "direct" else self._inverse_formulas
+
+    @cached_property
+    def _direct_formulas(self) -> Reading:
+        return reading(self.record, "direct")
+
+    @cached_property
+    def _inverse_formulas(self) -> Reading:
+        return reading(self.record, "inverse")
+
+    @cached_property
+    def inputs(self) -> FloatArray:
+        """Inputs (n,) of the configuration that the report is about: the source's, else those of home."""
+        table = self.table("direct")
+        if table:
+            return inputs_from_border(self.record, np.array([item.value for item in table.given]))
+        values = self.home[list(self.record.input_indices)]
+        signs, offsets = (np.array([getattr(item, name) for item in self.record.inputs]) for name in ("sign", "offset"))
+        return np.asarray(signs * values + offsets)
+
+    @cached_property
+    def direct(self) -> SolutionSet:
+        """Every pose at these inputs."""
+        return direct(self.record, self.inputs)
+
+    @cached_property
+    def solution(self) -> Solution:
+        """The configuration that the report is about: of the default assembly mode, else the one nearest to home."""
+        found = list(self.direct)
+        if not found:
+            raise UsageError(f"{self.record.name} has no real solution at the inputs that the report is about")
+        chosen = [item for item in found if item.assembly_mode == self.record.modes.default_assembly]
+        if self.table("direct") and chosen:
+            return chosen[0]
+        return min(found, key=self._from_home)
+
+    def _from_home(self, solution: Solution) -> float:
+        gap = np.array(list(solution.joints.values())) - self.home
+        angular = np.array([item.kind == "angle" for item in self.record.coordinates])
+        turned = np.where(angular, np.angle(np.exp(1j * np.where(angular, gap, 0.0))), gap)
+        return float(np.linalg.norm(turned))
+
+    @cached_property
+    def pose(self) -> FloatArray:
+        """Pose (m,) of which the inverse problem is solved: the source's, else that of the configuration."""
+        table = self.table("inverse")
+        if table:
+            return pose_from_border(self.record, np.array([item.value for item in table.given]))
+        return self.solution.pose
+
+    @cached_property
+    def inverse(self) -> SolutionSet:
+        """All inputs at this pose."""
+        return inverse(self.record, self.pose)
+
+    @cached_property
+    def velocity(self) -> VelocityMap:
+        """Jp and Jq in the configuration that the report is about."""
+        return velocity_map(self.record, self.solution.pose, self.solution.working_mode)
+
+    # ---- regions -----------------------------------------------------------------------------------------------
+
+    @cached_property
+    def examples(self) -> tuple[SingularExample, ...]:
+        """A singular configuration for every factor that has one."""
+        if not self.record.box:
+            raise UsageError(f"the file of {self.record.name} gives no box to look for configurations in")
+        return self.context.examples
+
+    @cached_property
+    def workspace(self) -> Workspace:
+        """The workspace of the default working mode in the file's box."""
+        return workspace(self.record, resolution=self.resolution)
+
+    @cached_property
+    def global_index(self) -> GlobalIndex:
+        """Mean of the local condition index over the workspace."""
+        return global_condition_index(self.record, self.workspace)
+
+    # ---- figures -----------------------------------------------------------------------------------------------
+
+    @cached_property
+    def context(self) -> Context:
+        """What the figures share, with the workspace where there is one."""
+        try:
+            return Context(self.record, self.workspace)
+        except UsageError:
+            return Context(self.record)
+
+    def picture(self, *names: str) -> tuple[Picture, ...]:
+        """The figures of these names, as far as the mechanism has them and figures are drawn."""
+        return tuple(item for name in names if self.illustrated for item in pictures(self.context, name))

@@ -1,0 +1,1 @@
+"""Formulas: kernels of a closed form read over recorded numbers, and written down as mathematics."""

@@ -1,0 +1,261 @@
+"""Reading a closed form: its kernels run over recorded numbers, and what they compute written line by line.
+
+Every letter that the closed form names (results, quantities of the source, attributes of `core`) stands for
+its formula wherever it turns up, so that each line is short. The lines are what the kernels compute, nothing
+is written down by hand.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from assur.kinematics.border import LENGTHS
+from assur.kinematics.modes import Problem, sign_names
+from assur.kinematics.status import closed_form_of
+from assur.model.closed_form import Branch
+from assur.model.mechanism import MechanismRecord
+from assur.report.formulas.latex import latex_mathml, name_mathml
+from assur.report.formulas.trace import (
+    POINTS,
+    Book,
+    Letter,
+    Traced,
+    TracedPair,
+    Tracing,
+    Values,
+    leaf,
+    number,
+)
+
+Number = Traced | TracedPair
+SEED = 17
+
+
+@dataclass(frozen=True)
+class Line:
+    """letter = term, with the number that the formula has in the source and what the letter means."""
+
+    letter: Letter
+    term: Traced
+    equation: str = ""
+    meaning: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Reading:
+    """A closed form as it was read for one problem.
+
+    Attributes:
+        lines: the formulas from the given numbers to the results and to every joint's value, in the order
+            in which the kernel meets them.
+        named: quantities that the source names besides.
+        margins: margin -> its formula.
+        jp, jq: rows of recorded formulas with Jp v = Jq qdot.
+    """
+
+    lines: tuple[Line, ...]
+    named: tuple[Line, ...]
+    margins: Mapping[str, Traced]
+    jp: tuple[tuple[Traced, ...], ...]
+    jq: tuple[tuple[Traced, ...], ...]
+
+
+def reading(record: MechanismRecord, problem: Problem) -> Reading:
+    """The formulas of the direct or the inverse problem.
+
+    Example: Eq. (18) of Zeng et al. 2019 and what follows from it: cos alpha, sin alpha and the height of C1.
+
+    >>> from assur.model.registry import load_record
+    >>> from assur.report.formulas.normal import text
+    >>> lines = reading(load_record("zeng2019"), "inverse").lines
+    >>> [text(line.term) for line in lines if line.letter.name in ("alpha", "zC1")]
+    ['(x + b - d)/l4', 's_alpha sqrt(1 - (cos alpha)^2)', 'z - l4 sin alpha']
+    """
+    reader = _Reader(record, problem)
+    first = reader.run(Book())
+    everything = reader.run(Book(known=reader.known(first, first.branch.margins)))
+    used = _uses(everything.book.met.values())
+    # a radicand that is needed once is written where it is needed
+    shared = [name for name in first.branch.margins if used[_margin_letter(name)] > 1]
+    return reader.written(reader.run(Book(known=reader.known(first, shared))))
+
+
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """One run of the kernels."""
+
+    book: Book
+    branch: Branch
+    joints: Mapping[str, Number]
+    quantities: Mapping[str, Number]
+    jacobians: tuple[Any, Any]
+
+
+@dataclass(frozen=True, eq=False)
+class _Reader:
+    record: MechanismRecord
+    problem: Problem
+    points: dict[str, Values] = field(default_factory=dict)
+
+    def run(self, book: Book) -> _Run:
+        """Run every kernel of the problem with the letters of a book."""
+        form, ns = closed_form_of(self.record), Tracing()
+        p = SimpleNamespace(
+            **{name: leaf(book, Letter(name, name_mathml(name)), self._at(name)) for name in self.record.parameters}
+        )
+        given = tuple(self._given(book, letters) for letters in self._coordinates(self.problem))
+        kernel = form.direct if self.problem == "direct" else form.inverse
+        branch = kernel(ns, p, given, self._signs(book))
+        jacobians = form.jacobians(ns, p, branch.core)
+        joints = form.joints(ns, p, branch.core)
+        quantities = form.quantities(ns, p, branch.core) if form.quantities else {}
+        return _Run(book, branch, joints, quantities, jacobians)
+
+    def known(self, run: _Run, margins: Iterable[str]) -> list[tuple[Letter, Values]]:
+        """Letters with their values: results, quantities of the source, core, margins, in this order."""
+        results = run.branch.pose if self.problem == "direct" else run.branch.inputs
+        other: Problem = "inverse" if self.problem == "direct" else "direct"
+        pairs: list[tuple[tuple[Letter, ...], Number]] = list(zip(self._coordinates(other), results, strict=True))
+        form = closed_form_of(self.record)
+        pairs += [
+            (
+                _letters(item.name, item.latex, isinstance(run.quantities[item.name], tuple)),
+                run.quantities[item.name],
+            )
+            for item in form.quantity_list
+        ]
+        pairs += [(_core_letters(name, value), value) for name, value in vars(run.branch.core).items()]
+        pairs += [((_margin_letter(name),), run.branch.margins[name]) for name in margins]
+        return [
+            (letter, part.values)
+            for letters, value in pairs
+            for letter, part in zip(letters, _parts(value), strict=True)
+        ]
+
+    def written(self, run: _Run) -> Reading:
+        """The lines of a run."""
+        met = run.book.met
+        results = run.branch.pose if self.problem == "direct" else run.branch.inputs
+        actuated = {item.coordinate.joint for item in self.record.inputs}
+        passive = [value for name, value in run.joints.items() if name.partition(".")[0] not in actuated]
+        needed = _needed(met, [*results, *passive])
+        return Reading(
+            lines=tuple(self._line(letter, met[letter]) for letter in met if letter in needed),
+            named=tuple(self._named(run, needed)),
+            margins={name: _formula(met, name, value) for name, value in run.branch.margins.items()},
+            jp=_rows(run.book, run.jacobians[0]),
+            jq=_rows(run.book, run.jacobians[1]),
+        )
+
+    def _named(self, run: _Run, written: set[Letter]) -> Iterable[Line]:
+        """Quantities of the source that no line has yet."""
+        for item in closed_form_of(self.record).quantity_list:
+            value = run.quantities[item.name]
+            letters = _letters(item.name, item.latex, isinstance(value, tuple))
+            for letter, part in zip(letters, _parts(value), strict=True):
+                if letter not in written:
+                    yield self._line(letter, run.book.met.get(letter, part))
+
+    def _line(self, letter: Letter, term: Traced) -> Line:
+        form = closed_form_of(self.record)
+        for item in form.quantity_list:
+            if item.name == letter.name:
+                return Line(letter, term, item.equation, item.meaning)
+        return Line(letter, term, form.sources.get(letter.name, ""), self._meaning(letter))
+
+    def _meaning(self, letter: Letter) -> str:
+        """What a result or a margin means."""
+        other: Problem = "inverse" if self.problem == "direct" else "direct"
+        if any(letter in letters for letters in self._coordinates(other)):
+            return "result"
+        form = closed_form_of(self.record)
+        for margin in form.direct_margins if self.problem == "direct" else form.inverse_margins:
+            if _margin_letter(margin.name) == letter:
+                return margin.meaning if margin.zero == "degenerate" else f"negative: {margin.meaning}"
+        return ""
+
+    def _coordinates(self, problem: Problem) -> list[tuple[Letter, ...]]:
+        """Letters of what a problem is given: of inputs, or of the coordinates of the pose."""
+        if problem == "direct":
+            return [_letters(item.name, item.latex, item.coordinate.kind == "angle") for item in self.record.inputs]
+        return [_letters(name, "", name not in LENGTHS) for name in self.record.platform.pose]
+
+    def _given(self, book: Book, letters: tuple[Letter, ...]) -> Number:
+        values = self._at(letters[0].name)
+        if len(letters) == 1:
+            return leaf(book, letters[0], values)
+        return leaf(book, letters[0], np.cos(values)), leaf(book, letters[1], np.sin(values))
+
+    def _signs(self, book: Book) -> SimpleNamespace:
+        """Signs +1 and -1, each in a pattern of its own over the random points."""
+        form = closed_form_of(self.record)
+        signs = {}
+        for place, name in enumerate(sign_names(self.record, self.problem), start=1):
+            values = np.array([-1.0 if place >> bit & 1 else 1.0 for bit in range(POINTS)])
+            itself = form.signs[name].attribute == name
+            signs[name] = leaf(book, Letter(name, name_mathml(name), "sgn" if itself else ""), values)
+        return SimpleNamespace(**signs)
+
+    def _at(self, name: str) -> Values:
+        """Random complex values of a given number, the same in every run."""
+        if name not in self.points:
+            rng = np.random.default_rng([SEED, len(self.points)])
+            self.points[name] = rng.uniform(0.5, 1.5, POINTS) + 1j * rng.uniform(-0.5, 0.5, POINTS)
+        return self.points[name]
+
+
+def _letters(name: str, latex: str, angle: bool) -> tuple[Letter, ...]:
+    """The letter of a length, or cosine and sine of that of an angle."""
+    mathml = latex_mathml(latex) if latex else name_mathml(name)
+    return (Letter(name, mathml, "cos"), Letter(name, mathml, "sin")) if angle else (Letter(name, mathml),)
+
+
+def _core_letters(name: str, value: Number) -> tuple[Letter, ...]:
+    return _letters(name, "", isinstance(value, tuple))
+
+
+def _margin_letter(name: str) -> Letter:
+    return Letter(name, name_mathml(name))
+
+
+def _formula(met: Mapping[Letter, Traced], name: str, value: Traced) -> Traced:
+    """Of a margin: what its letter stands for, or the formula itself where it has none."""
+    return met.get(_margin_letter(name), value)
+
+
+def _parts(value: Number) -> tuple[Traced, ...]:
+    return value if isinstance(value, tuple) else (value,)
+
+
+def _rows(book: Book, rows: Any) -> tuple[tuple[Traced, ...], ...]:
+    return tuple(tuple(entry if isinstance(entry, Traced) else number(book, entry) for entry in row) for row in rows)
+
+
+def _leaves(term: Traced) -> Iterable[Letter]:
+    """The letters of a formula, each as often as it stands there."""
+    if term.letter is not None:
+        yield term.letter
+    for part in term.parts:
+        yield from _leaves(part)
+
+
+def _uses(terms: Iterable[Traced]) -> Counter[Letter]:
+    return Counter(letter for term in terms for letter in _leaves(term))
+
+
+def _needed(met: Mapping[Letter, Traced], wanted: Iterable[Number]) -> set[Letter]:
+    """The letters that lead to what is wanted."""
+    pending = [term for value in wanted for term in _parts(value)]
+    found: set[Letter] = set()
+    while pending:
+        for letter in _leaves(pending.pop()):
+            if letter in met and letter not in found:
+                found.add(letter)
+                pending.append(met[letter])
+    return found

@@ -1,0 +1,162 @@
+"""Recorded numbers: what a kernel computes, kept as it is written, with values at random points beside it.
+
+A kernel that is read over `Traced` numbers returns its own formulas. SymPy would put terms into its own
+order and multiply brackets out; here (x + b - d)/l4 stays what the source prints. The values serve to
+recognise a letter of the source wherever it turns up: two formulas that agree at random complex points
+are the same quantity (a false agreement has probability zero).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+Values = NDArray[np.complex128]
+Operator = Literal["number", "letter", "+", "-", "*", "/", "neg", "sqrt"]
+CLOSE = 1e-9
+POINTS = 8
+"""Random points at which every number is known."""
+
+
+@dataclass(frozen=True)
+class Letter:
+    """A symbol: a name, or the cosine or sine of an angle's name; `mathml` is how it is written."""
+
+    name: str
+    mathml: str
+    function: Literal["", "cos", "sin", "sgn"] = ""
+
+
+@dataclass(eq=False)
+class Book:
+    """The letters that may be recognised, and the formula of each that has been met, in that order.
+
+    Attributes:
+        known: letters with their values, those that come first winning.
+        met: letter -> the formula that it stood for where it was met first.
+    """
+
+    known: list[tuple[Letter, Values]] = field(default_factory=list)
+    met: dict[Letter, Traced] = field(default_factory=dict)
+
+    def letter_of(self, values: Values) -> Letter | None:
+        """The letter with these values, if there is one."""
+        for letter, known in self.known:
+            if np.allclose(values, known, rtol=CLOSE, atol=0.0):
+                return letter
+        return None
+
+
+@dataclass(frozen=True, eq=False)
+class Traced:
+    """A number with its formula: an operator, its parts, and the values (POINTS,) at the random points.
+
+    >>> from assur.report.formulas.normal import text
+    >>> x = leaf(Book(), Letter("x", "<mi>x</mi>"), np.arange(1.0, 9.0))
+    >>> text((x + 1) / 2 - 3 * x * x)
+    '(x + 1)/2 - 3 x^2'
+    """
+
+    book: Book
+    operator: Operator
+    parts: tuple[Traced, ...]
+    values: Values
+    letter: Letter | None = None
+
+    def __add__(self, other: Any) -> Traced:
+        return self._make("+", self, self._number(other))
+
+    def __radd__(self, other: Any) -> Traced:
+        return self._make("+", self._number(other), self)
+
+    def __sub__(self, other: Any) -> Traced:
+        return self._make("-", self, self._number(other))
+
+    def __rsub__(self, other: Any) -> Traced:
+        return self._make("-", self._number(other), self)
+
+    def __mul__(self, other: Any) -> Traced:
+        return self._make("*", self, self._number(other))
+
+    def __rmul__(self, other: Any) -> Traced:
+        return self._make("*", self._number(other), self)
+
+    def __truediv__(self, other: Any) -> Traced:
+        return self._make("/", self, self._number(other))
+
+    def __rtruediv__(self, other: Any) -> Traced:
+        return self._make("/", self._number(other), self)
+
+    def __neg__(self) -> Traced:
+        return self._make("neg", self)
+
+    def __pos__(self) -> Traced:
+        return self
+
+    def _number(self, value: Any) -> Traced:
+        return value if isinstance(value, Traced) else number(self.book, value)
+
+    def _make(self, operator: Operator, *parts: Traced) -> Traced:
+        return made(self.book, operator, *parts)
+
+
+TracedPair: TypeAlias = tuple[Traced, Traced]
+
+
+class Tracing:
+    """The namespace of a kernel that is read over recorded numbers."""
+
+    def sqrt(self, radicand: Traced, /) -> Traced:
+        """Square root: any of the two complex ones, the sign of a branch standing before it."""
+        return made(radicand.book, "sqrt", radicand)
+
+
+_RULES: dict[str, Callable[..., Values]] = {
+    "+": np.add,
+    "-": np.subtract,
+    "*": np.multiply,
+    "/": np.divide,
+    "neg": np.negative,
+    "sqrt": np.sqrt,
+}
+
+
+def number(book: Book, value: float) -> Traced:
+    """A plain number."""
+    return Traced(book, "number", (), np.full(POINTS, value, dtype=complex))
+
+
+def leaf(book: Book, letter: Letter, values: Any) -> Traced:
+    """A letter that stands for itself."""
+    return Traced(book, "letter", (), np.asarray(values, dtype=complex), letter)
+
+
+def made(book: Book, operator: Operator, *parts: Traced) -> Traced:
+    """The result of an operation; a letter where the book knows one with these values."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        values = _RULES[operator](*(part.values for part in parts))
+    result = Traced(book, operator, parts, values)
+    if not np.any(values):
+        return number(book, 0.0)
+    letter = None if _is_power(result) else book.letter_of(values)
+    if letter is None:
+        return result
+    book.met.setdefault(letter, result)
+    return leaf(book, letter, values)
+
+
+def _is_power(term: Traced) -> bool:
+    """A power of one letter, perhaps with a number: better written so than by another letter."""
+    letters = list(_factors(term))
+    return len(letters) > 1 and len(set(letters)) == 1 and letters[0] is not None
+
+
+def _factors(term: Traced) -> list[Letter | None]:
+    """The letters of a product, None for whatever else is in it."""
+    if term.operator in ("*", "/", "neg"):
+        return [letter for part in term.parts for letter in _factors(part)]
+    return [] if term.operator == "number" else [term.letter]

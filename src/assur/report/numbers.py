@@ -1,0 +1,125 @@
+"""Numbers with units as a reader of the report sees them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from assur.kinematics.border import LENGTHS
+from assur.kinematics.closure import characteristic_length
+from assur.model.mechanism import MechanismRecord
+
+NOTHING = "–"
+SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+THIN = "\u202f"
+
+
+@dataclass(frozen=True)
+class Style:
+    """How a mechanism's lengths and angles are written: seven digits of its size, angles to 1e-4 degrees."""
+
+    unit: str
+    angle: str
+    decimals: int
+
+    def written(self, value: float | None, *, angle: bool) -> str:
+        """A length, or an angle in the mechanism's angle unit, without its unit."""
+        return fixed(value, (4 if self.angle == "deg" else 6) if angle else self.decimals)
+
+    def title(self, name: str, *, angle: bool) -> str:
+        """A column's title with its unit."""
+        return f"{name} [{shown_unit(self.angle if angle else self.unit)}]"
+
+
+def style_of(record: MechanismRecord) -> Style:
+    """The style for a mechanism."""
+    size = characteristic_length(record)
+    return Style(record.unit, record.angle, min(12, max(0, 6 - math.floor(math.log10(size)))))
+
+
+def pose_angles(record: MechanismRecord) -> tuple[bool, ...]:
+    """For every coordinate of the pose, whether it is an angle."""
+    return tuple(name not in LENGTHS for name in record.platform.pose)
+
+
+def input_angles(record: MechanismRecord) -> tuple[bool, ...]:
+    """For every input, whether it is an angle."""
+    return tuple(item.coordinate.kind == "angle" for item in record.inputs)
+
+
+def fixed(value: float | None, decimals: int) -> str:
+    """A number with so many decimals and a true minus; a dash where it does not exist.
+
+    >>> fixed(-0.00001, 4), fixed(None, 4), fixed(-1.5, 1)
+    ('0.0000', '–', '−1.5')
+    """
+    if value is None or not math.isfinite(value):
+        return NOTHING
+    text = f"{value:.{decimals}f}" if abs(value) < 1e12 else f"{value:.10g}"
+    return minus(text.lstrip("-") if float(text) == 0 else text)
+
+
+def short(value: float | None, digits: int = 6) -> str:
+    r"""A number to some digits, powers of ten written out.
+
+    >>> short(0.5), short(8575323.8), short(1.3e-13, 2), short(1234567890.0)
+    ('0.5', '8\u202f575\u202f320', '1.3·10⁻¹³', '1.23457·10⁹')
+    """
+    if value is None or not math.isfinite(value):
+        return NOTHING
+    if value == 0:
+        return "0"
+    exponent = math.floor(math.log10(abs(value)))
+    if -5 < exponent < 9:
+        rounded = round(value, digits - 1 - exponent)
+        text = f"{rounded:.{max(0, digits - 1 - exponent)}f}"
+        return minus(grouped(text.rstrip("0").rstrip(".") if "." in text else text))
+    mantissa, _, power = f"{value:.{digits - 1}e}".partition("e")
+    mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
+    return minus(f"{mantissa}·10{str(int(power)).translate(SUPERSCRIPTS)}")
+
+
+def with_error(value: float, error: float) -> str:
+    r"""A value and its error, both to the second digit of the error.
+
+    >>> with_error(22813484.36, 3684.24), with_error(0.142353, 0.00019)
+    ('22\u202f813\u202f500 ± 3700', '0.14235 ± 0.00019')
+    """
+    if error <= 0.0 or not math.isfinite(error):
+        return short(value)
+    decimals = 1 - math.floor(math.log10(error))
+    both = (f"{round(number, decimals):.{max(0, decimals)}f}" for number in (value, error))
+    return " ± ".join(minus(grouped(text)) for text in both)
+
+
+def grouped(text: str) -> str:
+    """Digits before the point in groups of three, from five digits on."""
+    whole, point, rest = text.partition(".")
+    sign = "-" if whole.startswith("-") else ""
+    digits = whole.lstrip("-")
+    return f"{sign}{f'{int(digits):,}'.replace(',', THIN) if len(digits) > 4 else digits}{point}{rest}"
+
+
+def minus(text: str) -> str:
+    """Text with a true minus sign."""
+    return text.replace("-", "−")
+
+
+def shown_unit(unit: str) -> str:
+    """A unit with its powers as superscripts, degrees as their sign.
+
+    >>> shown_unit("mm^3")
+    'mm³'
+    """
+    base, _, power = unit.partition("^")
+    return base + power.translate(SUPERSCRIPTS)
+
+
+def count(number: int, noun: str) -> str:
+    """A number of things.
+
+    >>> count(1, "solution"), count(4, "branch")
+    ('1 solution', '4 branches')
+    """
+    ending = "es" if noun.endswith(("ch", "s", "x")) else "s"
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}{ending}"

@@ -1,0 +1,243 @@
+"""Rendering: sections of results as one HTML page; one macro for each kind, and nothing that knows an analysis."""
+
+from __future__ import annotations
+
+import base64
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from html import escape
+
+import jinja2
+import numpy as np
+from markupsafe import Markup
+
+from assur.report import numbers
+from assur.report.curves import curve_svg
+from assur.report.formulas.latex import latex_mathml
+from assur.report.formulas.mathml import inline
+from assur.results.kinds import (
+    Cell,
+    Curve,
+    Facts,
+    Field,
+    Formula,
+    Formulas,
+    Matrix,
+    Picture,
+    Result,
+    Scalar,
+    Section,
+    Surface,
+    Table,
+)
+
+MACROS: dict[type, str] = {
+    Scalar: "scalars",
+    Facts: "facts",
+    Table: "table",
+    Matrix: "matrix",
+    Field: "field",
+    Curve: "curve",
+    Surface: "surface",
+    Formulas: "formulas",
+    Picture: "picture",
+    Section: "section",
+}
+FILTERED = 12
+"""A table with as many rows and different marks can be filtered by them."""
+
+SEPARATOR = " · "
+"""Between the id of an entry and the rest of its title."""
+
+_ENTRY = re.compile(r"(?<=\bsee )[A-Z]\d+\b|(?<=\bevidence of )[A-Z]\d+\b|^[A-Z]\d+$")
+_SIGNS = re.compile(r"[+-][+0-]*|[+0-]*[+-]")
+_NUMBER = re.compile(r"[−-]?[\d\u202f]+(\.\d+)?(·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?( ± .*)?|–")
+_ARXIV = re.compile(r"arXiv:(\d{4}\.\d{4,5})")
+
+
+@dataclass(frozen=True)
+class Page:
+    """A report: title, what it is about, and its sections."""
+
+    title: str
+    eyebrow: str
+    lead: str
+    sections: tuple[Section, ...]
+
+
+def page_html(page: Page) -> str:
+    """The whole page, self-contained; the same bytes for the same page.
+
+    >>> "&lt;b&gt;" in page_html(Page("<b>", "", "", ()))
+    True
+    """
+    links = Links(dict(_entries(page.sections)))
+    return (
+        _environment()
+        .get_template("page.html")
+        .render(page=page, cell=links.cell, cited=links.cited, captioned=links.captioned)
+    )
+
+
+@lru_cache(maxsize=1)
+def _environment() -> jinja2.Environment:
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("assur.report", "templates"),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters.update(
+        slug=slug,
+        scalar=scalar_text,
+        error=error_text,
+        short=numbers.short,
+        base64=_base64,
+        paragraphs=_paragraphs,
+    )
+    environment.globals.update(
+        blocks=blocks,
+        numeric=numeric_columns,
+        filtered=filtered,
+        field_facts=field_facts,
+        surface_facts=surface_facts,
+        curve_svg=lambda curve: Markup(curve_svg(curve)),
+        trusted=lambda formula: Markup(formula.mathml),
+    )
+    return environment
+
+
+def blocks(results: Iterable[Result | Section]) -> list[tuple[str, object]]:
+    """(macro, item) for each result; scalars and matrices that stand together are one block."""
+    found: list[tuple[str, object]] = []
+    for item in results:
+        name = MACROS[type(item)]
+        if name in ("scalars", "matrix"):
+            if found and found[-1][0] == name:
+                found[-1][1].append(item)  # type: ignore[attr-defined]  # a list, made below
+            else:
+                found.append((name, [item]))
+        else:
+            found.append((name, item))
+    return found
+
+
+@dataclass(frozen=True)
+class Links:
+    """Text with links: names of preprints to their place, ids of entries ("E1 · ...") to where they stand."""
+
+    entries: Mapping[str, str]
+
+    def cell(self, value: Cell) -> Markup:
+        """A cell of a table."""
+        if isinstance(value, Formula):
+            return Markup(value.mathml)  # made by assur.report.formulas, which escapes
+        if value is None:
+            return Markup('<span class="none">–</span>')
+        if isinstance(value, str) and _SIGNS.fullmatch(value):
+            return Markup(f"<code>{value}</code>")  # signs only
+        return self.cited(numbers.short(value) if isinstance(value, float) else value)
+
+    def cited(self, text: str) -> Markup:
+        """Escaped text with its links."""
+        linked = _ARXIV.sub(r'<a href="https://arxiv.org/abs/\1">arXiv:\1</a>', escape(text))
+        return Markup(_ENTRY.sub(self._entry, linked))  # escaped here
+
+    def captioned(self, text: str) -> Markup:
+        """A caption with its links, what stands between dollar signs as mathematics."""
+        parts = re.split(r"\$([^$]+)\$", text)
+        shown = [
+            self.cited(part) if place % 2 == 0 else Markup(inline(latex_mathml(part), part))
+            for place, part in enumerate(parts)
+        ]
+        return Markup("").join(shown)
+
+    def _entry(self, found: re.Match[str]) -> str:
+        anchor = self.entries.get(found[0])
+        return f'<a href="#{anchor}">{found[0]}</a>' if anchor else found[0]
+
+
+def _entries(sections: Iterable[Section]) -> Iterator[tuple[str, str]]:
+    """(id, anchor) of every entry whose title begins with an id and a dot."""
+    for section in sections:
+        for item in section.results:
+            if isinstance(item, Facts) and SEPARATOR in item.title:
+                yield item.title.partition(SEPARATOR)[0], slug(item.title)
+        yield from _entries(item for item in section.results if isinstance(item, Section))
+
+
+def slug(text: str) -> str:
+    """An anchor: letters and digits, lower case.
+
+    >>> slug("E1 · Eq. (9)")
+    'e1-eq-9'
+    """
+    return "-".join(re.findall(r"[^\W_]+", text.lower()))
+
+
+def scalar_text(item: Scalar) -> str:
+    """Value of a scalar, to the second digit of its error."""
+    if item.value is None:
+        return numbers.NOTHING
+    return _parts(item)[0]
+
+
+def error_text(item: Scalar) -> str:
+    """Error of a scalar, empty where there is none."""
+    return "" if item.value is None else _parts(item)[2]
+
+
+def _parts(item: Scalar) -> tuple[str, str, str]:
+    return numbers.with_error(item.value or 0.0, item.error or 0.0).partition(" ± ")
+
+
+def numeric_columns(table: Table) -> list[bool]:
+    """Which columns hold numbers only, and stand right-aligned."""
+    columns = zip(*table.rows, strict=True)
+    return [all(_is_number(value) for value in column) and any(column) for column in columns]
+
+
+def _is_number(value: Cell) -> bool:
+    return value is None or isinstance(value, float) or (isinstance(value, str) and bool(_NUMBER.fullmatch(value)))
+
+
+def filtered(table: Table) -> list[str]:
+    """The marks by which a long table can be filtered."""
+    marks = list(dict.fromkeys(mark for mark in table.marks if mark))
+    return marks if len(table.rows) >= FILTERED and len(marks) > 1 else []
+
+
+def field_facts(field: Field) -> Facts:
+    """What can be said of a field in words."""
+    there = field.values[np.isfinite(field.values)]
+    axes = [(name, f"{_span(values)}, {len(values)} values") for name, values in field.axes]
+    size = f"{_span(there)} {numbers.shown_unit(field.unit)}".strip() if there.size else "exists nowhere"
+    share = f"{100 * there.size / max(1, field.values.size):.1f} % of the grid"
+    return Facts(field.name, (*axes, ("values", size), ("exists at", share)))
+
+
+def surface_facts(surface: Surface) -> Facts:
+    """What can be said of a surface in words."""
+    unit = numbers.shown_unit(surface.unit)
+    spans = [
+        (name, f"{_span(surface.vertices[:, k])} {unit}".strip())
+        for k, name in enumerate("xyz"[: surface.vertices.shape[1]])
+        if len(surface.vertices)
+    ]
+    mesh = f"{len(surface.vertices)} vertices, {len(surface.faces)} faces"
+    return Facts(surface.name, (("mesh", mesh), *spans))
+
+
+def _span(values: np.ndarray) -> str:
+    return f"{numbers.short(float(np.min(values)), 5)} to {numbers.short(float(np.max(values)), 5)}"
+
+
+def _base64(data: bytes) -> str:
+    return base64.b64encode(data).decode("ascii")
+
+
+def _paragraphs(text: str) -> Sequence[str]:
+    return [part for part in text.split("\n\n") if part]

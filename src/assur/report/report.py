@@ -1,0 +1,110 @@
+"""The report of a mechanism: its sections in the order of a paper, as one self-contained HTML file."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+from collections.abc import Callable
+from pathlib import Path
+
+import assur
+from assur.errors import UsageError
+from assur.model.mechanism import MechanismRecord
+from assur.report.findings import Findings
+from assur.report.render import Page, page_html
+from assur.report.sections.auditing import auditing
+from assur.report.sections.basis import basis
+from assur.report.sections.description import description
+from assur.report.sections.performance import performance
+from assur.report.sections.position import position
+from assur.report.sections.provenance import provenance
+from assur.report.sections.reach import reach
+from assur.report.sections.singularities import singularities
+from assur.report.sections.summary import summary
+from assur.report.sections.topology import topology
+from assur.report.sections.velocity import velocity
+from assur.results.files import write_whole
+from assur.results.kinds import Section
+from assur.workspace.region import RESOLUTION
+
+Progress = Callable[[int, int], None]
+"""Called with (steps done, steps in all)."""
+
+SECTIONS: tuple[tuple[str, Callable[[Findings], Section]], ...] = (
+    ("In brief", summary),
+    ("The mechanism", description),
+    ("Structure and topology", topology),
+    ("Position", position),
+    ("Velocity", velocity),
+    ("Singularities", singularities),
+    ("Workspace", reach),
+    ("Dexterity", performance),
+    ("Audit of the source", auditing),
+    ("How the numbers are known", basis),
+    ("Sources and versions", provenance),
+)
+"""In the order of a paper; adding one is one line."""
+
+
+ANALYSES = ("audit", "workspace", "examples")
+"""What takes long, and is made before the sections that share it."""
+
+
+def report_html(
+    record: MechanismRecord,
+    *,
+    progress: Progress | None = None,
+    figures: bool = True,
+    resolution: int = RESOLUTION,
+) -> str:
+    """The report as one HTML page without any outside resource, the same bytes for the same mechanism.
+
+    Args:
+        record: the mechanism; one without closed form or reference data is told so where they are missing.
+        progress: called with (steps done, steps in all).
+        figures: whether figures are drawn into it.
+        resolution: cells of the workspace along each coordinate.
+
+    Example:
+        >>> from assur.model.registry import load_record
+        >>> text = report_html(load_record("fivebar"), figures=False, resolution=16)
+        >>> text.startswith("<!DOCTYPE html>"), "http://" in text
+        (True, False)
+    """
+    return page_html(report_page(Findings(record, resolution, figures), progress))
+
+
+def report_page(findings: Findings, progress: Progress | None = None) -> Page:
+    """The report as sections of results, before it is rendered."""
+    tick = _ticker(len(ANALYSES) + len(SECTIONS), progress)
+    for analysis in ANALYSES:
+        with contextlib.suppress(UsageError):  # the sections that need it say why
+            getattr(findings, analysis)
+        tick()
+    sections = []
+    for title, make in SECTIONS:
+        sections.append(_section(title, make, findings))
+        tick()
+    record = findings.record
+    return Page(record.title, f"assur {assur.__version__} · {record.name}", record.source, tuple(sections))
+
+
+def write_report(
+    record: MechanismRecord, path: str | Path, progress: Progress | None = None, *, figures: bool = True
+) -> Path:
+    """Write the report; the file is there whole or, with an `OutputError`, what was there before still is."""
+    return write_whole(path, report_html(record, progress=progress, figures=figures))
+
+
+def _ticker(total: int, progress: Progress | None) -> Callable[[], None]:
+    """A function that reports one more step done."""
+    steps = itertools.count(1)
+    return (lambda: progress(next(steps), total)) if progress else (lambda: None)
+
+
+def _section(title: str, make: Callable[[Findings], Section], findings: Findings) -> Section:
+    """A section, or the reason why it does not apply to this mechanism."""
+    try:
+        return make(findings)
+    except UsageError as error:
+        return Section(title, absent=f"This section does not apply: {error.message}.")

@@ -1,0 +1,64 @@
+"""The basis: how each number is known, and the conventions."""
+
+from __future__ import annotations
+
+from assur.figures import left_out
+from assur.kinematics.closure import CLOSED, RANK_GAP, characteristic_length
+from assur.kinematics.status import FACTOR_TOLERANCE, MARGIN_TOLERANCE, NEAR_SINGULAR, Status
+from assur.model.mechanism import MechanismRecord
+from assur.report.findings import Findings
+from assur.report.numbers import short
+from assur.results.kinds import Facts, Result, Section, Table
+
+FREEDOMS = ("degrees of freedom", "rank of the closure of all loops", "the source’s formula, where it prints one")
+CLOSED_FORM = (
+    ("poses and inputs", "closed form, every branch", "closure of the whole joint graph, residual listed"),
+    ("velocity", "Jp v = Jq q̇ of the closed form", "determinants as products of factors; differences, in the tests"),
+    ("singularities", "factors of the determinants", "rank of the closure of the joint graph"),
+    ("volume, areas", "solids of signed margins, intersected", "the same at half the resolution"),
+    ("global condition index", "quasi-random mean", "spread of eight independent shifts"),
+    ("formulas", "the kernels, read over symbols", "the joint graph, in the tests"),
+)
+AUDITED = (
+    ("POC sets, ξ, Δ, κ", "declared in the reference data", "rank of twists at random configurations (dimensions)"),
+    ("printed values", "recomputed to their last digit", "the constraint that a wrong value breaks"),
+)
+
+
+def basis(found: Findings) -> Section:
+    """Two routes to every number, conventions, tolerances."""
+    routes = [FREEDOMS]
+    routes += CLOSED_FORM if found.record.closed_form else ()
+    routes += AUDITED if found.reference else ()
+    known = Table("Two routes to every number", ("number", "first route", "second route"), tuple(routes))
+    parts: list[Result] = [known, Facts("Conventions", _conventions(found.record)), _tolerances()]
+    missing = left_out(found.record, found.context) if found.illustrated else {}
+    if missing:
+        parts.append(Facts("Figures that this mechanism does not have", tuple(missing.items())))
+    return Section("How the numbers are known", results=parts)
+
+
+def _conventions(record: MechanismRecord) -> tuple[tuple[str, str], ...]:
+    angles = "degrees" if record.angle == "deg" else "rad"
+    length = f"{short(characteristic_length(record))} {record.unit}"
+    statuses = ", ".join(status.name.replace("_", " ") for status in Status)
+    return (
+        ("frames", "right-handed, Z up; all link frames are parallel to the base’s when every joint value is zero"),
+        ("units", f"lengths in {record.unit}, angles in {angles} in this report"),
+        ("inputs", "printed value = sign · joint value + offset, in the order of the file"),
+        ("velocity", "Jp v = Jq q̇; the condition number is that of Jp⁻¹ Jq in the 2-norm"),
+        ("modes", "rows of signs in the order that the file declares; 0 where two branches have merged"),
+        ("residual", f"largest gap over the cut joints; a rotation counts times {length}"),
+        ("status", f"{statuses}: the most severe is reported"),
+    )
+
+
+def _tolerances() -> Table:
+    rows = (
+        ("two branches merge", short(MARGIN_TOLERANCE), "a radicand, of its scale"),
+        ("singular", short(FACTOR_TOLERANCE), "a factor, of its scale"),
+        ("near singular", short(NEAR_SINGULAR), "a factor, of its scale"),
+        ("loops are closed", short(CLOSED), "the residual, of the characteristic length"),
+        ("rank", short(RANK_GAP), "a singular value, of the largest"),
+    )
+    return Table("When a number counts as zero", ("decision", "share", "of what"), rows, folded=True)

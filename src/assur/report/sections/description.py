@@ -1,0 +1,130 @@
+"""The mechanism: what it is made of, its dimensions, its inputs."""
+
+from __future__ import annotations
+
+from assur.errors import UsageError
+from assur.kinematics.answers import angle_at_border
+from assur.model.joint_graph import joint_graph
+from assur.model.mechanism import Input, Joint, MechanismRecord
+from assur.report.findings import Findings
+from assur.report.formulas.latex import latex_mathml, name_mathml
+from assur.report.formulas.mathml import inline
+from assur.report.numbers import count, short, shown_unit
+from assur.results.kinds import Formula, Result, Scalar, Section, Table
+
+
+def description(found: Findings) -> Section:
+    """Facts, dimensions, inputs, links and joints."""
+    record = found.record
+    results: list[Result] = [*_counts(found), *found.picture("solid"), _parameters(record), _inputs(record)]
+    results += [_joints(found), _links(record)]
+    return Section("The mechanism", _text(found), results)
+
+
+def _text(found: Findings) -> str:
+    record = found.record
+    pose = ", ".join(record.platform.pose)
+    constant = " Its orientation is expected to stay as it is." if record.platform.orientation == "constant" else ""
+    changed = ", ".join(f"{name} = {short(value)}" for name, value in record.overrides.items())
+    numbered = (
+        " Figures carry the numbers of the source." if found.illustrated and found.context.companion.numbers else ""
+    )
+    overrides = f"\n\nDimensions other than the file's are used in this report: {changed}." if changed else ""
+    return (
+        f"{record.title}. Source: {record.source or 'none stated'}.\n\n"
+        f"The platform is the link “{record.platform.link}”; its pose is ({pose}).{constant} Lengths are in "
+        f"{shown_unit(record.unit)}, angles in {'degrees' if record.angle == 'deg' else 'rad'}. "
+        "The joint graph below is the only geometric truth: loop closure, rank and mobility come from it, and every "
+        f"closed form in this report is a claim about it that is checked.{numbered}{overrides}"
+    )
+
+
+def _counts(found: Findings) -> list[Scalar]:
+    record = found.record
+    graph = joint_graph(record)
+    types: dict[str, int] = {}
+    for joint in record.joints.values():
+        types[joint.type.name] = types.get(joint.type.name, 0) + 1
+    kinds = ", ".join(f"{number} {name}" for name, number in types.items())
+    return [
+        Scalar("links", float(len(record.links)), "", "base included"),
+        Scalar("joints", float(len(record.joints)), "", kinds),
+        Scalar("independent loops", float(len(graph.cut)), "", "joints − links + 1"),
+        Scalar(
+            "actuated joints",
+            float(len(record.inputs)),
+            "",
+            ", ".join(i.coordinate.joint for i in record.inputs),
+        ),
+    ]
+
+
+def _parameters(record: MechanismRecord) -> Table:
+    rows = []
+    for item in record.parameters.values():
+        notes = ["set for this report"] if item.name in record.overrides else []
+        notes += ["drawn only"] if item.drawn_only else []
+        meaning = f"{item.meaning} ({', '.join(notes)})" if notes else item.meaning
+        rows.append((_name(item.name), short(item.value, 12), shown_unit(item.unit), meaning))
+    return Table("Dimensions", ("symbol", "value", "unit", "meaning"), tuple(rows))
+
+
+def _inputs(record: MechanismRecord) -> Table:
+    rows = []
+    for item in record.inputs:
+        unit = record.angle if item.coordinate.kind == "angle" else shown_unit(record.unit)
+        symbol = Formula(inline(latex_mathml(item.latex), item.name)) if item.latex else _name(item.name)
+        joint = record.joints[item.coordinate.joint]
+        rows.append((symbol, record.coordinate_label(item.coordinate), joint.type.name, unit, _stroke(record, item)))
+    return Table("Inputs", ("symbol", "joint", "type", "unit", "stroke"), tuple(rows))
+
+
+def _stroke(record: MechanismRecord, item: Input) -> str:
+    if item.stroke is None:
+        return "none stated"
+    low, high = (angle_at_border(record, end) if item.coordinate.kind == "angle" else end for end in item.stroke)
+    return f"{short(float(low))} to {short(float(high))}"
+
+
+def _joints(found: Findings) -> Table:
+    record = found.record
+    values = _home_texts(found)
+    columns = ("joint", "also", "type", "parent", "child", "axis at value zero", *(("home",) if values else ()))
+    rows = tuple(
+        (joint.name, joint.alias, joint.type.name, joint.parent, joint.child, _axis(joint), *values.get(joint.name, ()))
+        for joint in record.joints.values()
+    )
+    units = f"{shown_unit(record.unit)} and {'degrees' if record.angle == 'deg' else 'rad'}"
+    caption = f"Home: joint values of the assembled home configuration, in {units}." if values else ""
+    return Table(f"The {count(len(rows), 'joint')}", columns, rows, caption, folded=True)
+
+
+def _home_texts(found: Findings) -> dict[str, tuple[str, ...]]:
+    """Joint values of home by joint, none where the loops do not close with these dimensions."""
+    try:
+        home = found.home
+    except UsageError:
+        return {}
+    record = found.record
+    texts: dict[str, tuple[str, ...]] = {}
+    for name in record.joints:
+        parts = []
+        for item in record.joint_coordinates(name):
+            angle = item.kind == "angle"
+            value = angle_at_border(record, home[item.index]) if angle else home[item.index]
+            parts.append(found.style.written(float(value), angle=angle))
+        texts[name] = ("; ".join(parts),)
+    return texts
+
+
+def _axis(joint: Joint) -> str:
+    return "; ".join(f"({', '.join(short(float(part) + 0.0, 4) for part in axis)})" for axis in joint.axes)
+
+
+def _links(record: MechanismRecord) -> Table:
+    rows = tuple((link.name, link.meaning) for link in record.links.values())
+    return Table(f"The {count(len(rows), 'link')}", ("link", "what it is"), rows, folded=True)
+
+
+def _name(name: str) -> Formula:
+    return Formula(inline(name_mathml(name), name))

@@ -1,0 +1,67 @@
+"""Dexterity: how evenly the inputs move the platform, here and over the workspace."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assur.performance.dexterity import dexterity
+from assur.report.findings import Findings
+from assur.report.numbers import input_angles, pose_angles, short
+from assur.results.kinds import Scalar, Section, Table
+
+COUNT = 4096
+SEED = 5
+SHARES = (0, 10, 25, 50, 75, 90, 100)
+
+
+def performance(found: Findings) -> Section:
+    """Local condition index, its mean over the workspace, velocity factors."""
+    record, solution = found.record, found.solution
+    here = dexterity(record, solution.pose, solution.working_mode)
+    index = found.global_index
+    said = (
+        "The local condition index is 1/cond(J) in the 2-norm with J = Jp⁻¹ Jq, between 0 (singular) and 1 "
+        "(isotropic); the velocity factors are the singular values of J: by how much the inputs’ speed is multiplied "
+        "in the fastest and in the slowest direction. The global index is the mean over the workspace."
+    )
+    if any(pose_angles(record)) or len({*pose_angles(record), *input_angles(record)}) > 1:
+        said += " Lengths and angles are mixed here, so these numbers depend on the unit of length."
+    factors = here.velocity_factors
+    left_out = f"; {index.singular} left out as singular" if index.singular else ""
+    known = f"{index.points} quasi-random points, error by eight independent shifts{left_out}"
+    scalars = [
+        Scalar(
+            "local condition index here",
+            _number(here.condition_index),
+            "",
+            "in the configuration of this report",
+        ),
+        Scalar("fastest direction", _number(factors[0]), "", "largest velocity factor"),
+        Scalar("slowest direction", _number(factors[-1]), "", "smallest velocity factor"),
+        Scalar("global condition index", index.value, "", known, index.error),
+    ]
+    return Section("Dexterity", said, [*scalars, *found.picture("dexterity"), *_spread(found)])
+
+
+def _spread(found: Findings) -> list[Table]:
+    """Quantiles of the local condition index over the workspace."""
+    region = found.workspace
+    poses = region.interior(COUNT, np.random.default_rng(SEED))
+    values = dexterity(found.record, poses, region.mode)
+    if not np.any(values.defined):
+        return []
+    quantiles = np.percentile(values.condition_index[values.defined], SHARES)
+    columns = tuple("least" if share == 0 else "greatest" if share == 100 else f"{share} %" for share in SHARES)
+    caption = f"Quantiles over {int(np.sum(values.defined))} poses spread evenly over the workspace."
+    return [
+        Table(
+            "Local condition index over the workspace",
+            columns,
+            (tuple(short(float(v), 3) for v in quantiles),),
+            caption,
+        )
+    ]
+
+
+def _number(value: float | np.floating | np.ndarray) -> float | None:
+    return float(value) if np.isfinite(value) else None

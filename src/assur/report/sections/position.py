@@ -1,0 +1,239 @@
+"""Position: the closed form written down, every solution, and the source's tables beside them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from assur.kinematics.answers import inputs_at_border, pose_at_border, power
+from assur.kinematics.modes import Problem
+from assur.kinematics.solution import Solution
+from assur.kinematics.solutions import SolutionSet
+from assur.kinematics.status import Status
+from assur.model.closed_form import Margin, SelfMotion
+from assur.model.mechanism import MechanismRecord
+from assur.report.findings import Findings
+from assur.report.formulas.latex import GREEK, latex_mathml, name_mathml
+from assur.report.formulas.mathml import equation, inline, letter_mathml, term_mathml
+from assur.report.formulas.normal import text
+from assur.report.formulas.reading import Line
+from assur.report.numbers import Style, count, input_angles, pose_angles, short, shown_unit
+from assur.report.sections.printed import solutions_beside
+from assur.results.kinds import Formula, Formulas, Result, Section, Table
+
+
+def position(found: Findings) -> Section:
+    """Modes, the direct problem, the inverse problem, and what makes the answers complete."""
+    form = found.form
+    introduction = (
+        "The formulas below are not written down by hand: they are what the closed form of this mechanism computes, "
+        "read over symbols line by line, in the letters of the source. The same lines, read over floating-point "
+        "numbers, give every number in this report. Numbers in brackets are the source's equations."
+    )
+    parts: list[Result | Section] = [*found.picture("model", "planes"), _modes(found.record)]
+    parts += [_direct(found), _inverse(found)]
+    if form.self_motion is not None:
+        parts.append(_self_motion(found, form.self_motion))
+    parts.append(Section("Completeness", completeness(found)))
+    return Section("Position", introduction, parts)
+
+
+def completeness(found: Findings) -> str:
+    """For which model the answers are complete, and by what right."""
+    form = found.form
+    worst = max(_residual(found.direct), _residual(found.inverse))
+    closes = (
+        f"Each solution closes every loop of the joint graph; the largest gap among those listed here is "
+        f"{short(worst, 2)} {found.record.unit}."
+    )
+    if form.complete_for == "joint_graph":
+        return f"The lists are complete for the joint graph itself, by right of the closed form. {closes}"
+    because = f" ({form.reduced_because})" if form.reduced_because else ""
+    return (
+        f"The lists are complete for the reduced model of the source, by right of the closed form: each branch is one "
+        f"choice of signs, and there are no others. The joint graph has further assemblies{because}; these are not "
+        f"listed. {closes}"
+    )
+
+
+def _residual(answer: SolutionSet) -> float:
+    return max((item.residual for item in answer), default=0.0)
+
+
+def _modes(record: MechanismRecord) -> Table:
+    defaults = record.modes.default_working, record.modes.default_assembly
+    rows = []
+    for what, signs, default in zip(
+        ("working", "assembly"), (record.modes.working, record.modes.assembly), defaults, strict=True
+    ):
+        for place, (name, formula) in enumerate(signs.items()):
+            rows.append((what, _symbol(name), formula.text, default[place : place + 1] or None))
+    caption = (
+        "A branch is named by the signs of these quantities of the joint graph, in this order: working modes are those "
+        "of the inverse problem, assembly modes those of the direct problem."
+    )
+    return Table("Names of modes", ("mode", "sign", "of the quantity", "default"), tuple(rows), caption)
+
+
+def _direct(found: Findings) -> Section:
+    style, record = found.style, found.record
+    given = ", ".join(
+        f"{item.name} = {style.written(value, angle=angle)}"
+        for item, value, angle in zip(
+            record.inputs, inputs_at_border(record, found.inputs), input_angles(record), strict=True
+        )
+    )
+    table = found.table("direct")
+    origin = f"those of {table.source}" if table else "those of the assembled home configuration"
+    said = (
+        f"Poses from inputs. At the inputs {given} ({origin}) there are {count(len(found.direct), 'real solution')} "
+        f"among {count(len(found.direct.modes_asked), 'branch')}."
+    )
+    results: list[Result] = [*found.picture("flow"), *_formulas(found, "direct"), _solutions(found, "direct")]
+    return Section("Direct problem", said, [*results, *_beside(found, "direct"), *found.picture("solutions")])
+
+
+def _inverse(found: Findings) -> Section:
+    style, record = found.style, found.record
+    given = ", ".join(
+        f"{name} = {style.written(value, angle=angle)}"
+        for name, value, angle in zip(
+            record.platform.pose, pose_at_border(record, found.pose), pose_angles(record), strict=True
+        )
+    )
+    said = (
+        f"Inputs from a pose. At the pose {given} there are {count(len(found.inverse), 'real solution')} among "
+        f"{count(len(found.inverse.modes_asked), 'branch')}."
+    )
+    results = [*_formulas(found, "inverse"), _solutions(found, "inverse")]
+    return Section("Inverse problem", said, [*results, *_beside(found, "inverse")])
+
+
+def _self_motion(found: Findings, motion: SelfMotion) -> Section:
+    margin = next(item for item in found.form.direct_margins if item.name == motion.margin)
+    angle = GREEK.get(motion.parameter, motion.parameter)
+    said = (
+        f"Where {margin.name} = 0 ({margin.meaning}) the inputs do not fix the platform: it moves on a curve while "
+        "every input stands still. Such an answer is the description of that curve, run along by the angle "
+        f"{angle}; it is never one sample of it."
+    )
+    return Section("Self-motion", said)
+
+
+def _formulas(found: Findings, problem: Problem) -> list[Result]:
+    read = found.formulas(problem)
+    said: set[str] = set()
+    lines = []
+    for line in read.lines:
+        written = equation(letter_mathml(line.letter), term_mathml(line.term), f"{_name(line)} = {text(line.term)}")
+        new = line.letter.name not in said  # cosine and sine of an angle mean the same
+        lines.append(Formula(written, line.equation if new else "", line.meaning if new else ""))
+        said.add(line.letter.name)
+    title = f"Closed form of the {problem} problem"
+    caption = "From the given numbers to the results and to every joint’s value, in the order of computation."
+    found_formulas: list[Result] = [Formulas(title, tuple(lines), caption)]
+    if read.named:
+        found_formulas.append(_named(found, problem, read.named))
+    return [*found_formulas, _margins(found, problem)]
+
+
+def _name(line: Line) -> str:
+    return f"{line.letter.function} {line.letter.name}".strip()
+
+
+def _named(found: Findings, problem: Problem, lines: Sequence[Line]) -> Table:
+    """Quantities of the source beside those of the lines, with their values in the configuration."""
+    solution = found.solution
+    kinds = {item.name: item for item in found.form.quantity_list}
+    rows = []
+    for line in lines:
+        item = kinds[line.letter.name]
+        value = solution.quantities[item.name] if not line.letter.function else None
+        unit = shown_unit(power(found.record.unit, {"length": 1, "area": 2, "volume": 3}.get(item.kind, 0)))
+        formula = Formula(inline(term_mathml(line.term), text(line.term)))
+        rows.append(
+            (
+                Formula(inline(letter_mathml(line.letter), _name(line))),
+                formula,
+                line.equation,
+                short(value, 8),
+                unit,
+            )
+        )
+    columns = ("quantity", "formula", "equation", "value", "unit")
+    caption = "Values in the configuration that this report is about (see the solutions)."
+    return Table(f"Also named by the source, {problem} problem", columns, tuple(rows), caption, folded=True)
+
+
+def _margins(found: Findings, problem: Problem) -> Table:
+    form, read = found.form, found.formulas(problem)
+    margins = form.direct_margins if problem == "direct" else form.inverse_margins
+    rows = tuple(
+        (item.name, _condition(item, term_mathml(read.margins[item.name])), _zero(item), item.meaning)
+        for item in margins
+    )
+    columns = ("margin", "must be", "where it is zero", "where it fails")
+    return Table(f"When a branch of the {problem} problem exists", columns, rows, folded=True)
+
+
+def _condition(margin: Margin, formula: str) -> Formula:
+    written = latex_mathml(margin.latex) if margin.latex else formula
+    relation, zero = ("≥", "not negative") if margin.zero == "merge" else ("≠", "not zero")
+    return Formula(inline(f"{written}<mo>{relation}</mo><mn>0</mn>", f"{margin.name} {zero}"))
+
+
+def _zero(margin: Margin) -> str:
+    return "two branches merge" if margin.zero == "merge" else "the formulas degenerate"
+
+
+def _solutions(found: Findings, problem: Problem) -> Table:
+    """Every real solution: its mode, values, the other mode, status and the gap that is left."""
+    record, style = found.record, found.style
+    direct = problem == "direct"
+    answer = found.direct if direct else found.inverse
+    names = record.platform.pose if direct else tuple(item.name for item in record.inputs)
+    angles = pose_angles(record) if direct else input_angles(record)
+    other = "working mode" if direct else "assembly mode"
+    rows = tuple(
+        (
+            item.mode,
+            *_values(record, style, item, angles, direct=direct),
+            item.working_mode if direct else item.assembly_mode,
+            item.status.name.replace("_", " "),
+            short(item.residual, 2),
+        )
+        for item in answer
+    )
+    titles = tuple(style.title(name, angle=angle) for name, angle in zip(names, angles, strict=True))
+    columns = ("mode", *titles, other, "status", style.title("gap", angle=False))
+    caption = (
+        "All real solutions. The gap is the largest that remains over the cut joints of the whole joint graph, "
+        "orientation errors times its characteristic length included. A sign written 0 has merged."
+    )
+    marks = tuple("" if item.status <= Status.near_singular else "singular" for item in answer)
+    return Table(f"Solutions of the {problem} problem", columns, rows, caption, marks)
+
+
+def _values(
+    record: MechanismRecord, style: Style, item: Solution, angles: Sequence[bool], *, direct: bool
+) -> tuple[str, ...]:
+    values = pose_at_border(record, item.pose) if direct else inputs_at_border(record, item.inputs)
+    return tuple(style.written(float(value), angle=angle) for value, angle in zip(values, angles, strict=True))
+
+
+def _beside(found: Findings, problem: Problem) -> list[Result | Section]:
+    """The source's tables beside these solutions, or why there are none."""
+    rows = found.rows(problem)
+    entries = found.reference.entries[problem] if found.reference else ()
+    if not entries:
+        return [Section("Beside the source", absent=_nothing_beside(found, problem))]
+    return [solutions_beside(found, entry, rows) for entry in entries]
+
+
+def _nothing_beside(found: Findings, problem: Problem) -> str:
+    if found.unaudited:
+        return f"No table of {problem} solutions to compare with: {found.unaudited}."
+    return f"There is no {found.given} table of {problem} solutions to compare with."
+
+
+def _symbol(name: str) -> Formula:
+    return Formula(inline(name_mathml(name), name))

@@ -1,0 +1,117 @@
+"""Singularities: every factor with its meaning, an example of each, and what the rank of the joint graph says."""
+
+from __future__ import annotations
+
+from assur.kinematics.answers import inputs_at_border, pose_at_border, power
+from assur.kinematics.closure import mobility
+from assur.model.closed_form import Factor
+from assur.report.findings import Findings
+from assur.report.formulas.latex import latex_mathml, name_mathml
+from assur.report.formulas.mathml import inline
+from assur.report.numbers import input_angles, pose_angles, short, shown_unit
+from assur.results.kinds import Cell, Formula, Result, Section, Table
+from assur.singularity.verdict import generic_rank
+
+KINDS = {
+    "parallel": "parallel: det Jp",
+    "serial": "serial: det Jq",
+    "other": "neither determinant",
+}
+
+
+def singularities(found: Findings) -> Section:
+    """The table of factors, the groups that matter together, and example configurations."""
+    said = (
+        "A configuration is singular where a factor of a determinant vanishes: serial where det Jq = 0 (the platform "
+        "loses a freedom), parallel where det Jp = 0 (it gains one while the inputs are locked), comprehensive where "
+        "both are zero. The rank of the closure of the whole joint graph is a second opinion that knows nothing of the "
+        "closed form: where it drops, the configuration is a constraint singularity."
+    )
+    parts: list[Result] = [
+        _factors(found),
+        *_groups(found),
+        *found.picture("serial", "parallel", "singular"),
+        _examples(found),
+    ]
+    return Section("Singularities", said, parts)
+
+
+def _factors(found: Findings) -> Table:
+    rows = tuple(
+        (
+            written(item),
+            KINDS[item.kind],
+            item.meaning,
+            item.equation,
+            short(found.solution.factors[item.name], 6),
+            shown_unit(power(found.record.unit, item.unit)),
+        )
+        for item in found.form.factor_list
+    )
+    columns = ("factor", "divides", "zero where", "source", "value here", "unit")
+    caption = "All factors of both determinants; “value here” is in the configuration of this report."
+    return Table("Factors and their geometric meaning", columns, rows, caption)
+
+
+def _groups(found: Findings) -> list[Table]:
+    form = found.form
+    items = {item.name: item for item in form.factor_list}
+    rows = [
+        (_together([items[name] for name in group]), what, meaning)
+        for groups, what, meaning in (
+            (
+                form.self_motion_singular,
+                "self-motion",
+                "the platform moves on a curve with every input locked",
+            ),
+            (form.constraint_singular, "constraint", "the closure of the whole joint graph loses rank"),
+        )
+        for group in groups
+    ]
+    columns = ("where", "kind", "what happens")
+    return [Table("What a singularity is beyond the determinants", columns, tuple(rows))] if rows else []
+
+
+def _together(factors: list[Factor]) -> Formula:
+    content = "<mo>=</mo>".join(_mathml(item) for item in factors)
+    return Formula(inline(f"{content}<mo>=</mo><mn>0</mn>", " = ".join(item.name for item in factors) + " = 0"))
+
+
+def _examples(found: Findings) -> Table:
+    """One example for every factor that has one, with the rank of the joint graph there."""
+    record, style = found.record, found.style
+    general = generic_rank(record)
+    rows: list[tuple[Cell, ...]] = []
+    for example in found.examples:
+        free = mobility(record, example.joints)
+        values = [
+            style.written(float(value), angle=angle)
+            for value, angle in (
+                *zip(pose_at_border(record, example.pose), pose_angles(record), strict=True),
+                *zip(inputs_at_border(record, example.inputs), input_angles(record), strict=True),
+            )
+        ]
+        rank = f"{int(free.rank)} of {general}"
+        rows.append((written(example.factor), example.status.name.replace("_", " "), example.mode, *values, rank))
+    names = [*zip(record.platform.pose, pose_angles(record), strict=True)]
+    names += [(item.name, angle) for item, angle in zip(record.inputs, input_angles(record), strict=True)]
+    titles = (style.title(name, angle=angle) for name, angle in names)
+    columns = ("vanishing factor", "kind", "mode", *titles, "rank of closure")
+    caption = (
+        "Found by following a factor to its zero, not written down; the kind is the most severe of what all factors "
+        f"say there. A rank below {general} is a constraint singularity of the joint graph."
+    )
+    without = {item.name for item in found.form.factor_list if item.kind != "other"}
+    without -= {example.factor.name for example in found.examples}
+    if without:
+        caption += f" No example was found for {', '.join(sorted(without))}."
+    return Table("Example configurations", columns, tuple(rows), caption)
+
+
+def written(factor: Factor) -> Formula:
+    """A factor as mathematics."""
+    return Formula(inline(_mathml(factor), factor.name))
+
+
+def _mathml(factor: Factor) -> str:
+    return latex_mathml(factor.latex) if factor.latex else name_mathml(factor.name)

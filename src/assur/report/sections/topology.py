@@ -1,0 +1,120 @@
+"""Structure and topology: chains, loops, freedoms, and the declared numbers of the source beside ranks."""
+
+from __future__ import annotations
+
+from typing import cast
+
+from assur.audit.rows import Row
+from assur.audit.topology import Decomposition
+from assur.kinematics.closure import mobility
+from assur.model.joint_graph import joint_graph
+from assur.model.mechanism import MechanismRecord
+from assur.report.findings import Findings
+from assur.report.formulas.latex import latex_mathml
+from assur.report.formulas.mathml import display
+from assur.report.numbers import count, short
+from assur.report.sections.printed import computed, number, quantity, verdict
+from assur.results.kinds import Formula, Formulas, Result, Scalar, Section, Table
+
+EQUATIONS = (
+    (r"M_b=\bigcup_i M_{J_i}", "POC set of the end link of a branch: the union of those of its joints", ""),
+    (r"M_{Pa}=\bigcap_i M_{b_i}", "POC set of the platform: what all branches have in common", ""),
+    (
+        r"F=\sum_i f_i-\sum_j\xi_{L_j}",
+        "degrees of freedom: freedoms of the joints less loop equations",
+        "freedom",
+    ),
+    (
+        r"\xi_{L_j}=\dim\{(\bigcap_{i=1}^{j}M_{b_i})\cup M_{b_{j+1}}\}",
+        "independent equations of loop j",
+        "xi",
+    ),
+    (
+        r"\Delta_j=\sum_i f_i-I_j-\xi_{L_j}",
+        "constraint degree of the j-th single open chain, with I inputs",
+        "delta",
+    ),
+    (r"\kappa=\frac{1}{2}\min\sum_j|\Delta_j|", "coupling degree of an Assur kinematic chain", "kappa"),
+)
+"""The method of POC sets: formula, what it says, and what a decomposition calls the number."""
+
+
+def topology(found: Findings) -> Section:
+    """What is counted on the joint graph, and what the source prints."""
+    results: list[Result | Section] = [*found.picture("structure")]
+    results += [_chains(found.record)] if found.record.chains else []
+    results += [_mobility(found), _declared(found)]
+    return Section("Structure and topology", results=results)
+
+
+def _chains(record: MechanismRecord) -> Table:
+    rows = []
+    for chain in record.chains.values():
+        joints = (
+            " ".join(chain.serial) or f"loop {' '.join(chain.loop)}, output {chain.output}, then {' '.join(chain.tail)}"
+        )
+        rows.append((chain.name, joints, chain.printed))
+    rows += [
+        (item.name, " ".join(item.joints), f"{item.kind}, between {item.parent} and {item.child}")
+        for item in record.generalised.values()
+    ]
+    return Table("Chains and generalised joints", ("name", "joints", "as the source writes it"), tuple(rows))
+
+
+def _mobility(found: Findings) -> Section:
+    record = found.record
+    free = mobility(record, found.home)
+    loops = len(joint_graph(record).cut)
+    gap = (
+        "nothing is dropped"
+        if free.redundant == 0
+        else f"kept over dropped singular values {short(float(free.gap), 2)}"
+    )
+    text = (
+        "Mobility of the whole joint graph, no joints collapsed: the rank of the Jacobian of all loop closures at the "
+        "assembled home configuration, by singular values."
+    )
+    scalars = [
+        Scalar("loop equations", float(6 * loops), "", f"6 for each of {count(loops, 'loop')}"),
+        Scalar("rank", float(free.rank), "", gap),
+        Scalar("degrees of freedom", float(free.freedoms), "", "joint coordinates − rank"),
+        Scalar("redundant constraints", float(free.redundant), "", "loop equations − rank"),
+    ]
+    return Section("Mobility by rank", text, scalars)
+
+
+def _declared(found: Findings) -> Section:
+    title = f"Topology as the {found.giver} states it"
+    rows = (*found.rows("poc"), *found.rows("decomposition"))
+    if not rows:
+        reason = found.unaudited or "the reference data have no topology"
+        return Section(title, absent=f"No declared POC sets, ξ, Δ or κ to compare with: {reason}.")
+    text = (
+        f"The POC sets, loops and degrees of the {found.giver} are a declared table; dimensions are checked by a route "
+        "that knows nothing of POC sets: the rank of joint twists at random assembled configurations. Directions "
+        "inside a POC set are read, not computed. The coupling degree is that of the declared order of loops."
+    )
+    return Section(title, text, [_method(found), _table(found, rows)])
+
+
+def _method(found: Findings) -> Formulas:
+    entries = found.reference.entries["decomposition"] if found.reference else ()
+    where = cast("Decomposition", entries[0]).sources if entries else {}
+    lines = tuple(
+        Formula(display(latex_mathml(latex)), _number(where.get(name, "")), meaning)
+        for latex, meaning, name in EQUATIONS
+    )
+    return Formulas("The method of POC sets", lines)
+
+
+def _number(source: str) -> str:
+    """Number of the equation that an address names, empty where it names none."""
+    return source.removeprefix("Eq. ") if source.startswith("Eq. (") else ""
+
+
+def _table(found: Findings, rows: tuple[Row, ...]) -> Table:
+    columns = ("where", "quantity", found.given, "computed", "verdict", "how it is known")
+    cells = tuple(
+        (row.source, quantity(row), number(row.printed), computed(row), verdict(row), row.note) for row in rows
+    )
+    return Table(f"Topology, {found.given} and computed", columns, cells, marks=tuple(row.verdict for row in rows))

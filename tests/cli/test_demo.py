@@ -1,0 +1,101 @@
+from __future__ import annotations
+
+import pytest
+
+import assur
+from assur.cli.claims import Ledger
+from assur.cli.demonstration import MECHANISM
+
+
+@pytest.fixture
+def short(monkeypatch):
+    """The demonstration without its slow parts."""
+    for name in ("demo_analysis.singularities", "demo_analysis.workspace", "demo_documents.audit"):
+        monkeypatch.setattr(f"assur.cli.{name}", lambda *_: None)
+    for name in ("figures", "report"):
+        monkeypatch.setattr(f"assur.cli.demo_documents.{name}", lambda *_: [])
+
+
+def test_its_mechanism_is_there():
+    assert MECHANISM in assur.names()
+
+
+@pytest.mark.slow
+def test_all_of_it(assur_process, tmp_path):
+    run = assur_process("demo", "-o", str(tmp_path / "out"))
+    assert (run.code, run.err) == (0, "")
+    assert "\N{BALLOT X}" not in run.out
+    assert "\x1b" not in run.out
+    assert max(map(len, run.out.splitlines())) <= 80
+    total = run.out.count("\N{CHECK MARK}")
+    assert f"{total} claims checked, all hold" in run.out
+    for part in ("Topology", "Direct", "Inverse", "Velocity", "Singular", "Workspace", "Audit", "Figures", "Report"):
+        assert f"\n{part}" in run.out
+    assert (tmp_path / "out" / "report.html").is_file()
+    assert len(list((tmp_path / "out" / "figures").glob("*.png"))) >= 9
+
+
+def test_each_claim_is_in_the_json_with_what_was_found(assur_cli, short, tmp_path):
+    run = assur_cli("demo", "-o", str(tmp_path), "--json")
+    assert (run.code, run.err) == (0, "")
+    assert run.json.keys() == {"mechanism", "claims", "failed", "files", "seconds"}
+    assert all(claim.keys() == {"section", "claim", "holds", "found"} for claim in run.json["claims"])
+    assert len(run.json["claims"]) >= 8
+    assert run.json["failed"] == 0
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "words"),
+    [
+        ("assur.cli.demo_position.BACK", 0.0, "gives the inputs back"),
+        ("assur.kinematics.closure.CLOSED", 0.0, "closes every loop"),
+        ("assur.cli.demo_analysis.ROUNDING", -1.0, "derivative of the inverse problem"),
+    ],
+)
+def test_a_claim_that_fails_exits_1_and_is_named(assur_cli, short, tmp_path, monkeypatch, name, value, words):
+    monkeypatch.setattr(name, value)
+    run = assur_cli("demo", "-o", str(tmp_path))
+    assert run.code == 1
+    assert "\N{BALLOT X}" in run.out
+    assert " FAIL; " in run.out
+    assert words in " ".join(run.out.rpartition(" FAIL; ")[2].split())
+    data = assur_cli("demo", "-o", str(tmp_path), "--json")
+    assert (data.code, data.json["failed"] > 0) == (1, True)
+
+
+def test_a_wrong_jacobian_is_found(assur_cli, short, tmp_path, monkeypatch):
+    from assur.kinematics.velocity import VelocityMap, velocity_map
+
+    def wrong(record, poses, mode=None):
+        here = velocity_map(record, poses, mode)
+        return VelocityMap(here.jp * 1.00001, here.jq, here.singular_output, here.singular_input)
+
+    monkeypatch.setattr("assur.kinematics.velocity.velocity_map", wrong)
+    run = assur_cli("demo", "-o", str(tmp_path), "--json")
+    failed = {claim["claim"] for claim in run.json["claims"] if not claim["holds"]}
+    assert run.code == 1
+    assert "Jq^-1 Jp is the derivative of the inverse problem" in failed
+
+
+def test_a_folder_that_cannot_be_made_is_refused_before_the_work(assur_cli, tmp_path):
+    path = tmp_path / "file"
+    path.write_text("old")
+    run = assur_cli("demo", "-o", str(path))
+    assert (run.code, run.out) == (2, "")
+    assert path.read_text() == "old"
+
+
+def test_a_silent_ledger_prints_nothing(capsys):
+    ledger = Ledger(silent=True)
+    ledger.section("a")
+    ledger.show(["b"])
+    ledger.claim("c", False, "d")
+    assert capsys.readouterr().out == ""
+    assert (ledger.failed, ledger.claims[0].section) == (1, "a")
+
+
+def test_marks_are_words_where_the_output_has_no_signs(assur_process, tmp_path):
+    import os
+
+    run = assur_process("doctor", env={**os.environ, "PYTHONIOENCODING": "ascii"})
+    assert run.code == 0

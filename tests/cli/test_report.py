@@ -1,0 +1,31 @@
+from __future__ import annotations
+
+import pytest
+
+from assur.cli.self_contained import outside_needs
+
+
+def test_one_file_that_needs_nothing_else(assur_cli, tmp_path):
+    path = tmp_path / "r.html"
+    run = assur_cli("report", "fivebar", "-o", str(path), "--json")
+    assert (run.code, run.err) == (0, "")
+    assert run.json == {"mechanism": "fivebar", "file": str(path), "bytes": path.stat().st_size}
+    text = path.read_text()
+    assert "fivebar" in text
+    assert outside_needs(text) == []
+    assert [item.name for item in tmp_path.iterdir()] == ["r.html"]
+
+
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [
+        ("r.txt", "its ending is none of .html, .htm\nhint: rename it"),
+        ("nowhere/r.html", "the folder {folder}/nowhere does not exist\nhint: mkdir -p {folder}/nowhere"),
+    ],
+)
+def test_a_path_that_cannot_be_written_is_refused_before_the_work(assur_cli, tmp_path, monkeypatch, name, reason):
+    monkeypatch.setattr("assur.report.write_report", lambda *_: pytest.fail("the work has begun"))
+    run = assur_cli("report", "zeng2019", "-o", str(tmp_path / name))
+    assert (run.code, run.out) == (2, "")
+    assert run.err == f"error: cannot write {tmp_path / name}: {reason.format(folder=tmp_path)}\n"
+    assert list(tmp_path.iterdir()) == []

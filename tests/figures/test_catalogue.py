@@ -1,0 +1,136 @@
+from __future__ import annotations
+
+import json
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import pytest
+
+import assur
+from assur import figures
+from assur.errors import OutputError, UnknownNameError
+from assur.figures.catalogue import ENTRIES
+
+MAGIC = {"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}
+
+
+def test_every_figure_is_there_or_left_out_for_a_reason(context):
+    names = figures.names(context.record, context)
+    reasons = figures.left_out(context.record, context)
+    assert [entry.name for entry in ENTRIES if entry.name not in reasons] == names
+    assert all(reasons.values())
+    assert {"structure", "model", "solid"} <= set(names)
+
+
+def test_the_first_mechanism_of_the_list_that_moves_in_space_has_every_figure():
+    spatial = [name for name in assur.names() if "z" in assur.load(name).platform.pose]
+    assert figures.left_out(assur.load(spatial[0])) == {}
+
+
+def test_catalogue_has_a_number_title_and_caption_for_each(context):
+    specs = figures.catalogue(context.record, context)
+    assert [spec.name for spec in specs] == figures.names(context.record, context)
+    assert len({spec.number for spec in specs}) == len(specs)
+    for spec in specs:
+        assert spec.title
+        assert spec.caption.endswith(".")
+        assert spec.caption.count("$") % 2 == 0, spec.caption
+
+
+def test_every_figure_is_written_in_every_format(context, tmp_path):
+    steps = []
+    names = figures.names(context.record, context)
+    paths = figures.write(
+        context.record,
+        tmp_path,
+        formats=("png", "pdf", "svg", "json"),
+        progress=lambda *step: steps.append(step),
+        context=context,
+    )
+    assert len(paths) == len(set(paths)) == 4 * len(names)
+    assert steps == [(k + 1, len(names)) for k in range(len(names))]
+    assert sorted(tmp_path.iterdir()) == sorted(paths)
+    for path in paths:
+        content = path.read_bytes()
+        if path.suffix == ".json":
+            found = json.loads(content)
+            assert found["mechanism"] == context.record.name
+            assert found["name"] in path.name
+            assert found["caption"]
+        else:
+            assert content.startswith(MAGIC[path.suffix[1:]])
+
+
+def test_drawing_leaves_nothing_behind(context):
+    before = dict(mpl.rcParams)
+    figure = figures.draw(context.record, "structure", context)
+    figures.encoded(figure, "png")
+    assert plt.get_fignums() == []
+    assert dict(mpl.rcParams) == before
+
+
+def test_figures_can_be_chosen_and_keep_their_numbers(context, tmp_path):
+    numbers = {spec.name: spec.number for spec in figures.catalogue(context.record, context)}
+    paths = figures.write(context.record, tmp_path, ["solid", "structure"], ("json",), context=context)
+    assert [json.loads(path.read_text())["figure"] for path in paths] == [
+        numbers["solid"],
+        numbers["structure"],
+    ]
+
+
+def test_an_unknown_figure_or_format_writes_nothing(context, tmp_path):
+    with pytest.raises(UnknownNameError, match="structure"):
+        figures.write(context.record, tmp_path, ["structure", "structur"], context=context)
+    with pytest.raises(UnknownNameError, match="png"):
+        figures.write(context.record, tmp_path, ["structure"], ["png", "bmp"], context=context)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_figure_that_is_left_out_says_why(context):
+    for name, why in figures.left_out(context.record, context).items():
+        with pytest.raises(UnknownNameError) as caught:
+            figures.draw(context.record, name, context)
+        assert caught.value.hint == why
+
+
+def test_a_folder_that_is_not_there(context, tmp_path):
+    with pytest.raises(OutputError):
+        figures.write(context.record, tmp_path / "no", ["structure"], context=context)
+
+
+def test_a_file_without_closed_form_still_has_its_structure(tmp_path):
+    path = tmp_path / "slider.toml"
+    path.write_text(
+        """
+format = 1
+name = "slider"
+unit = "mm"
+angle = "deg"
+base = "ground"
+platform = { link = "block", pose = ["x"], orientation = "constant" }
+[parameters]
+r = { value = 40 }
+[links]
+ground = {}
+crank = {}
+rod = {}
+block = {}
+[joints]
+A = { type = "revolute", parent = "ground", child = "crank", axis = "z" }
+B = { type = "revolute", parent = "crank", child = "rod", at = ["r", 0, 0], axis = "z" }
+C = { type = "revolute", parent = "rod", child = "block", at = ["2*r", 0, 0], axis = "z" }
+S = { type = "prismatic", parent = "ground", child = "block", axis = "x" }
+[inputs]
+order = ["A"]
+A = { name = "q" }
+[home]
+A = 50
+B = -75
+C = 25
+S = 100
+"""
+    )
+    record = assur.load(path)
+    assert figures.names(record) == ["structure", "model", "solid"]
+    for name in figures.names(record):
+        assert figures.encoded(figures.draw(record, name), "pdf").startswith(b"%PDF")

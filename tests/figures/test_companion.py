@@ -1,0 +1,80 @@
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from assur.errors import MechanismFileError
+from assur.figures.companion import Companion, companion, length
+from assur.figures.skeleton import skeleton
+from assur.kinematics.position import inverse
+
+
+def test_bars_are_as_long_as_they_claim_in_every_configuration(context):
+    record = context.record
+    claims = [bar for bar in context.companion.bars if bar.length]
+    if not claims:
+        pytest.skip("no lengths are claimed")
+    low, high = np.array([record.box[name] for name in record.platform.pose]).T
+    poses = np.random.default_rng(3).uniform(low, high, size=(40, len(low)))
+    solved = inverse(record, poses)
+    for row, branch in list(zip(*np.nonzero(solved.exists), strict=True))[:40:4]:
+        body = skeleton(record, context.companion, solved.joints[row, branch])
+        for rod in body.rods:
+            if rod.length:
+                assert rod.size == pytest.approx(length(record, rod.length), rel=1e-9, abs=1e-9)
+
+
+def test_the_file_configuration_is_reached(context):
+    inputs = context.companion.inputs
+    if inputs:
+        drawn = context.home[list(context.record.input_indices)]
+        np.testing.assert_allclose(drawn, inputs, atol=1e-9)
+
+
+def test_without_a_file_everything_is_default(context):
+    assert companion(dataclasses.replace(context.record, folder=None)) == Companion()
+
+
+BAD = """
+inputs = [1]
+colour = "red"
+rail = "2 +"
+[links]
+bsae = "0"
+[[bars]]
+link = "base"
+ends = ["Q1"]
+[views]
+model = { kind = "perspective" }
+"""
+
+
+def test_every_fault_of_a_file_is_reported_with_its_line(context, tmp_path):
+    (tmp_path / "figures.toml").write_text(BAD)
+    with pytest.raises(MechanismFileError) as caught:
+        companion(dataclasses.replace(context.record, folder=tmp_path))
+    text = str(caught.value)
+    assert "figures.toml:3: colour" in text
+    assert "figures.toml:9: bars[0].ends" in text
+    assert "figures.toml:11: views.model" in text
+
+
+NAMES = """
+inputs = [1]
+rail = "nothing"
+bars = [ { link = "bsae", ends = ["Q1", "Q2"], length = "no*2" } ]
+[examples]
+serial = "nonsense"
+"""
+
+
+def test_names_that_do_not_exist_are_reported(context, tmp_path):
+    (tmp_path / "figures.toml").write_text(NAMES)
+    with pytest.raises(MechanismFileError) as caught:
+        companion(dataclasses.replace(context.record, folder=tmp_path))
+    text = str(caught.value)
+    for part in ("inputs", "rail", "'bsae'", "'Q1'", "'Q2'", "bars[0].length", "'nonsense'"):
+        assert part in text
+    assert "did you mean 'base'" in text

@@ -1,0 +1,49 @@
+from __future__ import annotations
+
+import hashlib
+import os
+import subprocess
+import sys
+
+import pytest
+
+import assur
+from assur import figures
+from assur.errors import UnknownNameError
+
+SCRIPT = """
+import hashlib, sys
+import assur
+from assur import figures
+figure = figures.draw(assur.load(sys.argv[1]), "model")
+print(*(hashlib.sha256(figures.encoded(figure, form, 100)).hexdigest() for form in ("png", "pdf", "svg")))
+"""
+
+
+def test_the_same_bytes_in_another_process_with_another_hash_seed():
+    name = assur.names()[0]
+    found = []
+    for seed in ("1", "2"):
+        environment = {**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": os.pathsep.join(sys.path)}
+        ran = subprocess.run(
+            [sys.executable, "-c", SCRIPT, name], env=environment, capture_output=True, text=True
+        )
+        assert ran.returncode == 0, ran.stderr
+        found.append(ran.stdout)
+    assert found[0] == found[1]
+
+
+def test_the_same_bytes_when_drawn_and_encoded_twice(context):
+    digests = set()
+    for _ in range(2):
+        figure = figures.draw(context.record, "structure", context)
+        content = [figures.encoded(figure, form, 80) for form in ("png", "pdf", "svg")]
+        content += [figures.encoded(figure, form, 80) for form in ("png", "pdf", "svg")]
+        assert content[:3] == content[3:]
+        digests.add(hashlib.sha256(b"".join(content)).hexdigest())
+    assert len(digests) == 1
+
+
+def test_an_unknown_format(context):
+    with pytest.raises(UnknownNameError, match="svg"):
+        figures.encoded(figures.draw(context.record, "structure", context), "gif")

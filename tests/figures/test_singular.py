@@ -1,0 +1,84 @@
+"""The geometry that a factor's meaning claims, checked on the joint graph's points of the drawn configuration."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from assur.figures.meaning import named
+from assur.figures.singular import shown
+from assur.figures.skeleton import skeleton
+from assur.kinematics.closure import closure_error
+from assur.kinematics.position import inverse
+from assur.kinematics.status import FACTOR_TOLERANCE, relative_factors
+from assur.model.points import point
+
+
+def test_every_example_is_drawn_once(context, data):
+    drawn = [item for name in ("serial", "parallel", "singular") for item in data(name)["examples"]]
+    assert sorted(item["factor"] for item in drawn) == sorted(item.factor.name for item in context.examples)
+
+
+def test_the_examples_of_the_source_have_their_own_figures(context, data):
+    for kind in ("serial", "parallel"):
+        (item,) = data(kind)["examples"]
+        assert item["kind"] == kind
+        assert item["factor"] == (getattr(context.companion.examples, kind) or item["factor"])
+
+
+def test_the_factor_vanishes_in_an_assembly(context):
+    for example in context.examples:
+        seen = shown(context, example)
+        solved = inverse(context.record, seen.pose, seen.mode)
+        assert abs(relative_factors(context.record, solved.factors)[seen.factor.name][0]) <= FACTOR_TOLERANCE
+        assert seen.status == example.status
+        assert closure_error(context.record, seen.joints) < 1e-6 * context.skeleton.size
+
+
+def test_what_is_called_collinear_or_parallel_is(context):
+    checked = 0
+    for example in context.examples:
+        seen = shown(context, example)
+        body = skeleton(context.record, context.companion, seen.joints)
+        meaning = seen.factor.meaning
+        lines = [
+            np.array([point(context.record, name, seen.joints) for name in run])
+            for run in _runs(meaning, body)
+        ]
+        if "collinear" in meaning and lines:
+            for line in lines:
+                spread = np.linalg.svd(line - line.mean(axis=0), compute_uv=False)
+                assert spread[1] < 1e-5 * body.size, meaning
+            checked += 1
+        if "parallel:" in meaning or meaning.endswith("are parallel"):
+            first, second = (line[1] - line[0] for line in lines)
+            assert np.linalg.norm(np.cross(first, second)) < 1e-5 * body.size**2, meaning
+            checked += 1
+    assert checked >= 2
+
+
+def _runs(meaning, body):
+    found = named(meaning, body)
+    places = {name: body.points[name] for name in found.letters}
+    runs = []
+    for line in found.lines:
+        run = [
+            next(name for name, at in places.items() if np.allclose(at, corner)) for corner in line if places
+        ]
+        runs += [run] if len(run) > 1 else []
+    return runs
+
+
+@pytest.mark.parametrize(
+    ("text", "lines", "letters"),
+    [
+        ("{0}{1} and {2}{3} are level", 2, 4),
+        ("{0}, {1}, {2} are in line", 1, 3),
+        ("{0} is alone", 0, 0),
+        ("nothing is named", 0, 0),
+    ],
+)
+def test_names_in_a_text(context, text, lines, letters):
+    points = [name for name in context.skeleton.points if len(name) > 1][:4]
+    found = named(text.format(*points), context.skeleton)
+    assert (len(found.lines), len(found.letters)) == (lines, letters)

@@ -1,0 +1,71 @@
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+from assur.model.points import point
+
+
+def test_joints_are_where_the_joint_graph_has_them(context, data):
+    skeleton = context.schematic
+    found = data("structure")["joints"]
+    assert set(found) == set(context.record.joints)
+    for name, item in found.items():
+        here = point(skeleton.record, name, skeleton.values)
+        joint = skeleton.record.joints[name]
+        value = skeleton.values[[c.index for c in skeleton.record.coordinates if c.joint == name][0]]
+        slides = joint.type.name in ("prismatic", "cylindrical")
+        rotation = skeleton.frames[joint.parent][0]
+        moved = here + (value * (rotation @ joint.axes[0]) if slides else 0.0)
+        np.testing.assert_allclose(item["at"], moved, atol=1e-9 * skeleton.size)
+        assert item["links"] == [joint.parent, joint.child]
+
+
+def test_every_driven_joint_is_marked(context, data):
+    driven = {name for name, item in data("structure")["joints"].items() if item["driven"]}
+    assert driven == {item.coordinate.joint for item in context.record.inputs}
+
+
+def test_every_link_but_the_base_is_drawn(context, data):
+    found = data("structure")
+    links = {item["link"] for item in (*found["bars"], *found["plates"])}
+    assert links == set(context.record.links) - {context.record.base}
+
+
+def test_bars_of_a_link_reach_all_its_joints(context):
+    skeleton = context.schematic
+    for mark in skeleton.marks:
+        for link in {mark.joint.parent, mark.joint.child} - {context.record.base}:
+            rods = [rod.points for rod in skeleton.rods if rod.link == link]
+            gaps = [_distance(mark.at, *ends) for ends in rods]
+            gaps += [
+                float(np.min(np.linalg.norm(plate.points - mark.at, axis=1)))
+                for plate in skeleton.plates
+                if plate.link == link
+            ]
+            assert min(gaps) < 1e-9 * skeleton.size, (mark.joint.name, link)
+
+
+def _distance(at, start, end):
+    way = end - start
+    square = float(way @ way)
+    share = np.clip((at - start) @ way / square, 0, 1) if square else 0.0
+    return float(np.linalg.norm(at - start - share * way))
+
+
+def test_no_label_lies_on_another_or_outside_the_page(page):
+    for name in ("structure", "model"):
+        figure = page(name)
+        renderer = FigureCanvasAgg(figure).get_renderer()
+        texts = [item for item in figure.axes[0].texts if item.get_text()]
+        boxes = [item.get_window_extent(renderer) for item in texts]
+        assert len(boxes) > 5
+        width, height = figure.get_size_inches() * figure.dpi
+        for text, box in zip(texts, boxes, strict=True):
+            assert box.x0 >= 0 and box.y0 >= 0 and box.x1 <= width and box.y1 <= height, text.get_text()
+        for (a, first), (b, second) in itertools.combinations(zip(texts, boxes, strict=True), 2):
+            shared_x = min(first.x1, second.x1) - max(first.x0, second.x0)
+            shared_y = min(first.y1, second.y1) - max(first.y0, second.y0)
+            assert min(shared_x, shared_y) < 1.0, (name, a.get_text(), b.get_text())

@@ -1,0 +1,97 @@
+"""One set of findings for all tests of the report: the analyses are made once."""
+
+from __future__ import annotations
+
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+
+import assur
+from assur.report.findings import Findings
+from assur.report.render import page_html
+from assur.report.report import report_page
+
+RESOLUTION = 20
+VOID = {"meta", "input", "img", "br", "mspace", "path"}
+
+
+@pytest.fixture(scope="session")
+def findings():
+    """Of the paper's mechanism, without figures."""
+    return Findings(assur.load("zeng2019"), RESOLUTION, illustrated=False)
+
+
+@pytest.fixture(scope="session")
+def page(findings):
+    return report_page(findings)
+
+
+@pytest.fixture(scope="session")
+def html(page):
+    return page_html(page)
+
+
+@pytest.fixture(scope="session")
+def fourbar():
+    """A mechanism without closed form and without reference data."""
+    return assur.load(Path(__file__).parents[1] / "model" / "fourbar.toml")
+
+
+class Document(HTMLParser):
+    """Tags that are closed in order, with their attributes, and the text of table cells by row."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.tags: list[tuple[str, dict[str, str | None]]] = []
+        self.faults: list[str] = []
+        self.tables: dict[str, list[tuple[str, list[str]]]] = {}
+        self.words: dict[str, str] = {}
+        self._table: str | None = None
+        self.feed(text)
+        self.close()
+        self.faults += [f"never closed: {tag}" for tag in self.open]
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append((tag, dict(attributes)))
+        if tag == "table":
+            self._table = ""
+        elif tag == "tr" and self._table:
+            self.tables[self._table].append((dict(attributes).get("class") or "", []))
+        elif tag in ("td", "th") and self._table:
+            self.tables[self._table][-1][1].append("")
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.tags.append((tag, dict(attributes)))
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open[-1] != tag:
+            self.faults.append(f"</{tag}> at {self.getpos()}")
+        else:
+            self.open.pop()
+        if tag == "caption":
+            self.tables[self._table] = []
+        if tag == "table":
+            self._table = None
+
+    def handle_data(self, data):
+        for tag in set(self.open):
+            self.words[tag] = self.words.get(tag, "") + data
+        if "caption" in self.open:
+            self._table = (self._table or "") + data
+        elif self._table and ("td" in self.open or "th" in self.open):
+            self.tables[self._table][-1][1][-1] += data
+
+
+@pytest.fixture(scope="session")
+def read():
+    """A page as a `Document`."""
+    return Document
+
+
+@pytest.fixture(scope="session")
+def document(html):
+    return Document(html)

@@ -1,0 +1,28 @@
+from __future__ import annotations
+
+import re
+from importlib import metadata
+from pathlib import Path
+
+import assur
+from assur.report.sections import provenance
+
+CITATION = Path(__file__).parents[3] / "CITATION.cff"
+
+
+def test_the_citation_is_that_of_the_project():
+    text = CITATION.read_text(encoding="utf-8")
+    entries = dict(re.findall(r'^(\w+): "?(.*?)"?$', text, re.MULTILINE))
+    assert (entries["title"], entries["license"], entries["version"]) == (
+        provenance.TITLE,
+        provenance.LICENSE,
+        assur.__version__,
+    )
+    assert provenance.AUTHORS in text
+
+
+def test_versions_are_those_installed(document):
+    versions = {cells[0]: cells[1] for _, cells in document.tables["Versions"][1:]}
+    assert versions["assur"] == assur.__version__
+    assert versions["numpy"] == metadata.version("numpy")
+    assert set(provenance.PACKAGES) < set(versions)
