@@ -19,9 +19,7 @@ def rows(heading: str) -> list[list[str]]:
     heads = {index - 1 for index, line in enumerate(lines) if line.startswith("|---")}
     heads |= {index + 1 for index in heads}
     return [
-        [cell.strip() for cell in line.strip("|").split("|")]
-        for index, line in enumerate(lines)
-        if index not in heads
+        [cell.strip() for cell in line.strip("|").split("|")] for index, line in enumerate(lines) if index not in heads
     ]
 
 

@@ -113,9 +113,7 @@ def test_only_the_command_line_prints(path):
     if path.relative_to(SOURCE).parts[0] == "cli":
         return
     calls = [node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Call)]
-    assert [
-        node.lineno for node in calls if isinstance(node.func, ast.Name) and node.func.id == "print"
-    ] == []
+    assert [node.lineno for node in calls if isinstance(node.func, ast.Name) and node.func.id == "print"] == []
 
 
 @pytest.mark.parametrize("path", MODULES, ids=ids(MODULES))

@@ -53,7 +53,7 @@ def assur_process():
     """Run words as the installed command in a process of its own: a `Run`."""
 
     def run(*words: str, **options: Any) -> Run:
-        done = subprocess.run([COMMAND, *words], capture_output=True, text=True, timeout=120, check=False, **options)
+        done = subprocess.run([COMMAND, *words], capture_output=True, text=True, timeout=600, check=False, **options)
         return Run(done.returncode, done.stdout, done.stderr)
 
     return run

@@ -56,8 +56,8 @@ def test_every_fault_of_a_file_is_reported_with_its_line(context, tmp_path):
     with pytest.raises(MechanismFileError) as caught:
         companion(dataclasses.replace(context.record, folder=tmp_path))
     text = str(caught.value)
-    assert "figures.toml:3: colour" in text
-    assert "figures.toml:9: bars[0].ends" in text
+    assert "figures.toml:3: colour: unknown key 'colour'; there is: bars, chains" in text
+    assert "figures.toml:7: bars[0].ends" in text
     assert "figures.toml:11: views.model" in text
 
 

@@ -15,7 +15,7 @@ def test_joints_are_where_the_joint_graph_has_them(context, data):
     for name, item in found.items():
         here = point(skeleton.record, name, skeleton.values)
         joint = skeleton.record.joints[name]
-        value = skeleton.values[[c.index for c in skeleton.record.coordinates if c.joint == name][0]]
+        value = skeleton.values[next(c.index for c in skeleton.record.coordinates if c.joint == name)]
         slides = joint.type.name in ("prismatic", "cylindrical")
         rotation = skeleton.frames[joint.parent][0]
         moved = here + (value * (rotation @ joint.axes[0]) if slides else 0.0)
@@ -64,7 +64,7 @@ def test_no_label_lies_on_another_or_outside_the_page(page):
         assert len(boxes) > 5
         width, height = figure.get_size_inches() * figure.dpi
         for text, box in zip(texts, boxes, strict=True):
-            assert box.x0 >= 0 and box.y0 >= 0 and box.x1 <= width and box.y1 <= height, text.get_text()
+            assert min(box.x0, box.y0, width - box.x1, height - box.y1) >= 0, text.get_text()
         for (a, first), (b, second) in itertools.combinations(zip(texts, boxes, strict=True), 2):
             shared_x = min(first.x1, second.x1) - max(first.x0, second.x0)
             shared_y = min(first.y1, second.y1) - max(first.y0, second.y0)

@@ -151,7 +151,10 @@ def _checked(source: TomlSource, faults: Faults) -> Companion | None:
     except ValidationError as error:
         for item in error.errors():
             place = tuple(part for part in item["loc"] if part not in ("orthographic", "oblique"))
-            faults.add(place, repr(item["input"])[:60], item["msg"])
+            if item["type"] == "extra_forbidden" and len(place) == 1:
+                faults.unknown(place, "key", str(place[0]), Companion.model_fields)
+            else:
+                faults.add(place, repr(item["input"])[:60], item["msg"])
     return None
 
 

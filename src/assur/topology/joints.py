@@ -36,6 +36,5 @@ UNIVERSAL = JointType("universal", "U", ("first", "second"), ("angle", "angle"),
 SPHERICAL = JointType("spherical", "S", ("rx", "ry", "rz"), ("angle", "angle", "angle"), 0)
 
 JOINT_TYPES = {
-    joint_type.name: joint_type
-    for joint_type in (REVOLUTE, PRISMATIC, HELICAL, CYLINDRICAL, UNIVERSAL, SPHERICAL)
+    joint_type.name: joint_type for joint_type in (REVOLUTE, PRISMATIC, HELICAL, CYLINDRICAL, UNIVERSAL, SPHERICAL)
 }

@@ -40,9 +40,7 @@ def self_motion(ns, p, inputs, rod, sign):
     crank1, crank2 = inputs
     (x1, y1), _ = _ends(p, crank1, crank2)
     pose = (x1 + p.l2 * rod[0], y1 + p.l2 * rod[1])
-    return Branch(
-        pose, (crank1, crank2), {"meeting": 4 * p.l2 * p.l2 + 0 * pose[0]}, _core(p, pose, crank1, crank2)
-    )
+    return Branch(pose, (crank1, crank2), {"meeting": 4 * p.l2 * p.l2 + 0 * pose[0]}, _core(p, pose, crank1, crank2))
 
 
 def _ends(p, crank1, crank2):
@@ -113,9 +111,7 @@ CLOSED_FORM = ClosedForm(
     signs={"s1": Sign("sin_b1", "1"), "s2": Sign("sin_b2", "1"), "e": Sign("sin_rods", "1")},
     direct_margins=(
         Margin("gap", "l2*l2", "B1 and B2 coincide: P is free to run round them", unit=2, zero="degenerate"),
-        Margin(
-            "meeting", "4*l2*l2", "B1 and B2 are too far apart for the rods to meet", unit=2, signs=("e",)
-        ),
+        Margin("meeting", "4*l2*l2", "B1 and B2 are too far apart for the rods to meet", unit=2, signs=("e",)),
     ),
     inverse_margins=(
         Margin("distance1", "l2*l2", "P lies on motor A1", unit=2, zero="degenerate"),

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from assur.errors import UsageError
 from assur.kinematics.closure import mobility
+from assur.kinematics.modes import Problem
+from assur.kinematics.solutions import SolutionSet
 from assur.report.findings import Findings
 from assur.report.numbers import count, shown_unit
 from assur.results.kinds import Scalar, Section
@@ -27,18 +29,19 @@ def _mobility(found: Findings) -> list[Scalar]:
 
 
 def _solutions(found: Findings) -> list[Scalar]:
-    form = found.form
-    model = "joint graph" if form.complete_for == "joint_graph" else "reduced model"
-    known = f"complete for the {model}, by closed form"
-    return [
-        Scalar(
-            f"real {problem} solutions",
-            float(len(answer)),
-            f"of {count(len(answer.modes_asked), 'branch')}",
-            known,
-        )
-        for problem, answer in (("direct", found.direct), ("inverse", found.inverse))
-    ]
+    model = "joint graph" if found.form.complete_for == "joint_graph" else "reduced model"
+    problems: tuple[tuple[Problem, str, SolutionSet], ...] = (
+        ("direct", "inputs", found.direct),
+        ("inverse", "pose", found.inverse),
+    )
+    scalars = []
+    for problem, given, answer in problems:
+        table = found.table(problem)
+        where = f"at the {given} of {table.source if table else 'home'}"
+        branches = f"of {count(len(answer.modes_asked), 'branch')}"
+        known = f"{where}; complete for the {model}"
+        scalars.append(Scalar(f"real {problem} solutions", float(len(answer)), branches, known))
+    return scalars
 
 
 def _workspace(found: Findings) -> list[Scalar]:

@@ -1,0 +1,31 @@
+from __future__ import annotations
+
+import numpy as np
+
+from assur.kinematics.velocity import velocity_map
+from assur.workspace.fields import at_points
+
+
+def test_the_map_is_the_inverse_condition_number_of_jp_and_jq(context, data):
+    names = context.record.platform.pose
+    for item in data("dexterity")["maps"]:
+        first, second = item["plane"]
+        rng = np.random.default_rng(5)
+        seen = 0
+        for _ in range(40):
+            i, j = rng.integers(0, len(item[second])), rng.integers(0, len(item[first]))
+            pose = np.array(
+                [{first: item[first][j], second: item[second][i], **item["held"]}[name] for name in names]
+            )
+            value = item["index"][i][j]
+            margins = [
+                at_points(field, len(names), pose[None])[0] for field in context.workspace.margins.values()
+            ]
+            if min(margins) < 0:
+                assert np.isnan(value)
+                continue
+            here = velocity_map(context.record, pose, context.workspace.mode)
+            jacobian = np.linalg.solve(here.jp, here.jq)
+            np.testing.assert_allclose(value, 1 / np.linalg.cond(jacobian), rtol=1e-6)
+            seen += 1
+        assert seen > 5

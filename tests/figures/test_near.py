@@ -1,0 +1,46 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial import KDTree
+
+from assur.figures.near import Distance
+from assur.workspace.nearness import divided, triangles_of
+from assur.workspace.solids import mesh
+
+
+@pytest.fixture
+def surfaces(context):
+    found = [triangles_of(item.vertices, item.faces) for item in context.workspace.loci if len(item.faces)]
+    if not found:
+        pytest.skip("no singular surface lies inside")
+    return np.concatenate(found)
+
+
+def test_the_distance_is_that_from_a_dense_cloud_of_the_surfaces(context, surfaces):
+    near = context.workspace.near
+    cloud = divided(surfaces, near / 12).reshape(-1, 3)
+    low, high = np.array(context.workspace.box.intervals).T
+    points = np.random.default_rng(2).uniform(low, high, size=(3000, 3))
+    found = Distance(context.workspace)(points)
+    wanted, _ = KDTree(cloud).query(points)
+    close = wanted < near
+    assert close.sum() > 50
+    np.testing.assert_allclose(found[close], wanted[close], atol=near / 12)
+    assert found[wanted > 1.5 * near].min() > near
+
+
+def test_its_border_is_at_that_distance_or_on_that_of_the_workspace(context, surfaces):
+    vertices, _ = mesh(context.near)
+    distance = Distance(context.workspace)(vertices)
+    assert distance.max() < 1.05 * context.workspace.near
+
+
+def test_its_share_is_that_of_the_workspace(context, surfaces):
+    share = context.near.volume() / context.workspace.region.solid.volume()
+    assert share == pytest.approx(context.workspace.share, rel=0.03)
+
+
+def test_without_surfaces_nothing_is_near(context):
+    if not any(len(item.faces) or item.everywhere for item in context.workspace.loci):
+        assert context.near.is_empty()
