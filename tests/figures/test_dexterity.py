@@ -14,13 +14,9 @@ def test_the_map_is_the_inverse_condition_number_of_jp_and_jq(context, data):
         seen = 0
         for _ in range(40):
             i, j = rng.integers(0, len(item[second])), rng.integers(0, len(item[first]))
-            pose = np.array(
-                [{first: item[first][j], second: item[second][i], **item["held"]}[name] for name in names]
-            )
+            pose = np.array([{first: item[first][j], second: item[second][i], **item["held"]}[name] for name in names])
             value = item["index"][i][j]
-            margins = [
-                at_points(field, len(names), pose[None])[0] for field in context.workspace.margins.values()
-            ]
+            margins = [at_points(field, len(names), pose[None])[0] for field in context.workspace.margins.values()]
             if min(margins) < 0:
                 assert np.isnan(value)
                 continue

@@ -25,9 +25,7 @@ def test_the_same_bytes_in_another_process_with_another_hash_seed():
     found = []
     for seed in ("1", "2"):
         environment = {**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": os.pathsep.join(sys.path)}
-        ran = subprocess.run(
-            [sys.executable, "-c", SCRIPT, name], env=environment, capture_output=True, text=True
-        )
+        ran = subprocess.run([sys.executable, "-c", SCRIPT, name], env=environment, capture_output=True, text=True)
         assert ran.returncode == 0, ran.stderr
         found.append(ran.stdout)
     assert found[0] == found[1]

@@ -65,9 +65,7 @@ def test_arrows_lead_downwards_from_inputs_to_the_pose(context, data):
     row = {node["name"]: node["row"] for node in found["nodes"]}
     assert all(row[start] < row[end] for start, end in found["arrows"])
     kinds = {node["name"]: node["kind"] for node in found["nodes"]}
-    assert {name for name, kind in kinds.items() if kind == "input"} == {
-        item.name for item in context.record.inputs
-    }
+    assert {name for name, kind in kinds.items() if kind == "input"} == {item.name for item in context.record.inputs}
     assert {name for name, kind in kinds.items() if kind == "pose"} == set(context.record.platform.pose)
     ends = {start for start, _ in found["arrows"]} | {end for _, end in found["arrows"]}
     assert ends == set(kinds)

@@ -55,9 +55,7 @@ def test_joined_keeps_patches_apart():
 def test_a_surface_is_smooth_but_for_its_creases():
     angles = np.linspace(0, np.pi, 40)
     arch = np.array([[np.cos(a), y, np.sin(a)] for a in angles for y in (0.0, 1.0)])
-    strip = np.array(
-        [f for k in range(39) for f in ([2 * k, 2 * k + 2, 2 * k + 1], [2 * k + 1, 2 * k + 2, 2 * k + 3])]
-    )
+    strip = np.array([f for k in range(39) for f in ([2 * k, 2 * k + 2, 2 * k + 1], [2 * k + 1, 2 * k + 2, 2 * k + 3])])
     found = mesh.surface(arch, strip, "#123456")
     assert len(np.unique(found.patch)) == 1
     radial = found.corners * [1.0, 0.0, 1.0]

@@ -25,9 +25,7 @@ def test_the_schematic_is_the_one_that_the_companion_asks_for(context, data):
     assert {name: values[name] for name in plan.parameters} == plan.parameters
     if plan.pose:
         pose = dict(zip("xyz", data("model")["platform"], strict=True))
-        np.testing.assert_allclose(
-            [pose[name] for name in context.record.platform.pose], plan.pose, atol=1e-6
-        )
+        np.testing.assert_allclose([pose[name] for name in context.record.platform.pose], plan.pose, atol=1e-6)
 
 
 def test_angles_are_joint_values(context, data):

@@ -3,7 +3,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assur.workspace.fields import at_points
+from assur import figures
+from assur.kinematics.modes import all_modes
+from assur.workspace.fields import at_points, factor_fields
+from assur.workspace.region import workspace
 
 
 def test_the_numbers_are_those_of_the_workspace(context, data):
@@ -19,21 +22,27 @@ def test_the_drawn_surface_encloses_the_volume(data):
     if corners.shape[-1] == 3:
         volume = np.sum(np.linalg.det(corners)) / 6
     else:
-        volume = (
-            np.sum(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])) / 2
-            if False
-            else None
-        )
         first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
         volume = np.sum(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) / 2
     assert volume == pytest.approx(found["volume"], rel=1e-6)
 
 
 def test_the_loci_are_zeros_of_their_factors(context, data):
-    from assur.workspace.fields import factor_fields
-
     fields = factor_fields(context.record, context.workspace.mode)
     for item in data("workspace")["loci"]:
         if len(item["vertices"]):
             values = at_points(fields[item["factor"]], len(context.record.platform.pose), item["vertices"])
             assert np.max(np.abs(values)) < 0.5
+
+
+def test_a_mode_without_any_pose_and_one_that_is_singular_everywhere_are_drawn(context):
+    """An empty box corner, and the last working mode, whatever it is."""
+    record = context.record
+    low, high = np.array([record.box[name] for name in record.platform.pose]).T
+    far = np.stack([high + 5 * (high - low), high + 6 * (high - low)], axis=1)
+    modes = all_modes(record, "inverse")
+    for found in (workspace(record, box=far, resolution=8), workspace(record, modes[-1], resolution=12)):
+        given = figures.Context(record, found)
+        for name in ("workspace", "projections", "sections", "dexterity"):
+            if name in figures.names(record, given):
+                assert figures.encoded(figures.draw(record, name, given), "png", 40)

@@ -36,8 +36,6 @@ def test_areas_by_counting_poses_at_which_no_margin_is_negative(context, data):
         grid[..., names.index(item["plane"][0])] = middles[0][:, None]
         grid[..., names.index(item["plane"][1])] = middles[1]
         points = grid.reshape(-1, 3)
-        inside = np.all(
-            [at_points(field, 3, points) >= 0 for field in context.workspace.margins.values()], axis=0
-        )
+        inside = np.all([at_points(field, 3, points) >= 0 for field in context.workspace.margins.values()], axis=0)
         cell = np.prod([axis[1] - axis[0] for axis in axes])
         assert item["area"] == pytest.approx(inside.sum() * cell, abs=2 * 500 * cell)

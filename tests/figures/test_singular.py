@@ -41,10 +41,7 @@ def test_what_is_called_collinear_or_parallel_is(context):
         seen = shown(context, example)
         body = skeleton(context.record, context.companion, seen.joints)
         meaning = seen.factor.meaning
-        lines = [
-            np.array([point(context.record, name, seen.joints) for name in run])
-            for run in _runs(meaning, body)
-        ]
+        lines = [np.array([point(context.record, name, seen.joints) for name in run]) for run in _runs(meaning, body)]
         if "collinear" in meaning and lines:
             for line in lines:
                 spread = np.linalg.svd(line - line.mean(axis=0), compute_uv=False)
@@ -62,9 +59,7 @@ def _runs(meaning, body):
     places = {name: body.points[name] for name in found.letters}
     runs = []
     for line in found.lines:
-        run = [
-            next(name for name, at in places.items() if np.allclose(at, corner)) for corner in line if places
-        ]
+        run = [next(name for name, at in places.items() if np.allclose(at, corner)) for corner in line if places]
         runs += [run] if len(run) > 1 else []
     return runs
 

@@ -125,6 +125,11 @@ def test_home_that_cannot_close_is_refused_with_the_gap():
         _ = assur.load("zeng2019", b=1000.0).home_values
 
 
+def test_home_in_another_mode_is_refused():
+    with pytest.raises(assur.UsageError, match="not in the default"):
+        _ = assur.load("zeng2019", l4=20.0).home_values
+
+
 def test_rank_does_not_depend_on_the_unit():
     """The same mechanism written in metres has the same rank."""
     record = load_record("zeng2019")

@@ -174,6 +174,7 @@ def test_a_batch_cannot_be_iterated(paper):
         (5.0, "a single number, 3 wanted"),
         ([1.0, 2.0, np.nan], "must be finite"),
         ([1.0, 2.0, np.inf], "must be finite"),
+        ([1.0, 2.0, 1e200], "larger than 1e"),
         (["1,5", "2", "3"], "not an array of numbers"),
         ([[1.0, 2.0], [3.0]], "not an array of numbers"),
     ],

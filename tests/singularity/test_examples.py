@@ -1,6 +1,9 @@
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
+import pytest
 
 import assur
 from assur.kinematics.status import FACTOR_TOLERANCE
@@ -34,3 +37,9 @@ def test_an_example_shows_as_few_other_zeros_as_it_can():
     w3 = next(example for example in singular_examples(paper) if example.factor.name == "u3")
     others = paper.singularity(w3.pose, w3.mode).relative
     assert [name for name, value in others.items() if abs(value) <= FACTOR_TOLERANCE] == ["u3"]
+
+
+def test_a_file_without_a_box_is_refused():
+    paper = assur.load("zeng2019")
+    with pytest.raises(assur.UsageError, match="no box to look for singular configurations in"):
+        singular_examples(dataclasses.replace(paper, box={}))

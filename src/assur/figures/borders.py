@@ -13,9 +13,6 @@ from assur.numerics.number_types import Floats
 from assur.workspace.fields import at_points
 
 FloatArray = NDArray[np.float64]
-ON_BORDER = 1e-3
-"""A margin within this share of its scale is zero on a drawn border."""
-
 VANISHES = 1e-5
 NEWTON = 8
 STEP = 1e-6
@@ -24,7 +21,8 @@ STEP = 1e-6
 def kinds(context: Context, points: FloatArray) -> list[str]:
     """Per pose (n, m) on the border of the workspace: the margin that is zero there, or "" on that of the box."""
     found = context.workspace
-    scales = _scales(context)
+    form = context.record.closed_form
+    scales = {item.name: scale(context.record, item.scale) for item in (form.inverse_margins if form else ())}
     names = list(found.margins)
     size = len(found.box.names)
     sizes = np.array(
@@ -33,10 +31,7 @@ def kinds(context: Context, points: FloatArray) -> list[str]:
     low, high = np.array(found.box.intervals).T
     on_box = np.any(np.minimum(points - low, high - points) < 1e-6 * (high - low), axis=1)
     least = np.argmin(sizes, axis=0)
-    return [
-        "" if box or sizes[j, k] > ON_BORDER else names[j]
-        for k, (j, box) in enumerate(zip(least, on_box, strict=True))
-    ]
+    return ["" if box else names[j] for j, box in zip(least, on_box, strict=True)]
 
 
 def vanishing(context: Context, margin: str, pose: FloatArray) -> list[str]:
@@ -71,11 +66,6 @@ def on_margin(context: Context, margin: str, pose: FloatArray) -> FloatArray:
             break
         there = there - values[0] * gradient / square
     return there
-
-
-def _scales(context: Context) -> dict[str, float]:
-    form = context.record.closed_form
-    return {item.name: scale(context.record, item.scale) for item in (form.inverse_margins if form else ())}
 
 
 def border_words(context: Context, margin: str, pose: FloatArray) -> str:

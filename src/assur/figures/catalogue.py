@@ -92,8 +92,11 @@ def drawing(record: MechanismRecord, name: str, context: Context | None = None) 
     why = entry.missing(shared) if entry else ""
     if entry is None or why:
         raise UnknownNameError(f"figure of {record.name}", name, names(record, shared), hint=why)
-    with styled():
-        return entry.draw(shared)
+    if name not in shared.drawings:
+        with styled():
+            shared.drawings[name] = entry.draw(shared)
+    made: Drawing = shared.drawings[name]
+    return made
 
 
 def draw(record: MechanismRecord, name: str, context: Context | None = None) -> Figure:

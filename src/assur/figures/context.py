@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from manifold3d import Manifold
@@ -33,10 +34,12 @@ class Context:
     Attributes:
         record: the mechanism.
         given_workspace: one that is there already; else it is computed when a figure needs it.
+        drawings: by name, those that have been drawn; a second user of the context gets the same ones.
     """
 
     record: MechanismRecord
     given_workspace: Workspace | None = None
+    drawings: dict[str, Any] = field(default_factory=dict, repr=False)
 
     @cached_property
     def companion(self) -> Companion:

@@ -176,8 +176,10 @@ def _prism(start: FloatArray, along: FloatArray, rim: FloatArray, way: FloatArra
     middle = rim.mean(axis=0)
     caps, cap_normals = [], []
     unit = along / max(float(np.linalg.norm(along)), 1e-300)
-    for ring, centre, normal in ((low, start + middle, -unit), (high, start + middle + along, unit)):
-        caps.append(np.stack([np.broadcast_to(centre, ring.shape), ring, ring[nxt]], 1))
+    # seen from outside both ends run counter-clockwise
+    ends = ((low[nxt], low, start + middle, -unit), (high, high[nxt], start + middle + along, unit))
+    for ring, following, centre, normal in ends:
+        caps.append(np.stack([np.broadcast_to(centre, ring.shape), ring, following], 1))
         cap_normals.append(np.broadcast_to(normal, (len(ring), 3, 3)))
     patch = np.repeat([0, 1, 2], [len(side), len(rim), len(rim)])
     corners = np.concatenate([side, *caps])

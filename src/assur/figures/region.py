@@ -33,7 +33,7 @@ from assur.figures.plots import (
 from assur.figures.raster import picture
 from assur.figures.singular import condition
 from assur.figures.spec import Drawing, Entry
-from assur.figures.style import GREY, PAGE, SHADED, SMALL, TEXT, mm, new_figure
+from assur.figures.style import DOTS_PER_INCH, GREY, PAGE, SMALL, TEXT, mm, new_figure
 from assur.workspace.projections import shadow
 from assur.workspace.region import Workspace
 from assur.workspace.solids import mesh as mesh_of
@@ -149,7 +149,7 @@ def _paste(page: Canvas, view: View, mesh: Mesh, *, solid: bool) -> None:
     flat = view(mesh.corners.reshape(-1, 3))
     (left, bottom), (right, top) = flat.min(axis=0) - 2.0, flat.max(axis=0) + 2.0
     local = View(view.camera, view.scale, view.offset - [left, bottom])
-    image = picture(mesh, local, (right - left, top - bottom), SHADED, solid=solid)
+    image = picture(mesh, local, (right - left, top - bottom), DOTS_PER_INCH, solid=solid)
     page.axes.imshow(
         image, extent=(left, right, bottom, top), interpolation="antialiased", zorder=2, aspect="auto"
     )

@@ -15,7 +15,7 @@ from assur.figures.raster import picture
 from assur.figures.skeleton import Skeleton
 from assur.figures.solids import model
 from assur.figures.spec import Drawing, Entry, always
-from assur.figures.style import BLUE, SHADED, SMALL
+from assur.figures.style import BLUE, DOTS_PER_INCH, SMALL
 
 FloatArray = NDArray[np.float64]
 
@@ -50,7 +50,7 @@ def paste(page: Canvas, mesh: Mesh, view: View, box: tuple[float, float, float, 
     """The picture of a mesh on a page, or on a part (left, bottom, width, height) of it, in points."""
     left, bottom, width, height = box or (0.0, 0.0, page.axes.get_xlim()[1], page.axes.get_ylim()[1])
     local = View(view.camera, view.scale, view.offset - [left, bottom])
-    image = picture(mesh, local, (width, height), SHADED)
+    image = picture(mesh, local, (width, height), DOTS_PER_INCH)
     page.axes.imshow(
         image,
         extent=(left, left + width, bottom, bottom + height),

@@ -38,8 +38,7 @@ TEXT = 8.0
 LETTER = 9.0
 """Font sizes in points: notes, text, letters of points."""
 
-DOTS_PER_INCH = 300
-SHADED = 250
+DOTS_PER_INCH = 250
 """Pixels per inch of files, and of shaded pictures inside them."""
 
 _SETTINGS: Any = {
@@ -69,6 +68,7 @@ _SETTINGS: Any = {
     "figure.dpi": 72.0,
     "savefig.dpi": DOTS_PER_INCH,
     "pdf.fonttype": 42,
+    "pdf.compression": 4,
     "svg.fonttype": "path",
     "svg.hashsalt": "assur",
     "axes.unicode_minus": True,

@@ -12,6 +12,8 @@ from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
 LENGTHS = ("x", "y", "z")
+LARGEST = 1e60
+"""Beyond this the squares and products of a closed form overflow."""
 
 
 def checked(values: ArrayLike, names: tuple[str, ...], what: str) -> FloatArray:
@@ -25,6 +27,8 @@ def checked(values: ArrayLike, names: tuple[str, ...], what: str) -> FloatArray:
         raise UsageError(f"{what}: {found}, {len(names)} wanted", hint=f"give {', '.join(names)}")
     if not np.all(np.isfinite(array)):
         raise UsageError(f"{what}: every value must be finite, not NaN or infinite")
+    if np.any(np.abs(array) > LARGEST):
+        raise UsageError(f"{what}: no value may be larger than {LARGEST:g}")
     return array
 
 

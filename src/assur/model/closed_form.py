@@ -145,6 +145,7 @@ class ClosedForm:
             closure of the joint graph drops.
         self_motion_singular: groups of factors; where all of one group vanish, the platform moves with
             every input locked.
+        sources: name of a coordinate, an input or a factor -> the equation that gives it.
         as_printed: (ns, p, core) -> (Jp, Jq) as the source prints them, where that differs.
     """
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.errors import UsageError
 from assur.kinematics.existence import exists
 from assur.kinematics.modes import all_modes
 from assur.kinematics.position import inverse
@@ -69,6 +70,12 @@ def singular_examples(record: MechanismRecord, seed: int = 0) -> tuple[SingularE
     >>> [example.factor.name for example in singular_examples(load_record("zeng2019"))][:4]
     ['u1_minus_u2', 'w', 'v', 'sin_alpha_minus_beta']
     """
+    missing_box = [name for name in record.platform.pose if name not in record.box]
+    if missing_box:
+        raise UsageError(
+            f"{record.name}: no box to look for singular configurations in",
+            hint=f"give the file [workspace] box = {{ {missing_box[0]} = [low, high], .. }}",
+        )
     low, high = np.array([record.box[name] for name in record.platform.pose]).T
     rng = np.random.default_rng(seed)
     middle, half = (low + high) / 2, (high - low) / 2

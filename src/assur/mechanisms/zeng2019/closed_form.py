@@ -194,6 +194,17 @@ CLOSED_FORM = ClosedForm(
     as_printed=as_printed,
     quantities=quantities,
     constraints=constraints,
+    sources={
+        "x": "(10)",
+        "y": "(10)",
+        "z": "(10)",
+        "yA1": "(21)",
+        "yA2": "(21)",
+        "yA3": "(21)",
+        "u1": "(24)",
+        "u2": "(24)",
+        "u3": "(24)",
+    },
     signs={
         "s_alpha": Sign("sin_alpha", "1"),
         "s_beta": Sign("sin_beta", "1"),
