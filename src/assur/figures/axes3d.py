@@ -27,9 +27,7 @@ def draw_box(page: Canvas, view: View, low: FloatArray, high: FloatArray) -> Non
             page.line(ends, 0.4, PALE if behind else GREY, 1.0 if behind else 1.2)
 
 
-def draw_axes(
-    page: Canvas, view: View, low: FloatArray, high: FloatArray, names: tuple[str, ...], unit: str
-) -> None:
+def draw_axes(page: Canvas, view: View, low: FloatArray, high: FloatArray, names: tuple[str, ...], unit: str) -> None:
     """Ticks and titles of three coordinates on edges of the box between `low` and `high` (3,)."""
     middle = view((low + high) / 2)
     for axis in range(3):

@@ -25,9 +25,7 @@ def kinds(context: Context, points: FloatArray) -> list[str]:
     scales = {item.name: scale(context.record, item.scale) for item in (form.inverse_margins if form else ())}
     names = list(found.margins)
     size = len(found.box.names)
-    sizes = np.array(
-        [np.abs(at_points(found.margins[name], size, points)) / scales.get(name, 1.0) for name in names]
-    )
+    sizes = np.array([np.abs(at_points(found.margins[name], size, points)) / scales.get(name, 1.0) for name in names])
     low, high = np.array(found.box.intervals).T
     on_box = np.any(np.minimum(points - low, high - points) < 1e-6 * (high - low), axis=1)
     least = np.argmin(sizes, axis=0)
@@ -71,9 +69,7 @@ def on_margin(context: Context, margin: str, pose: FloatArray) -> FloatArray:
 def border_words(context: Context, margin: str, pose: FloatArray) -> str:
     """E.g. "$M_1 = 0$ ($u_1$, $u_2$)": the margin, and in brackets the factors that vanish with it."""
     form = context.record.closed_form
-    latex = {
-        item.name: item.latex or mathematics(item.name) for item in (form.inverse_margins if form else ())
-    }
+    latex = {item.name: item.latex or mathematics(item.name) for item in (form.inverse_margins if form else ())}
     name = f"${latex[margin]} = 0$" if latex.get(margin) else margin
     factors = ", ".join(f"${text}$" for text in vanishing(context, margin, pose))
     return f"{name} ({factors})" if factors else name

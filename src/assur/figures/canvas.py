@@ -40,9 +40,7 @@ class Canvas:
     figure: Figure
     axes: Axes
 
-    def line(
-        self, points: FloatArray, width: float = 1.0, colour: str = INK, order: float = 2.0, **more: Any
-    ) -> None:
+    def line(self, points: FloatArray, width: float = 1.0, colour: str = INK, order: float = 2.0, **more: Any) -> None:
         """A polyline (k, 2)."""
         flat = np.asarray(points, dtype=float)
         more.setdefault("solid_capstyle", "round")
@@ -58,9 +56,7 @@ class Canvas:
         **more: Any,
     ) -> None:
         """A closed polygon (k, 2)."""
-        patch = Polygon(
-            corners, closed=True, facecolor=fill, edgecolor=edge, linewidth=width, zorder=order, **more
-        )
+        patch = Polygon(corners, closed=True, facecolor=fill, edgecolor=edge, linewidth=width, zorder=order, **more)
         self.axes.add_patch(patch)
 
     def disc(
@@ -73,9 +69,7 @@ class Canvas:
         order: float = 2.0,
     ) -> None:
         """A disc."""
-        patch = Circle(
-            (centre[0], centre[1]), radius, facecolor=fill, edgecolor=edge, linewidth=width, zorder=order
-        )
+        patch = Circle((centre[0], centre[1]), radius, facecolor=fill, edgecolor=edge, linewidth=width, zorder=order)
         self.axes.add_patch(patch)
 
     def arrow(
@@ -122,9 +116,7 @@ def canvas(width: float, height: float) -> Canvas:
     return Canvas(figure, axes)
 
 
-def fitted(
-    camera: Camera, cloud: FloatArray, width: float, tallest: float, margin: float = 8.0
-) -> tuple[View, Canvas]:
+def fitted(camera: Camera, cloud: FloatArray, width: float, tallest: float, margin: float = 8.0) -> tuple[View, Canvas]:
     """A canvas at most width x tallest mm for a cloud (k, 3) with margins, and the view that fills it.
 
     >>> from assur.figures.camera import plane
@@ -136,11 +128,7 @@ def fitted(
     low, high = flat.min(axis=0), flat.max(axis=0)
     span = np.maximum(high - low, 1e-300)
     scale = min((width - 2 * margin) / span[0], (tallest - 2 * margin) / span[1])
-    sides = (
-        np.array([width, tallest])
-        if scale * span[0] < 0.5 * (width - 2 * margin)
-        else scale * span + 2 * margin
-    )
+    sides = np.array([width, tallest]) if scale * span[0] < 0.5 * (width - 2 * margin) else scale * span + 2 * margin
     view = View(camera, scale * POINTS, POINTS * (sides / 2 - scale * (low + high) / 2))
     return view, canvas(float(sides[0]), float(sides[1]))
 

@@ -55,8 +55,7 @@ def catalogue(record: MechanismRecord, context: Context | None = None) -> list[F
     """
     shared = context or Context(record)
     return [
-        FigureSpec(entry.name, _number(shared, entry), entry.title, entry.caption(shared))
-        for entry in _present(shared)
+        FigureSpec(entry.name, _number(shared, entry), entry.title, entry.caption(shared)) for entry in _present(shared)
     ]
 
 

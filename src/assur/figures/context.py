@@ -50,9 +50,7 @@ class Context:
     def home(self) -> FloatArray:
         """Joint values (n,) of the configuration that is drawn: at the companion's inputs, else home."""
         if self.companion.inputs and self.record.closed_form:
-            found = direct(
-                self.record, self._inside(self.companion.inputs), self.record.modes.default_assembly or None
-            )
+            found = direct(self.record, self._inside(self.companion.inputs), self.record.modes.default_assembly or None)
             if found.exists[0]:
                 return np.asarray(found.joints[0])
         return home_values(self.record)
@@ -107,9 +105,7 @@ class Context:
         plan = self.companion.schematic
         if not plan.parameters or self.schematic.record is self.record:
             return ""
-        values = ", ".join(
-            f"{name} = {value:g} {self.record.unit}" for name, value in plan.parameters.items()
-        )
+        values = ", ".join(f"{name} = {value:g} {self.record.unit}" for name, value in plan.parameters.items())
         return f" Drawn with {values} {plan.because}.".replace("  ", " ")
 
     @cached_property

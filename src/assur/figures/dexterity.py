@@ -27,11 +27,7 @@ def _missing(context: Context) -> str:
     record = context.record
     kinds = {item.coordinate.kind for item in record.inputs}
     pose = {name in ("x", "y", "z") for name in record.platform.pose}
-    return (
-        ""
-        if len(kinds) == 1 and len(pose) == 1
-        else "lengths and angles are mixed, so the index has no meaning"
-    )
+    return "" if len(kinds) == 1 and len(pose) == 1 else "lengths and angles are mixed, so the index has no meaning"
 
 
 def _caption(context: Context) -> str:
@@ -99,9 +95,7 @@ def _draw(context: Context) -> Drawing:
     return Drawing(figure, {"unit": context.record.unit, "mode": context.workspace.mode, "maps": data})
 
 
-def _values(
-    context: Context, plane: tuple[str, str, str, float]
-) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _values(context: Context, plane: tuple[str, str, str, float]) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Nodes along both coordinates and the index (len(ys), len(xs)) at them; NaN outside the workspace."""
     box = context.workspace.box
     xs, ys = (np.linspace(box.low[box.axis(name)], box.high[box.axis(name)], NODES) for name in plane[:2])
@@ -124,9 +118,7 @@ def _map(
 ) -> Any:
     """Colours and level lines, cut off exactly at the border of the workspace."""
     found = context.workspace
-    polygons = (
-        found.section(plane[3], plane[2]).polygons if plane[2] else found.projection(*plane[:2]).polygons
-    )
+    polygons = found.section(plane[3], plane[2]).polygons if plane[2] else found.projection(*plane[:2]).polygons
     shown = _continued(values)
     image = axes.imshow(
         shown,

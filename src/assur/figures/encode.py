@@ -30,6 +30,6 @@ def encoded(figure: Figure, form: str, dots: int = DOTS_PER_INCH) -> bytes:
         raise UnknownNameError("picture format", form, _METADATA)
     stream = io.BytesIO()
     with styled():
-        packed = {"pil_kwargs": {"compress_level": 4}} if form == "png" else {}
+        packed: Any = {"pil_kwargs": {"compress_level": 4}} if form == "png" else {}
         figure.savefig(stream, format=form, dpi=dots, metadata=_METADATA[form], **packed)
     return stream.getvalue()

@@ -56,9 +56,7 @@ def boxes(context: Context) -> dict[str, Box]:
     (('J1', 'J2', 'J3', 'closed'), '(17)')
     """
     record, plan = context.record, context.companion.flow
-    found = {
-        item.name: Box(item.name, "input", item.latex or mathematics(item.name), ()) for item in record.inputs
-    }
+    found = {item.name: Box(item.name, "input", item.latex or mathematics(item.name), ()) for item in record.inputs}
     quantities = record.closed_form.quantity_list if record.closed_form else ()
     for item in quantities:
         if item.problem != "inverse" and item.name not in plan.leave_out:
@@ -120,9 +118,7 @@ def _places(plan: Layout, row: dict[str, int], low: float, depth: float) -> dict
     level = dict(row)
     for (start, _), steps in plan.routes.items():
         level |= {step: row[start] + 1 + k for k, step in enumerate(steps)}
-    return {
-        name: np.array([x - low, depth - 8 - HALF - ROW * level[name]]) for name, x in plan.centre.items()
-    }
+    return {name: np.array([x - low, depth - 8 - HALF - ROW * level[name]]) for name, x in plan.centre.items()}
 
 
 def _sizes(found: list[Box]) -> dict[str, float]:

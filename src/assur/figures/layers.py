@@ -99,8 +99,7 @@ def _ordered(level: Mapping[str, int], arrows: Sequence[tuple[str, str]]) -> lis
                 for name in order[k]
             }
             key = {
-                name: float(np.mean(near[name])) if near[name] else float(place)
-                for place, name in enumerate(order[k])
+                name: float(np.mean(near[name])) if near[name] else float(place) for place, name in enumerate(order[k])
             }
             order = [*order[:k], sorted(order[k], key=lambda name, key=key: key[name]), *order[k + 1 :]]  # type: ignore[misc]
         found = _crossings(order, arrows)
@@ -141,9 +140,7 @@ def _placed(
     }
     for sweep in range(4 * SWEEPS):
         for k in range(len(order)) if sweep % 2 == 0 else range(len(order) - 1, -1, -1):
-            wanted = np.array(
-                [np.mean([centre[other] for other in near[name]] or [centre[name]]) for name in order[k]]
-            )
+            wanted = np.array([np.mean([centre[other] for other in near[name]] or [centre[name]]) for name in order[k]])
             moved = _increasing(wanted - offsets[k]) + offsets[k]
             centre |= {name: float(x) for name, x in zip(order[k], moved, strict=True)}
     return centre

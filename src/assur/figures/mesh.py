@@ -62,9 +62,7 @@ def box(centre: FloatArray, sides: FloatArray, colour: str) -> Mesh:
     for k in range(3):
         for sense in (1.0, -1.0):
             middle, a, b = sense * sides[k], sides[(k + 1) % 3], sense * sides[(k + 2) % 3]
-            squares.append(
-                centre + np.array([middle - a - b, middle + a - b, middle + a + b, middle - a + b])
-            )
+            squares.append(centre + np.array([middle - a - b, middle + a - b, middle + a + b, middle - a + b]))
             normals.append(middle / max(float(np.linalg.norm(middle)), 1e-300))
     corners = np.concatenate([np.stack([square[[0, 1, 2]], square[[0, 2, 3]]]) for square in squares])
     flat = np.repeat(np.array(normals), 2, axis=0)
@@ -80,9 +78,7 @@ def cylinder(start: FloatArray, end: FloatArray, radius: float, colour: str) -> 
     return _prism(start, along, radius * way, way, colour)
 
 
-def bar(
-    start: FloatArray, end: FloatArray, normal: FloatArray, radius: float, thickness: float, colour: str
-) -> Mesh:
+def bar(start: FloatArray, end: FloatArray, normal: FloatArray, radius: float, thickness: float, colour: str) -> Mesh:
     """A flat bar with round ends about two points, its flat sides normal to a direction."""
     along = end - start
     length = float(np.linalg.norm(along))
@@ -113,9 +109,7 @@ def ball(centre: FloatArray, radius: float, colour: str) -> Mesh:
         axis=-1,
     )
     a, b, c, d = unit[:-1, :-1], unit[1:, :-1], unit[1:, 1:], unit[:-1, 1:]
-    ways = np.concatenate(
-        [np.stack([a, b, c], -2).reshape(-1, 3, 3), np.stack([a, c, d], -2).reshape(-1, 3, 3)]
-    )
+    ways = np.concatenate([np.stack([a, b, c], -2).reshape(-1, 3, 3), np.stack([a, c, d], -2).reshape(-1, 3, 3)])
     shape = np.zeros(len(ways), dtype=np.int64)
     return Mesh(centre + radius * ways, ways, shape, np.tile(rgb(colour), (len(ways), 1)))
 
@@ -129,9 +123,7 @@ def surface(vertices: FloatArray, faces: NDArray[np.int64], colour: str, crease:
     [0, 1, 2, 3]
     """
     corners = vertices[faces]
-    weighted = np.cross(
-        corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    )  # twice the area, outwards
+    weighted = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])  # twice the area, outwards
     unit = weighted / np.maximum(np.linalg.norm(weighted, axis=1, keepdims=True), 1e-300)
     first, second = _neighbours(faces)
     smooth = np.sum(unit[first] * unit[second], axis=1) > np.cos(np.radians(crease))
@@ -170,9 +162,7 @@ def _prism(start: FloatArray, along: FloatArray, rim: FloatArray, way: FloatArra
     low, high = start + rim, start + rim + along
     nxt = np.roll(np.arange(len(rim)), -1)
     side = np.concatenate([np.stack([low, low[nxt], high[nxt]], 1), np.stack([low, high[nxt], high], 1)])
-    round_normals = np.concatenate(
-        [np.stack([way, way[nxt], way[nxt]], 1), np.stack([way, way[nxt], way], 1)]
-    )
+    round_normals = np.concatenate([np.stack([way, way[nxt], way[nxt]], 1), np.stack([way, way[nxt], way], 1)])
     middle = rim.mean(axis=0)
     caps, cap_normals = [], []
     unit = along / max(float(np.linalg.norm(along)), 1e-300)
@@ -183,15 +173,11 @@ def _prism(start: FloatArray, along: FloatArray, rim: FloatArray, way: FloatArra
         cap_normals.append(np.broadcast_to(normal, (len(ring), 3, 3)))
     patch = np.repeat([0, 1, 2], [len(side), len(rim), len(rim)])
     corners = np.concatenate([side, *caps])
-    return Mesh(
-        corners, np.concatenate([round_normals, *cap_normals]), patch, np.tile(rgb(colour), (len(corners), 1))
-    )
+    return Mesh(corners, np.concatenate([round_normals, *cap_normals]), patch, np.tile(rgb(colour), (len(corners), 1)))
 
 
 def _flat(corners: FloatArray, normals: FloatArray, patch: NDArray[np.int64], colour: str) -> Mesh:
-    return Mesh(
-        corners, np.repeat(normals[:, None], 3, axis=1), patch, np.tile(rgb(colour), (len(corners), 1))
-    )
+    return Mesh(corners, np.repeat(normals[:, None], 3, axis=1), patch, np.tile(rgb(colour), (len(corners), 1)))
 
 
 def _ring(count: int) -> FloatArray:

@@ -26,9 +26,7 @@ FloatArray = NDArray[np.float64]
 def _caption(context: Context) -> str:
     record = context.record
     angles = (
-        ""
-        if not record.angles
-        else f" Angles {', '.join(letter(name) for name in record.angles)} are joint values."
+        "" if not record.angles else f" Angles {', '.join(letter(name) for name in record.angles)} are joint values."
     )
     return (
         "Kinematic model: points, base frame O-XYZ, moving frame O'-X'Y'Z', inputs and lengths."
@@ -39,9 +37,7 @@ def _caption(context: Context) -> str:
 def _draw(context: Context) -> Drawing:
     skeleton, companion = context.schematic, context.companion
     camera = context.camera("model", oblique("y", "z", 216, 0.6))
-    view, page = fitted(
-        camera, np.concatenate([cloud_of(skeleton, companion), np.zeros((1, 3))]), 150, 105, margin=11
-    )
+    view, page = fitted(camera, np.concatenate([cloud_of(skeleton, companion), np.zeros((1, 3))]), 150, 105, margin=11)
     letters = Letters(page)
     draw_ground(page, view, skeleton, companion, letters)
     ends = [point for rail in rails(skeleton, companion) for point in rail]
@@ -93,9 +89,7 @@ def _name_lengths(view: View, skeleton: Skeleton, letters: Letters) -> None:
         key = (chain.get(rod.link, ""), rod.length)
         if rod.length and rod.size > 0 and key not in done:
             done.add(key)
-            letters.add_along(
-                view(rod.points), formula_text(rod.length), clear=2.0, fontsize=TEXT, style="italic"
-            )
+            letters.add_along(view(rod.points), formula_text(rod.length), clear=2.0, fontsize=TEXT, style="italic")
 
 
 def _data(skeleton: Skeleton, context: Context) -> dict[str, Any]:

@@ -68,9 +68,7 @@ def _normal(axis: FloatArray) -> str | None:
 def _part_of(skeleton: Skeleton, normal: str) -> Skeleton:
     """The joints whose axes are normal to a plane, with their links."""
     turning = [
-        mark
-        for mark in skeleton.marks
-        if not mark.slides and len(mark.axes) and _normal(mark.axes[0]) == normal
+        mark for mark in skeleton.marks if not mark.slides and len(mark.axes) and _normal(mark.axes[0]) == normal
     ]
     links = {link for mark in turning for link in (mark.joint.parent, mark.joint.child)}
     return replace(
@@ -171,9 +169,7 @@ def _lengths(view: View, skeleton: Skeleton, letters: Letters) -> None:
         flat = view(rod.points)
         whole = abs(float(np.linalg.norm(flat[1] - flat[0])) - view.scale * rod.size) < 1e-6
         way = flat[1] - flat[0]
-        if not (rod.length and whole) or any(
-            text == rod.length and np.allclose(way, other) for text, other in done
-        ):
+        if not (rod.length and whole) or any(text == rod.length and np.allclose(way, other) for text, other in done):
             continue
         done.append((rod.length, way))
         letters.add_along(flat, formula_text(rod.length), clear=2.0, fontsize=TEXT)

@@ -36,20 +36,14 @@ def no_workspace(context: Context) -> str:
     missing = [name for name in context.record.platform.pose if name not in context.record.box]
     if missing:
         return f"the mechanism's file gives no interval for {', '.join(missing)}"
-    return (
-        ""
-        if len(context.record.platform.pose) in (2, 3)
-        else "a workspace is drawn in two or three coordinates"
-    )
+    return "" if len(context.record.platform.pose) in (2, 3) else "a workspace is drawn in two or three coordinates"
 
 
 def no_solid_workspace(context: Context) -> str:
     """Why there are no sections or projections; empty where there are."""
     if no_workspace(context):
         return no_workspace(context)
-    return (
-        "" if len(context.record.platform.pose) == 3 else "the workspace is plane; its figure shows all of it"
-    )
+    return "" if len(context.record.platform.pose) == 3 else "the workspace is plane; its figure shows all of it"
 
 
 def outline(polygons: Sequence[FloatArray]) -> Path | None:
@@ -59,9 +53,7 @@ def outline(polygons: Sequence[FloatArray]) -> Path | None:
     return Path.make_compound_path(*closed) if closed else None
 
 
-def fill(
-    axes: Axes, polygons: Sequence[FloatArray], colour: str, edge: str = "none", order: float = 1.0
-) -> None:
+def fill(axes: Axes, polygons: Sequence[FloatArray], colour: str, edge: str = "none", order: float = 1.0) -> None:
     """Polygons as one area."""
     path = outline(polygons)
     if path is not None:
@@ -181,10 +173,7 @@ def mode_words(context: Context) -> str:
 
 def locus_words(context: Context) -> str:
     """The singular surfaces inside the workspace and what they mean, for a caption."""
-    items = [
-        f"{condition(factor_of(context, locus.factor))} ({locus.meaning})"
-        for locus in present(context.workspace)
-    ]
+    items = [f"{condition(factor_of(context, locus.factor))} ({locus.meaning})" for locus in present(context.workspace)]
     if not items:
         return "No parallel-singular surface lies inside."
     return "Parallel-singular surfaces inside: " + "; ".join(items) + "."

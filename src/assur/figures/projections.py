@@ -47,9 +47,7 @@ def _draw(context: Context) -> Drawing:
     box = dict(zip(found.box.names, found.box.intervals, strict=True))
     spans = [(box[a][1] - box[a][0], box[b][1] - box[b][0]) for a, b in planes]
     left, gap, bottom, top = 14.0, 18.0, 17.0, 9.0
-    scale = min(
-        70.0 / max(tall for _, tall in spans), (PAGE - left - gap - 4.0) / sum(wide for wide, _ in spans)
-    )
+    scale = min(70.0 / max(tall for _, tall in spans), (PAGE - left - gap - 4.0) / sum(wide for wide, _ in spans))
     width = left + gap + 4.0 + scale * sum(wide for wide, _ in spans)
     height = bottom + top + scale * max(tall for _, tall in spans)
     figure = new_figure(width, height)
@@ -76,9 +74,7 @@ def _draw(context: Context) -> Drawing:
         axes.set_xlabel(axis_title(context, a))
         axes.set_ylabel(axis_title(context, b))
         middle = (start + scale * wide / 2) / width
-        figure.text(
-            middle, 1.5 / height, f"({chr(97 + k)}) {a.upper()}O{b.upper()}", ha="center", fontsize=TEXT
-        )
+        figure.text(middle, 1.5 / height, f"({chr(97 + k)}) {a.upper()}O{b.upper()}", ha="center", fontsize=TEXT)
         start += scale * wide + gap
         data["projections"].append(
             {

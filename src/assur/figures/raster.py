@@ -25,6 +25,9 @@ LIGHTS = ((np.array([-0.35, 0.55, 0.76]), 0.53), (np.array([0.75, 0.1, 0.65]), 0
 TIE = 2e-4
 """Of faces nearer to one another than this share of the whole depth the first one is seen, so that they do not mix."""
 
+SEAM = 1e-5
+"""By what share of its size a triangle is painted too large, so that rounding leaves no seam to the next one."""
+
 AMBIENT = 0.48
 EDGE = np.array([0.12, 0.12, 0.12])
 
@@ -59,18 +62,19 @@ def buffers(flat: FloatArray, near: FloatArray, faces: NDArray[np.intp], width: 
     tie = TIE * float(np.ptp(near)) if near.size else 0.0
     for k in faces[np.all(high > low, axis=1)[faces]]:
         (x0, y0), (x1, y1) = low[k], high[k]
-        (ax, ay), (bx, by), (cx, cy) = flat[k]
+        (ax, ay), (bx, by), (cx, cy) = flat[k].tolist()
         area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
         if abs(area) < 1e-12:
             continue
-        dx, dy = np.arange(x0, x1) - ax, (np.arange(y0, y1) - ay)[:, None]
+        dx = (np.arange(x0, x1) - ax).astype(np.float32)
+        dy = (np.arange(y0, y1) - ay).astype(np.float32)[:, None]
         second = dx * ((cy - ay) / area) - dy * ((cx - ax) / area)  # barycentric weights of b and c
         third = dy * ((bx - ax) / area) - dx * ((by - ay) / area)
-        here = near[k, 0] + second * (near[k, 1] - near[k, 0]) + third * (near[k, 2] - near[k, 0])
+        first, *others = near[k].tolist()
+        here = first + second * (others[0] - first) + third * (others[1] - first)
         part = (slice(y0, y1), slice(x0, x1))
-        wins = (
-            (second >= -1e-9) & (third >= -1e-9) & (second + third <= 1 + 1e-9) & (here > depth[part] + tie)
-        )
+        wins = (second >= -SEAM) & (third >= -SEAM) & (second + third <= 1 + SEAM)
+        wins &= here > depth[part] + tie
         depth[part][wins] = here[wins]
         face[part][wins] = k
     return Buffers(face, depth)
@@ -117,9 +121,7 @@ def _weights(flat: FloatArray, index: NDArray[np.int32], seen: NDArray[np.bool_]
     area = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
     area = np.where(np.abs(area) < 1e-12, 1.0, area)
     # each weight is linear over the page
-    slopes = np.stack(
-        [second[:, 1] / area, -second[:, 0] / area, -first[:, 1] / area, first[:, 0] / area], axis=1
-    )
+    slopes = np.stack([second[:, 1] / area, -second[:, 0] / area, -first[:, 1] / area, first[:, 0] / area], axis=1)
     starts = np.einsum("fkx,fx->fk", slopes.reshape(-1, 2, 2), flat[:, 0])
     b = column * slopes[index, 0] + row * slopes[index, 1] - starts[index, 0]
     c = column * slopes[index, 2] + row * slopes[index, 3] - starts[index, 1]

@@ -75,9 +75,7 @@ def _draw(context: Context) -> Drawing:
         **found.to_json(),
         "vertices": found.vertices,
         "faces": found.faces,
-        "loci": [
-            {"factor": item.factor, "vertices": item.vertices, "faces": item.faces} for item in found.loci
-        ],
+        "loci": [{"factor": item.factor, "vertices": item.vertices, "faces": item.faces} for item in found.loci],
     }
     return Drawing(figure, data)
 
@@ -108,9 +106,7 @@ def _space(context: Context) -> Any:
     found = context.workspace
     low, high = np.array(found.box.low), np.array(found.box.high)
     camera = context.companion.camera("workspace", orthographic(-60, 24))
-    corners = np.array(
-        [[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
-    )
+    corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
     span = np.ptp(camera.project(corners), axis=0)
     panel = (PAGE - 3 * 14.0) / 2
     height = panel * float(span[1] / span[0])
@@ -129,15 +125,11 @@ def _space(context: Context) -> Any:
     if len(found.faces):
         fine = FLATTER * float(np.max(high - low))
         parts = [(found.region.solid - context.near, FREE), (context.near, CLOSE)]
-        solids = [
-            surface(*mesh_of(part.simplify(fine)), colour) for part, colour in parts if not part.is_empty()
-        ]
+        solids = [surface(*mesh_of(part.simplify(fine)), colour) for part, colour in parts if not part.is_empty()]
         _paste(page, views[0], joined(solids), solid=True)
         for edge in creases(found.vertices, found.faces):
             page.line(views[1](edge), 0.35, GREY, 5)
-    surfaces = [
-        surface(item.vertices, item.faces, LOCI[k % len(LOCI)]) for k, item in enumerate(present(found))
-    ]
+    surfaces = [surface(item.vertices, item.faces, LOCI[k % len(LOCI)]) for k, item in enumerate(present(found))]
     if surfaces:
         _paste(page, views[1], joined(surfaces), solid=False)
     _captions(context, page, panel)
@@ -150,18 +142,14 @@ def _paste(page: Canvas, view: View, mesh: Mesh, *, solid: bool) -> None:
     (left, bottom), (right, top) = flat.min(axis=0) - 2.0, flat.max(axis=0) + 2.0
     local = View(view.camera, view.scale, view.offset - [left, bottom])
     image = picture(mesh, local, (right - left, top - bottom), DOTS_PER_INCH, solid=solid)
-    page.axes.imshow(
-        image, extent=(left, right, bottom, top), interpolation="antialiased", zorder=2, aspect="auto"
-    )
+    page.axes.imshow(image, extent=(left, right, bottom, top), interpolation="antialiased", zorder=2, aspect="auto")
 
 
 def _captions(context: Context, page: Canvas, panel: float) -> None:
     found = context.workspace
     areas = [Patch(facecolor=FREE, label="non-singular"), Patch(facecolor=CLOSE, label=near_words(context))]
     lines = [
-        Line2D(
-            [], [], color=LOCI[k % len(LOCI)], linewidth=4, label=condition(factor_of(context, item.factor))
-        )
+        Line2D([], [], color=LOCI[k % len(LOCI)], linewidth=4, label=condition(factor_of(context, item.factor)))
         for k, item in enumerate(present(found))
     ]
     shown: tuple[list[Any], list[Any]] = (areas, lines)

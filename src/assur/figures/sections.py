@@ -35,11 +35,7 @@ def _missing(context: Context) -> str:
     if no_solid_workspace(context):
         return no_solid_workspace(context)
     if context.given_workspace is not None:
-        return (
-            ""
-            if context.given_workspace.sections
-            else "the workspace was computed without a section in its box"
-        )
+        return "" if context.given_workspace.sections else "the workspace was computed without a section in its box"
     low, high = context.record.box[context.record.platform.pose[-1]]
     inside = [value for value in context.record.sections if low <= value <= high]
     return "" if inside else "the mechanism's file names no section in its box"

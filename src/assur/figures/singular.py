@@ -94,8 +94,7 @@ def _geometry(context: Context, factor: Factor) -> str:
 
 def _where(context: Context, example: SingularExample) -> str:
     pose = ", ".join(
-        _value(context, name, value)
-        for name, value in zip(context.record.platform.pose, example.pose, strict=True)
+        _value(context, name, value) for name, value in zip(context.record.platform.pose, example.pose, strict=True)
     )
     unit = f" {context.record.unit}" if all(name in LENGTHS for name in context.record.platform.pose) else ""
     status = example.status.name.replace("_", "-")
@@ -205,9 +204,7 @@ def _scene(context: Context, example: SingularExample) -> _Scene:
 def _panel(page: Canvas, scene: _Scene, rectangle: tuple[float, float, float, float], size: float) -> None:
     """The model with the links that the meaning names in colour, and lines through its points."""
     left, bottom, width, height = rectangle
-    view = inside(
-        scene.camera, scene.mesh.corners.reshape(-1, 3), (left + 1, bottom + 1, width - 2, height - 2)
-    )
+    view = inside(scene.camera, scene.mesh.corners.reshape(-1, 3), (left + 1, bottom + 1, width - 2, height - 2))
     paste(page, scene.mesh, view, (left * POINTS, bottom * POINTS, width * POINTS, height * POINTS))
     letters = Letters(page)
     _lines(page, view, scene.named, letters)

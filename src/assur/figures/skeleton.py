@@ -106,9 +106,7 @@ class Skeleton:
                 for link in (joint.parent, joint.child):
                     found.setdefault(link, set()).add(chain.name)
         shared = (self.record.base, self.record.platform.link)
-        return {
-            link: next(iter(names)) for link, names in found.items() if len(names) == 1 and link not in shared
-        }
+        return {link: next(iter(names)) for link, names in found.items() if len(names) == 1 and link not in shared}
 
 
 def skeleton(record: MechanismRecord, companion: Companion, values: FloatArray) -> Skeleton:
@@ -122,9 +120,7 @@ def skeleton(record: MechanismRecord, companion: Companion, values: FloatArray) 
     ['crank1', 'crank2', 'rod1', 'rod2']
     """
     placed = frames(record, values)
-    points = {
-        name: placed[item.link][0] @ item.at + placed[item.link][1] for name, item in record.points.items()
-    }
+    points = {name: placed[item.link][0] @ item.at + placed[item.link][1] for name, item in record.points.items()}
     points |= {name: _on_parent(placed, joint) for name, joint in record.joints.items()}
     rods, plates = _bodies(record, companion, placed)
     return Skeleton(record, values, placed, points, rods, plates, tuple(_marks(record, placed)))

@@ -58,9 +58,7 @@ def draw_bodies(page: Canvas, view: View, skeleton: Skeleton, letters: Letters, 
     place = {link: order(np.concatenate(_points_of(skeleton, link))) for link in bodies}
     for plate in skeleton.plates:
         corners = hull(view(plate.points))
-        page.polygon(
-            corners, _tint(pen.colour(plate.link)), pen.colour(plate.link), 0.8 * pen.width, place[plate.link]
-        )
+        page.polygon(corners, _tint(pen.colour(plate.link)), pen.colour(plate.link), 0.8 * pen.width, place[plate.link])
         letters.avoid(np.concatenate([corners, corners[:1]]))
     for rod in skeleton.rods:
         ends = view(rod.points)

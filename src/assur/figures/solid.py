@@ -32,9 +32,7 @@ def _caption(context: Context) -> str:
 
 def model_camera(context: Context) -> Camera:
     """The view of a model; a planar mechanism is seen from above at a slant."""
-    return context.companion.camera(
-        "solid", orthographic(-62, 52) if context.planar else orthographic(35, 22)
-    )
+    return context.companion.camera("solid", orthographic(-62, 52) if context.planar else orthographic(35, 22))
 
 
 def _draw(context: Context) -> Drawing:
@@ -74,9 +72,7 @@ def _data(context: Context, skeleton: Skeleton) -> dict[str, Any]:
         "unit": context.record.unit,
         "parameters": vars(context.record.values),
         "points": skeleton.points,
-        "frames": {
-            link: {"rotation": frame[0], "origin": frame[1]} for link, frame in skeleton.frames.items()
-        },
+        "frames": {link: {"rotation": frame[0], "origin": frame[1]} for link, frame in skeleton.frames.items()},
     }
 
 

@@ -40,9 +40,7 @@ def model(skeleton: Skeleton, companion: Companion, accents: Mapping[str, str] |
     layers = link_layers(skeleton)
     colours = {**_chain_colours(skeleton), **(accents or {})}
     parts = [
-        _rod(skeleton, rod, layers[rod.link], colours.get(rod.link, PLAIN))
-        for rod in skeleton.rods
-        if rod.size > 0
+        _rod(skeleton, rod, layers[rod.link], colours.get(rod.link, PLAIN)) for rod in skeleton.rods if rod.size > 0
     ]
     parts += [
         cylinder(a, b, 0.7 * unit(skeleton), colours.get(plate.link, PLAIN))

@@ -63,11 +63,7 @@ def _wrapped(context: Context, gap: FloatArray) -> FloatArray:
 
 
 def _missing(context: Context) -> str:
-    return (
-        ""
-        if context.record.closed_form
-        else "the mechanism has no closed form, so not every solution is known"
-    )
+    return "" if context.record.closed_form else "the mechanism has no closed form, so not every solution is known"
 
 
 def _caption(context: Context) -> str:
@@ -99,8 +95,11 @@ def _draw(context: Context) -> Drawing:
     height = float(rooms[:, 1].max())
     page = canvas(width, height + table + 12.0)
     left = (width - float(rooms[:, 0].sum()) - GAP * (len(cameras) - 1)) / 2
-    for camera, room in zip(cameras, rooms, strict=True):
+    for k, (camera, room) in enumerate(zip(cameras, rooms, strict=True)):
         _panel(context, page, inside(camera, cloud, (left, table + 6.0, float(room[0]), height)), found)
+        if len(cameras) > 1:
+            middle = (left + float(room[0]) / 2) * POINTS
+            page.text((middle, (table + 2.5) * POINTS), ("(a)", "(b) XOZ plane")[k], fontsize=TEXT)
         left += float(room[0]) + GAP
     _table(context, page, found, width, table)
     return Drawing(page.figure, _data(context, found))

@@ -117,8 +117,7 @@ def _data(context: Context, skeleton: Skeleton) -> dict[str, Any]:
             for mark in skeleton.marks
         },
         "bars": [
-            {"link": rod.link, "label": rod.label, "ends": rod.ends, "points": rod.points}
-            for rod in skeleton.rods
+            {"link": rod.link, "label": rod.label, "ends": rod.ends, "points": rod.points} for rod in skeleton.rods
         ],
         "plates": [{"link": plate.link, "points": plate.points} for plate in skeleton.plates],
         "rails": [np.array(rail) for rail in rails(skeleton, context.companion)],

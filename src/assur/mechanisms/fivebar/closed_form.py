@@ -120,7 +120,14 @@ CLOSED_FORM = ClosedForm(
         Margin("reach2", "4*l1*l1*l2*l2", "P is out of reach of leg 2", unit=4, signs=("s2",)),
     ),
     factor_list=(
-        Factor("sin_rods", "parallel", "1", "the two rods are collinear", r"\sin\angle(B_1P,B_2P)", unit=0),
+        Factor(
+            "sin_rods",
+            "parallel",
+            "1",
+            "B1, P, B2 are collinear: the two rods are in one line",
+            r"\sin\angle(B_1P,B_2P)",
+            unit=0,
+        ),
         Factor("arm1", "serial", "l1", "A1, B1, P are collinear", r"l_1\sin B_1"),
         Factor("arm2", "serial", "l1", "A2, B2, P are collinear", r"l_1\sin B_2"),
         Factor("gap_x", "other", "l2", "B1 and B2 have the same x", r"x_{B_2}-x_{B_1}"),
