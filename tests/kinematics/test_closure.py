@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.closure import assemble, closure_error, loop_twists, mobility, residuals
+from assur.kinematics.closure import assemble, characteristic_length, closure_error, loop_twists, mobility, residuals
 from assur.model.joint_graph import child_frame, frames, joint_graph
 from assur.model.registry import load_record
 
@@ -94,7 +96,7 @@ def test_the_derivative_of_the_residual_is_the_screws_at_an_assembly():
         change[index] = step
         gap = (residuals(mechanism, values + change) - residuals(mechanism, values - change)) / (2 * step)
         differences[:, index] = gap.ravel()
-    length = assur.kinematics.closure.characteristic_length(mechanism)
+    length = characteristic_length(mechanism)
     for row, joint in enumerate(joint_graph(mechanism).cut):
         rotation, origin = placed[joint.child]
         at = rotation @ joint.child_at + origin
@@ -125,9 +127,41 @@ def test_home_that_cannot_close_is_refused_with_the_gap():
         _ = assur.load("zeng2019", b=1000.0).home_values
 
 
+def test_home_is_followed_to_dimensions_that_do_not_close_from_the_file_s():
+    """From the file's home l4 = 20 closes in another mode and metres do not close at all; step by step they do."""
+    metres = {name: item.value / 1000 for name, item in load_record("zeng2019").parameters.items()}
+    for changed in ({"l4": 20.0}, metres):
+        mechanism = assur.load("zeng2019", **changed)
+        assert mechanism.closure_error(mechanism.home_values) < 1e-9 * characteristic_length(mechanism)
+        assert mechanism.singularity(mechanism.point("O'", mechanism.home_values)).kind == "regular"
+
+
 def test_home_in_another_mode_is_refused():
-    with pytest.raises(assur.UsageError, match="not in the default"):
-        _ = assur.load("zeng2019", l4=20.0).home_values
+    record = assur.load("zeng2019")
+    other = dataclasses.replace(record, modes=dataclasses.replace(record.modes, default_working="+++++"))
+    with pytest.raises(assur.UsageError, match=r"in the working mode \+\+-\+\+, not in the default \+\+\+\+\+"):
+        _ = other.home_values
+
+
+def test_rank_does_not_depend_on_the_place():
+    """The sliders may be anywhere along Y."""
+    paper = assur.load("zeng2019")
+    for far in (1e3, 1e6, 1e8):
+        values = paper.home_values.copy()
+        values[:3] += far
+        assert int(mobility(paper, values).rank) == 14
+
+
+def test_an_empty_batch_held_joints_and_wrong_ones():
+    paper = assur.load("zeng2019")
+    assert assemble(paper, np.empty((2, 0, 17))).values.shape == (2, 0, 17)
+    whole = assemble(paper, paper.home_values, held=range(17))
+    assert bool(whole.closed)
+    for wrong in ([99], [-1], ["P1"]):
+        with pytest.raises(assur.UsageError, match="held: no joint values"):
+            assemble(paper, paper.home_values, held=wrong)
+    with pytest.raises(assur.UsageError, match="17 of them are wanted"):
+        paper.closure_error(np.zeros(20))
 
 
 def test_rank_does_not_depend_on_the_unit():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from types import SimpleNamespace
 
@@ -54,7 +55,8 @@ def test_thirty_two_inverses_are_eight_real_ones_at_row_3(paper):
 def test_a_merged_branch_is_listed_once_with_a_zero(paper):
     """B = 2 l2: links 9, 11 and 10 are stretched along Y, so e1 is 0."""
     found = paper.direct([140.0 + 560.0, 0.0, 300.0])
-    assert {solution.mode for solution in found} == {"0++", "0+-", "0-+", "0--"}
+    assert [solution.mode for solution in found] == ["0++", "0+-", "0-+", "0--"]
+    assert len(found) == 4
     assert {solution.working_mode[2:4] for solution in found} == {"-+"}
     assert all(solution.status == Status.parallel for solution in found)
     assert np.all(found.residuals[found.exists] < 1e-5)
@@ -91,6 +93,70 @@ def test_self_motion_is_a_curve_and_never_a_sample(paper):
         y = curve.poses(33)[:, 1]
         gamma = np.linspace(*curve.interval, 33)
         np.testing.assert_allclose(y, 100.0 + 280.0 * np.cos(gamma) - 70.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("offset", [0.0, 1e-12, 1e-9, 1e-6, 5e-5])
+def test_a_hair_beside_b_zero_is_still_the_curve(paper, offset):
+    """The direct problem calls it self-motion exactly where the factor u1 - u2 of a solution would."""
+    found = paper.direct([100.0 + offset, -40.0, 20.0])
+    assert (found.overall_status, len(found)) == (Status.self_motion, 0)
+    assert found.curves
+
+
+def test_beside_the_tolerance_of_b_there_are_solutions_again(paper):
+    found = paper.direct([100.0 + 2e-4, -40.0, 20.0])
+    assert len(found) == 4
+    assert all(solution.status != Status.self_motion for solution in found)
+
+
+def test_an_arc_of_self_motion_may_end_at_the_half_turn():
+    """Tangent circles at gamma = 180 deg: the sine of pi and of -pi round differently."""
+    narrow = assur.load("zeng2019", b=50.0, d=50.0, l6=250.0)
+    found = narrow.direct([0.0, -140.0, -590.0])
+    assert found.overall_status in (Status.self_motion, Status.unreachable)
+    for curve in found.curves:
+        assert np.all(np.isfinite(curve.poses(9)))
+
+
+def test_a_batch_in_self_motion_agrees_with_single_problems(paper):
+    inputs = np.array([[100.0, -40.0, 20.0], [100.0, -40.0, 2000.0], [162.6907, -143.3209, -24.6776]])
+    together = paper.direct(inputs).overall_status
+    assert together.tolist() == [int(paper.direct(row).overall_status) for row in inputs]
+    assert together.tolist() == [Status.self_motion, Status.unreachable, Status.regular]
+
+
+def test_circles_that_coincide_are_undecided_and_not_complete():
+    """b = d and l4 = l6: where t = 0 the circles of D2 and of E3 are one, and the formulas divide by zero."""
+    narrow = assur.load("zeng2019", b=50.0, d=50.0, l4=230.0, l2=230.0)
+    found = narrow.direct([240.0, 0.0, 70.0])
+    assert found.overall_status == Status.undecided
+    assert not found.complete
+
+
+def test_the_residual_sees_an_answer_to_another_question(paper):
+    """A kernel that solves for other inputs closes its own loops, and the residual says that it is wrong."""
+    form = paper.closed_form
+
+    def slipped(ns, p, inputs, sign):
+        return form.direct(ns, p, (inputs[0] + 0.5, *inputs[1:]), sign)
+
+    wrong = dataclasses.replace(paper, closed_form=dataclasses.replace(form, direct=slipped))
+    found = wrong.direct(TABLE_1)
+    np.testing.assert_allclose(found.residuals[found.exists], 0.5, rtol=1e-6)
+
+
+def test_the_overall_status_is_the_most_severe_of_those_listed(paper):
+    found = paper.inverse(ROW_3)
+    assert {solution.status for solution in found} == {Status.regular, Status.self_motion}
+    assert found.overall_status == Status.self_motion
+
+
+def test_a_failure_names_the_branch_that_comes_nearest(paper):
+    """v is one of two heights, t one of four: the largest margin over the branches that fail is told."""
+    found = paper.direct([162.6907, -143.3209, -420.0])
+    for failure in found.failures:
+        margin = found.margins[failure.quantity]
+        assert failure.value == np.max(margin[margin < 0])
 
 
 def test_self_motion_arcs_end_where_a_margin_does(paper):
@@ -176,6 +242,10 @@ def test_a_batch_cannot_be_iterated(paper):
         ([1.0, 2.0, np.inf], "must be finite"),
         ([1.0, 2.0, 1e200], "larger than 1e"),
         (["1,5", "2", "3"], "not an array of numbers"),
+        (["1", "2", "3"], "not an array of numbers"),
+        ([True, False, True], "not an array of numbers"),
+        ([1j, 2.0, 3.0], "not an array of numbers"),
+        (np.ma.array([1.0, 2.0, 3.0], mask=[1, 0, 0]), "not an array of numbers"),
         ([[1.0, 2.0], [3.0]], "not an array of numbers"),
     ],
 )

@@ -39,11 +39,15 @@ def test_self_motion_mode_has_no_condition_and_labelled_numbers(paper):
     assert np.all(np.isfinite(here.input([1.0, 2.0, 3.0])))
 
 
-def test_a_batch_keeps_regular_rows_beside_singular_ones(paper):
-    edge = [-100.0 - 180.0, 0.0, 300.0]  # link 12 lies along X: sin(alpha) = 0
-    here = velocity_map(paper, [ROW_3, edge])
-    assert here.singular_input.tolist() == [False, True]
+def test_a_batch_keeps_regular_rows_beside_singular_and_unreachable_ones(paper):
+    edge = [80.0, -74.3479, 237.9038]  # link 12 lies along X: sin(alpha) = 0
+    here = velocity_map(paper, [ROW_3, edge, [500.0, 0.0, 300.0]])
+    assert here.singular_input.tolist() == [False, True, False]
+    assert here.exists.tolist() == [True, True, False]
     assert np.all(np.isfinite(here.matrix[0]))
+    assert np.isinf(here.condition[1])
+    for number in (here.condition, here.det_jp, here.det_jq, here.output([1.0, 2.0, 3.0])[:, 0]):
+        assert np.isnan(number[2])
 
 
 def test_mechanism_without_printed_jacobian_says_so():

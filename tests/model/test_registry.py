@@ -6,11 +6,12 @@ from pathlib import Path
 import pytest
 
 from assur.errors import MechanismFileError, UnknownNameError, UsageError
+from assur.model.closed_form import Sign
 from assur.model.registry import load_record, names, with_parameters
 
 FORM = """
 from dataclasses import dataclass
-from assur.model.closed_form import ClosedForm
+from assur.model.closed_form import ClosedForm, Sign
 
 @dataclass
 class Own:
@@ -21,7 +22,7 @@ def nothing(*_):
 
 CLOSED_FORM = ClosedForm(
     complete_for="joint_graph", direct=nothing, inverse=nothing, joints=nothing, factors=nothing, jacobians=nothing,
-    signs={"s": "sine"}, direct_margins=(), inverse_margins=(), factor_list=(),
+    signs={"s": Sign("sine", "1")}, direct_margins=(), inverse_margins=(), factor_list=(),
 )
 """
 
@@ -55,7 +56,7 @@ def test_the_closed_form_beside_a_file_belongs_to_it(folder: Path) -> None:
     (folder / "closed_form.py").write_text(FORM, encoding="utf-8")
     record = load_record(folder)
     assert record.closed_form is not None
-    assert record.closed_form.signs == {"s": "sine"}
+    assert record.closed_form.signs == {"s": Sign("sine", "1")}
     assert with_parameters(record, l1=41).closed_form is record.closed_form
 
 
@@ -68,9 +69,16 @@ def test_the_closed_form_beside_a_file_belongs_to_it(folder: Path) -> None:
         ("x = 1", ": no CLOSED_FORM; it must define CLOSED_FORM = ClosedForm(...)"),
         ("CLOSED_FORM = 3", ": no CLOSED_FORM; it must define CLOSED_FORM = ClosedForm(...)"),
         (
-            FORM.replace('"s": "sine"', '"t": "sine", "s": "sine"'),
+            FORM.replace('{"s"', '{"t": Sign("sine", "1"), "s"'),
             ": signs s, t; those of [modes] in mechanism.toml: s",
         ),
+        (FORM.replace('"1")', '"2*lx")'), ": the scale '2*lx': 'lx'; a formula of g, l1, l2, l3, tilt"),
+        (FORM.replace('"1")', '"-1")'), ": the scale '-1' is -1; it must be positive"),
+        (
+            FORM.replace("factor_list=()", 'factor_list=(), constraint_singular=(("v",),)'),
+            ": the group ('v',); names of",
+        ),
+        ("raise SystemExit(0)", ":1: SystemExit: 0; it must run"),
     ],
 )
 def test_a_broken_closed_form_is_a_fault_of_its_file(folder: Path, text: str, expected: str) -> None:

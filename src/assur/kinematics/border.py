@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
+from assur.kinematics.closure import characteristic_length
+from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -19,9 +21,13 @@ LARGEST = 1e60
 def checked(values: ArrayLike, names: tuple[str, ...], what: str) -> FloatArray:
     """An array (..., k) of finite floats with one entry per name, or a clear refusal."""
     try:
-        array = np.asarray(values, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise UsageError(f"{what}: not an array of numbers", hint=f"give {', '.join(names)}") from error
+        given = np.asarray(values)
+        numeric = given.dtype.kind in "iuf" and not isinstance(values, np.ma.MaskedArray)
+    except ValueError:  # rows of unequal length
+        numeric = False
+    if not numeric:
+        raise UsageError(f"{what}: not an array of numbers", hint=f"give {', '.join(names)}")
+    array = given.astype(float)
     if array.ndim == 0 or array.shape[-1] != len(names):
         found = "a single number" if array.ndim == 0 else f"{array.shape[-1]} values"
         raise UsageError(f"{what}: {found}, {len(names)} wanted", hint=f"give {', '.join(names)}")
@@ -78,3 +84,23 @@ def joint_values(record: MechanismRecord, joints: Any) -> list[FloatArray]:
         key = item.joint if item.joint in joints else f"{item.joint}.{item.component}"
         values.append(scalar(joints[key]))
     return values
+
+
+def distance(record: MechanismRecord, joints: FloatArray, poses: FloatArray, inputs: FloatArray) -> FloatArray:
+    """How far joint values (N, coordinates) are from poses (N, m) and printed inputs (N, n), in length units.
+
+    Lengths of the pose are compared with the platform's point in the joint graph; angles of the pose are not.
+    """
+    rotation, origin = frames(record, joints)[record.platform.link]
+    point = (rotation @ record.platform.point) + origin
+    gaps = [
+        np.abs(point[:, "xyz".index(name)] - poses[:, k])
+        for k, name in enumerate(record.platform.pose)
+        if name in LENGTHS
+    ]
+    for k, item in enumerate(record.inputs):
+        gap = np.abs(item.sign * joints[:, item.coordinate.index] + item.offset - inputs[:, k])
+        if item.coordinate.kind == "angle":
+            gap = characteristic_length(record) * np.abs((gap + np.pi) % (2 * np.pi) - np.pi)
+        gaps.append(gap)
+    return np.asarray(np.max(gaps, axis=0))

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.errors import UsageError
 from assur.model.joint_graph import Frame, child_frame, frames, joint_graph, screws
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import least_squares, rotations
@@ -91,13 +92,29 @@ def _loop_twists(record: MechanismRecord, twists: FloatArray) -> FloatArray:
     return matrix.reshape(*twists.shape[:-2], 6 * len(graph.cut), twists.shape[-1])
 
 
+def _about_cut_joints(record: MechanismRecord, values: FloatArray) -> FloatArray:
+    """Closure Jacobian (..., 6 v, n) with each loop's velocities taken at its cut joint.
+
+    The rank is the same; but far from the base's origin the moments of the rotations would drown it.
+    """
+    placed = frames(record, values)
+    matrix = loop_twists(record, values)
+    for index, joint in enumerate(joint_graph(record).cut):
+        rotation, origin = placed[joint.child]
+        point = (rotation @ joint.child_at) + origin
+        block = matrix[..., 6 * index : 6 * index + 6, :]
+        block[..., 3:, :] += np.cross(block[..., :3, :], point[..., :, None], axis=-2)
+    return matrix
+
+
 def _system(record: MechanismRecord, values: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Residual (N, 6v) and its derivative (N, 6v, n), exact where the loops close."""
     graph = joint_graph(record)
     length = characteristic_length(record)
     placed = frames(record, values)
     gaps = _residuals(record, values, placed)
-    twists = _loop_twists(record, screws(record, placed, values)).reshape(len(values), -1, 6, values.shape[-1])
+    loops = (len(values), len(graph.cut), 6, values.shape[-1])
+    twists = _loop_twists(record, screws(record, placed, values)).reshape(loops)
     derivative = np.empty_like(twists)
     for index, joint in enumerate(graph.cut):
         rotation, origin = placed[joint.child]
@@ -106,7 +123,7 @@ def _system(record: MechanismRecord, values: FloatArray) -> tuple[FloatArray, Fl
         derivative[:, index, :3] = loop[:, 3:] + np.cross(loop[:, :3], point[:, :, None], axis=1)
         derivative[:, index, 3:] = length * loop[:, :3]
     count = 6 * len(graph.cut)
-    return gaps.reshape(len(values), count), derivative.reshape(len(values), count, -1)
+    return gaps.reshape(len(values), count), derivative.reshape(len(values), count, values.shape[-1])
 
 
 def assemble(
@@ -123,7 +140,10 @@ def assemble(
     relative to the characteristic length.
     """
     count = start.shape[-1]
-    values: FloatArray = np.array(start, dtype=float).reshape(-1, count)
+    wrong = [index for index in held if index not in range(count)]
+    if wrong:
+        raise UsageError(f"held: no joint values {wrong} among 0 .. {count - 1}")
+    values: FloatArray = np.array(start, dtype=float).reshape(int(np.prod(start.shape[:-1])), count)
     free = np.setdiff1d(np.arange(count), np.asarray(held, dtype=int))
     length = characteristic_length(record)
     # a length counts in units of the characteristic length, so that a step mixes it fairly with angles
@@ -135,6 +155,9 @@ def assemble(
         gaps, derivative = _system(record, trial)
         return gaps / length, derivative[..., free] * (scale / length)
 
+    if not len(free):
+        error = closure_error(record, start)
+        return Assembly(values.reshape(start.shape), error, error <= CLOSED * length, 0)
     found = least_squares.minimise(system, values[:, free] / scale, tolerance=tolerance, max_steps=max_steps)
     values[:, free] = found.x * scale
     values = values.reshape(start.shape)
@@ -162,7 +185,7 @@ def mobility(record: MechanismRecord, values: FloatArray, *, threshold: float = 
     Translations are counted in units of the characteristic length, so that the rank does not depend on the unit.
     """
     length = characteristic_length(record)
-    matrix = loop_twists(record, values)
+    matrix = _about_cut_joints(record, values)
     rows = np.tile([1.0, 1.0, 1.0, 1 / length, 1 / length, 1 / length], matrix.shape[-2] // 6)
     columns = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
     singular = np.linalg.svd(matrix * rows[:, None] * columns, compute_uv=False)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.status import MARGIN_TOLERANCE, scale
+from assur.kinematics.status import FACTOR_TOLERANCE, MARGIN_TOLERANCE, scale
 from assur.model.closed_form import Margin
 from assur.model.mechanism import MechanismRecord
 
@@ -16,8 +16,11 @@ BoolArray = NDArray[np.bool_]
 
 
 def vanishes(record: MechanismRecord, margin: Margin, value: Any) -> BoolArray:
-    """Where a margin (...) is zero within MARGIN_TOLERANCE of its scale."""
-    return np.asarray(np.abs(value) <= MARGIN_TOLERANCE * scale(record, margin.scale))
+    """Where a margin (...) is zero: a radicand within MARGIN_TOLERANCE of its scale, a quantity at whose zero the
+    formulas degenerate within FACTOR_TOLERANCE (to the power of its unit), as the factor that vanishes with it.
+    """
+    tolerance = MARGIN_TOLERANCE if margin.zero == "merge" else FACTOR_TOLERANCE ** max(margin.unit, 1)
+    return np.asarray(np.abs(value) <= tolerance * scale(record, margin.scale))
 
 
 def allows(record: MechanismRecord, margin: Margin, value: Any) -> BoolArray:

@@ -63,6 +63,8 @@ def _solve(
         asked = [mode_signs(record, problem, mode)]
         sign, shape = SimpleNamespace(**dict(zip(names, map(float, asked[0]), strict=True))), ()
     kernel = form.direct if problem == "direct" else form.inverse
-    with np.errstate(divide="ignore", invalid="ignore"):  # where a margin degenerates; its status says so
+    with np.errstate(
+        divide="ignore", invalid="ignore", over="ignore"
+    ):  # where a margin degenerates; its status says so
         branch = kernel(Floats(), record.values, components, sign)
     return SolutionSet(record, problem, given, np.array(asked, dtype=np.int8), shape, branch)

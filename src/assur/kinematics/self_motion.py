@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
@@ -27,7 +28,8 @@ BISECTIONS = 60
 class SelfMotionCurve:
     """One arc of a self-motion: the parameter's interval in rad, for one choice of the remaining signs.
 
-    The ends are found by bisection from samples every 2 pi / 4096; an arc shorter than that may be missed.
+    The ends are found by bisection from samples every 2 pi / 4096; an arc shorter than that may be missed. An arc
+    across the half turn runs on beyond pi.
     """
 
     record: MechanismRecord
@@ -61,10 +63,7 @@ def self_motion_curves(record: MechanismRecord, inputs: FloatArray) -> tuple[Sel
     curves: list[SelfMotionCurve] = []
     for signs in _sign_choices(record):
         mode = mode_text([int(sign) for sign in signs])
-
-        def least(angle: FloatArray, signs: tuple[float, ...] = signs) -> FloatArray:
-            return np.asarray(np.min(list(_relative_margins(record, inputs, angle, signs).values()), axis=0))
-
+        least = partial(_least, record, inputs, signs=signs)
         name = form.self_motion.parameter
         curves += [SelfMotionCurve(record, inputs, name, arc, mode) for arc in _positive_arcs(least)]
     return tuple(curves)
@@ -78,7 +77,19 @@ def _kernel(
         raise AssertionError("no self-motion")
     sign = SimpleNamespace(**dict(zip(motion.signs, signs, strict=True)))
     components = border.input_components(record, np.broadcast_to(inputs, (len(angle), inputs.shape[-1])))
-    return motion.kernel(Floats(), record.values, components, (np.cos(angle), np.sin(angle)), sign)
+    with np.errstate(divide="ignore", invalid="ignore"):  # where a margin degenerates; it says so
+        return motion.kernel(Floats(), record.values, components, (np.cos(angle), np.sin(angle)), sign)
+
+
+def has_self_motion(record: MechanismRecord, inputs: FloatArray) -> bool:
+    """Whether the self-motion at inputs (n,) has a real arc."""
+    grid = np.linspace(-np.pi, np.pi, SAMPLES, endpoint=False)
+    return any(bool(np.any(_least(record, inputs, grid, signs) >= 0.0)) for signs in _sign_choices(record))
+
+
+def _least(record: MechanismRecord, inputs: FloatArray, angle: FloatArray, signs: tuple[float, ...]) -> FloatArray:
+    """The smallest margin (N,) along the curve, relative to its scale."""
+    return np.asarray(np.min(list(_relative_margins(record, inputs, angle, signs).values()), axis=0))
 
 
 def nearest_miss(record: MechanismRecord, inputs: FloatArray) -> Failure:
@@ -112,20 +123,24 @@ def _relative_margins(
 
 
 def _positive_arcs(least: Callable[[FloatArray], FloatArray]) -> list[tuple[float, float]]:
-    """Arcs of the circle on which a function is not negative, their ends by bisection; (-pi, pi) for all of it."""
-    grid = np.linspace(-np.pi, np.pi, SAMPLES + 1)
+    """Arcs of the circle on which a function is not negative, their ends by bisection; (-pi, pi) for all of it.
+
+    An arc that crosses the half turn runs on beyond pi.
+
+    >>> [(round(low, 6), round(high, 6)) for low, high in _positive_arcs(lambda angle: -np.cos(angle))]
+    [(1.570796, 4.712389)]
+    """
+    step = 2 * np.pi / SAMPLES
+    grid: FloatArray = np.asarray(-np.pi + step * np.arange(SAMPLES), dtype=np.float64)
     inside = least(grid) >= 0.0
     if np.all(inside):
         return [(-np.pi, np.pi)]
-    starts = np.flatnonzero(~inside[:-1] & inside[1:])
-    ends = np.flatnonzero(inside[:-1] & ~inside[1:])
-    lows = [_edge(least, grid[k + 1], grid[k]) for k in starts]
-    highs = [_edge(least, grid[k], grid[k + 1]) for k in ends]
-    if not lows:
-        return []
-    if inside[0]:  # the arc that crosses +-pi: its end is listed before every start
-        highs = [*highs[1:], highs[0] + 2 * np.pi]
-    return list(zip(lows, highs, strict=True))
+    arcs = []
+    for first in np.flatnonzero(inside & ~np.roll(inside, 1)):
+        length = int(np.argmin(np.roll(inside, -first)))  # samples until the first that is outside
+        last = grid[first] + step * (length - 1)
+        arcs.append((_edge(least, grid[first], grid[first] - step), _edge(least, last, last + step)))
+    return arcs
 
 
 def _edge(least: Callable[[FloatArray], FloatArray], inside: float, outside: float) -> float:

@@ -15,7 +15,7 @@ from assur.kinematics import border
 from assur.kinematics.closure import closure_error
 from assur.kinematics.existence import allows, exists, vanishes
 from assur.kinematics.modes import Problem, mode_text, sign_names
-from assur.kinematics.self_motion import SelfMotionCurve, nearest_miss, self_motion_curves
+from assur.kinematics.self_motion import SelfMotionCurve, has_self_motion, nearest_miss, self_motion_curves
 from assur.kinematics.solution import Failure, Solution
 from assur.kinematics.status import FACTOR_TOLERANCE, Status, classify, closed_form_of, scale
 from assur.model.closed_form import Branch, Margin
@@ -99,14 +99,29 @@ class SolutionSet:
 
     @cached_property
     def residuals(self) -> FloatArray:
-        """Closure error (..., K) of the full joint graph, in length units; NaN where there is no solution."""
+        """What a solution (..., K) misses, in length units; NaN where there is no solution.
+
+        The largest of: the closure error of the full joint graph; the distance of the platform's point from
+        the pose; the difference of the actuated joint values from the inputs (angles times the characteristic
+        length). So an answer to another question than the one asked has a residual.
+        """
         joints = self.joints.reshape(-1, self.joints.shape[-1])
         rows = np.flatnonzero(self._real.ravel())
         error = np.full(len(joints), np.nan)
         for start in range(0, len(rows), BLOCK):
             block = rows[start : start + BLOCK]
-            error[block] = closure_error(self.record, joints[block])
+            error[block] = np.maximum(closure_error(self.record, joints[block]), self._miss(joints[block], block))
         return error.reshape(self._real.shape)
+
+    def _miss(self, joints: FloatArray, rows: NDArray[np.intp]) -> FloatArray:
+        """How far joint values (N, coordinates) are from the poses and inputs of flat rows, in length units."""
+        poses = self._asked(self.poses, "inverse").reshape(-1, self.poses.shape[-1])[rows]
+        inputs = self._asked(self.inputs, "direct").reshape(-1, self.inputs.shape[-1])[rows]
+        return border.distance(self.record, joints, poses, inputs)
+
+    def _asked(self, found: FloatArray, problem: Problem) -> FloatArray:
+        """What was given, where this is the problem in which it is given; else what was found."""
+        return np.broadcast_to(self.given[..., None, :], found.shape) if self.problem == problem else found
 
     @cached_property
     def modes(self) -> NDArray[np.int8]:
@@ -127,7 +142,7 @@ class SolutionSet:
         for name in sign_names(self.record, problem):
             sign = form.signs[name]
             value = self._expand(getattr(self.branch.core, sign.attribute)) / scale(self.record, sign.scale)
-            columns.append(np.where(np.abs(value) <= FACTOR_TOLERANCE, 0, np.sign(value)))
+            columns.append(np.where(self._real & (np.abs(value) > FACTOR_TOLERANCE), np.sign(value), 0))
         return np.stack(columns, axis=-1).astype(np.int8)
 
     @cached_property
@@ -160,8 +175,10 @@ class SolutionSet:
         overall: NDArray[np.int8] = np.where(listed >= 0, listed, self.status.min(axis=-1)).astype(np.int8)
         for index in np.argwhere((listed < 0) & (overall == Status.self_motion)):
             place = tuple(index)
-            if not self_motion_curves(self.record, self.given[place]):
+            if not has_self_motion(self.record, self.given[place]):
                 overall[place] = Status.unreachable
+        undecided = np.any(self.status == Status.undecided, axis=-1)
+        overall[undecided] = Status.undecided
         return overall
 
     @cached_property

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
 from assur.kinematics import border
+from assur.kinematics.existence import exists
 from assur.kinematics.modes import mode_signs, sign_names
 from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of, relative_factors
 from assur.model.closed_form import Branch
@@ -27,24 +28,30 @@ FloatArray = NDArray[np.float64]
 class VelocityMap:
     """Jp (..., r, m) and Jq (..., r, n) with Jp v = Jq qdot at poses (..., m) in one working mode.
 
-    v are the rates of the pose coordinates, qdot those of the printed inputs. `singular_output` (...) marks
-    where Jp is singular, `singular_input` where Jq is, judged by the factors of the closed form.
+    v are the rates of the pose coordinates, qdot those of the printed inputs. `exists` (...) says where the mode
+    reaches the pose; elsewhere every number is NaN. `singular_output` (...) marks where Jp is singular,
+    `singular_input` where Jq is, judged by the factors of the closed form.
     """
 
     jp: FloatArray
     jq: FloatArray
     singular_output: NDArray[np.bool_]
     singular_input: NDArray[np.bool_]
+    exists: NDArray[np.bool_]
 
     @cached_property
     def det_jp(self) -> FloatArray:
         """Determinant (...) of Jp."""
-        return np.asarray(np.linalg.det(self.jp))
+        return self._determinant(self.jp)
 
     @cached_property
     def det_jq(self) -> FloatArray:
         """Determinant (...) of Jq."""
-        return np.asarray(np.linalg.det(self.jq))
+        return self._determinant(self.jq)
+
+    def _determinant(self, matrix: FloatArray) -> FloatArray:
+        finite = np.all(np.isfinite(matrix), axis=(-1, -2))
+        return np.where(finite, np.linalg.det(np.where(finite[..., None, None], matrix, 0.0)), np.nan)
 
     @cached_property
     def matrix(self) -> FloatArray:
@@ -54,13 +61,14 @@ class VelocityMap:
     @cached_property
     def velocity_factors(self) -> FloatArray:
         """Singular values of J (..., k), largest first: by how much inputs are made faster; NaN where singular."""
-        safe = np.where(self.singular_output[..., None, None], 0.0, self.matrix)
+        unknown = self.singular_output | ~self.exists
+        safe = np.where(unknown[..., None, None], 0.0, self.matrix)
         factors: FloatArray = np.linalg.svd(safe, compute_uv=False)
-        return np.where(self.singular_output[..., None], np.nan, factors)
+        return np.where(unknown[..., None], np.nan, factors)
 
     @cached_property
     def condition(self) -> FloatArray:
-        """Condition number (...) of J in the 2-norm; inf where either matrix is singular."""
+        """Condition number (...) of J in the 2-norm; inf where either matrix is singular, NaN out of reach."""
         with np.errstate(divide="ignore", invalid="ignore"):
             ratio = self.velocity_factors[..., 0] / self.velocity_factors[..., -1]
         return np.where(self.singular_output | self.singular_input, np.inf, ratio)
@@ -114,8 +122,8 @@ def acceleration(
     """Velocity v and acceleration (..., m) of the pose for given rates and accelerations (..., n) of the inputs.
 
     a = Jp^-1 (Jq qddot + Jq' qdot - Jp' v), the primes being derivatives along the motion, exact by dual
-    numbers through the same kernels. Both are NaN where Jp is singular; the acceleration is NaN where Jq is
-    singular too, because the kernels have no derivative at the root of zero.
+    numbers through the same kernels. Both are NaN out of reach and where Jp is singular; the acceleration is
+    NaN where Jq is singular too, because the kernels have no derivative at the root of zero.
     """
     here = velocity_map(record, poses, mode)
     rates = np.asarray(input_rates, dtype=float)
@@ -166,13 +174,16 @@ def _velocity_map(
     sizes = relative_factors(record, form.factors(Floats(), record.values, branch.core))
     count = int(np.prod(batch, dtype=int))
     zero = {name: np.broadcast_to(np.abs(size) <= FACTOR_TOLERANCE, (count,)) for name, size in sizes.items()}
+    real = np.broadcast_to(exists(record, form.inverse_margins, branch.margins), (count,))
     output = np.any([zero[item.name] for item in form.factor_list if item.kind == "parallel"], axis=0)
     inputs = np.any([zero[item.name] for item in form.factor_list if item.kind == "serial"], axis=0)
+    there = real.reshape(batch)
     return VelocityMap(
-        _matrix(jp, batch),
-        _matrix(jq, batch) * _input_signs(record),
-        np.asarray(output).reshape(batch),
-        np.asarray(inputs).reshape(batch),
+        np.where(there[..., None, None], _matrix(jp, batch), np.nan),
+        np.where(there[..., None, None], _matrix(jq, batch) * _input_signs(record), np.nan),
+        (np.asarray(output) & real).reshape(batch),
+        (np.asarray(inputs) & real).reshape(batch),
+        there,
     )
 
 

@@ -9,6 +9,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.errors import UsageError
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.numerics import rotations
 from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL
@@ -121,6 +122,8 @@ def frames(record: MechanismRecord, values: FloatArray) -> dict[str, Frame]:
     Loops need not close: the joints that close them are not asked.
     """
     graph = joint_graph(record)
+    if np.ndim(values) == 0 or values.shape[-1] != len(record.coordinates):
+        raise UsageError(f"joint values of shape {np.shape(values)}; {len(record.coordinates)} of them are wanted")
     batch = values.shape[:-1]
     placed: dict[str, Frame] = {record.base: (np.broadcast_to(np.eye(3), (*batch, 3, 3)), np.zeros((*batch, 3)))}
     for joint, forward in graph.tree:

@@ -26,8 +26,8 @@ def point(record: MechanismRecord, name: str, joint_values: FloatArray) -> Float
         letter = record.points[name]
         rotation, origin = placed[letter.link]
         return np.asarray(rotation @ letter.at + origin)
-    if name in record.joints:
-        joint = record.joints[name]
+    if any(name in (joint.name, joint.alias) for joint in record.joints.values()):
+        joint = record.joint(name)
         rotation, origin = placed[joint.parent]
         return np.asarray(rotation @ joint.at + origin)
     raise UnknownNameError(f"point of {record.name}", name, (*record.points, *record.joints))

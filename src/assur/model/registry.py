@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import importlib.util
 import sys
@@ -16,6 +17,7 @@ from assur.model.file.build import build
 from assur.model.file.faults import Faults, listed
 from assur.model.file.parameters import checked_overrides
 from assur.model.file.reader import read_mechanism
+from assur.model.formula import parse
 from assur.model.mechanism import MechanismRecord
 
 FILE = "mechanism.toml"
@@ -110,8 +112,9 @@ def _closed_form(record: MechanismRecord, path: Path) -> ClosedForm | None:
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
     try:
-        spec.loader.exec_module(module)
-    except Exception as error:
+        with contextlib.redirect_stdout(sys.stderr):  # what it prints must not mix with an answer
+            spec.loader.exec_module(module)
+    except (Exception, SystemExit) as error:
         raise _broken(path, _line(error, path), f"{type(error).__name__}: {error}", "it must run") from error
     form = getattr(module, "CLOSED_FORM", None)
     if not isinstance(form, ClosedForm):
@@ -120,14 +123,36 @@ def _closed_form(record: MechanismRecord, path: Path) -> ClosedForm | None:
     if signs != set(form.signs):
         found = f"signs {listed(form.signs)}"
         raise _broken(path, None, found, f"those of [modes] in {record.file.name}: {listed(signs)}")
+    _check_claims(record, form, path)
     return form
+
+
+def _check_claims(record: MechanismRecord, form: ClosedForm, path: Path) -> None:
+    """The names and scales that a closed form states must be there and be computable."""
+    factors = {item.name for item in form.factor_list}
+    for group in (*form.constraint_singular, *form.self_motion_singular):
+        if not set(group) <= factors:
+            raise _broken(path, None, f"the group {group}", f"names of factor_list: {listed(factors)}")
+    margins = {item.name for item in form.direct_margins}
+    if form.self_motion and form.self_motion.margin not in margins:
+        found = f"self_motion.margin = '{form.self_motion.margin}'"
+        raise _broken(path, None, found, f"a name of direct_margins: {listed(margins)}")
+    margin_scales = [item.scale for item in (*form.direct_margins, *form.inverse_margins)]
+    for formula in (*margin_scales, *(f.scale for f in form.factor_list), *(s.scale for s in form.signs.values())):
+        try:
+            size = float(parse(formula).evaluate(vars(record.values)))
+        except (KeyError, UsageError) as error:
+            found = f"the scale '{formula}': {error}"
+            raise _broken(path, None, found, f"a formula of {listed(record.parameters)}") from error
+        if not size > 0:
+            raise _broken(path, None, f"the scale '{formula}' is {size:g}", "it must be positive")
 
 
 def _broken(path: Path, line: int | None, found: str, allowed: str) -> MechanismFileError:
     return MechanismFileError([Problem(str(path), line, "", found, allowed)])
 
 
-def _line(error: Exception, path: Path) -> int | None:
+def _line(error: BaseException, path: Path) -> int | None:
     """The last line of the file that was reached before an error."""
     if isinstance(error, SyntaxError) and error.filename == str(path):
         return error.lineno

@@ -9,12 +9,15 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
+from assur.errors import UsageError
 from assur.kinematics.closure import mobility
 from assur.kinematics.home import home_values
 from assur.kinematics.position import inverse
 from assur.kinematics.status import Status, closed_form_of, relative_factors
 from assur.kinematics.velocity import velocity_map
 from assur.model.mechanism import MechanismRecord
+
+SAMPLES = 40
 
 
 @dataclass(frozen=True)
@@ -42,13 +45,23 @@ class Verdict:
     det_jq: float | None
     condition: float | None
     rank: int | None
-    generic_rank: int
+    generic_rank: int | None
     freedoms: int | None
 
 
 @lru_cache(maxsize=64)
 def generic_rank(record: MechanismRecord) -> int:
-    """Rank of the closure of the joint graph at the assembled home configuration."""
+    """Rank of the closure of the joint graph in general: the largest over solutions at poses of the file's box.
+
+    Where the box holds no solution, at the assembled home.
+    """
+    if record.closed_form and all(name in record.box for name in record.platform.pose):
+        low, high = np.array([record.box[name] for name in record.platform.pose]).T
+        poses = np.random.default_rng(0).uniform(low, high, size=(SAMPLES, len(low)))
+        found = inverse(record, poses)
+        solutions = found.joints[found.exists][:SAMPLES]
+        if len(solutions):
+            return int(np.max(mobility(record, solutions).rank))
     return int(mobility(record, home_values(record)).rank)
 
 
@@ -63,14 +76,16 @@ def verdict(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) -
     """
     mode = mode or record.modes.default_working
     found = inverse(record, pose, mode)
+    if found.batch_shape:
+        raise UsageError(f"one pose is judged at a time, not a batch of shape {found.batch_shape}")
     status = Status(int(found.status[0]))
-    general = generic_rank(record)
     if status in (Status.unreachable, Status.undecided):
-        return Verdict(status.name, False, status.name, "", {}, {}, None, None, None, None, general, None)
+        return Verdict(status.name, False, status.name, "", {}, {}, None, None, None, None, None, None)
+    free = mobility(record, found.joints[0])
+    general = max(generic_rank(record), int(free.rank))
     factors = {name: value[..., 0] for name, value in found.factors.items()}
     relative = {name: float(value) for name, value in relative_factors(record, factors).items()}
     dividing = [item.name for item in closed_form_of(record).factor_list if item.kind != "other"]
-    free = mobility(record, found.joints[0])
     kind = status
     if int(free.rank) < general:
         kind = max(kind, Status.constraint)

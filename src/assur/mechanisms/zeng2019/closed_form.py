@@ -217,7 +217,7 @@ CLOSED_FORM = ClosedForm(
     },
     direct_margins=(
         Margin(
-            "B", "2*l2", "B1B2 less C1C2: zero where B1C1 and B2C2 stay parallel", unit=1, zero="degenerate", latex="B"
+            "B", "l2", "B1B2 less C1C2: zero where B1C1 and B2C2 stay parallel", unit=1, zero="degenerate", latex="B"
         ),
         Margin(
             "w2",
@@ -245,7 +245,7 @@ CLOSED_FORM = ClosedForm(
         ),
         Margin(
             "meeting",
-            "4*l4*l4*l6*l6",
+            "4*l4*l4*(l6*l6 + 4*(b-d)*(b-d))",
             "the circles of link 12 about D1 and of parallelogram 2 about D3 do not meet",
             unit=4,
             signs=("e3",),

@@ -65,7 +65,9 @@ def one_collinear_set(record):
     examples = [example for example in singular_examples(record) if example.factor.name in ("u1", "u2")]
     verdicts = [verdict(record, example.pose, example.mode) for example in examples]
     together = all(max(abs(item.relative[name]) for name in ("u1", "u2")) <= FACTOR_TOLERANCE for item in verdicts)
-    dependent = all(item.reduced_kind == "comprehensive" and (item.rank or 0) < item.generic_rank for item in verdicts)
+    dependent = all(
+        item.reduced_kind == "comprehensive" and (item.rank or 0) < (item.generic_rank or 0) for item in verdicts
+    )
     return Evidence(
         len(verdicts) == 2 and gap < CLOSE and together and dependent,
         f"On {len(joints)} random configurations of the joint graph |u1² - u2²| stays below {CLOSE:g} l2². At the "
