@@ -9,6 +9,7 @@ import pytest
 
 import assur
 from assur.kinematics.closure import assemble, characteristic_length, closure_error, loop_twists, mobility, residuals
+from assur.kinematics.home import home_values
 from assur.model.joint_graph import child_frame, frames, joint_graph
 from assur.model.registry import load_record
 
@@ -136,11 +137,11 @@ def test_home_is_followed_to_dimensions_that_do_not_close_from_the_file_s():
         assert mechanism.singularity(mechanism.point("O'", mechanism.home_values)).kind == "regular"
 
 
-def test_home_in_another_mode_is_refused():
-    record = assur.load("zeng2019")
-    other = dataclasses.replace(record, modes=dataclasses.replace(record.modes, default_working="+++++"))
-    with pytest.raises(assur.UsageError, match=r"in the working mode \+\+-\+\+, not in the default \+\+\+\+\+"):
-        _ = other.home_values
+def test_home_of_a_file_that_does_not_close_is_a_fault_of_the_file():
+    record = load_record("zeng2019")
+    away = dataclasses.replace(record.joints["P3"], at=np.array([5000.0, 0.0, 0.0]))
+    with pytest.raises(assur.MechanismFileError, match="home: the loops do not close from home: a gap of"):
+        home_values(dataclasses.replace(record, joints={**record.joints, "P3": away}))
 
 
 def test_rank_does_not_depend_on_the_place():

@@ -76,7 +76,7 @@ def test_the_closed_form_beside_a_file_belongs_to_it(folder: Path) -> None:
         (FORM.replace('"1")', '"-1")'), ": the scale '-1' is -1; it must be positive"),
         (
             FORM.replace("factor_list=()", 'factor_list=(), constraint_singular=(("v",),)'),
-            ": the group ('v',); names of",
+            ": the group ('v',); names of factor_list: none",
         ),
         ("raise SystemExit(0)", ":1: SystemExit: 0; it must run"),
     ],

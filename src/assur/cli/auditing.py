@@ -87,4 +87,4 @@ def _cell(text: str) -> str | Text:
 
 def summary(found: Audit) -> str:
     """How many rows are what."""
-    return f"{len(found.rows)} printed numbers: {found.ok} ok, {found.wrong} wrong, {found.missing} missing"
+    return f"{len(found.rows)} rows: {found.ok} ok, {found.wrong} wrong, {found.missing} missing"

@@ -26,6 +26,7 @@ def audit(ledger: Ledger, findings: Findings, shared: Plain) -> None:
         found = findings.audit
     differing = [row for row in found.rows if row.verdict != "ok"]
     ledger.show([rows_table(differing), "", f"{summary(found)} (the ones that agree: assur audit {record.name})", ""])
+    ledger.show(["Errata of the source; a check mark says that our evidence for it, computed just now, holds"])
     for erratum in found.errata:
         ledger.claim(f"{erratum.id}, {erratum.where}", erratum.evidence.holds, erratum.finding)
 

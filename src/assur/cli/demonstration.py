@@ -54,7 +54,7 @@ def _shown(ledger: Ledger, folder: Path, files: list[Path], seconds: float) -> I
     total = count(len(ledger.claims), "claim")
     yield ""
     yield heading(f"{total} checked, {'all hold' if not ledger.failed else f'{ledger.failed} FAIL'}; {seconds:.0f} s")
-    yield f"{count(len(files), 'file')} in {folder}"
+    yield f"{count(len(files), 'file')} in {folder}; open {folder / 'report.html'} in a browser"
     for claim in ledger.claims:
         if not claim.holds:
             yield f"fails: {claim.section}: {claim.claim}: {claim.found}"

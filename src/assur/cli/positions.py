@@ -122,7 +122,7 @@ def failures(items: list[dict[str, Any]]) -> RenderableType:
         )
         for item in items
     ]
-    return table(("negative", "by at least", "which is", "branches"), rows, left=("negative", "which is"))
+    return table(("negative", "at best", "which is", "branches"), rows, left=("negative", "which is"))
 
 
 def _completeness(record: Mechanism, data: dict[str, Any], branches: int) -> str:

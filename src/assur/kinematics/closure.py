@@ -193,5 +193,6 @@ def mobility(record: MechanismRecord, values: FloatArray, *, threshold: float = 
     rank = np.sum(kept, axis=-1)
     smallest = np.min(np.where(kept, singular, np.inf), axis=-1)
     dropped = np.max(np.where(kept, 0.0, singular), axis=-1)
-    gap = smallest / np.maximum(dropped, np.finfo(float).tiny)
+    with np.errstate(divide="ignore"):
+        gap = np.where(dropped > 0.0, smallest / dropped, np.inf)
     return Mobility(rank, values.shape[-1] - rank, matrix.shape[-2] - rank, gap)

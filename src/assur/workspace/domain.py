@@ -77,7 +77,10 @@ def box_of(record: MechanismRecord, box: Mapping[str, Sequence[float]] | ArrayLi
             raise UnknownNameError(f"pose coordinate of {record.name}", name, names)
     missing = [name for name in names if name not in pairs]
     if missing:
-        raise UsageError(f"box: no interval for {', '.join(missing)}", hint="the mechanism's file gives no box")
+        raise UsageError(
+            f"box: no interval for {', '.join(missing)}",
+            hint=f"add {missing[0]} to [workspace] box in {record.file.name}",
+        )
     limits = _pairs(names, [pairs[name] for name in names])
     return Box(names, tuple(limits[:, 0].tolist()), tuple(limits[:, 1].tolist()))
 

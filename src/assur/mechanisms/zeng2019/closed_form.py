@@ -149,13 +149,12 @@ def quantities(ns, p, core):
     """What the paper names on its way, at any solution."""
     t = p.l4 * core.sin_alpha - p.l6 * core.sin_beta
     width = 2 * (p.b - p.d)
-    u_sum = core.u1 - core.u2
     return {
         "gamma": (core.u1 / p.l2, core.w / p.l2),
         "alpha": (core.cos_alpha, core.sin_alpha),
         "beta": (core.cos_beta, core.sin_beta),
         "A": 2 * p.l2,
-        "B": -u_sum,
+        "B": core.u2 - core.u1,
         "H1": core.w - p.l8 - p.l7,
         "H2": core.v * core.v,
         "t": t,

@@ -27,7 +27,7 @@ def position(found: Findings) -> Section:
     introduction = (
         "The formulas below are not written down by hand: they are what the closed form of this mechanism computes, "
         "read over symbols line by line, in the letters of the source. The same lines, read over floating-point "
-        "numbers, give every number in this report. Numbers in brackets are the source's equations."
+        "numbers, give every solution and Jacobian in this report. Numbers in brackets are the source's equations."
     )
     parts: list[Result | Section] = [*found.picture("model", "planes"), _modes(found.record)]
     parts += [_direct(found), _inverse(found)]
