@@ -206,8 +206,8 @@ def _solutions(found: Findings, problem: Problem) -> Table:
     titles = tuple(style.title(name, angle=angle) for name, angle in zip(names, angles, strict=True))
     columns = ("mode", *titles, other, "status", style.title("gap", angle=False))
     caption = (
-        "All real solutions. The gap is the largest that remains over the cut joints of the whole joint graph, or to what was asked, "
-        "orientation errors times its characteristic length included. A sign written 0 has merged."
+        "All real solutions. The gap is the largest that remains over the cut joints of the whole joint graph, or to "
+        "what was asked, orientation errors times its characteristic length included. A sign written 0 has merged."
     )
     marks = tuple("" if item.status <= Status.near_singular else "singular" for item in answer)
     return Table(f"Solutions of the {problem} problem", columns, rows, caption, marks)
