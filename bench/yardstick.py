@@ -11,8 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
+from assur.kinematics.existence import tolerance
 from assur.kinematics.modes import mode_signs
-from assur.kinematics.status import MARGIN_TOLERANCE, closed_form_of, scale
+from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 
 HERE = Path(__file__).parent
@@ -83,5 +84,5 @@ class Yardstick:
 
     def _limits(self, names: tuple[str, ...]) -> np.ndarray:
         form = closed_form_of(self.record)
-        scales = {item.name: item.scale for item in (*form.direct_margins, *form.inverse_margins)}
-        return np.array([MARGIN_TOLERANCE * scale(self.record, scales[name]) for name in names])
+        margins = {item.name: item for item in (*form.direct_margins, *form.inverse_margins)}
+        return np.array([tolerance(self.record, margins[name]) for name in names])

@@ -15,12 +15,19 @@ from assur.model.mechanism import MechanismRecord
 BoolArray = NDArray[np.bool_]
 
 
-def vanishes(record: MechanismRecord, margin: Margin, value: Any) -> BoolArray:
-    """Where a margin (...) is zero: a radicand within MARGIN_TOLERANCE of its scale, a quantity at whose zero the
-    formulas degenerate within FACTOR_TOLERANCE (to the power of its unit), as the factor that vanishes with it.
+def tolerance(record: MechanismRecord, margin: Margin) -> float:
+    """Within what a margin is zero, in its own unit.
+
+    A radicand: MARGIN_TOLERANCE of its scale. A quantity at whose zero the formulas degenerate: FACTOR_TOLERANCE
+    to the power of its unit, as the factor that vanishes with it.
     """
-    tolerance = MARGIN_TOLERANCE if margin.zero == "merge" else FACTOR_TOLERANCE ** max(margin.unit, 1)
-    return np.asarray(np.abs(value) <= tolerance * scale(record, margin.scale))
+    share = MARGIN_TOLERANCE if margin.zero == "merge" else FACTOR_TOLERANCE ** max(margin.unit, 1)
+    return share * scale(record, margin.scale)
+
+
+def vanishes(record: MechanismRecord, margin: Margin, value: Any) -> BoolArray:
+    """Where a margin (...) is zero within its tolerance."""
+    return np.asarray(np.abs(value) <= tolerance(record, margin))
 
 
 def allows(record: MechanismRecord, margin: Margin, value: Any) -> BoolArray:
@@ -32,7 +39,7 @@ def allows(record: MechanismRecord, margin: Margin, value: Any) -> BoolArray:
     """
     if margin.zero == "degenerate":
         return ~vanishes(record, margin, value)
-    return np.asarray(np.asarray(value) >= -MARGIN_TOLERANCE * scale(record, margin.scale))
+    return np.asarray(np.asarray(value) >= -tolerance(record, margin))
 
 
 def exists(record: MechanismRecord, margins: Sequence[Margin], values: Mapping[str, Any]) -> BoolArray:
