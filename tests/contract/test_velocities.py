@@ -79,7 +79,8 @@ def test_determinants_are_the_products_of_their_factors(mechanism, poses):
         if not np.any(real):
             continue
         here = mechanism.velocity_map(poses[real], mode)
-        for kind, determinant in (("parallel", here.det_jp), ("serial", here.det_jq)):
+        turned = np.prod([item.sign for item in mechanism.inputs])  # from joint values to printed inputs
+        for kind, determinant in (("parallel", here.det_jp), ("serial", turned * here.det_jq)):
             named = [found.factors[item.name][real, k] for item in form.factor_list if item.kind == kind]
             scale = np.prod([np.abs(values).max() + 1e-300 for values in named])
             np.testing.assert_allclose(determinant, np.prod(named, axis=0), rtol=1e-9, atol=1e-11 * scale)

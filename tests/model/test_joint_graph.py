@@ -10,6 +10,7 @@ from assur.model.joint_graph import child_frame, frames, joint_graph, parent_fra
 from assur.model.points import point
 from assur.model.registry import load_record
 from assur.numerics import rotations
+from assur.topology.joints import JOINT_TYPES
 
 EVERY_TYPE = """
 format = 1
@@ -104,29 +105,25 @@ def test_a_screw_advances_by_its_pitch_per_turn(every):
 
 
 def test_screws_are_the_derivatives_of_the_frames(every):
-    """Every joint moves the last link of the tree as its screw says, by central differences."""
-    rng = np.random.default_rng(3)
-    values = rng.normal(size=len(every.coordinates))
-    graph = joint_graph(every)
-    twists = screws(every, frames(every, values), values)
-    step = 1e-6
-    for joint, forward in graph.tree:
-        near, far = (joint.parent, joint.child) if forward else (joint.child, joint.parent)
-        for index in range(*graph.slices[joint.name].indices(len(values))):
-            change = np.zeros_like(values)
-            change[index] = step
-            ahead, behind = frames(every, values + change)[far], frames(every, values - change)[far]
+    """Every component of every joint, cut ones too, moves its child against its parent as its screw says."""
+    values = np.random.default_rng(3).normal(size=len(every.coordinates))
+    graph, placed = joint_graph(every), frames(every, values)
+    twists = screws(every, placed, values)
+    step, seen = 1e-6, set()
+    for joint in every.joints.values():
+        columns, parent = graph.slices[joint.name], placed[joint.parent]
+        own = values[columns]
+        for component in range(len(own)):
+            change = step * np.eye(len(own))[component]
+            ahead, behind = child_frame(joint, parent, own + change), child_frame(joint, parent, own - change)
             turn = rotations.to_vector(ahead[0] @ behind[0].T) / (2 * step)
-            middle = frames(every, values)[far][1]
-            sense = 1 if forward else -1
-            omega, velocity = sense * twists[:3, index], sense * twists[3:, index]
-            np.testing.assert_allclose(turn, omega, atol=1e-8, err_msg=f"{joint.name} {near} {far}")
-            np.testing.assert_allclose(
-                (ahead[1] - behind[1]) / (2 * step),
-                velocity + np.cross(omega, middle),
-                atol=1e-6,
-                err_msg=joint.name,
-            )
+            middle = child_frame(joint, parent, own)[1]
+            omega, velocity = twists[:3, columns.start + component], twists[3:, columns.start + component]
+            np.testing.assert_allclose(turn, omega, atol=1e-8, err_msg=joint.name)
+            moved = (ahead[1] - behind[1]) / (2 * step)
+            np.testing.assert_allclose(moved, velocity + np.cross(omega, middle), atol=1e-6, err_msg=joint.name)
+        seen.add(joint.type.name)
+    assert seen == set(JOINT_TYPES)
 
 
 def test_points_are_where_the_frames_say():

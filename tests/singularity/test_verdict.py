@@ -62,3 +62,11 @@ def test_out_of_reach_is_a_verdict_too(paper):
     verdict = paper.singularity([500.0, 0.0, 300.0])
     assert verdict.kind == "unreachable"
     assert verdict.condition is None
+
+
+def test_a_five_bar_in_one_line_loses_rank():
+    """g = l1: at x = l2 all five joints lie on the X axis and B1 on B2; of the two kinds self-motion is told."""
+    narrow = assur.load("fivebar", g=100.0)
+    verdict = narrow.singularity([194.0, 0.0], "++")
+    assert (verdict.kind, verdict.reduced_kind) == ("self_motion", "comprehensive")
+    assert (verdict.rank, verdict.generic_rank) == (2, 3)

@@ -1,0 +1,61 @@
+"""Inputs that are printed with a sign and an offset, as no registered mechanism has them."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import assur
+from assur.kinematics.sweep import inverse_sweep
+
+ROW_3 = [-15.4714, 9.6849, 456.3315]
+
+
+@pytest.fixture(params=["zeng2019", "fivebar"])
+def plain(request):
+    return assur.load(request.param)
+
+
+@pytest.fixture
+def printed(plain):
+    """The same mechanism, its first input counted backwards from an offset of 0.25."""
+    first = dataclasses.replace(plain.inputs[0], sign=-1.0, offset=0.25)
+    return dataclasses.replace(plain, inputs=(first, *plain.inputs[1:]))
+
+
+def pose(plain):
+    return ROW_3 if plain.name == "zeng2019" else [10.0, 200.0]
+
+
+def test_printed_inputs_are_the_joint_values_turned_and_shifted(plain, printed):
+    mode = plain.modes.default_working
+    before, now = plain.inverse(pose(plain), mode).inputs[0], printed.inverse(pose(plain), mode).inputs[0]
+    assert now[0] == pytest.approx(0.25 - before[0])
+    assert now[1:].tolist() == before[1:].tolist()
+
+
+def test_direct_takes_what_inverse_prints(plain, printed):
+    found = printed.direct(printed.inverse(pose(plain), plain.modes.default_working).inputs[0])
+    gaps = np.linalg.norm(found.poses[found.exists] - pose(plain), axis=-1)
+    assert gaps.min() < 1e-9
+    assert np.max(found.residuals[found.exists]) < 1e-9
+
+
+def test_velocities_and_accelerations_are_those_of_the_printed_inputs(plain, printed):
+    mode, at, step = plain.modes.default_working, np.array(pose(plain)), 1e-4
+    along = np.linspace(1.0, 2.0, len(at))
+    path = [printed.inverse(at + t * along, mode).inputs[0] for t in (-step, 0.0, step)]
+    rates, second = (path[2] - path[0]) / (2 * step), (path[2] - 2 * path[1] + path[0]) / step**2
+    np.testing.assert_allclose(printed.velocity_map(at, mode).output(rates), along, atol=1e-5)
+    _, acceleration = printed.acceleration(at, rates, second, mode)
+    np.testing.assert_allclose(acceleration, 0.0, atol=1e-3)
+
+
+def test_a_sweep_prints_the_same(plain, printed):
+    swept = inverse_sweep(printed, [np.array([value]) for value in pose(plain)])
+    single = printed.inverse(pose(plain), plain.modes.default_working)
+    np.testing.assert_array_equal(swept["inputs"][:, 0], single.inputs[0])
+    here = printed.velocity_map(pose(plain))
+    assert swept["det_jq"][0] == pytest.approx(float(here.det_jq))
