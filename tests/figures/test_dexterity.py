@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from assur.kinematics.velocity import velocity_map
 from assur.workspace.fields import at_points
@@ -25,3 +26,19 @@ def test_the_map_is_the_inverse_condition_number_of_jp_and_jq(context, data):
             np.testing.assert_allclose(value, 1 / np.linalg.cond(jacobian), rtol=1e-6)
             seen += 1
         assert seen > 5
+
+
+@pytest.mark.parametrize(("figure", "key", "place"), [("fastest", "largest", 0), ("slowest", "smallest", -1)])
+def test_the_velocity_factors_are_the_singular_values(context, data, figure, key, place):
+    names = context.record.platform.pose
+    seen = 0
+    for item in data(figure)["maps"]:
+        first, second = item["plane"]
+        rows, columns = np.nonzero(np.isfinite(item[key]))
+        for i, j in list(zip(rows, columns, strict=True))[:: max(1, len(rows) // 15)]:
+            pose = [{first: item[first][j], second: item[second][i], **item["held"]}[name] for name in names]
+            here = velocity_map(context.record, pose, context.workspace.mode)
+            factors = np.linalg.svd(np.linalg.inv(here.jp) @ here.jq, compute_uv=False)
+            np.testing.assert_allclose(item[key][i][j], factors[place], rtol=1e-6)
+            seen += 1
+    assert seen > 10

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from assur.errors import UnknownNameError
 from assur.figures.context import Context
-from assur.figures.dexterity import DEXTERITY
+from assur.figures.dexterity import DEXTERITY, LARGEST, SMALLEST
 from assur.figures.encode import FORMATS, encoded
 from assur.figures.flow import FLOW
 from assur.figures.model import MODEL
@@ -41,6 +41,8 @@ ENTRIES: tuple[Entry, ...] = (
     PROJECTIONS,
     SECTIONS,
     DEXTERITY,
+    LARGEST,
+    SMALLEST,
 )
 Progress = Callable[[int, int], None]
 """Called with (figures done, figures in all)."""
@@ -50,8 +52,9 @@ def catalogue(record: MechanismRecord, context: Context | None = None) -> list[F
     """The figures of a mechanism, in order. Captions are computed: this takes as long as the analyses do.
 
     >>> from assur.model.registry import load_record
-    >>> [spec.name for spec in catalogue(load_record("fivebar"))]
-    ['structure', 'model', 'solutions', 'flow', 'solid', 'serial', 'parallel', 'singular', 'workspace', 'dexterity']
+    >>> [spec.name for spec in catalogue(load_record("fivebar"))]  # doctest: +NORMALIZE_WHITESPACE
+    ['structure', 'model', 'solutions', 'flow', 'solid', 'serial', 'parallel', 'singular', 'workspace',
+     'dexterity', 'fastest', 'slowest']
     """
     shared = context or Context(record)
     return [

@@ -1,7 +1,10 @@
-"""Dexterity: maps of the local condition index in planes through the workspace."""
+"""Dexterity: maps of the local condition index and of the velocity factors in planes through the workspace."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -15,10 +18,27 @@ from assur.figures.context import Context
 from assur.figures.plots import axis_title, mode_words, no_workspace, outline
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import GREY, INK, PAGE, TEXT, new_figure
-from assur.performance.dexterity import dexterity
+from assur.performance.dexterity import Dexterity, dexterity
 
 FloatArray = NDArray[np.float64]
 NODES = 160
+SHOWN = 0.75
+"""Colours end at this quantile of a factor that grows without bound towards a singularity."""
+
+
+@dataclass(frozen=True)
+class Measure:
+    """What is mapped: its key in the data, its symbol, its values, and where its colours end."""
+
+    key: str
+    symbol: str
+    of: Callable[[Dexterity], FloatArray]
+    quantile: float
+
+
+INDEX = Measure("index", r"1/\kappa", lambda found: found.condition_index, 1.0)
+FASTEST = Measure("largest", r"\sigma_{\max}", lambda found: found.velocity_factors[..., 0], SHOWN)
+SLOWEST = Measure("smallest", r"\sigma_{\min}", lambda found: found.velocity_factors[..., -1], 1.0)
 
 
 def _missing(context: Context) -> str:
@@ -55,7 +75,17 @@ def planes(context: Context) -> list[tuple[str, str, str, float]]:
     return [(first, third, second, middle[second]), (first, second, third, level)]
 
 
-def _draw(context: Context) -> Drawing:
+def _factor_caption(measure: Measure, which: str, end: str) -> Callable[[Context], str]:
+    def caption(context: Context) -> str:
+        return (
+            f"{which} velocity factor ${measure.symbol}$, the {which.lower()} singular value of $J = J_p^{{-1}}J_q$"
+            f" ({mode_words(context)}): by how much the inputs' speed is multiplied in that direction.{end}"
+        )
+
+    return caption
+
+
+def _draw(context: Context, measure: Measure) -> Drawing:
     box = context.workspace.box
     found = planes(context)
     spans = [tuple(float(np.ptp(box.intervals[box.axis(name)])) for name in plane[:2]) for plane in found]
@@ -65,8 +95,9 @@ def _draw(context: Context) -> Drawing:
     width = left + right + gap * (len(found) - 1) + scale * sum(wide for wide, _ in spans)
     height = bottom + 5.0 + scale * max(tall for _, tall in spans)
     figure = new_figure(width, height)
-    maps = [_values(context, plane) for plane in found]
-    top = max(float(np.max(values, where=np.isfinite(values), initial=0.0)) for _, _, values in maps) or 1.0
+    maps = [_values(context, plane, measure) for plane in found]
+    known = [values[np.isfinite(values)] for _, _, values in maps]
+    top = max((float(np.quantile(values, measure.quantile)) for values in known if len(values)), default=0.0) or 1.0
     start, data = left, []
     for k, (plane, (wide, tall), (xs, ys, values)) in enumerate(zip(found, spans, maps, strict=True)):
         axes = figure.add_axes((start / width, bottom / height, scale * wide / width, scale * tall / height))
@@ -81,22 +112,24 @@ def _draw(context: Context) -> Drawing:
                 "held": {plane[2]: plane[3]} if plane[2] else {},
                 plane[0]: xs,
                 plane[1]: ys,
-                "index": values,
+                measure.key: values,
             }
         )
     bar = figure.add_axes(
         ((width - right + 5.0) / width, bottom / height, 3.5 / width, (height - bottom - 5.0) / height)
     )
     colorbar: Colorbar = figure.colorbar(image, cax=bar)
-    colorbar.set_label("$1/\\kappa$", fontsize=TEXT)
+    colorbar.set_label(f"${measure.symbol}$", fontsize=TEXT)
     colorbar.set_ticks([0.0, *_levels(top)])
     for level in _levels(top):
         colorbar.ax.axhline(level, color="white", linewidth=0.6)
     return Drawing(figure, {"unit": context.record.unit, "mode": context.workspace.mode, "maps": data})
 
 
-def _values(context: Context, plane: tuple[str, str, str, float]) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Nodes along both coordinates and the index (len(ys), len(xs)) at them; NaN outside the workspace."""
+def _values(
+    context: Context, plane: tuple[str, str, str, float], measure: Measure
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Nodes along both coordinates and the measure (len(ys), len(xs)) at them; NaN outside the workspace."""
     box = context.workspace.box
     xs, ys = (np.linspace(box.low[box.axis(name)], box.high[box.axis(name)], NODES) for name in plane[:2])
     grid = np.zeros((NODES, NODES, len(box.names)))
@@ -104,7 +137,7 @@ def _values(context: Context, plane: tuple[str, str, str, float]) -> tuple[Float
     grid[..., box.axis(plane[1])] = ys[:, None]
     if plane[2]:
         grid[..., box.axis(plane[2])] = plane[3]
-    return xs, ys, dexterity(context.record, grid, context.workspace.mode).condition_index
+    return xs, ys, measure.of(dexterity(context.record, grid, context.workspace.mode))
 
 
 def _map(
@@ -167,4 +200,22 @@ def _continued(values: FloatArray) -> FloatArray:
     return filled
 
 
-DEXTERITY = Entry("dexterity", "Local condition index", _missing, _caption, _draw)
+DEXTERITY = Entry("dexterity", "Local condition index", _missing, _caption, partial(_draw, measure=INDEX))
+LARGEST = Entry(
+    "fastest",
+    "Largest velocity factor",
+    _missing,
+    _factor_caption(
+        FASTEST,
+        "Largest",
+        f" It grows without bound towards a parallel singularity; colours end at its {100 * SHOWN:.0f} % quantile.",
+    ),
+    partial(_draw, measure=FASTEST),
+)
+SMALLEST = Entry(
+    "slowest",
+    "Smallest velocity factor",
+    _missing,
+    _factor_caption(SLOWEST, "Smallest", " It is 0 at a serial singularity."),
+    partial(_draw, measure=SLOWEST),
+)

@@ -18,9 +18,9 @@ def auditing(found: Findings) -> Section:
     """Counts, what does not agree, every row, errata."""
     audit = found.audit
     said = (
-        f"Every number that {audit.source} prints, checked as printed. The tolerance of a row is half a unit of its "
-        "last printed place, and that of every printed number which it was computed from times the local "
-        "sensitivity; nothing is added to make a row pass."
+        f"The numbers, equations and statements of {audit.source}, checked as printed. The tolerance of a row is "
+        "half a unit of its last printed place, and that of every printed number which it was computed from "
+        "times the local sensitivity; nothing is added to make a row pass."
         if audit.origin == "printed"
         else "The reference data of this mechanism are derived, not printed: every row is a claim of ours."
     )

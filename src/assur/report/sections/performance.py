@@ -40,7 +40,8 @@ def performance(found: Findings) -> Section:
         Scalar("slowest direction", _number(factors[-1]), "", "smallest velocity factor"),
         Scalar("global condition index", index.value, "", known, index.error),
     ]
-    return Section("Dexterity", said, [*scalars, *found.picture("dexterity"), *_spread(found)])
+    pictures = [item for name in ("dexterity", "fastest", "slowest") for item in found.picture(name)]
+    return Section("Dexterity", said, [*scalars, *pictures, *_spread(found)])
 
 
 def _spread(found: Findings) -> list[Table]:
