@@ -1,0 +1,104 @@
+"""Chains from base to platform, as topology sees them: joints with directions, parallelograms, inner loops.
+
+Nothing here has dimensions. Axes are unit vectors in the base frame at the configuration as written; equal
+axes are distinct parallel lines unless a label says that they share a point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from assur.topology.directions import Vector
+from assur.topology.joints import JointType
+
+ParallelogramKind = Literal["4R", "4S", "4U", "2US"]
+
+FREEDOMS_OF_PARALLELOGRAM: dict[str, int] = {"4R": 1, "4S": 4, "4U": 3, "2US": 4}
+"""Freedoms of a parallelogram as one generalised joint; the spins of the rods of a P(4S) are not counted."""
+
+
+@dataclass(frozen=True)
+class ChainJoint:
+    """A joint of a chain.
+
+    Attributes:
+        axes: one unit vector for R, P, H, C; two for U, the first fixed in the link before it; none for S.
+        point: label of a point that the axis (or centre) runs through; equal labels are one point.
+        name: how it is printed, "R3": unique in its mechanism.
+        general: the axes were left open, and `axes` holds arbitrary ones.
+    """
+
+    type: JointType
+    axes: tuple[Vector, ...]
+    point: str = ""
+    name: str = ""
+    general: bool = False
+
+    @property
+    def freedoms(self) -> int:
+        """f_i of Eq. (3)."""
+        return self.type.freedoms
+
+
+@dataclass(frozen=True)
+class Parallelogram:
+    """Four hinges and two equal rods between two links, counted as one generalised joint.
+
+    `axis` is the direction of the hinges of a P(4R). Of a P(4S), P(4U) or P(2US) it is the direction of the
+    short links, about which the rods swing sideways; it stays fixed in both links that the rods join.
+    """
+
+    kind: ParallelogramKind
+    axis: Vector
+    name: str = ""
+    general: bool = False
+
+    @property
+    def freedoms(self) -> int:
+        """Freedoms as a generalised joint."""
+        return FREEDOMS_OF_PARALLELOGRAM[self.kind]
+
+
+@dataclass(frozen=True)
+class InnerLoop:
+    """Branches side by side between one link and the loop's output link, such as the 2P4R of an HSOC."""
+
+    branches: tuple[tuple[Element, ...], ...]
+    name: str = ""
+
+
+Element = ChainJoint | Parallelogram | InnerLoop
+
+
+@dataclass(frozen=True)
+class Chain:
+    """A limb: elements from the base to the platform, and the text that they were read from."""
+
+    elements: tuple[Element, ...]
+    text: str = ""
+
+    @property
+    def joints(self) -> tuple[ChainJoint | Parallelogram, ...]:
+        """Every joint in the order of the text, branches flattened: what `limb.joint` counts from 1."""
+        return tuple(flattened(self.elements))
+
+
+def flattened(elements: tuple[Element, ...]) -> Iterator[ChainJoint | Parallelogram]:
+    """The joints of some elements, those of inner loops branch by branch."""
+    for element in elements:
+        if isinstance(element, InnerLoop):
+            for branch in element.branches:
+                yield from flattened(branch)
+        else:
+            yield element
+
+
+def inner_loops(elements: tuple[Element, ...]) -> Iterator[InnerLoop]:
+    """The inner loops of some elements, the innermost first."""
+    for element in elements:
+        if isinstance(element, InnerLoop):
+            for branch in element.branches:
+                yield from inner_loops(branch)
+            yield element

@@ -1,0 +1,132 @@
+"""The graph that topology counts on: edges between links, each with its twists at some configurations.
+
+An edge is a joint, or a generalised joint (a parallelogram) with the relative twists that it allows. Everything
+that the second route says is the rank of a closure made of such edges, or a motion space that it leaves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import networkx as nx
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+RANK_GAP = 1e-7
+"""Singular values below this share of the largest count as zero."""
+
+
+@dataclass(frozen=True, eq=False)
+class Edge:
+    """A joint or a generalised joint between two links.
+
+    Attributes:
+        twists: (N, 6, f) columns (omega, v at the platform's O' of the configuration, in lengths of the
+            linkage's size) at N configurations, moving the child against the parent.
+        joints: names of the joints that it stands for.
+        inputs: which of its columns are actuated.
+    """
+
+    name: str
+    parent: str
+    child: str
+    twists: FloatArray
+    joints: tuple[str, ...] = ()
+    inputs: tuple[int, ...] = ()
+
+    @property
+    def freedoms(self) -> int:
+        """f_i of Eq. (3)."""
+        return int(self.twists.shape[-1])
+
+
+def graph(edges: Iterable[Edge]) -> nx.MultiGraph[str]:
+    """Links as nodes, edges keyed by name."""
+    built: nx.MultiGraph[str] = nx.MultiGraph()
+    for edge in edges:
+        built.add_edge(edge.parent, edge.child, key=edge.name)
+    return built
+
+
+def closure(edges: Sequence[Edge]) -> FloatArray:
+    """Closure matrix (N, 6 v, sum of f): one block of six rows for each independent loop, columns in order.
+
+    Edges that close no loop give zero columns.
+    """
+    count = len(edges[0].twists) if edges else 1
+    starts = np.cumsum([0, *(edge.freedoms for edge in edges)])
+    place = {edge.name: (edge, slice(starts[i], starts[i + 1])) for i, edge in enumerate(edges)}
+    loops = _loops(edges)
+    matrix = np.zeros((count, len(loops), 6, int(starts[-1])))
+    for index, loop in enumerate(loops):
+        for name, sense in loop.items():
+            edge, columns = place[name]
+            matrix[:, index, :, columns] = sense * edge.twists
+    return matrix.reshape(count, 6 * len(loops), int(starts[-1]))
+
+
+def _loops(edges: Sequence[Edge]) -> list[dict[str, int]]:
+    """Independent loops, each edge name -> +1 or -1 along it, from a spanning forest."""
+    to_root: dict[str, dict[str, int]] = {}
+    rest: list[Edge] = []
+    waiting = list(edges)
+    while waiting:
+        grown = False
+        for edge in list(waiting):
+            near, far = edge.parent in to_root, edge.child in to_root
+            if near and far:
+                rest.append(edge)
+            elif near:
+                to_root[edge.child] = {**to_root[edge.parent], edge.name: 1}
+            elif far:
+                to_root[edge.parent] = {**to_root[edge.child], edge.name: -1}
+            else:
+                continue
+            waiting.remove(edge)
+            grown = True
+        if not grown:
+            to_root[waiting[0].parent] = {}
+    loops = []
+    for edge in rest:
+        loop = {**to_root[edge.parent], edge.name: 1}
+        for name, sense in to_root[edge.child].items():
+            loop[name] = loop.get(name, 0) - sense
+        loops.append({name: sense for name, sense in loop.items() if sense})
+    return loops
+
+
+def along(edges: Sequence[Edge], start: str, end: str) -> FloatArray:
+    """Twist (N, 6, sum of f) of one link against another per rate of each column, along one path between them."""
+    built = graph(edges)
+    links = nx.shortest_path(built, start, end)
+    place = {edge.name: edge for edge in edges}
+    senses = {}
+    for here, there in pairwise(links):
+        name = min(built[here][there], key=list(place).index)
+        senses[name] = 1 if place[name].parent == here else -1
+    columns = [senses.get(edge.name, 0) * edge.twists for edge in edges]
+    return np.concatenate(columns, axis=-1)
+
+
+def rank(matrix: FloatArray) -> int:
+    """Generic rank of matrices (N, rows, columns): the largest over the configurations."""
+    if 0 in matrix.shape[1:]:
+        return 0
+    singular = np.linalg.svd(matrix, compute_uv=False)
+    return int(np.max(np.sum(singular > RANK_GAP * np.maximum(singular[..., :1], RANK_GAP), axis=-1)))
+
+
+def null_basis(matrix: FloatArray) -> FloatArray:
+    """Orthonormal basis (N', columns, k) of what the closure leaves, at the N' configurations of generic rank."""
+    count = matrix.shape[-1]
+    if not matrix.shape[1]:
+        return np.broadcast_to(np.eye(count), (len(matrix), count, count))
+    _, singular, turned = np.linalg.svd(matrix)
+    ranks = np.sum(singular > RANK_GAP * np.maximum(singular[..., :1], RANK_GAP), axis=-1)
+    generic = int(np.max(ranks))
+    basis: FloatArray = np.swapaxes(turned[ranks == generic, generic:], -1, -2)
+    return basis

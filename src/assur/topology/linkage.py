@@ -1,0 +1,82 @@
+"""A linkage: links and joints placed in space, in one assembled configuration, by the screws of its joints.
+
+The second route of topology stands on it. Screws are (omega, v at the base's origin), in the base frame at
+the home configuration; a joint with several freedoms is a row of screws in the order in which they move.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.topology.joints import JointType
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class LinkageJoint:
+    """A joint between two links.
+
+    Attributes:
+        screws: (f, 6) unit screws at home, moving the child against the parent: a rotation (u, p x u), a
+            translation (0, u), a helix (u, p x u + h u) with h the advance per rad. The screw k stands as
+            it is when the screws before it are at rest (child side last).
+        point: (3,) a point of the joint at home.
+    """
+
+    name: str
+    type: JointType
+    parent: str
+    child: str
+    screws: FloatArray
+    point: FloatArray
+
+
+@dataclass(frozen=True)
+class Group:
+    """Joints between two links that count as one generalised joint: a parallelogram."""
+
+    name: str
+    kind: str
+    joints: tuple[str, ...]
+    parent: str
+    child: str
+
+
+@dataclass(frozen=True, eq=False)
+class Linkage:
+    """Links and joints of a mechanism, of a limb or of a part of either, closed at home.
+
+    Attributes:
+        joints: by name; links are the names that occur in them.
+        point: (3,) the platform's base point O' at home.
+        groups: generalised joints by name.
+        inputs: actuated components, (joint, index of the component) each, in order.
+        length: a length of the size of the linkage, to measure translations with.
+    """
+
+    joints: Mapping[str, LinkageJoint]
+    base: str
+    platform: str
+    point: FloatArray
+    groups: Mapping[str, Group] = field(default_factory=dict)
+    inputs: tuple[tuple[str, int], ...] = ()
+    length: float = 1.0
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """Names of the links, in the order in which joints name them."""
+        return tuple(dict.fromkeys(link for item in self.joints.values() for link in (item.parent, item.child)))
+
+    @property
+    def slices(self) -> dict[str, slice]:
+        """Joint -> its place in the vector of joint values."""
+        places, start = {}, 0
+        for name, joint in self.joints.items():
+            places[name] = slice(start, start + len(joint.screws))
+            start += len(joint.screws)
+        return places
