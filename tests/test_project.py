@@ -17,7 +17,8 @@ from packaging.utils import canonicalize_name
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "assur"
 MODULES = sorted(path for path in SOURCE.rglob("*.py") if "mechanisms" not in path.relative_to(SOURCE).parts)
-MECHANISMS = sorted(path for path in (SOURCE / "mechanisms").iterdir() if any(path.glob("*.toml")))
+FOLDERS = sorted(path for path in (SOURCE / "mechanisms").iterdir() if path.is_dir() and any(path.glob("*.toml")))
+MECHANISMS = [folder for folder in FOLDERS if (folder / "mechanism.toml").is_file()]
 NOT_MIRRORS = {"contract", "papers", "derivations", "examples"}
 CITED_HOSTS = {"www.apache.org", "www.w3.org", "arxiv.org", "doi.org"}
 
@@ -128,7 +129,7 @@ def test_the_core_knows_no_mechanism_by_name(path):
         for node in nodes
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in documentation
     ]
-    names = [folder.name for folder in MECHANISMS]
+    names = [folder.name for folder in FOLDERS]
     assert [text for text in texts if any(name in text for name in names)] == []
 
 
@@ -154,8 +155,14 @@ def test_there_are_mechanisms():
 
 
 @pytest.mark.parametrize("folder", MECHANISMS, ids=[folder.name for folder in MECHANISMS])
-def test_every_mechanism_has_reference_data_and_stands_in_the_readme(folder):
+def test_every_mechanism_has_reference_data(folder):
     assert any(path.is_file() for path in (folder / "reference").iterdir())
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=[folder.name for folder in FOLDERS])
+def test_every_mechanism_has_dimensions_or_a_topology_and_stands_in_the_readme(folder):
+    assert folder in MECHANISMS or (folder / "topology.toml").is_file()
+    assert folder.name.isidentifier()  # so that its closed form can be imported
     assert f"`{folder.name}`" in read("README.md")
 
 

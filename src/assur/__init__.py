@@ -8,8 +8,12 @@
 Names are looked up where they live when they are first used, so that `assur --help` need not load NumPy.
 """
 
+import sys
 from importlib import import_module
-from typing import TYPE_CHECKING
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+import assur.topology
 
 if TYPE_CHECKING:
     from assur.errors import AssurError, MechanismFileError, UnknownNameError, UsageError
@@ -42,3 +46,13 @@ if not TYPE_CHECKING:  # so that a type checker still refuses an unknown name
 def __dir__() -> list[str]:
     """Names that tab completion offers."""
     return sorted({*globals(), *__all__})
+
+
+class _CallablePackage(ModuleType):
+    """The package `assur.topology`, which is also the function: `assur.topology("zeng2019")`."""
+
+    def __call__(self, *what: Any, **options: Any) -> Any:
+        return import_module("assur.mechanism").topology(*what, **options)
+
+
+sys.modules["assur.topology"].__class__ = _CallablePackage

@@ -5,20 +5,32 @@ Analyses that need slow libraries are imported where they are called.
 
 from __future__ import annotations
 
+import dataclasses
+import re
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from assur.errors import UsageError
 from assur.kinematics import closure, position, velocity
 from assur.kinematics.home import home_values
 from assur.kinematics.solutions import SolutionSet
+from assur.kinematics.structure import linkage
 from assur.model import registry
 from assur.model.joint_graph import Frame, frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.points import point
 from assur.singularity.verdict import Verdict, verdict
+from assur.topology.analysis import Mode, analyse
+from assur.topology.chains import Chain
+from assur.topology.facts import Topology
+from assur.topology.inputs import default_inputs, numbered_inputs
+from assur.topology.notation import parse_chains
+from assur.topology.placing import place
+from assur.topology.recognition import recognised
 
 if TYPE_CHECKING:
     from assur.performance.dexterity import Dexterity
@@ -72,6 +84,10 @@ class Mechanism(MechanismRecord):
 
         return dexterity(self, poses, mode)
 
+    def topology(self, actuate: Sequence[str] | None = None) -> Topology:
+        """POC sets, DOF, coupling degree and what follows from them: see `assur.topology`."""
+        return topology(self, actuate=actuate)
+
     def point(self, name: str, joint_values: FloatArray) -> FloatArray:
         """Position (..., 3) of a lettered point or of a joint: see `assur.model.points.point`."""
         return point(self, name, joint_values)
@@ -107,3 +123,79 @@ def load(name: str | Path, /, **parameters: Any) -> Mechanism:
 def names() -> tuple[str, ...]:
     """Names of the built-in mechanisms."""
     return registry.names()
+
+
+def topology(
+    what: str | Path | MechanismRecord | Sequence[str],
+    /,
+    *,
+    actuate: Sequence[str] | None = None,
+    mode: Mode | None = None,
+) -> Topology:
+    """The topology of a mechanism, derived by symbolic rules and by the rank of twists.
+
+    Args:
+        what: the name or file of a mechanism or of a topology, a mechanism, one chain, or several chains from base
+            to platform, in the plain form ("P[x] R[x] R[x] R[x]") or the literature's.
+        actuate: actuated joints as "limb.joint", counted from 1, the branches of inner loops one after the other. By
+            default those of the mechanism, and for chains the first P, R or C of each branch from the base.
+        mode: "home" for the motion that is reached from the configuration as written; "translation" where the
+            platform keeps its orientation. By default what a topology's file says, else "home".
+
+    Returns:
+        The facts as attributes; `print` shows the derivation.
+
+    Errors:
+        NotationError: a chain that cannot be read. UnknownNameError, MechanismFileError: as `load`.
+        UsageError: more actuated joints than degrees of freedom, links that nothing connects.
+        RoutesDisagreeError: the two routes give different answers; the message names the chain.
+
+    Example:
+        >>> found = topology("zeng2019")
+        >>> print(found.poc, found.dof, found.xi, found.coupling_degree)
+        t³ r⁰ 3 (3, 5) 1
+        >>> topology("R[x] R[x] R[x] R[y] R[y]").limbs[0].poc.dim
+        5
+    """
+    if isinstance(what, MechanismRecord):
+        return _of_record(what, actuate, mode)
+    if isinstance(what, str) and not _is_name(what):
+        what = [what]
+    if isinstance(what, str | Path):
+        if not registry.means_topology(what):
+            return _of_record(load(what), actuate, mode)
+        described = registry.load_topology(what)
+        numbers = actuate or [f"{limb}.{joint}" for limb, joint in described.actuate]
+        return _of_chains(
+            described.chains, numbers, mode or described.mode, described.name, described.title, described.source
+        )
+    return _of_chains(parse_chains(what), actuate, mode or "home")
+
+
+def _is_name(text: str) -> bool:
+    """Whether a text is a name or a path rather than a chain: chains have capital letters and brackets."""
+    return text.endswith(".toml") or "/" in text.strip("-") or re.fullmatch(r"[a-z0-9][a-z0-9_.-]*", text) is not None
+
+
+def _of_record(record: MechanismRecord, actuate: Sequence[str] | None, mode: Mode | None) -> Topology:
+    built = linkage(record)
+    chains = recognised(built)
+    if actuate:
+        if chains is None:
+            raise UsageError(f"{record.name} has no limbs by which joints could be numbered; name inputs in its file")
+        names = numbered_inputs(chains, actuate)
+        built = dataclasses.replace(built, inputs=tuple((name, 0) for name in names))
+    return analyse(built, chains, name=record.name, title=record.title, source=record.source, mode=mode or "home")
+
+
+def _of_chains(
+    chains: Sequence[Chain],
+    actuate: Sequence[str] | None,
+    mode: Mode,
+    name: str = "",
+    title: str = "",
+    source: str = "",
+) -> Topology:
+    names = numbered_inputs(chains, actuate) if actuate else default_inputs(chains)
+    built = place(chains, actuated=names)
+    return analyse(built, chains, name=name, title=title, source=source, mode=mode)

@@ -6,7 +6,7 @@ import assur
 from assur.cli.main import application
 
 COMMANDS = (
-    *("list", "show", "direct", "inverse", "singularity", "workspace", "audit"),
+    *("list", "show", "topology", "direct", "inverse", "singularity", "workspace", "audit"),
     *("figures", "report", "demo", "doctor"),
 )
 

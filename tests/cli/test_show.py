@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 import assur
+from assur.model.registry import left_out, topology_names
 
 
 def test_list_has_every_mechanism(assur_cli):
@@ -12,6 +13,16 @@ def test_list_has_every_mechanism(assur_cli):
     assert [row["name"] for row in rows] == list(assur.names())
     assert all({"title", "source", "unit", "angle", "inputs", "coordinates"} <= row.keys() for row in rows)
     assert all(name in assur_cli("list").out for name in assur.names())
+
+
+def test_list_has_every_topology_and_what_is_left_out(assur_cli):
+    found = assur_cli("list", "--json").json
+    assert [row["name"] for row in found["topologies"]] == list(topology_names())
+    assert all(row["title"] and row["source"] and row["limbs"] and row["chains"] for row in found["topologies"])
+    out = " ".join(assur_cli("list").out.split())
+    assert all(name in out for name in topology_names())
+    assert [item["name"] for item in found["left_out"]] == [item.name for item in left_out()]
+    assert all(item["reason"] in out for item in found["left_out"])
 
 
 @pytest.mark.parametrize("name", assur.names())

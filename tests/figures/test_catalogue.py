@@ -131,6 +131,6 @@ S = 100
 """
     )
     record = assur.load(path)
-    assert figures.names(record) == ["structure", "model", "solid"]
+    assert figures.names(record) == ["structure", "model", "solid", "graph"]
     for name in figures.names(record):
         assert figures.encoded(figures.draw(record, name), "pdf").startswith(b"%PDF")

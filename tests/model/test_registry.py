@@ -7,7 +7,15 @@ import pytest
 
 from assur.errors import MechanismFileError, UnknownNameError, UsageError
 from assur.model.closed_form import Sign
-from assur.model.registry import load_record, names, with_parameters
+from assur.model.registry import (
+    left_out,
+    load_record,
+    load_topology,
+    means_topology,
+    names,
+    topology_names,
+    with_parameters,
+)
 
 FORM = """
 from dataclasses import dataclass
@@ -129,3 +137,60 @@ def test_the_faults_of_a_file_come_before_those_of_a_call(folder: Path, fourbar:
     (folder / "mechanism.toml").write_text(re.sub("value = 80", "value = -80", fourbar), encoding="utf-8")
     with pytest.raises(MechanismFileError):
         load_record(folder, nothing=3)
+
+
+# ---- topologies --------------------------------------------------------------------------------------------
+
+TOPOLOGY = 'format = 1\nkind = "topology"\nname = "arm"\nchains = ["R[z] R[z]"]\n'
+
+
+@pytest.mark.parametrize("name", topology_names())
+def test_every_built_in_topology_is_a_folder_with_its_name_and_a_source(name: str) -> None:
+    found = load_topology(name)
+    assert found.name == name
+    assert found.file is not None
+    assert found.file.parent.name == name
+    assert found.title != name
+    assert found.source
+    assert means_topology(name)
+    assert load_topology(found.file) == load_topology(found.file.parent) == found
+
+
+def test_mechanisms_are_no_topologies() -> None:
+    for name in set(names()) - set(topology_names()):
+        assert not means_topology(name)
+        with pytest.raises(UsageError, match="is a mechanism with dimensions, not a topology"):
+            load_topology(name)
+    for name in set(topology_names()) - set(names()):
+        with pytest.raises(UsageError, match="is a topology without dimensions"):
+            load_record(name)
+
+
+def test_what_stands_in_a_file_says_whether_it_is_a_topology(tmp_path: Path, fourbar: str) -> None:
+    topology, mechanism = tmp_path / "a.toml", tmp_path / "b.toml"
+    topology.write_text(TOPOLOGY, encoding="utf-8")
+    mechanism.write_text(fourbar, encoding="utf-8")
+    assert (means_topology(topology), means_topology(str(mechanism))) == (True, False)
+    assert load_topology(str(topology)).name == "arm"
+    assert load_record(mechanism).name == "fourbar"
+
+
+def test_a_folder_with_both_files_gives_each_to_who_asks(folder: Path) -> None:
+    (folder / "topology.toml").write_text(TOPOLOGY, encoding="utf-8")
+    assert load_record(folder).name == "fourbar"
+    assert load_topology(folder).name == "arm"
+    assert means_topology(folder)
+
+
+def test_an_unknown_topology_is_answered_with_every_name() -> None:
+    for ask in (load_topology, means_topology):
+        with pytest.raises(UnknownNameError, match="did you mean tripteron") as caught:
+            ask("tripterom")
+        assert caught.value.choices == tuple(sorted({*names(), *topology_names()}))
+
+
+def test_what_is_left_out_says_why() -> None:
+    for item in left_out():
+        assert item.source
+        with pytest.raises(UnknownNameError, match=re.escape(item.reason)):
+            load_topology(item.name)

@@ -1,4 +1,4 @@
-"""`assur list`: the built-in mechanisms."""
+"""`assur list`: the built-in mechanisms and topologies."""
 
 from __future__ import annotations
 
@@ -11,9 +11,11 @@ from assur.cli.output import table
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
+Rows = list[dict[str, Any]]
+
 
 def list_(*, shared: Plain = PLAIN) -> Outcome:  # noqa: ARG001  # read by main
-    """The built-in mechanisms, with their inputs and poses.
+    """The built-in mechanisms, with their inputs and poses, and those known by their topology alone.
 
     A mechanism of your own is named by the path of its file: assur show ./my.toml
 
@@ -21,27 +23,54 @@ def list_(*, shared: Plain = PLAIN) -> Outcome:  # noqa: ARG001  # read by main
         assur list
         assur list --json
     """
+    from assur.model.registry import left_out
+
+    found = {
+        "mechanisms": _mechanisms(),
+        "topologies": _topologies(),
+        "left_out": [
+            {"name": item.name, "title": item.title, "source": item.source, "reason": item.reason}
+            for item in left_out()
+        ],
+    }
+    return Outcome(found, lambda: _shown(found))
+
+
+def _mechanisms() -> Rows:
     from assur.mechanism import load, names
 
-    rows = []
-    for name in names():
-        record = load(name)
-        rows.append(
-            {
-                "name": name,
-                "title": record.title,
-                "source": record.source,
-                "unit": record.unit,
-                "angle": record.angle,
-                "inputs": [item.name for item in record.inputs],
-                "coordinates": list(record.platform.pose),
-                "closed_form": record.closed_form is not None,
-            }
-        )
-    return Outcome({"mechanisms": rows}, lambda: _shown(rows))
+    return [
+        {
+            "name": record.name,
+            "title": record.title,
+            "source": record.source,
+            "unit": record.unit,
+            "angle": record.angle,
+            "inputs": [item.name for item in record.inputs],
+            "coordinates": list(record.platform.pose),
+            "closed_form": record.closed_form is not None,
+        }
+        for record in map(load, names())
+    ]
 
 
-def _shown(rows: list[dict[str, Any]]) -> Iterable[RenderableType]:
+def _topologies() -> Rows:
+    from assur.model.registry import load_topology, topology_names
+
+    return [
+        {
+            "name": item.name,
+            "title": item.title,
+            "source": item.source,
+            "limbs": item.limb_types,
+            "chains": [chain.text for chain in item.chains],
+            "mode": item.mode,
+        }
+        for item in map(load_topology, topology_names())
+    ]
+
+
+def _shown(found: dict[str, Rows]) -> Iterable[RenderableType]:
     yield table(
         ("name", "inputs", "pose", "what it is"),
         [
@@ -51,7 +80,16 @@ def _shown(rows: list[dict[str, Any]]) -> Iterable[RenderableType]:
                 " ".join(item["coordinates"]),
                 f"{item['title']}\n{item['source']}",
             )
-            for item in rows
+            for item in found["mechanisms"]
         ],
         left=("name", "inputs", "pose", "what it is"),
     )
+    yield ""
+    yield "topology alone, without dimensions:"
+    yield table(
+        ("name", "limbs", "what it is"),
+        [(item["name"], item["limbs"], item["title"]) for item in found["topologies"]],
+        left=("name", "limbs", "what it is"),
+    )
+    for item in found["left_out"]:
+        yield f"Not there: {item['title']}; {item['reason']}."

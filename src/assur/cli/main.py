@@ -40,6 +40,7 @@ def application() -> App:
     from assur.cli.report import report
     from assur.cli.show import show
     from assur.cli.singularity import singularity
+    from assur.cli.topology import topology
     from assur.cli.workspace import workspace
 
     app = App(
@@ -51,7 +52,7 @@ def application() -> App:
         default_parameter=Parameter(negative="", show_default=False),
     )
     app.command(list_, name="list")
-    for command in (show, direct, inverse, singularity, workspace, audit, figures, report, demo, doctor):
+    for command in (show, topology, direct, inverse, singularity, workspace, audit, figures, report, demo, doctor):
         app.command(command)
     return app
 

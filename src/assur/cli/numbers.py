@@ -14,8 +14,8 @@ LARGEST = 1e60
 """No dimension is larger; up to here the fourth power of a number is finite."""
 VALUE = re.compile(r"-(\d|[.,]\d|inf|nan)", re.IGNORECASE)
 """How a value begins that could be taken for an option."""
-MODE_OPTION = "--mode"
-SIGNS = re.compile(r"[+0-]+")
+TIED = {"--mode": re.compile(r"[+0-]+\Z"), "--chain": re.compile(r"-[^-]")}
+"""Options whose value may begin with a hyphen, and how it then looks: signs, or a chain of the literature."""
 
 
 def number(text: str, what: str) -> float:
@@ -82,17 +82,19 @@ def interval(text: str, what: str, example: str) -> tuple[float, float]:
 def shielded(tokens: Sequence[str]) -> list[str]:
     """Command-line words in which no value can be taken for an option.
 
-    A word that begins like a negative number gets a space in front, and a mode is tied to its option.
+    A word that begins like a negative number gets a space in front; a mode and a chain are tied to their options.
 
     >>> shielded(["--mode", "--+", "-1,5", "--json"])
     ['--mode=--+', ' -1,5', '--json']
+    >>> shielded(["--chain", "-R|R-"])
+    ['--chain=-R|R-']
     """
     found: list[str] = []
     words = iter(tokens)
     for word in words:
-        if word == MODE_OPTION:
+        if word in TIED:
             value = next(words, None)
-            known = value is not None and SIGNS.fullmatch(value)
+            known = value is not None and TIED[word].match(value)
             found += [f"{word}={value}"] if known else [word] if value is None else [word, value]
         else:
             found.append(f" {word}" if VALUE.match(word) else word)

@@ -44,12 +44,18 @@ def emit(outcome: Outcome, *, json: bool) -> None:
         show(outcome.shown())
 
 
+class Verbatim(str):
+    """Text that is printed as it stands, however long its lines are."""
+
+    __slots__ = ()
+
+
 def show(items: Iterable[RenderableType]) -> None:
     """Print items one below the other."""
     out = console()
     for item in items:
         with written():
-            out.print(item)
+            out.print(item, soft_wrap=isinstance(item, Verbatim))
 
 
 @contextmanager

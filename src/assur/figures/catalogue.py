@@ -12,6 +12,7 @@ from assur.figures.context import Context
 from assur.figures.dexterity import DEXTERITY, LARGEST, SMALLEST
 from assur.figures.encode import FORMATS, encoded
 from assur.figures.flow import FLOW
+from assur.figures.graph import GRAPH
 from assur.figures.model import MODEL
 from assur.figures.planes import PLANES_FIGURE
 from assur.figures.projections import PROJECTIONS
@@ -43,6 +44,7 @@ ENTRIES: tuple[Entry, ...] = (
     DEXTERITY,
     LARGEST,
     SMALLEST,
+    GRAPH,
 )
 Progress = Callable[[int, int], None]
 """Called with (figures done, figures in all)."""
@@ -54,7 +56,7 @@ def catalogue(record: MechanismRecord, context: Context | None = None) -> list[F
     >>> from assur.model.registry import load_record
     >>> [spec.name for spec in catalogue(load_record("fivebar"))]  # doctest: +NORMALIZE_WHITESPACE
     ['structure', 'model', 'solutions', 'flow', 'solid', 'serial', 'parallel', 'singular', 'workspace',
-     'dexterity', 'fastest', 'slowest']
+     'dexterity', 'fastest', 'slowest', 'graph']
     """
     shared = context or Context(record)
     return [

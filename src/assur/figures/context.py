@@ -10,6 +10,7 @@ import numpy as np
 from manifold3d import Manifold
 from numpy.typing import NDArray
 
+from assur import mechanism
 from assur.errors import UsageError
 from assur.figures.camera import Camera, plane
 from assur.figures.companion import Companion, companion
@@ -22,6 +23,7 @@ from assur.model.mechanism import MechanismRecord
 from assur.model.registry import with_parameters
 from assur.performance.dexterity import GlobalIndex, global_condition_index
 from assur.singularity.examples import SingularExample, singular_examples
+from assur.topology.facts import Topology
 from assur.workspace.region import Workspace, workspace
 
 FloatArray = NDArray[np.float64]
@@ -120,6 +122,11 @@ class Context:
     def examples(self) -> tuple[SingularExample, ...]:
         """One singular configuration for each factor that has one."""
         return singular_examples(self.record)
+
+    @cached_property
+    def topology(self) -> Topology:
+        """Its topology, derived."""
+        return mechanism.topology(self.record)
 
     @cached_property
     def workspace(self) -> Workspace:

@@ -1,4 +1,7 @@
-"""Mechanisms by name: each is a folder of package data, and a user's own file is no different."""
+"""Mechanisms by name: each is a folder of package data, and a user's own file is no different.
+
+A folder has a mechanism (`mechanism.toml`, with dimensions) or a topology alone (`topology.toml`), or both.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +9,7 @@ import contextlib
 import dataclasses
 import importlib.util
 import sys
+import tomllib
 import traceback
 from importlib.resources import files
 from pathlib import Path
@@ -16,22 +20,89 @@ from assur.model.closed_form import ClosedForm
 from assur.model.file.build import build
 from assur.model.file.faults import Faults, listed
 from assur.model.file.parameters import checked_overrides
-from assur.model.file.reader import read_mechanism
+from assur.model.file.reader import file_text, read_mechanism
+from assur.model.file.toml_source import read_toml
+from assur.model.file.topology_file import read_topology
+from assur.model.file.topology_schema import is_topology
 from assur.model.formula import parse
 from assur.model.mechanism import MechanismRecord
+from assur.model.topology_description import TopologyDescription
 
 FILE = "mechanism.toml"
+TOPOLOGY = "topology.toml"
+LEFT_OUT = "left_out.toml"
 CLOSED_FORM = "closed_form.py"
 Record = TypeVar("Record", bound=MechanismRecord)
 
 
 def names() -> tuple[str, ...]:
-    """Names of the built-in mechanisms, in alphabetical order.
+    """Names of the built-in mechanisms, those with dimensions, in alphabetical order.
 
     >>> "zeng2019" in names()
     True
     """
-    return tuple(sorted(folder.name for folder in _folder().iterdir() if (folder / FILE).is_file()))
+    return _with(FILE)
+
+
+def topology_names() -> tuple[str, ...]:
+    """Names of the built-in topologies, mechanisms without dimensions, in alphabetical order.
+
+    >>> "tripteron" in topology_names()
+    True
+    """
+    return _with(TOPOLOGY)
+
+
+@dataclasses.dataclass(frozen=True)
+class LeftOut:
+    """A mechanism of the literature that is not built in, and the reason."""
+
+    name: str
+    title: str
+    source: str
+    reason: str
+
+
+def left_out() -> tuple[LeftOut, ...]:
+    """What the catalogue does not have, in alphabetical order.
+
+    >>> [item.title for item in left_out()]
+    ['Tri-pyramid robot']
+    """
+    entries = tomllib.loads((_folder() / LEFT_OUT).read_text(encoding="utf-8"))
+    return tuple(LeftOut(name, **entry) for name, entry in sorted(entries.items()))
+
+
+def means_topology(name_or_path: str | Path, /) -> bool:
+    """Whether a name or a file means a topology, by what stands in the file; else it means a mechanism.
+
+    Errors:
+        UnknownNameError: neither a mechanism nor a topology has that name.
+        UsageError, MechanismFileError: as `load_record`.
+
+    >>> means_topology("tripteron"), means_topology("zeng2019")
+    (True, False)
+    """
+    path = _find(name_or_path, (TOPOLOGY, FILE))
+    return is_topology(read_toml(file_text(path), str(path)).data)
+
+
+def load_topology(name_or_path: str | Path, /) -> TopologyDescription:
+    """A built-in topology, or that of a file.
+
+    Args:
+        name_or_path: a name, or the path of a `.toml` file or of a folder with a `topology.toml`.
+
+    Errors:
+        UnknownNameError: neither a topology nor a mechanism has that name.
+        UsageError: a file that cannot be read, or that of a mechanism, which has a joint graph instead.
+        MechanismFileError: the file has faults.
+
+    Example:
+        >>> [chain.text for chain in load_topology("tripteron").chains]
+        ['P[x] R[x] R[x] R[x]', 'P[y] R[y] R[y] R[y]', 'P[z] R[z] R[z] R[z]']
+    """
+    return read_topology(_find(name_or_path, (TOPOLOGY, FILE)))
 
 
 def load_record(name_or_path: str | Path, /, **overrides: Any) -> MechanismRecord:
@@ -43,14 +114,15 @@ def load_record(name_or_path: str | Path, /, **overrides: Any) -> MechanismRecor
 
     Errors:
         UnknownNameError: no mechanism or no parameter of that name.
-        UsageError: a value that a parameter may not have, or a file that cannot be read.
+        UsageError: a value that a parameter may not have, a file that cannot be read, or a topology, which has
+            no dimensions.
         MechanismFileError: the file has faults.
 
     Example:
         >>> load_record("zeng2019", l2=300).values.l2
         300.0
     """
-    path = _find(name_or_path)
+    path = _find(name_or_path, (FILE, TOPOLOGY))
     record = read_mechanism(path)
     record = dataclasses.replace(record, closed_form=_closed_form(record, path.parent / CLOSED_FORM))
     return with_parameters(record, **overrides) if overrides else record
@@ -87,18 +159,26 @@ def _folder() -> Path:
     return Path(str(files("assur"))) / "mechanisms"
 
 
-def _find(name_or_path: str | Path) -> Path:
+def _with(file: str) -> tuple[str, ...]:
+    return tuple(sorted(folder.name for folder in _folder().iterdir() if (folder / file).is_file()))
+
+
+def _find(name_or_path: str | Path, files_of_folder: tuple[str, str]) -> Path:
+    """The file that is meant; of a folder the first that is there."""
     if not isinstance(name_or_path, str | Path):
         raise UsageError(f"a mechanism is given by its name or the path of its file, not by {name_or_path!r}")
     text = str(name_or_path)
-    if text in names():
-        return _folder() / text / FILE
     path = Path(name_or_path)
-    if path.is_dir() and (path / FILE).is_file():
-        return path / FILE
+    built_in = {*names(), *topology_names()}
+    for folder in [_folder() / text] if text in built_in else [path]:
+        for file in files_of_folder:
+            if (folder / file).is_file():
+                return folder / file
     if path.suffix == ".toml" or isinstance(name_or_path, Path) or len(path.parts) > 1:
         return path
-    raise UnknownNameError("mechanism", text, names())
+    reasons = {item.name: f"{item.title} is left out: {item.reason}" for item in left_out()}
+    choices = names() if files_of_folder[0] == FILE else built_in
+    raise UnknownNameError("mechanism", text, choices, hint=reasons.get(text, ""))
 
 
 def _closed_form(record: MechanismRecord, path: Path) -> ClosedForm | None:

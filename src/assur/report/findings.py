@@ -31,6 +31,7 @@ from assur.report.numbers import Style, style_of
 from assur.report.pictures import pictures
 from assur.results.kinds import Picture
 from assur.singularity.examples import SingularExample
+from assur.topology.facts import Topology
 from assur.workspace.region import RESOLUTION, Workspace, workspace
 
 FloatArray = NDArray[np.float64]
@@ -109,6 +110,13 @@ class Findings:
         """The source's first table of solutions of a problem."""
         entries = self.reference.entries[problem] if self.reference else ()
         return cast("Table", entries[0]) if entries else None
+
+    # ---- topology ----------------------------------------------------------------------------------------------
+
+    @property
+    def topology(self) -> Topology:
+        """POC sets, freedoms, loops, coupling: derived once for the report and its figures."""
+        return self.context.topology
 
     # ---- position ----------------------------------------------------------------------------------------------
 

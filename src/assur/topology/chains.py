@@ -6,11 +6,13 @@ axes are distinct parallel lines unless a label says that they share a point.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from assur.topology.directions import Vector
+from assur.errors import UnknownNameError, UsageError
+from assur.topology.directions import EXACT, Vector, parallel
 from assur.topology.joints import JointType
 
 ParallelogramKind = Literal["4R", "4S", "4U", "2US"]
@@ -28,6 +30,9 @@ class ChainJoint:
         point: label of a point that the axis (or centre) runs through; equal labels are one point.
         name: how it is printed, "R3": unique in its mechanism.
         general: the axes were left open, and `axes` holds arbitrary ones.
+
+    Errors:
+        UsageError: another number of axes; axes that are not unit vectors; parallel axes of a U; a P with a point.
     """
 
     type: JointType
@@ -35,6 +40,17 @@ class ChainJoint:
     point: str = ""
     name: str = ""
     general: bool = False
+
+    def __post_init__(self) -> None:
+        letter, count = self.type.letter, len(self.axes)
+        if count != self.type.axes:
+            raise UsageError(f"{count} axes for {letter}; expected {self.type.axes}")
+        for axis in self.axes:
+            _refuse_unless_unit(axis)
+        if count == 2 and parallel(self.axes[0], self.axes[1]):
+            raise UsageError(f"parallel axes {self.axes} of a {letter}; expected different ones", hint="they are one R")
+        if self.point and letter == "P":
+            raise UsageError(f"a point '{self.point}' for P; expected none: a translation has no place")
 
     @property
     def freedoms(self) -> int:
@@ -55,6 +71,11 @@ class Parallelogram:
     name: str = ""
     general: bool = False
 
+    def __post_init__(self) -> None:
+        if self.kind not in FREEDOMS_OF_PARALLELOGRAM:
+            raise UnknownNameError("parallelogram", self.kind, FREEDOMS_OF_PARALLELOGRAM)
+        _refuse_unless_unit(self.axis)
+
     @property
     def freedoms(self) -> int:
         """Freedoms as a generalised joint."""
@@ -63,10 +84,18 @@ class Parallelogram:
 
 @dataclass(frozen=True)
 class InnerLoop:
-    """Branches side by side between one link and the loop's output link, such as the 2P4R of an HSOC."""
+    """Branches side by side between one link and the loop's output link, such as the 2P4R of an HSOC.
+
+    `name` is what a planar loop's rotation is called: R12, after the joints R1 and R2 of its first branch.
+    """
 
     branches: tuple[tuple[Element, ...], ...]
     name: str = ""
+
+    def __post_init__(self) -> None:
+        if len(self.branches) < 2 or not all(self.branches):
+            lengths = [len(branch) for branch in self.branches]
+            raise UsageError(f"a loop of branches with {lengths} elements; expected two branches or more, none empty")
 
 
 Element = ChainJoint | Parallelogram | InnerLoop
@@ -102,3 +131,8 @@ def inner_loops(elements: tuple[Element, ...]) -> Iterator[InnerLoop]:
             for branch in element.branches:
                 yield from inner_loops(branch)
             yield element
+
+
+def _refuse_unless_unit(axis: Vector) -> None:
+    if not abs(math.hypot(*axis) - 1) < EXACT:
+        raise UsageError(f"the axis {axis}; expected a unit vector", hint="directions.unit gives one")

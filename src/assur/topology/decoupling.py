@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.topology.edges import Edge, along, closure, null_basis
+from assur.topology.edges import Edge, along, at_generic, closure, column_names, input_columns, null_basis
 
 FloatArray = NDArray[np.float64]
 
@@ -53,10 +53,10 @@ def jacobian(edges: Sequence[Edge], base: str, platform: str) -> FloatArray | No
 
     None where the inputs do not fix the platform's motion, or hinder each other. Internal freedoms do no harm.
     """
+    edges = at_generic(edges)
     actuated = input_columns(edges)
     free = null_basis(closure(edges))
-    count = free.shape[0]
-    moves = along(edges, base, platform)[:count] @ free
+    moves = along(edges, base, platform) @ free
     rates = free[:, actuated, :]
     fixed = np.linalg.matrix_rank(rates, tol=1e-7)
     both = np.linalg.matrix_rank(np.concatenate([rates, moves], axis=1), tol=1e-7)
@@ -66,20 +66,13 @@ def jacobian(edges: Sequence[Edge], base: str, platform: str) -> FloatArray | No
     return np.concatenate([twists[:, 3:], twists[:, :3]], axis=1)
 
 
-def input_columns(edges: Sequence[Edge]) -> list[int]:
-    """Columns of the actuated freedoms in the closure of these edges, in the order of the edges."""
-    starts = np.cumsum([0, *(edge.freedoms for edge in edges)])
-    return [int(starts[index]) + column for index, edge in enumerate(edges) for column in edge.inputs]
-
-
 def by_jacobian(edges: Sequence[Edge], base: str, platform: str) -> Decoupling | None:
     """The zero pattern at the configurations of the edges' twists; None where there is no Jacobian."""
     matrix = jacobian(edges, base, platform)
     if matrix is None or not matrix.size:
         return None
-    names = tuple(
-        edge.name if edge.freedoms == 1 else f"{edge.name}.{column + 1}" for edge in edges for column in edge.inputs
-    )
+    columns = column_names(edges)
+    names = tuple(columns[index] for index in input_columns(edges))
     used = np.any(np.abs(matrix) > ZERO * np.max(np.abs(matrix)), axis=0)
     kept = [row for row in range(len(OUTPUTS)) if used[row].any()]
     return Decoupling(

@@ -6,9 +6,11 @@ that the second route says is the rank of a closure made of such edges, or a mot
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Any
 
 import networkx as nx
 import numpy as np
@@ -112,21 +114,67 @@ def along(edges: Sequence[Edge], start: str, end: str) -> FloatArray:
     return np.concatenate(columns, axis=-1)
 
 
-def rank(matrix: FloatArray) -> int:
-    """Generic rank of matrices (N, rows, columns): the largest over the configurations."""
+def rank(matrix: FloatArray, scale: float | None = None) -> int:
+    """Generic rank of matrices (N, rows, columns): the largest over the configurations.
+
+    `scale` is what singular values are compared with, the largest of each matrix by default. Give it where the
+    whole matrix may be zero but for rounding.
+
+    >>> dust = np.full((1, 2, 2), 1e-16)
+    >>> rank(dust), rank(dust, scale=1.0), rank(dust + np.eye(2))
+    (0, 0, 2)
+    """
     if 0 in matrix.shape[1:]:
         return 0
     singular = np.linalg.svd(matrix, compute_uv=False)
-    return int(np.max(np.sum(singular > RANK_GAP * np.maximum(singular[..., :1], RANK_GAP), axis=-1)))
+    return int(np.max(_ranks(singular, scale)))
 
 
-def null_basis(matrix: FloatArray) -> FloatArray:
+def null_basis(matrix: FloatArray, scale: float | None = None) -> FloatArray:
     """Orthonormal basis (N', columns, k) of what the closure leaves, at the N' configurations of generic rank."""
     count = matrix.shape[-1]
     if not matrix.shape[1]:
         return np.broadcast_to(np.eye(count), (len(matrix), count, count))
     _, singular, turned = np.linalg.svd(matrix)
-    ranks = np.sum(singular > RANK_GAP * np.maximum(singular[..., :1], RANK_GAP), axis=-1)
+    ranks = _ranks(singular, scale)
     generic = int(np.max(ranks))
     basis: FloatArray = np.swapaxes(turned[ranks == generic, generic:], -1, -2)
     return basis
+
+
+def _ranks(singular: NDArray[np.floating[Any]], scale: float | None) -> NDArray[np.int64]:
+    """Rank (N,) of each configuration from its singular values (N, r)."""
+    largest = np.maximum(singular[..., :1], RANK_GAP) if scale is None else scale
+    ranks: NDArray[np.int64] = np.sum(singular > RANK_GAP * largest, axis=-1)
+    return ranks
+
+
+def at_generic(edges: Sequence[Edge]) -> tuple[Edge, ...]:
+    """The edges at those of their configurations where the closure has its generic rank, best conditioned first.
+
+    `null_basis` then keeps them all, so that it stands beside `along` configuration by configuration.
+    """
+    matrix = closure(edges)
+    if 0 in matrix.shape[1:]:
+        return tuple(edges)
+    singular = np.linalg.svd(matrix, compute_uv=False)
+    ranks = _ranks(singular, None)
+    generic = int(np.max(ranks))
+    gap = singular[:, generic - 1] / np.maximum(singular[:, 0], RANK_GAP) if generic else np.ones(len(matrix))
+    kept = [int(index) for index in np.argsort(-gap, kind="stable") if ranks[index] == generic]
+    return tuple(dataclasses.replace(edge, twists=edge.twists[kept]) for edge in edges)
+
+
+def input_columns(edges: Sequence[Edge]) -> list[int]:
+    """Columns of the actuated freedoms in the closure of these edges, in the order of the edges."""
+    starts = np.cumsum([0, *(edge.freedoms for edge in edges)])
+    return [int(starts[index]) + column for index, edge in enumerate(edges) for column in edge.inputs]
+
+
+def column_names(edges: Sequence[Edge]) -> tuple[str, ...]:
+    """Name of each column: of its edge, with the number of the component where the edge has several ("C2.1")."""
+    return tuple(
+        edge.name if edge.freedoms == 1 else f"{edge.name}.{column + 1}"
+        for edge in edges
+        for column in range(edge.freedoms)
+    )

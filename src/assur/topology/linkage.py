@@ -6,12 +6,14 @@ the home configuration; a joint with several freedoms is a row of screws in the 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import dataclasses
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.errors import UnknownNameError
 from assur.topology.joints import JointType
 
 FloatArray = NDArray[np.float64]
@@ -57,6 +59,9 @@ class Linkage:
         groups: generalised joints by name.
         inputs: actuated components, (joint, index of the component) each, in order.
         length: a length of the size of the linkage, to measure translations with.
+
+    Errors:
+        UnknownNameError: an input or a joint of a group that is not among the joints.
     """
 
     joints: Mapping[str, LinkageJoint]
@@ -66,6 +71,12 @@ class Linkage:
     groups: Mapping[str, Group] = field(default_factory=dict)
     inputs: tuple[tuple[str, int], ...] = ()
     length: float = 1.0
+
+    def __post_init__(self) -> None:
+        inside = [name for group in self.groups.values() for name in group.joints]
+        for name in (*inside, *(joint for joint, _ in self.inputs)):
+            if name not in self.joints:
+                raise UnknownNameError("joint", name, self.joints)
 
     @property
     def links(self) -> tuple[str, ...]:
@@ -80,3 +91,30 @@ class Linkage:
             places[name] = slice(start, start + len(joint.screws))
             start += len(joint.screws)
         return places
+
+
+def part(linkage: Linkage, names: Collection[str], platform: str, point: FloatArray | None = None) -> Linkage:
+    """Some joints and parallelograms of a linkage by themselves, such as a limb that is displaced freely on its own.
+
+    Args:
+        linkage: the whole.
+        names: of joints, or of groups for all their joints.
+        platform: the link that is looked at.
+        point: (3,) O' of that link at home, by default where the platform's is.
+
+    Errors:
+        UnknownNameError: a name that is neither a joint nor a group.
+    """
+    for name in names:
+        if name not in linkage.joints and name not in linkage.groups:
+            raise UnknownNameError("joint", name, [*linkage.joints, *linkage.groups])
+    inside = {name for group in names if group in linkage.groups for name in linkage.groups[group].joints}
+    joints = {name: joint for name, joint in linkage.joints.items() if name in names or name in inside}
+    return dataclasses.replace(
+        linkage,
+        joints=joints,
+        platform=platform,
+        point=linkage.point if point is None else point,
+        groups={name: group for name, group in linkage.groups.items() if set(group.joints) <= set(joints)},
+        inputs=tuple(item for item in linkage.inputs if item[0] in joints),
+    )

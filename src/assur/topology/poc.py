@@ -9,9 +9,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+from numpy.typing import NDArray
+
 from assur.topology.directions import Vector
 
-Relation = Literal["none", "parallel", "perpendicular", "plane", "arm", "moving"]
+Relation = Literal["none", "parallel", "perpendicular", "plane", "arm", "moving", "fixed"]
+FloatArray = NDArray[np.float64]
 Style = Literal["unicode", "ascii", "latex"]
 
 
@@ -23,7 +27,8 @@ class Mark:
         relation: "none" (0 or 3 elements, nothing to say); "parallel" to the one axis named; "perpendicular"
             to it (a plane); "plane" spanned by the axes named, the paper's diamond; "arm": one element
             perpendicular to the axis named and to the arm rho from it to O'; "moving": the direction turns as the
-            mechanism moves and no axis of the base names it.
+            mechanism moves and no axis of the base names it; "fixed": a direction (or plane) of the base that the
+            twists found, which `axes` gives and no joint names.
         names: the joints that the mark names.
         axes: orthonormal basis of the part's directions where they stay fixed in the base, else empty.
     """
@@ -82,7 +87,17 @@ def _mark(mark: Mark, style: Style) -> str:
         return ""
     if mark.relation == "moving":
         return "(moving)" if style != "latex" else r"(\text{moving})"
+    if mark.relation == "fixed":
+        plane = len(mark.axes) == 2
+        vector = np.cross(mark.axes[0], mark.axes[1]) if plane else np.array(mark.axes[0])
+        return f"({signs['perpendicular' if plane else 'parallel']}[{_rounded(vector)}])"
     if mark.relation == "arm":
         return f"({signs['perpendicular']}({', '.join((*mark.names, signs['rho']))}))"
     names = ", ".join(mark.names)
     return f"({signs['plane']}({names}))" if mark.relation == "plane" else f"({signs[mark.relation]}{names})"
+
+
+def _rounded(vector: FloatArray) -> str:
+    """A direction to three digits, the first of its larger parts positive."""
+    turned = vector * np.sign(vector[np.flatnonzero(np.abs(vector) > 1e-6)[0]])
+    return ", ".join(f"{part + 0.0:.3g}" for part in np.where(np.abs(turned) < 1e-6, 0.0, turned))

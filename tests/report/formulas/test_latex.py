@@ -8,6 +8,18 @@ import assur
 from assur.report.formulas.latex import latex_mathml, name_mathml
 
 
+MATRIX = (
+    '<mrow class="matrix"><mtable><mtr><mtd><mi>a</mi></mtd><mtd><mi>b</mi></mtd></mtr>'
+    "<mtr><mtd><mi>c</mi></mtd></mtr></mtable></mrow>"
+)
+
+
+def bracketed(inner):
+    return "".join(
+        f'<mo stretchy="false" lspace="0" rspace="0">{sign}</mo>{inner if sign == "(" else ""}' for sign in "()"
+    )
+
+
 def said(mathml):
     return "".join(ElementTree.fromstring(f"<math>{mathml}</math>").itertext())
 
@@ -25,6 +37,12 @@ def said(mathml):
         ("O'", "<mi>O</mi><mo>′</mo>"),
         (r"\unknown", "<mtext>\\unknown</mtext>"),
         ("x_", "<mtext>x_</mtext>"),
+        (r"\left(x\right)", bracketed("<mi>x</mi>")),
+        (r"\text{so, a\_b}", "<mtext>so, a_b</mtext>"),
+        (r"\mathrm{ab}_1", "<msub><mtext>ab</mtext><mn>1</mn></msub>"),
+        (r"\parallel\Diamond", "<mo>∥</mo><mo>◇</mo>"),
+        (r"\begin{bmatrix} a & b \\ c \end{bmatrix}^2", f"<msup>{MATRIX}<mn>2</mn></msup>"),
+        (r"\begin{bmatrix} a", r"<mtext>\begin{bmatrix} a</mtext>"),
         ("a<b&c", "<mi>a</mi><mo>&lt;</mo><mi>b</mi><mo>&amp;</mo><mi>c</mi>"),
     ],
 )

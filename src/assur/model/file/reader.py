@@ -10,6 +10,7 @@ from assur.model.file.description import Description
 from assur.model.file.faults import Faults
 from assur.model.file.form import check_form
 from assur.model.file.toml_source import read_toml
+from assur.model.file.topology_schema import is_topology
 from assur.model.mechanism import MechanismRecord
 
 
@@ -18,6 +19,16 @@ def read_mechanism(path: Path) -> MechanismRecord:
 
     Errors:
         MechanismFileError: the file has faults; all of them are in it.
+        UsageError: there is no such file, it cannot be read, or it is a topology file.
+    """
+    return read_text(file_text(path), path)
+
+
+def file_text(path: Path) -> str:
+    """The text of a file in UTF-8.
+
+    Errors:
+        MechanismFileError: it is not UTF-8.
         UsageError: there is no such file, or it cannot be read.
     """
     try:
@@ -26,12 +37,11 @@ def read_mechanism(path: Path) -> MechanismRecord:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise UsageError(f"cannot read '{path}': {reason}") from None
     try:
-        text = content.decode("utf-8-sig")
+        return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = content[: error.start].count(b"\n") + 1
         found = f"byte 0x{content[error.start]:02x}"
         raise MechanismFileError([Problem(str(path), line, "", found, "allowed: UTF-8 text")]) from None
-    return read_text(text, path)
 
 
 def read_text(text: str, path: Path) -> MechanismRecord:
@@ -39,6 +49,7 @@ def read_text(text: str, path: Path) -> MechanismRecord:
 
     Errors:
         MechanismFileError: the file has faults; all of them are in it.
+        UsageError: it is a topology file, which has no dimensions.
 
     Example:
         >>> from importlib.resources import files
@@ -48,6 +59,8 @@ def read_text(text: str, path: Path) -> MechanismRecord:
         (17, 'D1', 280.0)
     """
     source = read_toml(text, str(path))
+    if is_topology(source.data):
+        raise UsageError(f"{path} is a topology without dimensions", hint=f"assur topology {path}")
     faults = Faults(str(path), source)
     entry, cut = check_form(source.data, faults)
     if entry is None:

@@ -1,6 +1,7 @@
 r"""The little LaTeX of mechanism files and closed forms, such as `y_{A_1}` or `l_2^2-B^2/4`, as MathML.
 
-Letters, digits, operators, brackets, `_`, `^`, groups, Greek letters, functions, `\sqrt{}` and `\frac{}{}`.
+Letters, digits, operators, brackets, `_`, `^`, groups, Greek letters, functions, words in `\text{}` or `\mathrm{}`,
+`\sqrt{}`, `\frac{}{}` and matrices between `\begin{bmatrix}` and `\end{bmatrix}`.
 What is not understood is shown as it stands.
 """
 
@@ -18,13 +19,20 @@ GREEK = {
 FUNCTIONS = ("sin", "cos", "tan", "cot", "arccos", "arcsin", "arctan", "det", "dim", "sgn")
 OPERATORS = {
     "angle": "∠", "cdot": "·", "pm": "±", "parallel": "∥", "perp": "⊥", "times": "×", "cup": "∪", "cap": "∩",
+    "Diamond": "◇",
 }  # fmt: skip
 LIMITS = {"sum": "<mo>∑</mo>", "bigcup": "<mo>⋃</mo>", "bigcap": "<mo>⋂</mo>", "min": "<mi>min</mi>"}
 """What carries its limits under and over it."""
 
 BRACKETS = "()[]{}|"
 SIGNS = {"-": "−", "'": "′"}
-_TOKEN = re.compile(r"\\[A-Za-z]+|\\[{}]|\d+(?:\.\d+)?|\s+|.", re.DOTALL)
+_TOKEN = re.compile(
+    r"\\(?:text|mathrm)\{(?:\\.|[^{}\\])*\}|\\(?:begin|end)\{\w+\}|\\[A-Za-z]+|\\[{}_\\]|\d+(?:\.\d+)?|\s+|.", re.DOTALL
+)
+_WORDS = re.compile(r"\\(?:text|mathrm)\{(.*)\}", re.DOTALL)
+ROW = r"\\"
+SIZES = (r"\left", r"\right")
+"""What only tells the brackets after them how large to be."""
 
 
 def latex_mathml(source: str) -> str:
@@ -33,7 +41,7 @@ def latex_mathml(source: str) -> str:
     >>> latex_mathml(r"y_{A_1}")
     '<msub><mi>y</mi><msub><mi>A</mi><mn>1</mn></msub></msub>'
     """
-    tokens = [token for token in _TOKEN.findall(source) if not token.isspace()]
+    tokens = [token for token in _TOKEN.findall(source) if not token.isspace() and token not in SIZES]
     try:
         content, rest = _sequence(tokens, closing="")
     except IndexError:  # an argument is missing
@@ -101,6 +109,8 @@ def _item(tokens: list[str]) -> tuple[str, list[str]]:
     if token == "{":
         inner, rest = _sequence(rest, "}")
         return _row(inner), rest
+    if token == r"\begin{bmatrix}":
+        return _matrix(rest)
     if token == r"\sqrt":
         inner, rest = _item(rest)
         return f"<msqrt>{inner}</msqrt>", rest
@@ -111,11 +121,33 @@ def _item(tokens: list[str]) -> tuple[str, list[str]]:
     return _symbol(token), rest
 
 
+def _matrix(tokens: list[str]) -> tuple[str, list[str]]:
+    """The rows of a matrix up to its end, and what is left after it."""
+    rows = [[""]]
+    while tokens[0] != r"\end{bmatrix}":
+        if tokens[0] == ROW:
+            rows.append([""])
+            tokens = tokens[1:]
+        elif tokens[0] == "&":
+            rows[-1].append("")
+            tokens = tokens[1:]
+        else:
+            part, tokens = _scripted(tokens)
+            rows[-1][-1] += part
+    cells = "".join("<mtr>" + "".join(f"<mtd>{cell}</mtd>" for cell in row) + "</mtr>" for row in rows)
+    return f'<mrow class="matrix"><mtable>{cells}</mtable></mrow>', tokens[1:]
+
+
 def _symbol(token: str) -> str:
+    if said := _WORDS.fullmatch(token):
+        words = re.sub(r"\\(.)", r"\1", said[1])
+        return f"<mtext>{escape(words)}</mtext>"
     word = token.lstrip("\\")
     if token[0] == "\\":
         if word in BRACKETS and word:
             return bracket(word)
+        if word == "quad":
+            return '<mspace width="1em"/>'
         if word in LIMITS:
             return LIMITS[word]
         if word in GREEK or word in FUNCTIONS:

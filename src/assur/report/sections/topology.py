@@ -13,6 +13,7 @@ from assur.report.findings import Findings
 from assur.report.formulas.latex import latex_mathml
 from assur.report.formulas.mathml import display
 from assur.report.numbers import count, short
+from assur.report.sections.derived import derived
 from assur.report.sections.printed import computed, number, quantity, verdict
 from assur.results.kinds import Formula, Formulas, Result, Scalar, Section, Table
 
@@ -43,7 +44,7 @@ def topology(found: Findings) -> Section:
     """What is counted on the joint graph, and what the source prints."""
     results: list[Result | Section] = [*found.picture("structure")]
     results += [_chains(found.record)] if found.record.chains else []
-    results += [_mobility(found), _declared(found)]
+    results += [derived(found), _mobility(found), _declared(found)]
     return Section("Structure and topology", results=results)
 
 

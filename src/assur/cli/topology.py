@@ -1,0 +1,96 @@
+"""`assur topology`: POC sets, freedoms, coupling degree and the rest of a mechanism's topology, derived."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated, Literal
+
+from cyclopts import Parameter
+
+from assur.cli.options import PLAIN, Outcome, Plain
+from assur.errors import UnknownNameError, UsageError
+
+Mode = Literal["home", "translation"]
+MODES: dict[str, Mode] = {"home": "home", "translation": "translation"}
+ENDINGS = (".svg", ".pdf", ".png")
+
+
+def topology(
+    what: Annotated[
+        str | None,
+        Parameter(name="MECHANISM", help="A name (see `assur list`) or the path of a .toml file; or give --chain."),
+    ] = None,
+    /,
+    *,
+    chain: Annotated[
+        tuple[str, ...],
+        Parameter(name="--chain", metavar="TEXT", help="One limb from base to platform, in quotes. May be repeated."),
+    ] = (),
+    actuate: Annotated[
+        str, Parameter(metavar="LIMB.JOINT,..", help="What is actuated, as 1.1,2.1,3.1, counted from the base.")
+    ] = "",
+    mode: Annotated[
+        str | None, Parameter(help="translation: the platform keeps its orientation. home: as the chains stand.")
+    ] = None,
+    graph: Annotated[
+        str | None, Parameter(metavar="FILE", help="Also draw links and joints into this .svg, .pdf or .png file.")
+    ] = None,
+    latex: Annotated[bool, Parameter(help="Print a LaTeX fragment for a paper instead.")] = False,
+    ascii_: Annotated[bool, Parameter(name="--ascii", help="Print plain letters and signs only.")] = False,
+    shared: Plain = PLAIN,  # noqa: ARG001  # read by main
+) -> Outcome:
+    r"""Derive a mechanism's topology: POC set, DOF, loops, coupling degree.
+
+    Two routes, which must agree: the rules of POC sets, and the rank of twists
+    at random configurations. Where the rules do not hold, it says why.
+    A limb is text: P[x] R[x] R[x] R[x], with axes x, y, z or R[0.6,0.8,0];
+    U[x,y], S, C[x], P(4R)[y]; U P S leaves axes general; branches of an inner
+    loop stand in braces. The shell eats brackets, braces and bars: put every
+    chain in quotes.
+
+    For example:
+        assur topology zeng2019
+        assur topology zeng2019 --graph zeng2019.svg
+        assur topology --chain "R[z] R[z] R[z]" --chain "R[z] R[z]"
+        assur topology --chain "P[x] R[x] R[x] R[x]" \
+            --chain "P[y] R[y] R[y] R[y]" --chain "P[z] R[z] R[z] R[z]"
+        assur topology --chain "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]"
+        assur topology --chain "-R|R|R_|_R|R-" --ascii
+    """
+    from assur.cli import topology_answer
+    from assur.cli.paths import output_file
+    from assur.mechanism import topology as derive
+
+    path = output_file(graph, ENDINGS) if graph is not None else None
+    found = derive(_asked(what, chain), actuate=_actuators(actuate), mode=_mode(mode))
+    return topology_answer.outcome(found, path, latex=latex, ascii_only=ascii_)
+
+
+def _asked(what: str | None, chain: Sequence[str]) -> str | tuple[str, ...]:
+    """A name or chains, never both."""
+    if what is not None and chain:
+        raise UsageError(f"a mechanism ({what}) and --chain at once", hint="give one of the two")
+    if what is not None and ("[" in what or " " in what.strip()):
+        raise UsageError(f"'{what}' looks like a chain, not like a name", hint=f'write --chain "{what}"')
+    if what is not None:
+        return what
+    if not chain:
+        hint = 'for example: assur topology zeng2019, or assur topology --chain "P[x] R[x] R[x] R[x]"'
+        raise UsageError("no mechanism is named and no --chain given", hint=hint)
+    return tuple(chain)
+
+
+def _mode(text: str | None) -> Mode | None:
+    """One of the modes, or none given."""
+    if text is not None and text not in MODES:
+        raise UnknownNameError("mode", text, MODES)
+    return MODES[text] if text is not None else None
+
+
+def _actuators(text: str) -> tuple[str, ...] | None:
+    """The numbers between commas; None where nothing is given.
+
+    >>> _actuators("1.1, 2.3")
+    ('1.1', '2.3')
+    """
+    return tuple(part.strip() for part in text.split(",")) if text.strip() else None

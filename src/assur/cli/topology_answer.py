@@ -1,0 +1,253 @@
+"""What `assur topology` says: the result in five lines, the derivation, then table by table."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from assur.cli.ascii_text import ascii_rule, ascii_text
+from assur.cli.options import Outcome
+from assur.cli.output import Verbatim, heading, table
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from assur.topology.facts import Known, Topology
+
+Said = Callable[[str], str]
+"""A text as it is printed: as it is, or in plain letters."""
+
+_LONG = re.compile(r"-?\d+\.\d{5,}")
+
+KNOWN = {"both": "rules and twists", "twists": "twists alone"}
+
+
+def signed(value: int) -> str:
+    """A degree of constraint with its sign.
+
+    >>> signed(-1), signed(0), signed(2)
+    ('-1', '0', '+2')
+    """
+    return f"{value:+d}" if value else "0"
+
+
+def shortened(text: str) -> str:
+    """A chain with four digits of its directions, for reading.
+
+    >>> shortened("R[0.8660254037844386,-0.5,0]")
+    'R[0.866,-0.5,0]'
+    """
+    return _LONG.sub(lambda number: f"{float(number[0]):.4g}", text)
+
+
+def outcome(found: Topology, graph: Path | None, *, latex: bool, ascii_only: bool) -> Outcome:
+    """The answer; the graph is written where a path is given."""
+    from assur.topology.answers import answers
+
+    data = answers(found)
+    if graph is not None:
+        _draw(found, graph)
+        data["graph"] = str(graph)
+    if latex:
+        from assur.topology.latex import fragment
+
+        data["latex"] = fragment(found)
+        return Outcome(data, lambda: [Verbatim(data["latex"])])
+    return Outcome(data, lambda: _shown(found, graph, ascii_only=ascii_only))
+
+
+def _draw(found: Topology, path: Path) -> None:
+    from assur.figures.encode import encoded
+    from assur.figures.graph import graph_drawing
+    from assur.figures.style import styled
+    from assur.results.files import write_whole
+
+    with styled():
+        drawing = graph_drawing(found.linkage, found.loops, found.assur_chains)
+    write_whole(path, encoded(drawing.figure, path.suffix.lower()[1:]))
+
+
+def _shown(found: Topology, graph: Path | None, *, ascii_only: bool) -> Iterable[RenderableType]:
+    say: Said = ascii_text if ascii_only else str
+    yield heading(say(_title(found)))
+    yield from map(say, _result(found))
+    for title, part in PARTS.items():
+        lines = list(part(found, say))
+        if lines:
+            yield ""
+            yield heading(title)
+            yield from map(ascii_rule, lines) if ascii_only else lines
+    if graph is not None:
+        yield f"written: {graph}"
+
+
+def _title(found: Topology) -> str:
+    """The name and the title; of chains that have none, how many they are."""
+    parts = [part for part in (found.name, found.title) if part]
+    return ": ".join(parts) or ("one chain" if len(found.limbs) == 1 else f"{len(found.limbs)} limbs")
+
+
+def _result(found: Topology) -> Iterator[str]:
+    """The five lines that a reader came for."""
+    poc = found.poc
+    dependent = f", {poc.dependent} of {poc.t + poc.r} dependent" if poc.dependent else ""
+    yield f"POC set      {poc}: dim {poc.dim}{dependent}"
+    internal = f", {found.internal_freedoms} of them internal" if found.internal_freedoms else ""
+    yield f"DOF          F = {found.dof}{_sum(found)}{internal}"
+    loops = "; ".join(f"ξ{k} = {loop.xi}, Δ{k} = {signed(loop.delta)}" for k, loop in enumerate(found.loops, 1))
+    yield f"loops        {len(found.loops)}" + (f": {loops}" if loops else "")
+    degree = found.coupling_degree
+    yield f"coupling     κ = {degree}" if degree is not None else "coupling     none: the inputs are too few for κ"
+    redundant = found.redundant_constraints
+    yield f"redundant    {redundant.collapsed} with parallelograms as one joint, {redundant.joint_graph} of all joints"
+
+
+def _sum(found: Topology) -> str:
+    """Eq. (3) in numbers, where every joint is in a loop."""
+    freedoms = [loop.freedoms for loop in found.loops]
+    if not found.loops or sum(freedoms) - sum(found.xi) != found.dof:
+        return ""
+    if len(freedoms) == 1:
+        return f" = {freedoms[0]} - {found.xi[0]}"
+    return f" = ({' + '.join(map(str, freedoms))}) - ({' + '.join(map(str, found.xi))})"
+
+
+def _derivation(found: Topology, say: Said) -> Iterator[RenderableType]:
+    for derivation in found.derivations:
+        yield from map(say, derivation.text("unicode").splitlines())
+
+
+def _limbs(found: Topology, say: Said) -> Iterator[RenderableType]:
+    if found.limbs:
+        yield table(
+            ("limb", "chain", "POC set", "dim", "dep.", "known by"),
+            [
+                (
+                    str(number),
+                    say(shortened(limb.text)),
+                    say(str(limb.poc)),
+                    str(limb.poc.dim),
+                    str(limb.poc.dependent),
+                    KNOWN[limb.known.route],
+                )
+                for number, limb in enumerate(found.limbs, 1)
+            ],
+            left=("limb", "chain", "POC set", "known by"),
+            wrap=("chain", "known by"),
+        )
+    else:
+        yield "The graph has no limbs in the sense of POC theory: it does not reduce in series and in parallel."
+    for number, limb in enumerate(found.limbs, 1):
+        yield from map(say, _refused(f"limb {number}", limb.known))
+    yield from map(say, _refused("the platform", found.known))
+
+
+def _refused(name: str, known: Known) -> Iterator[str]:
+    if known.refusal:
+        yield f"{name}: the rules give no answer, because {known.refusal}; its POC set is that of the twists."
+
+
+def _loops(found: Topology, say: Said) -> Iterator[RenderableType]:
+    if not found.loops:
+        return
+    yield table(
+        ("loop", "joints that it adds", say("Σf"), "I", say("ξ"), say("Δ")),
+        [
+            (
+                str(number),
+                " ".join(loop.edges),
+                str(loop.freedoms),
+                str(loop.inputs),
+                str(loop.xi),
+                f"{signed(loop.delta)}",
+            )
+            for number, loop in enumerate(found.loops, 1)
+        ],
+        left=("joints that it adds",),
+    )
+    for number, chain in enumerate(found.assur_chains, 1):
+        loops = ", ".join(str(index + 1) for index in chain.loops)
+        noun = "loop" if len(chain.loops) == 1 else "loops"
+        yield say(f"Assur chain {number}: {noun} {loops}, κ = {chain.coupling_degree}")
+
+
+def _plan(found: Topology, say: Said) -> Iterator[RenderableType]:
+    yield from map(say, found.plan.words)
+
+
+def _decoupling(found: Topology, say: Said) -> Iterator[RenderableType]:
+    matrix = found.decoupling
+    if matrix is None and not found.loops:
+        return
+    if matrix is None:
+        yield say(f"The inputs do not determine the platform: {found.actuation}.")
+        return
+    yield table(
+        ("output", *matrix.inputs),
+        [
+            (name, *(say("×") if used else say("·") for used in row))
+            for name, row in zip(matrix.outputs, matrix.depends, strict=True)
+        ],
+        left=("output",),
+    )
+    kind = {"full": "fully decoupled", "partial": "partially decoupled", "none": "coupled throughout"}[matrix.kind]
+    yield say(f"× depends on the input, · does not: {kind}.")
+
+
+def _actuation(found: Topology, say: Said) -> Iterator[RenderableType]:
+    if not found.loops and found.decoupling is None:
+        return
+    asked = found.actuation
+    yield say(f"chosen: {', '.join(asked.inputs) or 'none'}; {asked}.")
+    yield f"may be actuated: {', '.join(asked.in_some) or 'none'}"
+    if asked.in_every:
+        yield f"in every admissible set: {', '.join(asked.in_every)}"
+
+
+def _joints(found: Topology, say: Said) -> Iterator[RenderableType]:
+    yield say(f"idle joints: {', '.join(found.idle_joints) or 'none'}")
+    yield say(f"internal freedoms of F: {found.internal_freedoms}")
+    if found.internal_joints:
+        moved = "; ".join(" ".join(joints) for joints in found.internal_joints)
+        yield say(f"joints that move with platform and inputs at rest: {moved}")
+
+
+def _relaxation(found: Topology, say: Said) -> Iterator[RenderableType]:
+    from assur.topology.answers import replacements_by_kind
+
+    asked = found.relaxation
+    if not asked.redundant:
+        return
+    if not asked.single:
+        yield f"no joint can be relaxed to remove any of the {asked.redundant} without changing the motion"
+        return
+    yield table(
+        ("a joint", "removes", "spins", "any one of"),
+        [
+            (f"{item.old} to {item.new}", str(item.removed), str(item.internal), " ".join(names))
+            for item, names in replacements_by_kind(found)
+        ],
+        left=("a joint", "any one of"),
+    )
+    steps = ", ".join(f"{item.joint} to {item.new}" for item in asked.together)
+    yield say(f"together: {steps}; that leaves {asked.left} of {asked.redundant}.")
+
+
+def _notes(found: Topology, say: Said) -> Iterator[RenderableType]:
+    yield from map(say, found.notes)
+
+
+PARTS: dict[str, Callable[[Topology, Said], Iterator[RenderableType]]] = {
+    "derivation": _derivation,
+    "limbs": _limbs,
+    "loops in the order that attains the coupling degree": _loops,
+    "what that means for the direct problem": _plan,
+    "decoupling": _decoupling,
+    "actuators": _actuation,
+    "joints": _joints,
+    "joints that could be relaxed, against redundant constraints": _relaxation,
+    "notes": _notes,
+}
+"""In the order of the theory."""

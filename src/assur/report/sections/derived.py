@@ -1,0 +1,143 @@
+"""Topology, derived: POC sets as matrices, Eqs. (1) to (6) in numbers, loops, the plan of solution, decoupling."""
+
+from __future__ import annotations
+
+from assur.report.findings import Findings
+from assur.report.formulas.latex import latex_mathml
+from assur.report.formulas.mathml import display
+from assur.results.kinds import Facts, Formula, Formulas, Result, Scalar, Section, Table
+from assur.topology.answers import refusals, replacements_by_kind
+from assur.topology.decoupling import Decoupling
+from assur.topology.facts import Topology
+from assur.topology.latex import equations
+
+KNOWN = {"both": "rules and twists", "twists": "twists alone"}
+COLLAPSED = "parallelograms as one joint"
+
+
+def derived(found: Findings) -> Section:
+    """What the topology engine says, each POC set by two routes."""
+    topology = found.topology
+    said = (
+        "Derived from the joint graph, not read from the source: POC sets by the rules of union and intersection, and "
+        "by the rank of twists at random finite displacements; where the rules do not decide, the twists do, and it "
+        f"says so. O' of a limb is on its last axis or joint centre. The platform has {topology.poc}."
+    )
+    results: list[Result | Section] = [*_numbers(topology), *found.picture("graph"), _equations(topology)]
+    results += [_limbs(topology)] if topology.limbs else []
+    results += [_loops(topology)] if topology.loops else []
+    results += [_facts("What the coupling degree means for the direct problem", topology.plan.words)]
+    results += [_decoupling(topology.decoupling)] if topology.decoupling else []
+    return Section(
+        "Topology, derived", said, [*results, _joints(topology), *_relaxation(topology), *_derivation(topology)]
+    )
+
+
+def _numbers(topology: Topology) -> list[Scalar]:
+    routes = "rules and twists agree" if topology.routes_agree else "twists; the rules do not decide everything"
+    redundant = topology.redundant_constraints
+    degree = None if topology.coupling_degree is None else float(topology.coupling_degree)
+    internal = f", {topology.internal_freedoms} of them internal" if topology.internal_freedoms else ""
+    return [
+        Scalar("dimension of the POC set", float(topology.poc.dim), "", routes),
+        Scalar("degrees of freedom F", float(topology.dof), "", f"Eq. (3){internal}"),
+        Scalar("coupling degree κ", degree, "", "least of all orders of loops, Eq. (6)"),
+        Scalar("redundant constraints", float(redundant.collapsed), "", COLLAPSED),
+        Scalar("redundant constraints, all joints", float(redundant.joint_graph), "", "the whole joint graph"),
+    ]
+
+
+def _equations(topology: Topology) -> Formulas:
+    lines = tuple(
+        Formula(display(latex_mathml(f"{item.left} = {item.right}")), item.number, item.meaning)
+        for item in equations(topology)
+    )
+    return Formulas(
+        "POC sets, freedoms and degrees", lines, "Non-independent elements are those of t and r beyond dim M."
+    )
+
+
+def _limbs(topology: Topology) -> Table:
+    rows = tuple(
+        (
+            str(number),
+            limb.text,
+            limb.symbolic,
+            str(limb.poc),
+            str(limb.poc.dim),
+            str(limb.poc.dependent),
+            KNOWN[limb.known.route],
+        )
+        for number, limb in enumerate(topology.limbs, 1)
+    )
+    columns = ("limb", "plain form", "as the literature writes it", "POC set", "dim", "dependent", "known by")
+    reasons = " ".join(f"{item['of']}: the rules refuse, because {item['reason']}." for item in refusals(topology))
+    return Table("Limbs", columns, rows, reasons)
+
+
+def _loops(topology: Topology) -> Table:
+    chain_of = {index: str(k) for k, chain in enumerate(topology.assur_chains, 1) for index in chain.loops}
+    rows = tuple(
+        (
+            str(number),
+            " ".join(loop.edges),
+            str(loop.freedoms),
+            str(loop.inputs),
+            str(loop.xi),
+            f"{loop.delta:+d}".replace("-", "\N{MINUS SIGN}") if loop.delta else "0",
+            chain_of.get(number - 1, ""),
+        )
+        for number, loop in enumerate(topology.loops, 1)
+    )
+    columns = ("loop", "joints that it adds", "Σf", "I", "ξ", "Δ", "Assur chain")
+    caption = f"In the order that attains the coupling degree, {COLLAPSED}."
+    return Table("Loops and Assur chains", columns, rows, caption)
+
+
+def _facts(title: str, lines: tuple[str, ...]) -> Facts:
+    return Facts(title, tuple((f"step {number}", line) for number, line in enumerate(lines, 1)))
+
+
+def _decoupling(matrix: Decoupling) -> Table:
+    rows = tuple(
+        (name, *("×" if used else "·" for used in row))
+        for name, row in zip(matrix.outputs, matrix.depends, strict=True)
+    )
+    caption = "× the output depends on the input, · it does not: zeros of the Jacobian at every configuration."
+    return Table("Decoupling", ("output", *matrix.inputs), rows, caption)
+
+
+def _joints(topology: Topology) -> Facts:
+    asked = topology.actuation
+    moved = "; ".join(" ".join(joints) for joints in topology.internal_joints)
+    items = [
+        ("actuated", f"{', '.join(asked.inputs) or 'none'}: {asked}"),
+        ("may be actuated", ", ".join(asked.in_some)),
+        ("in every admissible set", ", ".join(asked.in_every)),
+        ("idle joints", ", ".join(topology.idle_joints) or "none"),
+        ("internal freedoms of F", str(topology.internal_freedoms)),
+        ("moving with platform and inputs at rest", moved),
+        ("notes", " ".join(topology.notes)),
+    ]
+    return Facts("Joints", tuple((label, text) for label, text in items if text))
+
+
+def _relaxation(topology: Topology) -> list[Result]:
+    asked = topology.relaxation
+    if not asked.single:
+        return []
+    rows = tuple(
+        (f"{item.old} to {item.new}", str(item.removed), str(item.internal), " ".join(names))
+        for item, names in replacements_by_kind(topology)
+    )
+    together = ", ".join(f"{item.joint} to {item.new}" for item in asked.together)
+    caption = f"Together: {together}; that leaves {asked.left} of {asked.redundant}. The platform moves as before."
+    columns = ("replacement", "redundant constraints less", "internal freedoms more", "any one of these joints")
+    return [Table("Joints that could be relaxed", columns, rows, caption)]
+
+
+def _derivation(topology: Topology) -> list[Result]:
+    if topology.derivation is None:
+        return []
+    lines = topology.derivation.text("unicode").splitlines()
+    return [Table("The derivation, step by step", ("step",), tuple((line,) for line in lines), folded=True)]

@@ -1,0 +1,188 @@
+"""When two limbs are the same: a canonical form that forgets names, senses, frames and orders that make no difference.
+
+An axis about which something turns cuts a limb into *stretches*; a stretch holds directions that stay fixed
+against each other: the axis that leads into it, its P joints, the axis that leads out of it. Stretches that
+are not turned against each other while the platform has the wanted motion share a frame. So the two limbs are the same if
+the same kinds of joints stand in the same order, and the directions in each frame have the same relations.
+
+Between two axes the order of P joints makes no difference, but it does which of them is driven. A limb and its
+reverse are different, because the actuator stands near the base.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations, permutations, product
+from typing import Any
+
+from assur.errors import UsageError
+from assur.synthesis.wanted import WantedMotion
+from assur.topology.chains import Chain, ChainJoint, Parallelogram
+from assur.topology.directions import EXACT, Vector, parallel
+
+Key = tuple[Any, ...]
+"""Canonical form: nested tuples of texts and numbers, to be compared for equality."""
+
+BASE, TURNED = "base", "turned"
+"""Frames: that of the base, and that of a platform which turns."""
+
+
+@dataclass(frozen=True)
+class _Direction:
+    """A direction of a stretch, and what has it: "P", "P*" (driven), "P(4R)", or "" for the axis of a turn."""
+
+    kind: str
+    axis: Vector
+
+
+@dataclass(frozen=True)
+class _Turn:
+    """An axis about which something turns, and the joint that it belongs to; no axis for a ball joint."""
+
+    kind: str
+    label: int
+    axis: Vector | None
+
+
+def limb_key(chain: Chain, motion: WantedMotion, driven: int | None = None) -> Key:
+    """Canonical form of a limb whose platform has a wanted motion.
+
+    Args:
+        chain: without inner loops.
+        motion: the platform's; directions that it singles out are the same in all limbs.
+        driven: index of the joint with the actuator, None if it does not matter.
+
+    Errors:
+        UsageError: the limb has an inner loop.
+
+    Example: the order of neighbouring P joints makes no difference, nor do the names of the axes.
+
+    >>> from assur.synthesis.wanted import MOTIONS
+    >>> from assur.topology.notation import parse_chain
+    >>> first, second = parse_chain("P[x] P[z] R[z] R[z]"), parse_chain("P[x] P[y] R[x] R[x]")
+    >>> space = MOTIONS["3T"]
+    >>> limb_key(first, space) == limb_key(second, space), limb_key(first, space, 0) == limb_key(second, space, 0)
+    (True, False)
+    """
+    turns, stretches = _cut(chain, driven)
+    frames = _frames(turns, motion)
+    if motion.axis is not None:
+        stretches[0].append(_Direction("", motion.axis))
+        stretches[-1].append(_Direction("", motion.axis))
+    kinds = tuple((turn.kind, turn.label) for turn in turns)
+    return (kinds, min(_described(ordered, frames) for ordered in _orders(stretches)))
+
+
+def mechanism_key(limbs: Iterable[Key]) -> Key:
+    """Canonical form of several limbs side by side: their order makes no difference."""
+    return tuple(sorted(limbs, key=repr))
+
+
+def _cut(chain: Chain, driven: int | None) -> tuple[list[_Turn], list[list[_Direction]]]:
+    """The turns, and the stretches before, between and behind them."""
+    turns: list[_Turn] = []
+    stretches: list[list[_Direction]] = [[]]
+    labels: dict[str, int] = {}
+    for index, element in enumerate(chain.elements):
+        mark = "*" if index == driven else ""
+        if isinstance(element, Parallelogram):
+            kind, axes, label = f"P({element.kind})", (element.axis,), ""
+        elif isinstance(element, ChainJoint):
+            kind, axes, label = element.type.letter, element.axes, element.point
+        else:
+            raise UsageError("a limb with an inner loop has no canonical form")
+        if kind in ("P", "P(4R)"):
+            stretches[-1].append(_Direction(kind + mark, axes[0]))
+            continue
+        number = labels.setdefault(label, len(labels)) if label else -1
+        for axis in axes or (None,):
+            turns.append(_Turn(kind + mark, number, axis))
+            stretches[-1] += [_Direction("", axis)] if axis else []
+            stretches.append([_Direction("", axis)] if axis else [])
+    return turns, stretches
+
+
+def _frames(turns: Sequence[_Turn], motion: WantedMotion) -> list[str]:
+    """The frame of each stretch.
+
+    Neighbouring parallel axes are a block. While the platform has its motion, a block turns what is behind it by nothing
+    in all, unless its axis is that of the motion; of three blocks, the first and the last undo each other where they are
+    parallel. Behind a ball joint, or more blocks, only the platform is known again.
+    """
+    blocks = _blocks(turns)
+    last = TURNED if motion.rotations else BASE
+    axes = [turns[block[0]].axis for block in blocks]
+    wrapped = len(blocks) == 3 and not motion.rotations and _along(axes[0], axes[2])
+    simple = all(axes) and (len(blocks) <= 2 or wrapped)
+    found, here = [BASE], BASE
+    for number, block in enumerate(blocks):
+        found += [f"inside {place}" for place in block[:-1]]
+        if not simple:
+            here = f"behind {block[-1]}"
+        elif wrapped:
+            here = "wrapped" if number < 2 else BASE
+        elif motion.rotations and _along(axes[number], motion.rotations[0]):
+            here = TURNED
+        found.append(here)
+    return [*found[:-1], last if turns else BASE]
+
+
+def _blocks(turns: Sequence[_Turn]) -> list[list[int]]:
+    found: list[list[int]] = []
+    for place, turn in enumerate(turns):
+        if found and _along(turns[place - 1].axis, turn.axis):
+            found[-1].append(place)
+        else:
+            found.append([place])
+    return found
+
+
+def _along(first: Vector | None, second: Vector | None) -> bool:
+    return first is not None and second is not None and parallel(first, second)
+
+
+def _orders(stretches: Sequence[Sequence[_Direction]]) -> Iterator[list[list[_Direction]]]:
+    """The stretches with their P joints in every order; axes of turns keep their places."""
+    choices = [permutations([item for item in stretch if item.kind]) for stretch in stretches]
+    for chosen in product(*choices):
+        orders = [iter(order) for order in chosen]
+        yield [
+            [next(order) if item.kind else item for item in stretch]
+            for stretch, order in zip(stretches, orders, strict=True)
+        ]
+
+
+def _described(stretches: Sequence[Sequence[_Direction]], frames: Sequence[str]) -> Key:
+    """Kinds in each stretch, then relations in each frame, in the order in which frames first occur."""
+    kinds = tuple(tuple(item.kind for item in stretch) for stretch in stretches)
+    numbers = tuple(list(dict.fromkeys(frames)).index(frame) for frame in frames)
+    shared = [
+        [item.axis for stretch, of in zip(stretches, frames, strict=True) if of == frame for item in stretch]
+        for frame in dict.fromkeys(frames)
+    ]
+    return (kinds, numbers, tuple(_relations(axes) for axes in shared))
+
+
+def _relations(axes: Sequence[Vector]) -> Key:
+    """Relations of all pairs, and which triples with an oblique pair lie in one plane."""
+    pairs = {(i, j): _relation(axes[i], axes[j]) for i, j in combinations(range(len(axes)), 2)}
+    oblique = {pair for pair, relation in pairs.items() if relation == "oblique"}
+    flat = tuple(
+        triple
+        for triple in combinations(range(len(axes)), 3)
+        if oblique & set(combinations(triple, 2)) and _in_one_plane(*(axes[index] for index in triple))
+    )
+    return (tuple(pairs.values()), flat)
+
+
+def _relation(first: Vector, second: Vector) -> str:
+    cosine = abs(sum(a * b for a, b in zip(first, second, strict=True)))
+    if cosine < EXACT:
+        return "perpendicular"
+    return "parallel" if parallel(first, second) else "oblique"
+
+
+def _in_one_plane(first: Vector, second: Vector, third: Vector) -> bool:
+    (a, b, c), (d, e, f), (g, h, i) = first, second, third
+    return abs(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) < EXACT

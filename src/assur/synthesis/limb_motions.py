@@ -1,0 +1,149 @@
+"""Limbs that have the wanted motion, by both routes: the rules on the chain, the twists at poses of that motion."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+from zlib import crc32
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.synthesis.limbs import LimbType
+from assur.synthesis.poses import twists_at_poses
+from assur.synthesis.positions import turned
+from assur.synthesis.wanted import WantedMotion
+from assur.topology.agreement import RoutesDisagreeError, agreed, by_twists
+from assur.topology.chains import Chain
+from assur.topology.edges import rank
+from assur.topology.facts import Known
+from assur.topology.joints import SPHERICAL
+from assur.topology.motion import Motion, motion_of
+from assur.topology.notation import parse_chain, plain_text
+from assur.topology.orientations import UNTURNED, Orientations
+from assur.topology.refusals import Refusal
+from assur.topology.union import serial
+
+FloatArray = NDArray[np.float64]
+
+ANGLES = np.array([0.31, -0.43, 0.52])
+"""Angles (rad) of the platform at its poses, where it turns; as many poses where it does not."""
+
+STILL = 1e-7
+"""Joint rates below this, at unit rates of the platform, are rounding errors of zero."""
+
+Reason = Literal["", "a passive freedom", "not the motion", "an idle joint"]
+"""Why a limb is of no use; nothing where it is."""
+
+
+@dataclass(frozen=True, eq=False)
+class Limb:
+    """A limb that has the wanted motion.
+
+    Attributes:
+        type: the limb in its first position.
+        chains: the limb in each position.
+        known: its POC set in the first position, O' on its last axis, and by which routes it is known.
+        motions: what the rules say in each position; empty where they refuse.
+        twists: (N, 6, f) in each position, with other lengths of links in each.
+    """
+
+    type: LimbType
+    chains: tuple[Chain, ...]
+    known: Known
+    motions: tuple[Motion, ...]
+    twists: tuple[FloatArray, ...]
+
+    @property
+    def text(self) -> str:
+        """The limb in the plain form, in its first position."""
+        return self.chains[0].text
+
+
+@dataclass(frozen=True, eq=False)
+class Verdict:
+    """What became of a limb type: the limb, or why it is of no use, or how the two routes disagree on it."""
+
+    limb: Limb | None = None
+    reason: Reason = ""
+    disagreement: str = ""
+
+
+def verdict(limb: LimbType, motion: WantedMotion, turns: Sequence[FloatArray]) -> Verdict:
+    """Whether a limb has the wanted motion, all its freedoms are independent, and no joint of it stays at rest.
+
+    Args:
+        limb: in its first position.
+        motion: wanted of the platform.
+        turns: (3, 3) into each position.
+    """
+    chains = tuple(parse_chain(plain_text(turned(limb.chain, turn))) for turn in turns)
+    rules = [_by_rules(chain, motion) for chain in chains]
+    orientations = np.concatenate([motion.orientations(ANGLES)] * len(turns))
+    found = twists_at_poses(limb.chain, orientations, np.random.default_rng(crc32(repr(limb.key).encode())))
+    by_twist = _reason_by_twists(found, limb, motion)
+    first = rules[0]
+    if isinstance(first, Motion) and _reason_by_rules(first, motion) != by_twist:
+        said = _reason_by_rules(first, motion) or "the motion"
+        return Verdict(disagreement=f"{chains[0].text}: the rules say {said}, the twists {by_twist or 'the motion'}")
+    if found is None or by_twist:
+        return Verdict(reason=by_twist)
+    if _idles(limb, found, motion):
+        return Verdict(reason="an idle joint")
+    parts = np.split(found, len(turns))
+    try:
+        known = _known(chains[0].text, first, parts[0])
+    except RoutesDisagreeError as error:
+        return Verdict(disagreement=error.message)
+    placed = tuple(_turned_twists(part, turn) for part, turn in zip(parts, turns, strict=True))
+    return Verdict(Limb(limb, chains, known, tuple(item for item in rules if isinstance(item, Motion)), placed))
+
+
+def _by_rules(chain: Chain, motion: WantedMotion) -> Motion | Refusal:
+    """The rules' answer for a limb whose end link takes the orientations that are wanted."""
+    free = serial(chain, "free" if motion.rotations else "translation", chain.text)
+    if isinstance(free, Refusal) or free.limb is None or not motion.rotations:
+        return free
+    return motion_of(free.limb, Orientations(1, motion.rotations))
+
+
+def _reason_by_rules(found: Motion, motion: WantedMotion) -> Reason:
+    if found.passive:
+        return "a passive freedom"
+    moves = all(found.translations.contains(direction) for direction in motion.translations)
+    turns = all(found.rotations.contains(direction) for direction in motion.rotations)
+    return "" if moves and turns else "not the motion"
+
+
+def _reason_by_twists(found: FloatArray | None, limb: LimbType, motion: WantedMotion) -> Reason:
+    if found is None:
+        return "not the motion"
+    if rank(found) < limb.freedoms:
+        return "a passive freedom"
+    wanted = np.broadcast_to(motion.twists, (len(found), 6, motion.dim))
+    return "" if rank(np.concatenate([found, wanted], axis=-1)) == limb.freedoms else "not the motion"
+
+
+def _idles(limb: LimbType, twists: FloatArray, motion: WantedMotion) -> bool:
+    """Whether a freedom stays at rest in all of the motion; of a ball joint, all three."""
+    rates = np.max(np.abs(np.linalg.pinv(twists) @ motion.twists), axis=(0, 2))  # (f,)
+    parts = np.split(rates, np.cumsum([joint.freedoms for joint in limb.chain.joints])[:-1])
+    return any(
+        np.max(part) < STILL if element.freedoms == SPHERICAL.freedoms else np.min(part) < STILL
+        for element, part in zip(limb.chain.joints, parts, strict=True)
+    )
+
+
+def _known(text: str, rules: Motion | Refusal, twists: FloatArray) -> Known:
+    """The POC set; the twists stand at a general point, so that is where the routes are compared."""
+    basis = np.linalg.qr(twists)[0]
+    if isinstance(rules, Refusal):
+        return Known(by_twists(basis), "twists", rules.reason)
+    agreed(text, rules.restated, basis)
+    return Known(rules.poc, "both")
+
+
+def _turned_twists(twists: FloatArray, turn: FloatArray) -> FloatArray:
+    turned_parts = [np.einsum("ij,njf->nif", turn, part) for part in (twists[:, :3], twists[:, 3:])]
+    return np.concatenate(turned_parts, axis=1)

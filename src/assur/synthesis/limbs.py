@@ -1,0 +1,127 @@
+"""Limb types: chains that could have the wanted motion, each one once, with the joint that is driven."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from assur.synthesis.isomorphism import Key, limb_key
+from assur.synthesis.positions import upright
+from assur.synthesis.wanted import WantedMotion
+from assur.synthesis.words import Word, crossing, words
+from assur.topology.chains import Chain, ChainJoint, Element, Parallelogram
+from assur.topology.directions import NAMED, Vector
+from assur.topology.joints import CYLINDRICAL, PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL
+
+Actuators = Literal["base", "leg"]
+"""Where the driven joint of a limb stands: the first joint, or the first P between two joints that turn."""
+
+FREE = 6
+"""Freedoms of a limb that constrains nothing."""
+
+FREE_LIMB_JOINTS = 3
+"""Of the limbs that constrain nothing only the shortest are listed, with one ball joint each."""
+
+_TYPES = {"R": REVOLUTE, "P": PRISMATIC, "C": CYLINDRICAL, "U": UNIVERSAL, "S": SPHERICAL}
+
+_Group = tuple[str, str]
+"""A joint and its axes: ("R", "x"), ("U", "xy"), ("A", "z") for a P(4R), ("S", "")."""
+
+
+@dataclass(frozen=True)
+class LimbType:
+    """A limb in its first position, and the index of the joint that is driven (of a C, its translation)."""
+
+    chain: Chain
+    driven: int
+    key: Key
+
+    @property
+    def joints(self) -> int:
+        """Joints; a U and a P(4R) count as one."""
+        return len(self.chain.elements)
+
+    @property
+    def freedoms(self) -> int:
+        """Sum of f."""
+        return sum(joint.freedoms for joint in self.chain.joints)
+
+    @property
+    def driven_column(self) -> int:
+        """Place of the driven freedom among the freedoms of the limb; the translation of a C comes first."""
+        return sum(joint.freedoms for joint in self.chain.joints[: self.driven])
+
+    @property
+    def parallelograms(self) -> int:
+        """Number of P(4R)."""
+        return sum(isinstance(element, Parallelogram) for element in self.chain.elements)
+
+
+def limb_types(motion: WantedMotion, max_joints: int, actuators: Actuators) -> Iterator[LimbType]:
+    """Every limb that can be told apart, has a joint to drive and no freedom that shows as passive or idle, once.
+
+    Whether it has the motion is for the two routes to say.
+
+    >>> from assur.synthesis.wanted import MOTIONS
+    >>> from assur.topology.notation import plain_text
+    >>> found = {plain_text(limb.chain) for limb in limb_types(MOTIONS["3T"], 3, "base")}
+    >>> "C[x] R[x] R[x]" in found, "P[x] R[x] R[x] R[x]" in found
+    (True, False)
+    """
+    always = next((name for name, vector in NAMED.items() if vector == motion.axis), "")
+    seen = set()
+    for freedoms in range(motion.dim, FREE + 1):
+        free = freedoms == FREE
+        joints = min(max_joints, FREE_LIMB_JOINTS) if free else max_joints
+        for word in words(freedoms, joints, always=always, ball=free):
+            for groups in _groupings(word):
+                driven = _driven(groups, actuators)
+                if len(groups) > joints or driven is None or _spoils_a_cylinder(groups, driven):
+                    continue
+                chain = Chain(tuple(_element(group) for group in groups))
+                key = limb_key(chain, motion, driven)
+                if key not in seen:
+                    seen.add(key)
+                    yield LimbType(upright(chain) if motion.axis is None else chain, driven, key)
+
+
+def _groupings(word: Word, start: int = 0) -> Iterator[tuple[_Group, ...]]:
+    """The word with any neighbouring R that cross taken together as a U, or not."""
+    if start == len(word):
+        yield ()
+        return
+    for rest in _groupings(word, start + 1):
+        yield (word[start], *rest)
+    if crossing(word, start):
+        joint = ("U", word[start][1] + word[start + 1][1])
+        for rest in _groupings(word, start + 2):
+            yield (joint, *rest)
+
+
+def _driven(groups: tuple[_Group, ...], actuators: Actuators) -> int | None:
+    letters = [letter for letter, _ in groups]
+    if actuators == "base":
+        return 0 if letters[0] in "RPC" else None
+    turning = [index for index, letter in enumerate(letters) if letter not in "PA"]
+    inside = [index for index in range(turning[0], turning[-1]) if letters[index] == "P"] if turning else []
+    return inside[0] if inside else None
+
+
+def _spoils_a_cylinder(groups: tuple[_Group, ...], driven: int) -> bool:
+    """Whether a P that is not driven slides along the next R, which is not driven either: they are a C, which is listed."""
+    for index, (letter, axis) in enumerate(groups):
+        if letter == "P" and index != driven:
+            before = next((place for place in range(index - 1, -1, -1) if groups[place][0] not in "PA"), driven)
+            behind = next((place for place in range(index + 1, len(groups)) if groups[place][0] not in "PA"), driven)
+            if before != driven and groups[before][1][-1:] == axis:
+                return True
+            if behind != driven and groups[behind][1][:1] == axis:
+                return True
+    return False
+
+
+def _element(group: _Group) -> Element:
+    letter, names = group
+    axes: tuple[Vector, ...] = tuple(NAMED[name] for name in names)
+    return Parallelogram("4R", axes[0]) if letter == "A" else ChainJoint(_TYPES[letter], axes)

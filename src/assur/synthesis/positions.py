@@ -1,0 +1,92 @@
+"""Where the limbs of a mechanism stand: each is turned into its position, so that together they are in general position."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.numerics.rotations import about_axis
+from assur.synthesis.wanted import WantedMotion
+from assur.topology.chains import Chain, ChainJoint, Element, Parallelogram
+from assur.topology.directions import NAMED, Vector, parallel, unit
+
+FloatArray = NDArray[np.float64]
+
+CYCLE: FloatArray = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+"""Takes x to y, y to z, z to x."""
+
+
+def positions(motion: WantedMotion, limbs: int) -> tuple[FloatArray, ...]:
+    """Rotations (3, 3) that take a limb as written into each of its positions.
+
+    Where the motion singles out no direction, x -> y -> z -> x, as on three walls of a room; otherwise around its axis,
+    evenly, but by right angles for two and for four limbs.
+
+    >>> from assur.synthesis.wanted import MOTIONS
+    >>> [tuple(map(float, turn @ (1, 0, 0))) for turn in positions(MOTIONS["3T"], 3)]
+    [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
+    """
+    if motion.axis is None:
+        return tuple(np.linalg.matrix_power(CYCLE, index) for index in range(limbs))
+    step = math.pi / 2 if limbs == 2 else 2 * math.pi / limbs
+    return tuple(about_axis(np.array(motion.axis), np.array(step * index)) for index in range(limbs))
+
+
+def turned(chain: Chain, turn: FloatArray) -> Chain:
+    """The chain with every direction turned.
+
+    >>> from assur.topology.notation import parse_chains, plain_text
+    >>> plain_text(turned(parse_chains(["P[x] U[y,z]"])[0], CYCLE))
+    'P[y] U[z,x]'
+    """
+
+    def axis(vector: Vector) -> Vector:
+        return unit(turn @ np.array(vector))
+
+    return _with_axes(chain, axis)
+
+
+def upright(chain: Chain) -> Chain:
+    """The chain turned so that limbs of every kind fit together in the positions x, y, z.
+
+    The one direction of its R comes to x; where it has two, their plane comes to that of x and y; without R,
+    its first joint comes to x. So in the next position but one neither a direction nor a plane is met again.
+    """
+    axes = _turning_axes(chain)
+    if len(axes) == 2:
+        target, leading = NAMED["z"], unit(np.cross(*axes))
+    else:
+        target, leading = NAMED["x"], axes[0] if len(axes) == 1 else _first_axis(chain)
+    for turn in (np.linalg.matrix_power(CYCLE, index) for index in range(3)):
+        if parallel(unit(turn @ np.array(leading)), target):
+            return turned(chain, turn)
+    return chain
+
+
+def _turning_axes(chain: Chain) -> list[Vector]:
+    """Different directions of the joints that turn."""
+    found: list[Vector] = []
+    for element in chain.elements:
+        if isinstance(element, ChainJoint) and element.type.letter != "P":
+            found += [axis for axis in element.axes if not any(parallel(axis, other) for other in found)]
+    return found
+
+
+def _first_axis(chain: Chain) -> Vector:
+    first = chain.elements[0]
+    return first.axes[0] if isinstance(first, ChainJoint) else NAMED["x"]
+
+
+def _with_axes(chain: Chain, changed: Callable[[Vector], Vector]) -> Chain:
+    def element(item: Element) -> Element:
+        if isinstance(item, Parallelogram):
+            return dataclasses.replace(item, axis=changed(item.axis))
+        if isinstance(item, ChainJoint):
+            return dataclasses.replace(item, axes=tuple(changed(axis) for axis in item.axes))
+        return item
+
+    return Chain(tuple(element(item) for item in chain.elements))

@@ -1,0 +1,76 @@
+"""The motion that is wanted of a platform: translations and rotations along fixed directions of the base."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import UnknownNameError
+from assur.topology.directions import NAMED, Vector
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class WantedMotion:
+    """A POC set to be reached, all of it independent and permanent.
+
+    Attributes:
+        name: how it is asked for, "3T1R".
+        translations: orthonormal directions of the t part, in the base frame.
+        rotations: directions of the r part, in the base frame.
+        axis: the direction that the motion singles out, None where it has no preferred one.
+    """
+
+    name: str
+    translations: tuple[Vector, ...]
+    rotations: tuple[Vector, ...] = ()
+    axis: Vector | None = None
+
+    @property
+    def dim(self) -> int:
+        """Independent elements: freedoms of the platform, and limbs with one actuator each."""
+        return len(self.translations) + len(self.rotations)
+
+    @property
+    def twists(self) -> FloatArray:
+        """Basis (6, dim) of the platform's twists (omega, v), the same at every point of the base up to `translations`."""
+        columns = [(*direction, 0.0, 0.0, 0.0) for direction in self.rotations]
+        columns += [(0.0, 0.0, 0.0, *direction) for direction in self.translations]
+        return np.array(columns).T
+
+    def orientations(self, angles: FloatArray) -> FloatArray:
+        """Rotations (N, 3, 3) of the platform at some angles (N,) in rad about its axis; the identity where it has none."""
+        from assur.numerics.rotations import about_axis
+
+        if not self.rotations:
+            return np.broadcast_to(np.eye(3), (len(angles), 3, 3))
+        return about_axis(np.array(self.rotations[0]), angles)
+
+
+_X, _Y, _Z = NAMED["x"], NAMED["y"], NAMED["z"]
+
+MOTIONS = {
+    motion.name: motion
+    for motion in (
+        WantedMotion("3T", (_X, _Y, _Z)),
+        WantedMotion("3T1R", (_X, _Y, _Z), (_Z,), _Z),
+        WantedMotion("2T1R", (_X, _Y), (_Z,), _Z),
+    )
+}
+"""Motions that can be asked for; what singles out a direction has it along z."""
+
+
+def motion_named(name: str) -> WantedMotion:
+    """The motion of a name, upper or lower case.
+
+    >>> motion_named("3T").dim
+    3
+    """
+    found = MOTIONS.get(name.strip().upper())
+    if found is None:
+        hint = "T counts translations, R rotations: 3T is three translations without rotation"
+        raise UnknownNameError("motion", name, MOTIONS, hint=hint)
+    return found

@@ -1,0 +1,139 @@
+"""The topology of a linkage: POC sets by both routes, then the counting. One function, from a linkage to its facts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import UsageError
+from assur.topology.actuation import actuation
+from assur.topology.chains import Chain
+from assur.topology.configurations import configurations
+from assur.topology.coupling import coupling
+from assur.topology.decoupling import by_jacobian
+from assur.topology.edges import Edge
+from assur.topology.facts import Limb, RedundantConstraints, Topology
+from assur.topology.linkage import Linkage
+from assur.topology.mobility import Mobility, mobility
+from assur.topology.notation import plain_text, symbolic_text
+from assur.topology.recognition import recognised
+from assur.topology.relaxation import relaxation
+from assur.topology.routes import Rules, both, by_rules, check_xi, limb_space, turns
+from assur.topology.solution_plan import solution_plan
+from assur.topology.twists import edges, motion_space
+
+FloatArray = NDArray[np.float64]
+Mode = Literal["home", "translation"]
+
+COUNT = 4
+"""Configurations at which ranks are taken."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """A linkage at some configurations of one operation mode.
+
+    Attributes:
+        values: (N, n) joint values.
+        joints: every joint as an edge.
+        collapsed: the same with parallelograms as one edge each.
+        space: (N, 6, k) motion space of the platform.
+    """
+
+    linkage: Linkage
+    values: FloatArray
+    joints: tuple[Edge, ...]
+    collapsed: tuple[Edge, ...]
+    space: FloatArray
+
+
+def sample(linkage: Linkage, mode: Mode = "home") -> Sample:
+    """A linkage at configurations displaced from home, the platform kept from turning in translation mode."""
+    values = configurations(linkage, COUNT, hold="orientation" if mode == "translation" else None)
+    collapsed = edges(linkage, values)
+    space = motion_space(collapsed, linkage.base, linkage.platform)
+    return Sample(linkage, values, edges(linkage, values, collapsed=False), collapsed, space)
+
+
+def analyse(
+    linkage: Linkage,
+    chains: Sequence[Chain] | None = None,
+    *,
+    name: str = "",
+    title: str = "",
+    source: str = "",
+    mode: Mode = "home",
+) -> Topology:
+    """Everything that the theory says of a linkage.
+
+    Args:
+        linkage: assembled at home, with its inputs.
+        chains: its limbs, with the names of its joints; recognised in the linkage where they are not given.
+        name: for print.
+        title: for print.
+        source: for print.
+        mode: "home" for the motion that is reached from home, "translation" for a platform that keeps its orientation.
+
+    Errors:
+        RoutesDisagreeError: rules and twists differ, with the chain's name.
+        UsageError: links that nothing connects, more inputs than freedoms.
+    """
+    chains = recognised(linkage) if chains is None else tuple(chains)
+    here = sample(linkage, mode)
+    base, platform = linkage.base, linkage.platform
+    collapsed = mobility(here.collapsed, base, platform)
+    whole = mobility(here.joints, base, platform)
+    refuse_too_many(linkage, collapsed)
+    still, held = not turns(here.space), mode == "translation"
+    rules = by_rules(chains, keeps_orientation=still, held=held)
+    order = coupling(here.collapsed, collapsed.internal)
+    check_xi(chains, rules, order.loops, held=held)
+    return Topology(
+        name=name,
+        title=title,
+        source=source,
+        mode=mode,
+        limbs=_limbs(here, chains or (), rules, still),
+        known=both("the platform", rules.platform, here.space),
+        dof=collapsed.dof,
+        internal_freedoms=collapsed.internal_freedoms,
+        internal_joints=tuple(item.joints for item in whole.internal),
+        idle_joints=collapsed.idle,
+        loops=order.loops,
+        assur_chains=order.assur_chains,
+        coupling_degree=order.coupling_degree,
+        redundant_constraints=RedundantConstraints(collapsed.redundant_constraints, whole.redundant_constraints),
+        inputs=tuple(joint for joint, _ in linkage.inputs),
+        decoupling=by_jacobian(here.collapsed, base, platform),
+        plan=solution_plan(order, here.collapsed, base, platform),
+        linkage=linkage,
+        derivations=rules.derivations,
+        actuate=partial(actuation, here.collapsed, base, platform),
+        relax=partial(relaxation, here.joints, base, platform),
+    )
+
+
+def _limbs(here: Sample, chains: Sequence[Chain], rules: Rules, still: bool) -> tuple[Limb, ...]:
+    """Limbs as they are in the mechanism where its platform does not turn, else displaced at will."""
+    found = []
+    for number, (chain, motion) in enumerate(zip(chains, rules.limbs, strict=True), 1):
+        text = chain.text or plain_text(chain)
+        space = limb_space(here.linkage, chain, here.values if still or len(chains) == 1 else None)
+        known = both(f"limb {number}, {text}", motion, space)
+        found.append(Limb(text, symbolic_text(chain), sum(joint.freedoms for joint in chain.joints), known))
+    return tuple(found)
+
+
+def refuse_too_many(linkage: Linkage, found: Mobility) -> None:
+    """UsageError where there are more inputs than freedoms to lock."""
+    if len(linkage.inputs) > found.controlled:
+        names = ", ".join(joint for joint, _ in linkage.inputs)
+        raise UsageError(
+            f"{len(linkage.inputs)} actuated joints ({names}) for {found.controlled} degrees of freedom",
+            hint="leave some out, or say which ones are actuated: --actuate 1.1,2.1",
+        )

@@ -1,0 +1,163 @@
+"""The answers of a topology as plain data: what `--json` prints, and what a program reads.
+
+The keys are a contract: `poc`, `limbs`, `dof`, `loops`, `assur_chains`, `coupling_degree`, `redundant_constraints`,
+`decoupling` and `routes_agree` keep their meaning; others may be added.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+from assur.topology.coupling import Loop
+from assur.topology.facts import Known, Limb, Topology
+from assur.topology.poc import Mark, PocSet
+from assur.topology.relaxation import Replacement
+from assur.topology.solution_plan import AssurPlan
+
+
+def answers(found: Topology) -> dict[str, Any]:
+    """The facts as numbers, texts, lists and dictionaries; what does not exist is None.
+
+    `loops` are in the order that attains the coupling degree, and `loops` inside `assur_chains` are indices into
+    it. `decoupling[i][j]` says whether output i of `outputs` depends on input j of `inputs`.
+    """
+    decoupling = found.decoupling
+    return {
+        "name": found.name,
+        "title": found.title,
+        "source": found.source,
+        "mode": found.mode,
+        "poc": {**_poc(found.poc), "directions": _directions(found.poc), **_route(found.known)},
+        "limbs": [_limb(limb) for limb in found.limbs],
+        "dof": found.dof,
+        "internal_freedoms": found.internal_freedoms,
+        "internal_joints": [list(joints) for joints in found.internal_joints],
+        "idle_joints": list(found.idle_joints),
+        "loops": [_loop(loop) for loop in found.loops],
+        "assur_chains": [
+            {"loops": list(chain.loops), "coupling_degree": chain.coupling_degree} for chain in found.assur_chains
+        ],
+        "coupling_degree": found.coupling_degree,
+        "redundant_constraints": {
+            "collapsed": found.redundant_constraints.collapsed,
+            "joint_graph": found.redundant_constraints.joint_graph,
+        },
+        "inputs": list(decoupling.inputs if decoupling else found.inputs),
+        "outputs": list(decoupling.outputs) if decoupling else [],
+        "decoupling": [list(row) for row in decoupling.depends] if decoupling else None,
+        "actuation": _actuation(found),
+        "relaxation": _relaxation(found),
+        "plan": {
+            "search": found.plan.search,
+            "words": list(found.plan.words),
+            "assur_chains": [_plan(part) for part in found.plan.parts],
+        },
+        "routes_agree": found.routes_agree,
+        "refusals": refusals(found),
+        "notes": list(found.notes),
+    }
+
+
+def refusals(found: Topology) -> list[dict[str, str]]:
+    """Where the rules gave no answer, and why: the limbs in order, then the platform."""
+    named = [*((limb.text, limb.known) for limb in found.limbs), ("platform", found.known)]
+    return [{"of": name, "reason": known.refusal} for name, known in named if known.refusal]
+
+
+def replacements_by_kind(found: Topology) -> list[tuple[Replacement, tuple[str, ...]]]:
+    """Replacements that remove redundant constraints by themselves: one of each kind, and all joints that allow it."""
+    kinds: dict[Replacement, list[Replacement]] = {}
+    for item in found.relaxation.single:
+        kinds.setdefault(dataclasses.replace(item, joint=""), []).append(item)
+    return [(items[0], tuple(item.joint for item in items)) for items in kinds.values()]
+
+
+def mark_text(mark: Mark) -> str:
+    """A direction mark alone, empty where there is nothing to say.
+
+    >>> mark_text(Mark("perpendicular", ("R1",)))
+    '⊥R1'
+    """
+    inside = str(PocSet(1, 0, 1, t_mark=mark))[len("t¹") : -len(" r⁰")]
+    return inside[1:-1]
+
+
+def _poc(poc: PocSet) -> dict[str, Any]:
+    return {"text": str(poc), "t": poc.t, "r": poc.r, "dim": poc.dim, "dependent": poc.dependent}
+
+
+def _route(known: Known) -> dict[str, str]:
+    return {"route": known.route, "refusal": known.refusal}
+
+
+def _directions(poc: PocSet) -> list[dict[str, Any]]:
+    """What is said of directions; nothing of a part that has none or all of them."""
+    return [
+        {"part": part, "mark": mark_text(mark), "axes": [list(axis) for axis in mark.axes]}
+        for part, mark in (("t", poc.t_mark), ("r", poc.r_mark))
+        if mark.relation != "none"
+    ]
+
+
+def _limb(limb: Limb) -> dict[str, Any]:
+    poc = {key: value for key, value in _poc(limb.poc).items() if key != "text"}
+    return {
+        "text": limb.text,
+        **poc,
+        "symbolic": limb.symbolic,
+        "freedoms": limb.freedoms,
+        "poc": str(limb.poc),
+        "directions": _directions(limb.poc),
+        **_route(limb.known),
+    }
+
+
+def _loop(loop: Loop) -> dict[str, Any]:
+    return {
+        "xi": loop.xi,
+        "delta": loop.delta,
+        "joints": list(loop.edges),
+        "freedoms": loop.freedoms,
+        "inputs": loop.inputs,
+        "internal": loop.internal,
+    }
+
+
+def _actuation(found: Topology) -> dict[str, Any]:
+    asked = found.actuation
+    return {
+        "verdict": asked.verdict,
+        "needed": asked.needed,
+        "hint": asked.hint,
+        "admissible": list(asked.in_some),
+        "indispensable": list(asked.in_every),
+        "sets": [list(item) for item in asked.sets],
+        "complete": asked.complete,
+    }
+
+
+def _relaxation(found: Topology) -> dict[str, Any]:
+    asked = found.relaxation
+    return {
+        "redundant": asked.redundant,
+        "left": asked.left,
+        "single": [_replacement(item) for item in asked.single],
+        "together": [_replacement(item) for item in asked.together],
+    }
+
+
+def _replacement(item: Replacement) -> dict[str, Any]:
+    return dataclasses.asdict(item)
+
+
+def _plan(part: AssurPlan) -> dict[str, Any]:
+    return {
+        "coupling_degree": part.coupling_degree,
+        "search": part.search,
+        "reason": part.reason,
+        "steps": [
+            {key: getattr(step, key) for key in ("loop", "delta", "virtual", "equations", "left")}
+            for step in part.steps
+        ],
+    }

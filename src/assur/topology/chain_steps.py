@@ -1,0 +1,77 @@
+"""The steps of Eq. (1) as the papers print them: a chain's blocks, one after the other, with the reason of each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from assur.topology.base_point import poc_set
+from assur.topology.blocks import Structure
+from assur.topology.derivation import Derivation, Step, counted, in_words
+from assur.topology.meeting import GENERAL
+from assur.topology.operands import Operand, joints, operands
+from assur.topology.poc import PocSet
+
+
+def chain_derivation(structure: Structure, name: str, parts: tuple[Derivation, ...]) -> Derivation:
+    """How the set of a chain's end link follows from those of its joints.
+
+    O' is any point of the end link where that makes no difference, as in the papers, and else on the last axis.
+    """
+    anywhere = poc_set(structure)
+    at_end = poc_set(structure, structure.end)
+    point = GENERAL if anywhere.t == at_end.t else structure.end
+    found = operands(structure)
+    sets = [poc_set(item.structure, point if item is found[-1] else GENERAL) for item in found]
+    result = anywhere if point == GENERAL else at_end
+    steps = [step for item, poc in zip(found, sets, strict=True) for step in _inside(item, poc, structure, point)]
+    whole = Step("union", tuple(sets), tuple(item.text for item in found), result, "", "")
+    steps += _between(found, sets, structure, point)
+    origin = "at any point of the end link" if point == GENERAL else "on the last axis"
+    return Derivation(name, origin, parts, whole, tuple(steps), f"so the end link has {in_words(result)}")
+
+
+def _inside(item: Operand, poc: PocSet, structure: Structure, point: int) -> list[Step]:
+    """How the joints of one block or one point make its set."""
+    pieces = joints(item)
+    if len(pieces) < 2:
+        return []
+    last = item.structure.items[-1] is structure.items[-1]
+    sets = tuple(poc_set(piece.structure, point if last else GENERAL) for piece in pieces)
+    reason = f"{_elements(poc)} of {item.text}, {_independence(poc, sum(each.dim for each in sets))}"
+    return [Step("union", sets, tuple(piece.text for piece in pieces), poc, "criterion C1", reason)]
+
+
+def _between(found: Sequence[Operand], sets: Sequence[PocSet], structure: Structure, point: int) -> list[Step]:
+    """The union, one operand after the other."""
+    steps: list[Step] = []
+    count = len(found[0].structure.items) if found else 0
+    for index in range(1, len(found)):
+        before = steps[-1].result if steps else sets[0]
+        count += len(found[index].structure.items)
+        rods = tuple(rod for rod in structure.rods if any(rod in item.structure.rods for item in found[: index + 1]))
+        prefix = Structure(structure.items[:count], rods, structure.end)
+        poc = poc_set(prefix, point if count == len(structure.items) else GENERAL)
+        steps.append(
+            _union(before, sets[index], poc, ", ".join(item.text for item in found[:index]), found[index].text)
+        )
+    return steps
+
+
+def _union(before: PocSet, added: PocSet, poc: PocSet, old: str, new: str) -> Step:
+    lost = before.dim + added.dim - poc.dim
+    rule = "criterion C2" if lost else "linear rule"
+    more = f"{new} adds {in_words(PocSet(poc.t - before.t, poc.r - before.r, 0))}"
+    reason = f"{more}, {_independence(poc, before.dim + added.dim)}"
+    return Step("union", (before, added), (old, new), poc, rule, reason)
+
+
+def _elements(poc: PocSet) -> str:
+    return in_words(poc)
+
+
+def _independence(poc: PocSet, freedoms: int) -> str:
+    """How many elements are independent, and how many freedoms make none."""
+    text = "all independent" if not poc.dependent else f"{counted(poc.dependent, 'element')} not independent"
+    if freedoms > poc.dim:
+        text += f", {counted(freedoms - poc.dim, 'freedom')} without effect (dim M = {poc.dim})"
+    return text

@@ -1,0 +1,126 @@
+"""The topology of a mechanism: every fact that the theory gives, and by which route it is known."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
+
+from assur.topology.poc import PocSet
+from assur.topology.solution_plan import SolutionPlan
+
+if TYPE_CHECKING:
+    from assur.topology.actuation import Actuation
+    from assur.topology.coupling import AssurChain, Loop
+    from assur.topology.decoupling import Decoupling
+    from assur.topology.derivation import Derivation
+    from assur.topology.linkage import Linkage
+    from assur.topology.relaxation import Relaxation
+
+Route = Literal["both", "twists"]
+"""By which routes a POC set is known: rules and twists, which agree, or twists alone where the rules refuse."""
+
+
+@dataclass(frozen=True)
+class Known:
+    """A POC set and how it is known. `refusal` says why the rules gave no answer, where they gave none."""
+
+    poc: PocSet
+    route: Route
+    refusal: str = ""
+
+
+@dataclass(frozen=True)
+class Limb:
+    """A limb: its text in the plain form and in the literature's, its freedoms, its POC set in its mechanism."""
+
+    text: str
+    symbolic: str
+    freedoms: int
+    known: Known
+
+    @property
+    def poc(self) -> PocSet:
+        """The POC set of the limb's end link, O' on its last R axis or joint centre."""
+        return self.known.poc
+
+
+@dataclass(frozen=True)
+class RedundantConstraints:
+    """6 v - rank of the closure: with parallelograms as generalised joints, and with all joints."""
+
+    collapsed: int
+    joint_graph: int
+
+
+@dataclass(frozen=True, eq=False)
+class Topology:
+    """The facts. See `assur.topology` for how to ask for them.
+
+    Attributes:
+        mode: "home" (what is reached from the configuration as written), "translation" (the platform keeps its
+            orientation), or "free" (one chain, displaced at will).
+        limbs: in the order of the chains; empty where the graph has none.
+        known: the platform's POC set.
+        dof: F of Eq. (3), with parallelograms as generalised joints.
+        internal_freedoms: those of F that leave the platform at rest, such as a rod's spin.
+        loops: in the order that attains the coupling degree.
+        assur_chains: each with the indices of its loops.
+        decoupling: None where the inputs do not determine the platform.
+        linkage: what the twists were computed on.
+        derivations: of the platform with its limbs; of the limbs alone where the rules refuse the platform.
+    """
+
+    name: str
+    title: str
+    source: str
+    mode: str
+    limbs: tuple[Limb, ...]
+    known: Known
+    dof: int
+    internal_freedoms: int
+    internal_joints: tuple[tuple[str, ...], ...]
+    idle_joints: tuple[str, ...]
+    loops: tuple[Loop, ...]
+    assur_chains: tuple[AssurChain, ...]
+    coupling_degree: int | None
+    redundant_constraints: RedundantConstraints
+    inputs: tuple[str, ...]
+    decoupling: Decoupling | None
+    plan: SolutionPlan
+    linkage: Linkage
+    derivations: tuple[Derivation, ...] = ()
+    notes: tuple[str, ...] = ()
+    actuate: Callable[[], Actuation] = field(repr=False, default=NotImplemented)
+    relax: Callable[[], Relaxation] = field(repr=False, default=NotImplemented)
+
+    @property
+    def poc(self) -> PocSet:
+        """The platform's POC set at a general base point O'."""
+        return self.known.poc
+
+    @property
+    def xi(self) -> tuple[int, ...]:
+        """Independent equations of each loop, Eq. (4), in the order of the loops."""
+        return tuple(loop.xi for loop in self.loops)
+
+    @property
+    def delta(self) -> tuple[int, ...]:
+        """Constraint degrees of the loops, Eq. (5)."""
+        return tuple(loop.delta for loop in self.loops)
+
+    @property
+    def routes_agree(self) -> bool:
+        """Whether the rules answered everywhere; where they did, they agree with the twists, or an error was raised."""
+        return all(item.route == "both" for item in (self.known, *(limb.known for limb in self.limbs)))
+
+    @cached_property
+    def actuation(self) -> Actuation:
+        """Whether the chosen inputs determine everything, and which other joints may be actuated."""
+        return self.actuate()
+
+    @cached_property
+    def relaxation(self) -> Relaxation:
+        """Which joints could be relaxed to remove redundant constraints; computed when first asked for."""
+        return self.relax()

@@ -1,0 +1,160 @@
+r"""A topology as LaTeX: POC matrices, their intersection, and Eqs. (3) to (6) in numbers, as papers print them.
+
+What is written is ASCII and needs amsmath and amssymb.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from assur.topology.derivation import Derivation, Step
+from assur.topology.facts import Topology
+from assur.topology.poc import Mark, PocSet
+
+NEEDS = r"\usepackage{amsmath,amssymb}"
+XI = r"\dim\left\{\left(\bigcap_{i=1}^{j} M_{b_i}\right) \cup M_{b_{j+1}}\right\}"
+BROKEN = r"\notag \\"
+SIGNS = {"union": r"\cup", "intersection": r"\cap"}
+PER_LINE = 3
+"""Matrices on one line."""
+
+_INDEXED = re.compile(r"([A-Za-z]+?)(\d+[a-z]?|)")
+
+
+@dataclass(frozen=True)
+class Equation:
+    """Its two sides in LaTeX, the number that the theory gives it, and what it says.
+
+    A line break in the right side is where print may break it.
+    """
+
+    left: str
+    right: str
+    number: str
+    meaning: str
+
+
+def fragment(found: Topology) -> str:
+    r"""The equations of a topology, aligned, to be put into a document with the packages of `NEEDS`."""
+    lines = [f"{item.left} &= {item.right}".replace("\n", f" {BROKEN}\n  &\\quad ") for item in equations(found)]
+    body = " \\\\\n".join(f"  {line}" for line in lines)
+    return f"% {_ascii(found.name)}: needs {NEEDS}\n\\begin{{align}}\n{body}\n\\end{{align}}"
+
+
+def equations(found: Topology) -> tuple[Equation, ...]:
+    """POC sets of limbs and platform, then freedoms, constraint degrees and coupling degree in numbers."""
+    return (*_poc_sets(found), *_freedoms(found), *_degrees(found))
+
+
+def poc_matrix(poc: PocSet) -> str:
+    r"""The matrix of a POC set, names of joints with their numbers as indices.
+
+    >>> poc_matrix(PocSet(2, 1, 3, Mark("perpendicular", ("R12",)), Mark("parallel", ("R12",))))
+    '\\begin{bmatrix} t^2(\\perp R_{12}) \\\\ r^1(\\parallel R_{12}) \\end{bmatrix}'
+    """
+    return dataclasses.replace(poc, t_mark=_lettered(poc.t_mark), r_mark=_lettered(poc.r_mark)).text("latex")
+
+
+def name(text: str) -> str:
+    r"""A joint's or a link's name in mathematics.
+
+    >>> name("R3"), name("B3a"), name("Pa1"), name("slider_1")
+    ('R_{3}', 'B_{3a}', '\\mathrm{Pa}_{1}', '\\mathrm{slider\\_1}')
+    """
+    found = _INDEXED.fullmatch(text)
+    stem, index = found.groups() if found else (text, "")
+    letters = stem if len(stem) == 1 else rf"\mathrm{{{_escaped(stem)}}}"
+    return f"{letters}_{{{index}}}" if index else letters
+
+
+def _lettered(mark: Mark) -> Mark:
+    return dataclasses.replace(mark, names=tuple(map(name, mark.names)))
+
+
+def _ascii(text: str) -> str:
+    return text.encode("ascii", "replace").decode("ascii")
+
+
+def _escaped(text: str) -> str:
+    return re.sub(r"([&%$#_{}])", r"\\\1", _ascii(text))
+
+
+def _poc_sets(found: Topology) -> Iterator[Equation]:
+    """The sets of inner loops and limbs, and what the limbs have in common: Eqs. (1) and (2)."""
+    for number, (limb, part) in enumerate(zip(found.limbs, _parts(found), strict=True), 1):
+        for loop in part.parts if part else ():
+            yield _equation(rf"M_{{{name(loop.of)}}}", loop.whole, "(2)", f"an inner loop of limb {number}")
+        left, said = rf"M_{{b_{{{number}}}}}", f"limb {number}: {limb.text}"
+        if part:
+            yield _equation(left, part.whole, "(1)", f"{said}; O' {part.origin}")
+        else:
+            yield Equation(left, _with_dimension(left, limb.poc), "(1)", said)
+    count = len(found.limbs)
+    if count == 1:
+        return
+    if found.derivation and found.derivation.whole.operation == "intersection":
+        yield _equation("M_{Pa}", found.derivation.whole, "(2)", f"the platform; O' {found.derivation.origin}")
+    else:
+        common = rf"\bigcap_{{i=1}}^{{{count}}} M_{{b_i}} = " if count else ""
+        yield Equation("M_{Pa}", common + _with_dimension("M_{Pa}", found.poc), "(2)", "the platform")
+
+
+def _parts(found: Topology) -> tuple[Derivation | None, ...]:
+    """The derivation of each limb, None where the rules gave none."""
+    whole = found.derivation
+    parts: tuple[Derivation | None, ...] = ()
+    if whole is not None:
+        parts = (whole,) if whole.whole.operation == "union" else whole.parts
+    return parts if len(parts) == len(found.limbs) else (None,) * len(found.limbs)
+
+
+def _equation(left: str, step: Step, number: str, meaning: str) -> Equation:
+    sign = SIGNS[step.operation]
+    sets = list(map(poc_matrix, step.operands))
+    rows = [f" {sign} ".join(sets[start : start + PER_LINE]) for start in range(0, len(sets), PER_LINE)]
+    right = f"\n{sign} ".join(rows)
+    return Equation(left, f"{right}\n= {_with_dimension(left, step.result)}", number, meaning)
+
+
+def _with_dimension(left: str, poc: PocSet) -> str:
+    return rf"{poc_matrix(poc)}, \quad \dim {left} = {poc.dim}"
+
+
+def _freedoms(found: Topology) -> Iterator[Equation]:
+    """Eqs. (4) and (3)."""
+    if not found.loops:
+        return
+    yield Equation(r"\xi_{L_j}", XI, "(4)", "independent equations of loop j")
+    for number, loop in enumerate(found.loops, 1):
+        yield Equation(rf"\xi_{{L_{{{number}}}}}", str(loop.xi), "", f"loop {number}: {' '.join(loop.edges)}")
+    total = found.dof + sum(found.xi)
+    equations = " + ".join(map(str, found.xi))
+    equations = f"({equations})" if len(found.loops) > 1 else equations
+    internal = f", {found.internal_freedoms} of them internal" if found.internal_freedoms else ""
+    sums = r"\sum_{i=1}^{m} f_i - \sum_{j=1}^{v} \xi_{L_j}"
+    yield Equation("F", f"{sums} = {total} - {equations} = {found.dof}", "(3)", f"degrees of freedom{internal}")
+
+
+def _degrees(found: Topology) -> Iterator[Equation]:
+    """Eqs. (5) and (6)."""
+    for number, loop in enumerate(found.loops, 1):
+        index = f"{{{number}}}"
+        general = rf"\sum_{{i=1}}^{{m_{index}}} f_i - I_{index} - \xi_{{L_{index}}}"
+        freedoms = f"({loop.freedoms} - {loop.internal})" if loop.internal else str(loop.freedoms)
+        value = f"{freedoms} - {loop.inputs} - {loop.xi} = {_signed(loop.delta)}"
+        said = f"constraint degree of loop {number}" + (", internal freedoms left out" if loop.internal else "")
+        yield Equation(rf"\Delta_{index}", f"{general} = {value}", "(5)", said)
+    several = len(found.assur_chains) > 1
+    for number, chain in enumerate(found.assur_chains, 1):
+        values = " + ".join(f"|{_signed(found.loops[place].delta)}|" for place in chain.loops)
+        general = r"\frac{1}{2} \min\left\{\sum_{j} |\Delta_j|\right\}"
+        left = rf"\kappa_{{{number}}}" if several else r"\kappa"
+        said = f"coupling degree of Assur chain {number}" if several else "coupling degree"
+        yield Equation(left, rf"{general} = \frac{{1}}{{2}} ({values}) = {chain.coupling_degree}", "(6)", said)
+
+
+def _signed(value: int) -> str:
+    return f"{value:+d}" if value else "0"

@@ -1,0 +1,145 @@
+"""What is known symbolically of an end link's motion: its POC set, and what an intersection needs beyond it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Literal
+
+from assur.topology.base_point import poc_set
+from assur.topology.blocks import Structure
+from assur.topology.bundles import bundles
+from assur.topology.chain_steps import chain_derivation
+from assur.topology.derivation import Derivation
+from assur.topology.directions import Vector
+from assur.topology.orientations import EVERY, Orientations, held, orientations
+from assur.topology.poc import PocSet
+from assur.topology.refusals import Refusal
+from assur.topology.spaces import rotations, translations
+from assur.topology.spans import Span
+
+Mode = Literal["free", "translation"]
+
+
+@dataclass(frozen=True)
+class Limb:
+    """A chain as the rules see it, before anything holds its end link.
+
+    Attributes:
+        structure: its slides and blocks.
+        freedoms: sum of f_i; an inner loop counts as many as its output link has.
+        conditions: where it is such a chain, in words.
+        centre: label of the point that all axes run through, where they do.
+        labels: every label of a point in it.
+        parts: derivations of its inner loops.
+        name: how it is named in steps.
+    """
+
+    structure: Structure
+    freedoms: int
+    conditions: tuple[str, ...] = ()
+    centre: str = ""
+    labels: frozenset[str] = frozenset()
+    parts: tuple[Derivation, ...] = ()
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The motion of an end link against the base.
+
+    Attributes:
+        poc: the POC set with O' on the last axis or at its joint's centre; of a platform, at a general point.
+        restated: the POC set at a general point of the end link.
+        translations: T, the pure translations.
+        rotations: Omega, the directions that it rotates about; dim M = dim T + dim Omega.
+        orientations: those that the end link takes.
+        freedoms: sum of f_i of a chain; of a platform what its limbs leave it.
+        conditions: where the motion is only such, in words.
+        limb: the chain that makes it; None for a platform.
+        structure: that chain, held to the orientations.
+        helical: whether a rotation advances along its axis.
+        derive: gives the derivation.
+    """
+
+    poc: PocSet
+    restated: PocSet
+    translations: Span
+    rotations: Span
+    orientations: Orientations
+    freedoms: int
+    conditions: tuple[str, ...] = ()
+    limb: Limb | None = None
+    structure: Structure | None = None
+    helical: bool = False
+    derive: Callable[[], Derivation] | None = field(default=None, repr=False, compare=False)
+
+    @property
+    def dim(self) -> int:
+        """dim M, the number of independent elements."""
+        return self.poc.dim
+
+    @property
+    def passive(self) -> int:
+        """Freedoms that do not move the end link."""
+        return self.freedoms - self.dim
+
+    @property
+    def couples(self) -> Span:
+        """Directions of the couples that it resists."""
+        return self.rotations.complement
+
+    @property
+    def forces(self) -> Span:
+        """Directions of the forces that it resists, on lines whose place depends on the chain's."""
+        return self.translations.complement
+
+    @property
+    def concurrent(self) -> bool:
+        """Whether all axes run through one point."""
+        if self.structure is None:
+            return False
+        of = bundles(self.structure)
+        return of.everything in of.points
+
+    def pure_along(self, axis: Vector) -> bool:
+        """Whether the force along an axis that it resists needs no couple about that axis.
+
+        So it is where the chain turns about a parallel axis, where all axes run through one point, and where there
+        is at most one rotation, or none about this axis.
+        """
+        if self.structure is None:
+            return False
+        if self.rotations.dim <= 1 or self.concurrent or self.structure.along(axis):
+            return True
+        return self.rotations.dim == 2 and not self.rotations.contains(axis)
+
+    @property
+    def derivation(self) -> Derivation:
+        """The steps from joints or limbs to this motion."""
+        if self.derive is None:
+            raise ValueError("this motion was not derived")
+        return self.derive()
+
+
+def motion_of(limb: Limb, to: Orientations = EVERY) -> Motion | Refusal:
+    """The motion of a chain's end link where it takes only some of the orientations that it could take."""
+    taken = orientations(limb.structure).meet(to)
+    if isinstance(taken, Refusal):
+        return taken
+    structure = held(limb.structure, taken)
+    if isinstance(structure, Refusal):
+        return structure
+    moved, turned = translations(structure), rotations(structure)
+    return Motion(
+        poc=poc_set(structure, structure.end),
+        restated=poc_set(structure),
+        translations=moved,
+        rotations=turned,
+        orientations=taken,
+        freedoms=limb.freedoms,
+        conditions=limb.conditions,
+        limb=limb,
+        structure=structure,
+        derive=lambda: chain_derivation(structure, limb.name, limb.parts),
+    )

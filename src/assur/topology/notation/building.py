@@ -1,0 +1,82 @@
+"""From sketches with their directions to chains: types, labels of shared points, names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
+from assur.topology.directions import Vector
+from assur.topology.joints import JOINT_TYPES
+from assur.topology.notation.groups import Groups
+from assur.topology.notation.names import Names
+from assur.topology.notation.sketch import ElementSketch, JointSketch, Sketch
+
+_TYPES = {joint_type.letter: joint_type for joint_type in JOINT_TYPES.values()}
+
+
+def build(sketches: Sequence[Sketch], vectors: Sequence[Sequence[Vector]]) -> tuple[Chain, ...]:
+    """The chains of a mechanism.
+
+    Errors:
+        NotationError: two labels for one point.
+    """
+    names = Names([sketch.names for sketch in sketches])
+    labels = _fresh_labels({label for sketch in sketches for label in sketch.labels.values()})
+    chains = []
+    for sketch, axes in zip(sketches, vectors, strict=True):
+        points = _points(sketch, labels)
+        elements = tuple(_element(sketch, item, axes, points, names) for item in sketch.elements)
+        chains.append(Chain(elements, sketch.source.text))
+    return tuple(chains)
+
+
+def _element(
+    sketch: Sketch, item: ElementSketch, axes: Sequence[Vector], points: dict[int, str], names: Names
+) -> Element:
+    if isinstance(item, JointSketch):
+        return _joint(sketch, item, axes, points, names)
+    branches = tuple(tuple(_element(sketch, part, axes, points, names) for part in branch) for branch in item.branches)
+    loop = InnerLoop(branches)
+    return InnerLoop(branches, names.of_loop(item.name, loop))
+
+
+def _joint(
+    sketch: Sketch, item: JointSketch, axes: Sequence[Vector], points: dict[int, str], names: Names
+) -> ChainJoint | Parallelogram:
+    joint = item.joint
+    own = tuple(axes[slot] for slot in item.slots)
+    general = bool(own) and not any(sketch.slots[slot].placed or sketch.slots[slot].tied for slot in item.slots)
+    if joint.kind:
+        return Parallelogram(joint.kind, own[0], names.of_joint("Pa", joint.name), general)
+    name = names.of_joint(joint.letter, joint.name)
+    return ChainJoint(_TYPES[joint.letter], own, points.get(joint.at, ""), name, general)
+
+
+def _points(sketch: Sketch, fresh: Iterator[str]) -> dict[int, str]:
+    """Label of every joint (by its place in the text) that shares a point or has a label."""
+    places = sorted({*sketch.labels, *(at for one, other, _ in sketch.meetings for at in (one, other))})
+    groups = Groups(len(places))
+    known = {places.index(at): (label, at) for at, label in sketch.labels.items()}
+    for one, other, at in sketch.meetings:
+        first, second = groups.of(places.index(one)), groups.of(places.index(other))
+        if first in known and second in known and known[first][0] != known[second][0]:
+            found = f"a contradiction: one point with the labels {known[first][0]} and {known[second][0]}"
+            raise sketch.source.error(at, found, "one label for a point", "an axis runs through one labelled point")
+        groups.join(first, second)
+        if first in known or second in known:
+            known[groups.of(first)] = known.get(first) or known[second]
+    for number in range(len(places)):
+        if groups.of(number) == number and number not in known:
+            known[number] = (next(fresh), 0)
+    return {at: known[groups.of(number)][0] for number, at in enumerate(places)}
+
+
+def _fresh_labels(used: set[str]) -> Iterator[str]:
+    """A, B, ..., Z, A1, B1, ... without those that are used."""
+    number = 0
+    while True:
+        for letter in "ABCDEFGHIJKLMNOPQRSTUVWXYZ":
+            label = f"{letter}{number or ''}"
+            if label not in used:
+                yield label
+        number += 1

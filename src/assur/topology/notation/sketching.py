@@ -1,0 +1,97 @@
+"""From what a text says to a sketch: slots for axes, conditions from signs, tags expanded to loops."""
+
+from __future__ import annotations
+
+from assur.topology.notation.ends import End, relate
+from assur.topology.notation.inner import expand
+from assur.topology.notation.sketch import ConditionKind, ElementSketch, JointSketch, LoopSketch, Sketch
+from assur.topology.notation.syntax import Diamond, Joint, Limb, Loop, Serial
+from assur.topology.notation.tags import Part, parts
+
+Sketched = tuple[tuple[ElementSketch, ...], End, End]
+
+
+def sketch_of(limb: Limb) -> Sketch:
+    """A sketch of a chain.
+
+    Errors:
+        NotationError: a name twice; a sign to which its neighbours give no meaning; tags that make no loop.
+    """
+    sketch = Sketch(limb.source, limb.literature)
+    sketch.elements = _series(sketch, limb.serial)
+    return sketch
+
+
+def _series(sketch: Sketch, serial: Serial) -> tuple[ElementSketch, ...]:
+    items, signs = parts(sketch.source, serial)
+    elements: list[ElementSketch] = []
+    left: End | None = None
+    for item, sign in zip(items, (None, *signs), strict=True):
+        made, first, last = _part(sketch, item)
+        if left and sign:
+            relate(sketch, left, first, sign)
+        elements += made
+        left = last
+    return tuple(elements)
+
+
+def _part(sketch: Sketch, item: Part) -> Sketched:
+    if isinstance(item, Joint):
+        return _joint(sketch, item)
+    if isinstance(item, Diamond):
+        return _diamond(sketch, item)
+    if isinstance(item, Loop):
+        loop = LoopSketch(tuple(_series(sketch, branch) for branch in item.branches))
+        end = End("nothing", "a loop in braces")
+        return (loop,), end, end
+    for joint in item.members:
+        _note_name(sketch, joint)
+    expanded, first, last = expand(sketch, item)
+    return (expanded,), first, last
+
+
+def _joint(sketch: Sketch, joint: Joint) -> Sketched:
+    _note_name(sketch, joint)
+    if joint.label:
+        sketch.labels[joint.at] = joint.label
+    count = {"U": 2, "S": 0}.get(joint.letter, 1)
+    slots = tuple(sketch.slot(joint.directions[i] if joint.directions else None) for i in range(count))
+    if slots and not sketch.first:
+        sketch.first.append(slots[0])
+    made = (JointSketch(joint, slots),)
+    if joint.kind:
+        end = End("nothing", "a parallelogram")
+        return made, end, end
+    placeable = None if joint.letter == "P" else joint
+    if not slots:
+        end = End("centre", joint.letter, joint=placeable)
+        return made, end, end
+    if count == 2:
+        placed = bool(joint.directions)
+        kind: ConditionKind = "different" if placed else "perpendicular"
+        at = joint.directions[1].at if placed else joint.at
+        sketch.require(kind, (slots[0], slots[1]), at, "the two axes of a U", ties=False)
+    first, last = (End("axis", joint.letter, slot, placeable) for slot in (slots[0], slots[-1]))
+    return made, first, last
+
+
+def _diamond(sketch: Sketch, diamond: Diamond) -> Sketched:
+    """Two elements in series, and their plane by a slot for its normal."""
+    made = [_joint(sketch, joint)[0][0] for joint in diamond.members]
+    one, other = (item.slots[0] for item in made if isinstance(item, JointSketch))
+    normal = sketch.slot(auxiliary=True)
+    why = "a diamond"
+    sketch.require("different", (one, other), diamond.at, why)
+    sketch.require("perpendicular", (one, normal), diamond.at, why)
+    sketch.require("perpendicular", (other, normal), diamond.at, why)
+    end = End("plane", "a diamond", normal)
+    return tuple(made), end, end
+
+
+def _note_name(sketch: Sketch, joint: Joint) -> None:
+    if not joint.name:
+        return
+    if joint.name in sketch.names:
+        found = f"the name {joint.name} again"
+        raise sketch.source.error(joint.at, found, "another one: every joint of a chain has its own")
+    sketch.names[joint.name] = joint.at

@@ -1,0 +1,89 @@
+"""What a chain's text says, before any axis is placed: joints, diamonds, loops, and the signs between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from assur.topology.chains import ParallelogramKind
+from assur.topology.directions import Vector
+from assur.topology.notation.errors import Source
+from assur.topology.notation.signs import Relation
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A direction that was written in brackets, `shown` as it was written, and where."""
+
+    vector: Vector
+    shown: str
+    at: int
+
+
+@dataclass(frozen=True)
+class Tag:
+    """The inner loop that an element belongs to, "2P4R": so many P and so many R in one plane."""
+
+    prismatic: int
+    revolute: int
+    at: int
+
+    def __str__(self) -> str:
+        return _count(self.prismatic, "P") + _count(self.revolute, "R")
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A joint, or a parallelogram if it has a `kind`; `name` and `label` are empty if not written."""
+
+    letter: str
+    at: int
+    kind: ParallelogramKind | None = None
+    name: str = ""
+    tag: Tag | None = None
+    directions: tuple[Placed, ...] = ()
+    label: str = ""
+
+
+@dataclass(frozen=True)
+class Diamond:
+    """Two elements in series, and the plane that they span."""
+
+    members: tuple[Joint, Joint]
+    at: int
+
+
+@dataclass(frozen=True)
+class Loop:
+    """Branches side by side."""
+
+    branches: tuple[Serial, ...]
+    at: int
+
+
+@dataclass(frozen=True)
+class Sign:
+    """What stands between two elements; no relation where it says nothing."""
+
+    relations: tuple[Relation, ...]
+    at: int
+
+
+@dataclass(frozen=True)
+class Serial:
+    """Elements in series, and the signs between neighbours (one fewer)."""
+
+    items: tuple[Joint | Diamond | Loop, ...]
+    signs: tuple[Sign, ...]
+
+
+@dataclass(frozen=True)
+class Limb:
+    """A chain as written. `literature`: it uses signs, a diamond or tags, or stands in SOC{ }."""
+
+    source: Source
+    serial: Serial
+    literature: bool
+
+
+def _count(number: int, letter: str) -> str:
+    return f"{number if number > 1 else ''}{letter}" if number else ""

@@ -1,0 +1,90 @@
+"""Elements with a loop's tag, put together: the three that say what the output link of one planar loop can do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from assur.topology.notation.errors import Source
+from assur.topology.notation.syntax import Diamond, Joint, Loop, Serial, Sign, Tag
+
+FREEDOMS = 3
+"""Freedoms of a plane, and so the number of tagged elements of a loop; its joints are three more."""
+
+_MOST_P = 4
+
+
+@dataclass(frozen=True)
+class Tagged:
+    """Three neighbours with one tag, a diamond counting as two, and the signs between them."""
+
+    tag: Tag
+    items: tuple[Joint | Diamond, ...]
+    signs: tuple[Sign, ...]
+
+    @property
+    def members(self) -> tuple[Joint, ...]:
+        """The tagged joints."""
+        return tuple(joint for item in self.items for joint in members(item))
+
+
+Part = Joint | Diamond | Loop | Tagged
+
+
+def members(item: Joint | Diamond) -> tuple[Joint, ...]:
+    """The joint itself, or the two of a diamond."""
+    return item.members if isinstance(item, Diamond) else (item,)
+
+
+def parts(source: Source, serial: Serial) -> tuple[tuple[Part, ...], tuple[Sign, ...]]:
+    """Elements in series with tagged neighbours put together, and the signs between these parts.
+
+    Errors:
+        NotationError: a tag that is no planar loop with three freedoms, or not three elements with it.
+    """
+    found: list[Part] = []
+    signs: list[Sign] = []
+    index = 0
+    while index < len(serial.items):
+        if index:
+            signs.append(serial.signs[index - 1])
+        item = serial.items[index]
+        tag = None if isinstance(item, Loop) else _tag(source, item)
+        length = _length(source, serial, index, tag) if tag else 1
+        if tag:
+            run = tuple(item for item in serial.items[index : index + length] if not isinstance(item, Loop))
+            found.append(Tagged(tag, run, serial.signs[index : index + length - 1]))
+        else:
+            found.append(item)
+        index += length
+    return tuple(found), tuple(signs)
+
+
+def _length(source: Source, serial: Serial, start: int, tag: Tag) -> int:
+    """How many elements belong to the loop that starts there."""
+    _check(source, tag)
+    count = length = 0
+    for item in serial.items[start:]:
+        if count >= FREEDOMS or isinstance(item, Loop) or str(_tag(source, item)) != str(tag):
+            break
+        count += len(members(item))
+        length += 1
+    if count != FREEDOMS:
+        hint = f"they say what the loop's output link can do: ◇(P({tag}), P({tag})) ⊥ R({tag})"
+        raise source.error(serial.items[start].at, f"{count} with the tag {tag}", "three neighbours with it", hint)
+    return length
+
+
+def _check(source: Source, tag: Tag) -> None:
+    if tag.prismatic + tag.revolute != 2 * FREEDOMS or tag.prismatic > _MOST_P:
+        hint = "a planar loop with three freedoms has six joints, two or more of them R: 2P4R; write others in braces"
+        raise source.error(tag.at, f"the tag {tag}", "that of a planar loop with three freedoms", hint)
+
+
+def _tag(source: Source, item: Joint | Diamond) -> Tag | None:
+    """The tag of an element; in a diamond both have one or none."""
+    found = [joint.tag for joint in members(item)]
+    if len({str(tag) for tag in found}) > 1:
+        raise source.error(item.at, "a diamond of two loops", "one tag at both, or none")
+    if isinstance(item, Diamond) and found[0] and any(joint.letter != "P" for joint in item.members):
+        raise source.error(item.at, "a tagged diamond with an R", "two P, which span the plane of the loop")
+    return found[0]

@@ -1,0 +1,142 @@
+"""Both routes to every POC set of a mechanism: the rules answer, the twists confirm; or the twists answer alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.topology.agreement import RoutesDisagreeError, agreed, by_twists
+from assur.topology.chains import Chain
+from assur.topology.configurations import configurations
+from assur.topology.coupling import Loop
+from assur.topology.derivation import Derivation
+from assur.topology.facts import Known
+from assur.topology.intersection import parallel, xi_of_next
+from assur.topology.limb_linkage import limb_linkage, limb_values
+from assur.topology.linkage import Linkage
+from assur.topology.motion import Mode, Motion
+from assur.topology.refusals import Refusal
+from assur.topology.twists import dimensions, edges, motion_space
+from assur.topology.union import serial
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Rules:
+    """What the rules say of the limbs of a mechanism and of its platform.
+
+    Attributes:
+        limbs: each limb's motion as it is in the mechanism.
+        platform: the platform's motion.
+        derivations: of the platform with its limbs, or of the limbs where the rules refuse the platform.
+    """
+
+    limbs: tuple[Motion | Refusal, ...]
+    platform: Motion | Refusal
+    derivations: tuple[Derivation, ...]
+
+
+def by_rules(chains: Sequence[Chain] | None, *, keeps_orientation: bool, held: bool) -> Rules:
+    """The rules' answers.
+
+    Args:
+        chains: the limbs; None where the joint graph has none.
+        keeps_orientation: whether the platform does not turn, so that limbs are taken in translation mode.
+        held: whether this is because it was asked for, and not by the mechanism's own making.
+    """
+    if chains is None:
+        return Rules((), Refusal("the joint graph has no limbs: it does not reduce to chains and inner loops"), ())
+    free = [_motion(chain, "translation" if held else "free", number) for number, chain in enumerate(chains, 1)]
+    limbs = [_motion(chain, "translation", n) for n, chain in enumerate(chains, 1)] if keeps_orientation else free
+    limbs = [one if isinstance(other, Refusal) else other for one, other in zip(free, limbs, strict=True)]
+    platform = _platform(free, "translation" if held else "free")
+    whole = [platform] if isinstance(platform, Motion) else free
+    derivations = tuple(item.derive() for item in whole if isinstance(item, Motion) and item.derive is not None)
+    return Rules(tuple(limbs), platform, derivations)
+
+
+def _motion(chain: Chain, mode: Mode, number: int) -> Motion | Refusal:
+    return serial(chain, mode, name=f"limb {number}")
+
+
+def _platform(limbs: Sequence[Motion | Refusal], mode: Mode) -> Motion | Refusal:
+    motions = [limb for limb in limbs if isinstance(limb, Motion)]
+    for number, limb in enumerate(limbs, 1):
+        if isinstance(limb, Refusal):
+            return Refusal(f"limb {number}: {limb.reason}")
+    return motions[0] if len(motions) == 1 else parallel(motions, mode)
+
+
+def both(what: str, rules: Motion | Refusal, space: FloatArray) -> Known:
+    """A POC set by both routes, or by the twists alone where the rules refuse.
+
+    Args:
+        what: for the error, where they disagree.
+        rules: the rules' answer.
+        space: (N, 6, k) motion space at the same O'.
+
+    Errors:
+        RoutesDisagreeError: they disagree.
+    """
+    if isinstance(rules, Refusal):
+        return Known(by_twists(space), "twists", rules.reason)
+    return Known(agreed(what, rules.poc, space), "both")
+
+
+def limb_space(linkage: Linkage, chain: Chain, values: FloatArray | None) -> FloatArray:
+    """(N, 6, k) motion space of one limb alone, O' at its end.
+
+    Args:
+        linkage: of the mechanism.
+        chain: the limb.
+        values: (N, n) configurations of the mechanism; None to displace the limb at will.
+    """
+    limb = limb_linkage(linkage, chain)
+    here = configurations(limb) if values is None else limb_values(linkage, limb, values)
+    return motion_space(edges(limb, here), limb.base, limb.platform)
+
+
+def check_xi(chains: Sequence[Chain] | None, rules: Rules, loops: Sequence[Loop], *, held: bool) -> None:
+    """Compare xi of Eq. (4) by the rules with the rank of the closure, for every loop that closes whole limbs.
+
+    Errors:
+        RoutesDisagreeError: they disagree.
+    """
+    motions = [limb for limb in rules.limbs if isinstance(limb, Motion)]
+    if chains is None or len(motions) < len(chains) or isinstance(rules.platform, Refusal):
+        return
+    names = [{joint.name for joint in chain.joints} for chain in chains]
+    taken: set[str] = set()
+    inside: list[int] = []
+    for number, loop in enumerate(loops, 1):
+        taken |= set(loop.edges)
+        new = [index for index, name in enumerate(names) if name <= taken and index not in inside]
+        whole = set().union(*(names[index] & set(loop.edges) for index in new)) == set(loop.edges) if new else False
+        if whole and (len(inside), len(new)) in ((0, 2), (len(inside) or -1, 1)):
+            first, last = (inside or new[:1]), new[-1]
+            before, after = (_together(motions, some, held) for some in (first, [*first, last]))
+            if isinstance(before, Motion) and isinstance(after, Motion):
+                _compare(number, loop, xi_of_next(before, motions[last], after))
+        inside += new
+
+
+def _together(motions: Sequence[Motion], chosen: Sequence[int], held: bool) -> Motion | Refusal:
+    some = [motions[index] for index in chosen]
+    return some[0] if len(some) == 1 else parallel(some, "translation" if held else "free")
+
+
+def _compare(number: int, loop: Loop, xi: int) -> None:
+    if xi != loop.xi:
+        raise RoutesDisagreeError(
+            f"loop {number} ({', '.join(loop.edges)}): the rules say xi = {xi}, the rank of the closure {loop.xi}",
+            hint="its dimensions may be special in a way that axes and labels do not say; or assur has an error",
+        )
+
+
+def turns(space: FloatArray) -> bool:
+    """Whether a motion space (N, 6, k) has rotations."""
+    return dimensions(space)[1] > 0

@@ -1,0 +1,107 @@
+"""The union of Eq. (1): the POC set of a serial chain, from its joints."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from assur.topology.blocks import structure
+from assur.topology.chains import Chain, Element, InnerLoop
+from assur.topology.derivation import Derivation
+from assur.topology.elementary import Elementary, Slide, Turn, elementary
+from assur.topology.intersection import parallel
+from assur.topology.motion import Limb, Mode, Motion, motion_of
+from assur.topology.orientations import EVERY, UNTURNED
+from assur.topology.pitches import lone_helix, pitch_refusal
+from assur.topology.refusals import Refusal
+
+
+def serial(chain: Chain | Sequence[Element], mode: Mode = "free", name: str = "the chain") -> Motion | Refusal:
+    """The motion of a chain's end link, by the rules of POC theory.
+
+    Args:
+        chain: a chain, or its elements, from base to end link.
+        mode: "free", or "translation" where the end link keeps its orientation.
+        name: what the derivation calls it.
+
+    Returns:
+        The motion at a generic configuration of the chain, or why the rules give none.
+
+    >>> from assur.topology.chains import ChainJoint
+    >>> from assur.topology.joints import PRISMATIC, REVOLUTE
+    >>> x = (1.0, 0.0, 0.0)
+    >>> limb = [ChainJoint(PRISMATIC, (x,)), *[ChainJoint(REVOLUTE, (x,))] * 3]
+    >>> print(serial(limb).poc)
+    t³ r¹(∥R1)
+    """
+    elements = chain.elements if isinstance(chain, Chain) else tuple(chain)
+    parts: list[Derivation] = []
+    conditions: list[str] = []
+
+    def loop(element: InnerLoop) -> tuple[Elementary, ...] | Refusal:
+        motion = inner_loop(element)
+        if isinstance(motion, Refusal):
+            return motion
+        parts.append(motion.derivation)
+        conditions.extend(motion.conditions)
+        return as_chain(motion, element.name)
+
+    found = elementary(elements, loop)
+    if isinstance(found, Refusal):
+        return found
+    if len(found) == 1 and isinstance(found[0], Turn) and found[0].pitch and found[0].direction:
+        return lone_helix(found[0], found[0].direction)
+    refusal = pitch_refusal(found)
+    if refusal is not None:
+        return refusal
+    limb = Limb(
+        structure(found),
+        freedoms=sum(item.span.dim if isinstance(item, Slide) else 1 for item in found),
+        conditions=(*conditions, *_conditions(found, mode)),
+        centre=_centre(found),
+        labels=frozenset(item.point for item in found if isinstance(item, Turn) and not item.point.startswith("#"))
+        - {""},
+        parts=tuple(parts),
+        name=name,
+    )
+    return motion_of(limb, UNTURNED if mode == "translation" else EVERY)
+
+
+def inner_loop(loop: InnerLoop) -> Motion | Refusal:
+    """The motion of an inner loop's output link."""
+    branches = []
+    for number, branch in enumerate(loop.branches, 1):
+        motion = serial(branch, name=f"branch {number}")
+        if isinstance(motion, Refusal):
+            return motion
+        branches.append(motion)
+    return parallel(branches, name=loop.name or "the inner loop")
+
+
+def as_chain(motion: Motion, name: str) -> tuple[Elementary, ...] | Refusal:
+    """The slides, and the one turn, that an inner loop is worth in its chain.
+
+    Its rotation must be about one direction that stays fixed in the base of the loop, and so in its output link.
+    """
+    turned = motion.rotations
+    if turned.dim > 1:
+        return Refusal("an inner loop has several rotations")
+    if turned.dim != motion.orientations.dim or (turned.dim and not turned.is_fixed):
+        return Refusal("an inner loop has a rotation whose axis turns")
+    if motion.helical:
+        return Refusal("an inner loop has a rotation that is coupled with a translation along its axis")
+    name = name or next(iter((*motion.poc.r_mark.names, *motion.poc.t_mark.names)), "the inner loop")
+    slides = [Slide(motion.translations, name)] if motion.translations.dim else []
+    return (*slides, *(Turn(axis, name, located=False) for axis in turned.fixed))
+
+
+def _conditions(chain: Sequence[Elementary], mode: Mode) -> tuple[str, ...]:
+    rods = [item.name for item in chain if isinstance(item, Turn) and not item.finite]
+    kept = ["the end link keeps its orientation"] if mode == "translation" else []
+    return (*(f"{name} is a parallelogram" for name in rods), *kept)
+
+
+def _centre(chain: Sequence[Elementary]) -> str:
+    """The label that all turns have, where nothing slides."""
+    labels = {item.point if isinstance(item, Turn) else "" for item in chain}
+    label = labels.pop() if len(labels) == 1 else ""
+    return "" if label.startswith("#") else label

@@ -1,0 +1,273 @@
+"""`assur topology`: the same facts as text, as JSON, as LaTeX and as a graph, and a clear answer to bad input."""
+
+from __future__ import annotations
+
+import re
+import shlex
+
+import pytest
+
+import assur
+from assur.cli.main import application
+from assur.mechanism import topology as derive
+from assur.model.registry import topology_names
+from assur.topology.answers import answers
+from assur.topology.latex import fragment
+
+TRIPTERON = ["P[x] R[x] R[x] R[x]", "P[y] R[y] R[y] R[y]", "P[z] R[z] R[z] R[z]"]
+PARTS = ("derivation", "limbs", "decoupling", "actuators", "joints")
+
+
+def chains(*texts):
+    return [word for text in texts for word in ("--chain", text)]
+
+
+# ---- what is said ------------------------------------------------------------------------------------------
+
+
+def test_the_result_stands_in_the_first_five_lines(assur_cli):
+    run = assur_cli("topology", "zeng2019")
+    assert (run.code, run.err) == (0, "")
+    head = run.out.splitlines()[:6]
+    assert head[0].startswith("zeng2019: ")
+    assert head[1].split() == ["POC", "set", "t³", "r⁰:", "dim", "3"]
+    assert head[2].split(" = ")[:2] == ["DOF          F", "3"]
+    assert "2: ξ1 = 3, Δ1 = +1; ξ2 = 5, Δ2 = -1" in head[3]
+    assert head[4].endswith("κ = 1")
+    assert head[5].split()[:2] == ["redundant", "4"]
+    assert " 10 of all joints" in head[5]
+
+
+def test_json_of_the_papers_mechanism_has_the_papers_numbers(assur_cli):
+    found = assur_cli("topology", "zeng2019", "--json").json
+    assert {key: found["poc"][key] for key in ("t", "r", "dim", "text")} == {"t": 3, "r": 0, "dim": 3, "text": "t³ r⁰"}
+    assert [(item["t"], item["r"], item["dim"], item["dependent"]) for item in found["limbs"]] == [
+        (3, 2, 5, 0),
+        (3, 0, 3, 0),
+    ]
+    assert found["dof"] == 3
+    assert [(item["xi"], item["delta"]) for item in found["loops"]] == [(3, 1), (5, -1)]
+    assert found["assur_chains"] == [{"loops": [0, 1], "coupling_degree": 1}]
+    assert found["coupling_degree"] == 1
+    assert found["redundant_constraints"] == {"collapsed": 4, "joint_graph": 10}
+    y = found["decoupling"][found["outputs"].index("y")]
+    assert dict(zip(found["inputs"], y, strict=True)) == {"P1": True, "P2": True, "P3": False}
+    assert found["routes_agree"] is True
+
+
+@pytest.mark.parametrize("name", [*assur.names(), *topology_names()])
+def test_every_mechanism_of_the_catalogue_can_be_asked_for(assur_cli, name):
+    run = assur_cli("topology", name)
+    assert (run.code, run.err) == (0, "")
+    assert all(f"\n{part}\n" in run.out for part in PARTS)
+    found = derive(name)
+    words = " ".join(run.out.split())
+    assert str(found.poc) in words
+    for limb in found.limbs:
+        assert str(limb.poc) in words
+        if limb.known.refusal:
+            assert " ".join(limb.known.refusal.split()) in words
+    assert assur_cli("topology", name, "--json").json == _plain(answers(found))
+
+
+def _plain(data):
+    import json
+
+    from assur.results.json_text import json_text
+
+    return json.loads(json_text(data))
+
+
+def test_a_file_is_as_good_as_a_name(assur_cli):
+    path = str(assur.load("zeng2019").file)
+    by_path, by_name = (assur_cli("topology", what, "--json").json for what in (path, "zeng2019"))
+    assert by_path == by_name
+
+
+def test_chains_are_as_good_as_the_catalogue(assur_cli):
+    found = assur_cli("topology", *chains(*TRIPTERON), "--json").json
+    named = assur_cli("topology", "tripteron", "--json").json
+    for key in ("poc", "dof", "loops", "coupling_degree", "redundant_constraints", "decoupling"):
+        assert found[key] == named[key], key
+
+
+def test_one_chain_alone_gives_its_own_set(assur_cli):
+    found = assur_cli("topology", "--chain", "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", "--json").json
+    (limb,) = found["limbs"]
+    assert (limb["t"], limb["r"], limb["dim"], limb["dependent"]) == (3, 2, 5, 0)
+
+
+@pytest.mark.parametrize("spelt", [["--chain", "-R|R|R_|_R|R-"], ["--chain=-R|R|R_|_R|R-"]])
+def test_a_chain_may_begin_with_a_hyphen(assur_cli, spelt):
+    (limb,) = assur_cli("topology", *spelt, "--json").json["limbs"]
+    assert (limb["t"], limb["r"], limb["dim"]) == (3, 2, 5)
+
+
+def test_actuated_joints_are_those_that_are_named(assur_cli):
+    found = assur_cli("topology", *chains(*TRIPTERON), "--actuate", "1.2, 2.2,3.2", "--json").json
+    assert found["inputs"] == ["R1", "R4", "R7"]
+    default = assur_cli("topology", *chains(*TRIPTERON), "--json").json
+    assert default["inputs"] == ["P1", "P2", "P3"]
+    assert default["decoupling"] == [[True, False, False], [False, True, False], [False, False, True]]
+
+
+def test_the_mode_is_passed_on(assur_cli):
+    upu = chains("U[y,x] P[z] U[x,y]")
+    free, kept = (
+        assur_cli("topology", *upu, *words, "--json").json["limbs"][0] for words in ([], ["--mode", "translation"])
+    )
+    assert (free["t"], free["r"], free["dim"]) == (3, 3, 5)
+    assert (kept["t"], kept["r"], kept["dim"]) == (3, 2, 5)
+
+
+def test_plain_letters_only(assur_cli):
+    for words in (["zeng2019"], ["three_upu"], chains("{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]")):
+        run = assur_cli("topology", *words, "--ascii")
+        assert run.code == 0
+        assert run.out.isascii()
+        assert "?" not in run.out
+        assert "t^3" in run.out
+
+
+def test_latex_is_the_fragment(assur_cli):
+    assert assur_cli("topology", "zeng2019", "--latex").out == fragment(derive("zeng2019")) + "\n"
+
+
+def test_examples_of_the_help_run(assur_cli, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = application()["topology"].help.split("For example:")[1].replace("\\\n", " ")
+    examples = [shlex.split(line) for line in text.splitlines() if line.strip()]
+    assert len(examples) >= 5
+    for words in examples:
+        assert words[0] == "assur"
+        run = assur_cli(*words[1:])
+        assert (run.code, run.err) == (0, ""), words
+
+
+# ---- the graph ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("ending", "magic"), [(".svg", b"<?xml"), (".png", b"\x89PNG"), (".PDF", b"%PDF")])
+def test_the_graph_is_written(assur_cli, tmp_path, ending, magic):
+    path = tmp_path / f"graph{ending}"
+    run = assur_cli("topology", "zeng2019", "--graph", str(path))
+    assert (run.code, run.err) == (0, "")
+    assert run.out.endswith(f"written: {path}\n") or str(path) in run.out.replace("\n", "")
+    assert path.read_bytes().startswith(magic)
+
+
+# ---- bad input ---------------------------------------------------------------------------------------------
+
+BAD = {
+    "no mechanism is named and no --chain given": [],
+    "a mechanism (zeng2019) and --chain at once": ["zeng2019", "--chain", "R[x] R[x]"],
+    "'R[x] R[x]' looks like a chain, not like a name": ["R[x] R[x]"],
+    "unknown mechanism 'zeng'; there is: ": ["zeng"],
+    "cannot read limb 1:": chains("P[x] Q[x]", "R[x]"),
+    "cannot read this chain:": chains("{R[x] | R[y] R[z]"),
+    "cannot read limb 2:": chains("P[x] R[x] R[x]", "-R|R-"),
+    "'1.9': limb 1 has joints 1 to 4": [*chains(*TRIPTERON), "--actuate", "1.9"],
+    "'4.1': there is no limb 4; limbs run from 1 to 3": [*chains(*TRIPTERON), "--actuate", "4.1"],
+    "'one' names no joint to actuate; write limb.joint, both counted from 1": [
+        *chains(*TRIPTERON),
+        *("--actuate", "one"),
+    ],
+    "--actuate names the joint 1.1 twice; each once": [*chains(*TRIPTERON), "--actuate", "1.1,1.1"],
+    "cannot write graph.gif: its ending is none of .svg, .pdf, .png": ["zeng2019", "--graph", "graph.gif"],
+    'command "topology" parameter --chain requires an argument': ["--chain"],
+}
+
+
+@pytest.mark.parametrize("message", BAD)
+@pytest.mark.parametrize("json", [False, True])
+def test_a_clear_error(assur_cli, message, json):
+    run = assur_cli("topology", *BAD[message], *["--json"] * json)
+    assert (run.code, run.out) == (2, "")
+    assert run.err.startswith(f"error: {message}")
+    assert "Traceback" not in run.err
+
+
+@pytest.mark.parametrize(
+    ("chain", "place", "found"),
+    [
+        ("P[x] Q[x]", 5, "'Q'"),
+        ("{R[x] | R[y] R[z]", 0, "a brace that is not closed"),
+        ("-R1 ∥ R2[x] ⊥ R3[x]-", 0, ""),
+        ("R[x,y,z,x]", 0, ""),
+        ("R[0,0,0]", 2, "the zero vector"),
+    ],
+)
+def test_a_caret_stands_under_the_place(assur_cli, chain, place, found):
+    run = assur_cli("topology", "--chain", chain)
+    assert run.code == 2
+    _, text, caret = run.err.splitlines()[:3]
+    assert text == f"  {chain}"
+    assert re.match(r" +\^ ", caret)
+    if found:
+        assert caret.startswith("  " + " " * place + "^ " + found)
+
+
+def test_more_actuators_than_freedoms_are_refused(assur_cli):
+    run = assur_cli("topology", *chains(*TRIPTERON), "--actuate", "1.1,2.1,3.1,1.2")
+    assert (run.code, run.out) == (2, "")
+    assert run.err.startswith("error: 4 actuated joints (P1, P2, P3, R1) for 3 degrees of freedom\nhint: ")
+
+
+def test_an_unknown_mode_lists_the_modes(assur_cli):
+    run = assur_cli("topology", "zeng2019", "--mode", "flying")
+    assert (run.code, run.out) == (2, "")
+    assert "flying" in run.err
+    assert "translation" in run.err
+
+
+SLIDER = """
+format = 1
+name = "slider"
+unit = "mm"
+angle = "deg"
+base = "ground"
+platform = { link = "block", pose = ["x"], orientation = "constant" }
+[links]
+ground = {}
+crank = {}
+rod = {}
+block = {}
+[joints]
+A = { type = "revolute", parent = "ground", child = "crank", axis = "z" }
+B = { type = "revolute", parent = "crank", child = "rod", at = [40, 0, 0], axis = "z" }
+C = { type = "revolute", parent = "rod", child = "block", at = [80, 0, 0], axis = "z" }
+S = { type = "prismatic", parent = "ground", child = "block", axis = "x" }
+[inputs]
+order = ["A"]
+A = { name = "q" }
+[home]
+A = 50
+B = -75
+C = 25
+S = 100
+"""
+
+
+def test_a_mechanism_of_ones_own(assur_cli, tmp_path):
+    path = tmp_path / "slider.toml"
+    path.write_text(SLIDER)
+    found = assur_cli("topology", str(path), "--json").json
+    assert (found["dof"], found["loops"][0]["xi"], found["coupling_degree"]) == (1, 3, 0)
+    assert found["redundant_constraints"] == {"collapsed": 3, "joint_graph": 3}
+
+
+@pytest.mark.parametrize(
+    "cut",
+    [
+        ['B = { type = "revolute"', "S = {"],
+        ["C = {", "S = {"],
+    ],
+)
+def test_a_graph_in_pieces_is_refused(assur_cli, tmp_path, cut):
+    path = tmp_path / "slider.toml"
+    lines = [line for line in SLIDER.splitlines() if not any(line.startswith(word) for word in cut)]
+    path.write_text("\n".join(line for line in lines if not re.match("[BCS] = -?[0-9]", line)))
+    run = assur_cli("topology", str(path))
+    assert (run.code, run.out) == (3, "")
+    assert "error: " in run.err
+    assert "Traceback" not in run.err
