@@ -121,6 +121,14 @@ def scaled_closure(record: MechanismRecord, values: FloatArray) -> FloatArray:
     return np.asarray(matrix * rows[:, None] * joint_scales(record))
 
 
+def freedoms_with_inputs_locked(record: MechanismRecord, values: FloatArray, threshold: float = 1e-7) -> int:
+    """Freedoms that the joint graph keeps at joint values (n,) when every input is locked: 0 where regular."""
+    matrix = scaled_closure(record, values)
+    free = [index for index in range(matrix.shape[-1]) if index not in record.input_indices]
+    singular = np.linalg.svd(matrix[:, free], compute_uv=False)
+    return len(free) - int(np.sum(singular > threshold * singular[0]))
+
+
 def _motions(record: MechanismRecord, values: FloatArray, rng: np.random.Generator) -> FloatArray:
     """A random direction (N, n) in which the loops stay closed, at each configuration."""
     scales = joint_scales(record)

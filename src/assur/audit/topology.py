@@ -1,21 +1,33 @@
-"""Printed numbers of topology: POC sets, and the decomposition into loops with xi, F, Delta and kappa."""
+"""Printed numbers of topology: POC sets with their directions, and loops with xi, F, Delta and kappa."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
-from assur.audit import twists
-from assur.audit.configurations import COUNT
+from assur.audit.parts import LinkMotion, called, link_motion, sampled, square, within
 from assur.audit.reference import Digits
 from assur.audit.rows import Row
 from assur.model.file.schema import Entry
 from assur.model.mechanism import MechanismRecord
+from assur.topology.analysis import COUNT, Sample
+from assur.topology.coupling import coupling, coupling_of
+from assur.topology.derivation import counted, matrix
+from assur.topology.mobility import Mobility, mobility
 
-KNOWN_BY = f"rank of twists at {COUNT} random configurations"
+TWISTS = f"rank of twists at {COUNT} random finite displacements"
+COLLAPSED = "parallelograms as one joint"
 
 
 class PocSet(Entry):
-    """A printed POC set: `poc` is its dimensions, as "t2 r1"; the printed directions are read, not computed."""
+    """A printed POC set: that of a link moved by some joints, against the base of the mechanism or another link.
+
+    O' is a general point of the link, as where sets are united or intersected. `poc` is the numbers of elements, as
+    "t2 r1". Directions are as printed, by joints: elements along an axis, or in the plane that several axes span
+    (`t_axes`, `r_axes`), or translations perpendicular to an axis (`t_normal`).
+
+    `opened` is a joint that is taken off the link: the set is that of the open chain from the base to where the link
+    was, the union of Eq. (4).
+    """
 
     source: str
     quantity: str
@@ -23,6 +35,11 @@ class PocSet(Entry):
     poc: str
     link: str
     joints: tuple[str, ...] = ()
+    base: str = ""
+    opened: str = ""
+    t_axes: tuple[str, ...] = ()
+    t_normal: str = ""
+    r_axes: tuple[str, ...] = ()
     erratum: str = ""
 
 
@@ -48,62 +65,93 @@ class Decomposition(Entry):
 
 
 def poc_rows(record: MechanismRecord, entry: PocSet) -> list[Row]:
-    """One row: the dimensions of a link's POC set."""
-    translations, rotations, dimension = twists.poc_dimensions(record, entry.link, entry.joints)
-    computed = f"t{translations} r{rotations}"
-    holds = computed == entry.poc
+    """One row: a link's POC set, with its directions.
+
+    Errors:
+        RoutesDisagreeError: rules and twists differ. UnknownNameError, UsageError: no such part of the joint graph.
+    """
+    found = link_motion(record, entry.link, entry.joints, entry.base, entry.opened)
+    directions = _directions(record, entry, found)
+    holds = entry.poc == f"t{found.poc.t} r{found.poc.r}" and all(directions.values())
     return [
         Row(
             source=entry.source,
             quantity=entry.quantity,
             printed=entry.printed,
-            computed=computed,
+            computed=matrix(found.poc, "ascii"),
             verdict="ok" if holds else "wrong",
             erratum="" if holds else entry.erratum,
-            note=f"dim {dimension}; {KNOWN_BY}; directions read, not computed",
+            note="; ".join([_dimension(found), _known_by(found), *map(_said, directions, directions.values())]),
         )
     ]
 
 
+def _directions(record: MechanismRecord, entry: PocSet, found: LinkMotion) -> dict[str, bool]:
+    """What the source prints of directions -> whether it holds at every configuration."""
+    checked = {}
+    if entry.t_axes:
+        axes = found.axes(called(record, entry.t_axes))
+        checked[_along("t", entry.t_axes)] = within(found.translations, axes)
+    if entry.t_normal:
+        axes = found.axes(called(record, [entry.t_normal]))
+        checked[f"t perpendicular to {entry.t_normal}"] = square(found.translations, axes)
+    if entry.r_axes:
+        axes = found.axes(called(record, entry.r_axes))
+        checked[_along("r", entry.r_axes)] = within(found.rotations, axes)
+    return checked
+
+
+def _along(part: str, names: tuple[str, ...]) -> str:
+    return f"{part} {'parallel to' if len(names) == 1 else 'in the plane of'} {' and '.join(names)}"
+
+
+def _said(direction: str, holds: bool) -> str:
+    return f"{direction} {'as printed' if holds else 'does not hold'}"
+
+
+def _dimension(found: LinkMotion) -> str:
+    dependent = found.poc.dependent
+    return f"dim {found.poc.dim}" + (f", {counted(dependent, 'element')} not independent" if dependent else "")
+
+
+def _known_by(found: LinkMotion) -> str:
+    return f"{TWISTS}; the rules refuse: {found.refusal}" if found.refusal else f"by the rules and by {TWISTS}"
+
+
 def decomposition_rows(record: MechanismRecord, entry: Decomposition) -> list[Row]:
-    """Rows for f, I, xi and Delta of every loop, then for v, F and kappa."""
+    """Rows for f, I, xi and Delta of every loop in the source's order, then for v, F and kappa.
+
+    Errors:
+        UnknownNameError: no such joint. UsageError: the loops of the entry are not those of the joint graph.
+    """
+    here = sampled(record)
+    free = collapsed_mobility(here)
+    order = [called(record, loop.joints) for loop in entry.loops]
     rows: list[Row] = []
-    earlier: tuple[str, ...] = ()
-    xis, deltas = [], []
-    for loop in entry.loops:
-        inside = {name: twists.constraint_rank(record, [name]) for name in loop.joints if name in record.generalised}
-        inner = sum(inside.values())
-        freedoms = twists.freedom_sum(record, loop.joints) - inner
-        inputs = sum(item.coordinate.joint in loop.joints for item in record.inputs)
-        before = twists.constraint_rank(record, earlier) if earlier else 0
-        earlier = (*earlier, *loop.joints)
-        xi = twists.constraint_rank(record, earlier) - before - inner
-        xis.append(xi)
-        deltas.append(freedoms - inputs - xi)
+    for printed, loop in zip(entry.loops, coupling_of(here.collapsed, order, free.internal).loops, strict=True):
         rows += [
-            _row(entry.sources["freedoms"], f"sum of f, {loop.name}", loop.freedoms, freedoms),
-            _row(entry.sources["inputs"], f"I, {loop.name}", loop.inputs, inputs, "inputs of the file"),
-            _row(entry.sources["xi"], f"xi, {loop.name}", loop.xi, xi),
-            _row(entry.sources["delta"], f"Delta, {loop.name}", loop.delta, deltas[-1]),
+            _row(entry.sources["freedoms"], f"sum of f, {printed.name}", printed.freedoms, loop.freedoms, "joint graph"),
+            _row(entry.sources["inputs"], f"I, {printed.name}", printed.inputs, loop.inputs, "inputs of the file"),
+            _row(entry.sources["xi"], f"xi, {printed.name}", printed.xi, loop.xi, TWISTS),
+            _row(entry.sources["delta"], f"Delta, {printed.name}", printed.delta, loop.delta, TWISTS),
         ]
-    collapsed = sum(len(record.generalised[name].joints) - 1 for name in earlier if name in record.generalised)
-    links = len(record.links) - sum(
-        len(record.generalised[name].joints) - 2 for name in earlier if name in record.generalised
-    )
-    loop_count = len(record.joints) - collapsed - links + 1
-    freedom = twists.freedom_sum(record) - twists.constraint_rank(record)
-    kappa = sum(abs(delta) for delta in deltas) / 2
-    order = f"{KNOWN_BY}; in the source's order of loops, other orders not tried"
+    kappa = coupling(here.collapsed, free.internal).coupling_degree
+    least = f"{TWISTS}; the least of all orders of loops"
     return [
         *rows,
-        _row(entry.sources["loop_count"], "v", entry.loop_count, loop_count, "joint graph, generalised joints as one"),
-        _row(entry.sources["freedom"], "F", entry.freedom, freedom),
-        _row(entry.sources["kappa"], "kappa", entry.kappa, kappa, order),
+        _row(entry.sources["loop_count"], "v", entry.loop_count, free.loops, f"joint graph, {COLLAPSED}"),
+        _row(entry.sources["freedom"], "F", entry.freedom, free.dof, TWISTS),
+        _row(entry.sources["kappa"], "kappa", entry.kappa, kappa, least),
     ]
 
 
-def _row(source: str, quantity: str, digits: Digits, computed: float, note: str = KNOWN_BY) -> Row:
-    off = digits.value - computed
+def collapsed_mobility(here: Sample) -> Mobility:
+    """Freedoms and constraints with parallelograms as one joint, the graph to which xi, Delta and kappa belong."""
+    return mobility(here.collapsed, here.linkage.base, here.linkage.platform)
+
+
+def _row(source: str, quantity: str, digits: Digits, computed: int | None, note: str) -> Row:
+    off = None if computed is None else digits.value - computed
     return Row(
         source=source,
         quantity=quantity,

@@ -115,8 +115,13 @@ def _sum(found: Topology) -> str:
 
 
 def _derivation(found: Topology, say: Said) -> Iterator[RenderableType]:
+    """Lines as far in as they are, also where they are broken."""
+    from rich.padding import Padding
+
     for derivation in found.derivations:
-        yield from map(say, derivation.text("unicode").splitlines())
+        for line in derivation.text("unicode").splitlines():
+            text = line.lstrip()
+            yield Padding(say(text), (0, 0, 0, len(line) - len(text)), expand=False)
 
 
 def _limbs(found: Topology, say: Said) -> Iterator[RenderableType]:

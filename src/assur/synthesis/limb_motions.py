@@ -109,6 +109,8 @@ def _by_rules(chain: Chain, motion: WantedMotion) -> Motion | Refusal:
 
 
 def _reason_by_rules(found: Motion, motion: WantedMotion) -> Reason:
+    if found.orientations.dim < len(motion.rotations):
+        return "not the motion"
     if found.passive:
         return "a passive freedom"
     moves = all(found.translations.contains(direction) for direction in motion.translations)

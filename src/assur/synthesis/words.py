@@ -59,8 +59,7 @@ def words(freedoms: int, joints: int, *, always: str = "", ball: bool = False) -
     """
     start = _State((), frozenset(always), (), ())
     for word, blocks in _grow(start, freedoms, ball):
-        useless = not ball and (_has_idle_block(blocks, always) or (always and len(blocks) == ROTATIONS))
-        if not useless and _fewest_joints(word) <= joints:
+        if (ball or _can_turn(blocks, always)) and _fewest_joints(word) <= joints:
             yield word
 
 
@@ -119,15 +118,18 @@ def _line(kind: str, generator: np.random.Generator) -> FloatArray:
     return axis if kind[0] == "P" else np.cross(axis, generator.normal(size=3))
 
 
-def _has_idle_block(blocks: tuple[tuple[str, int], ...], always: str) -> bool:
-    """Whether a block has a single R that cannot turn, because the platform does not turn about its axis.
+def _can_turn(blocks: tuple[tuple[str, int], ...], always: str) -> bool:
+    """Whether every block can turn, and the platform about its axis.
 
-    A first and a third block that are parallel make one where the platform keeps its orientation.
+    A block with a single R turns only if the platform does so about its axis. A first and a third block that are
+    parallel make one where the platform keeps its orientation.
     """
     counts = list(blocks)
     if len(blocks) == ROTATIONS and not always and blocks[0][0] == blocks[2][0]:
         counts = [(blocks[0][0], blocks[0][1] + blocks[2][1]), blocks[1]]
-    return any(count == 1 and axis != always for axis, count in counts)
+    if always and (len(blocks) == ROTATIONS or always not in dict(blocks)):
+        return False
+    return all(count > 1 or axis == always for axis, count in counts)
 
 
 def _fewest_joints(word: Word) -> int:

@@ -15,7 +15,8 @@ from assur.topology.actuation import actuation
 from assur.topology.chains import Chain
 from assur.topology.configurations import configurations
 from assur.topology.coupling import coupling
-from assur.topology.decoupling import by_jacobian
+from assur.topology.decoupling import Decoupling, by_jacobian, confirmed
+from assur.topology.decoupling import by_rules as decoupled_by_rules
 from assur.topology.edges import Edge
 from assur.topology.facts import Limb, RedundantConstraints, Topology
 from assur.topology.linkage import Linkage
@@ -93,6 +94,7 @@ def analyse(
     rules = by_rules(chains, keeps_orientation=still, held=held)
     order = coupling(here.collapsed, collapsed.internal)
     check_xi(chains, rules, order.loops, held=held)
+    decoupling = by_jacobian(here.collapsed, base, platform)
     return Topology(
         name=name,
         title=title,
@@ -109,13 +111,23 @@ def analyse(
         coupling_degree=order.coupling_degree,
         redundant_constraints=RedundantConstraints(collapsed.redundant_constraints, whole.redundant_constraints),
         inputs=tuple(joint for joint, _ in linkage.inputs),
-        decoupling=by_jacobian(here.collapsed, base, platform),
+        decoupling=decoupling,
+        decoupling_refusal=_decoupling_refusal(decoupling, chains, still),
         plan=solution_plan(order, here.collapsed, base, platform),
         linkage=linkage,
-        derivations=rules.derivations,
+        derive=rules.derivations,
         actuate=partial(actuation, here.collapsed, base, platform),
         relax=partial(relaxation, here.joints, base, platform),
     )
+
+
+def _decoupling_refusal(found: Decoupling | None, chains: Sequence[Chain] | None, still: bool) -> str:
+    """Why the theory does not confirm the Jacobian's pattern; empty where it does, or where there is none."""
+    if found is None:
+        return ""
+    if chains is None or not still:
+        return "the platform turns" if chains else "the joint graph has no limbs"
+    return confirmed(decoupled_by_rules(chains, found.inputs), found)
 
 
 def _limbs(here: Sample, chains: Sequence[Chain], rules: Rules, still: bool) -> tuple[Limb, ...]:

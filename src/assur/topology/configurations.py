@@ -27,8 +27,8 @@ Hold = Literal["orientation", "parallelograms"]
 CLOSED = 1e-11
 """Rotation (rad) and gap (lengths) below which a loop is closed."""
 
-STEPS = 3
-STEP = 0.16
+STEPS = 2
+STEP = 0.22
 """Largest joint rate (rad, lengths) of one step, and how many steps are taken from home."""
 
 MOVED = 0.05
@@ -40,7 +40,7 @@ NULL = 1e-7
 STILL = 1e-6
 """Rates below this share of a random one are rounding errors of zero."""
 
-TRIES = 6
+TRIES = 4
 """How often other directions, in smaller steps, are tried where loops do not close."""
 
 UNSTEADY = ("P(4S)", "P(2US)")
@@ -162,8 +162,11 @@ def _displaced(
         size = np.max(np.abs(direction), axis=1, keepdims=True)
         if number == 0 and np.all(size < STILL * np.max(np.abs(target))):
             return None, None
-        closed = minimise(system.at, values + step * direction / np.maximum(size, STILL), tolerance=CLOSED)
-        values, arrived = closed.x, arrived & closed.converged
+        aim = values + step * direction / np.maximum(size, STILL)
+        closed = minimise(system.at, aim, tolerance=CLOSED, max_steps=30)
+        # No motion leads to an assembly that is rigid, or far from where the step went.
+        near = np.max(np.abs(closed.x - aim), axis=1) < step
+        values, arrived = closed.x, arrived & closed.converged & near & (size[:, 0] > STILL)
     return values, arrived & (np.max(np.abs(values), axis=1) > MOVED)
 
 

@@ -6,13 +6,22 @@ and asks for the POC set that is left: an output perpendicular to all of it does
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.topology.agreement import RoutesDisagreeError
+from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop
+from assur.topology.directions import NAMED
 from assur.topology.edges import Edge, along, at_generic, closure, column_names, input_columns, null_basis
+from assur.topology.intersection import parallel
+from assur.topology.joints import CYLINDRICAL, REVOLUTE
+from assur.topology.motion import Motion
+from assur.topology.refusals import Refusal
+from assur.topology.union import serial
 
 FloatArray = NDArray[np.float64]
 
@@ -78,3 +87,69 @@ def by_jacobian(edges: Sequence[Edge], base: str, platform: str) -> Decoupling |
     return Decoupling(
         tuple(OUTPUTS[row] for row in kept), names, tuple(tuple(bool(item) for item in used[row]) for row in kept)
     )
+
+
+def by_rules(chains: Sequence[Chain], inputs: Sequence[str]) -> Decoupling | Refusal:
+    """The same pattern from the theory, for a platform that does not turn and whose every limb keeps its orientation.
+
+    Every input but one is locked; what the platform can then do are the translations that all limbs leave it.
+
+    >>> from assur.topology.notation import parse_chains
+    >>> tripod = parse_chains([f"P[{u}] R[{u}] R[{u}] R[{u}]" for u in "xyz"])
+    >>> by_rules(tripod, ["P1", "P2", "P3"]).depends
+    ((True, False, False), (False, True, False), (False, False, True))
+    """
+    columns = []
+    for name in inputs:
+        locked = [_without(chain.elements, set(inputs) - {name}) for chain in chains]
+        if not all(locked):
+            return Refusal(f"a limb has no joint left when every input but {name} is locked")
+        limbs = [serial(elements, "translation") for elements in locked]
+        found = _meeting(limbs)
+        if isinstance(found, Refusal):
+            return found
+        still = found.translations.complement
+        columns.append([not still.contains(axis) for axis in NAMED.values()])
+    used = [tuple(row) for row in zip(*columns, strict=True)]
+    kept = [index for index, row in enumerate(used) if any(row)]
+    return Decoupling(tuple(OUTPUTS[index] for index in kept), tuple(inputs), tuple(used[index] for index in kept))
+
+
+def confirmed(rules: Decoupling | Refusal, twists: Decoupling) -> str:
+    """Why the rules do not decide the pattern of the Jacobian; empty where both routes give the same.
+
+    A pattern with more zeros than the theory promises is due to dimensions.
+
+    Errors:
+        RoutesDisagreeError: an entry that the theory promises to be zero is not.
+    """
+    if isinstance(rules, Refusal):
+        return rules.reason
+    for output, row in zip(twists.outputs, twists.depends, strict=True):
+        allowed = rules.inputs_of(output) if output in rules.outputs else ()
+        for name, used in zip(twists.inputs, row, strict=True):
+            if used and name not in allowed:
+                raise RoutesDisagreeError(f"decoupling: the rules say that {output} does not depend on {name}, it does")
+    same = (rules.outputs, rules.depends) == (twists.outputs, twists.depends)
+    return "" if same else "the dimensions decouple more than the topology promises"
+
+
+def _meeting(limbs: Sequence[Motion | Refusal]) -> Motion | Refusal:
+    motions = [limb for limb in limbs if isinstance(limb, Motion)]
+    refused = next((limb for limb in limbs if isinstance(limb, Refusal)), None)
+    if refused is not None:
+        return refused
+    return motions[0] if len(motions) == 1 else parallel(motions, "translation")
+
+
+def _without(elements: tuple[Element, ...], names: set[str]) -> tuple[Element, ...]:
+    """The elements with some joints locked; of a C only its translation, so that an R stays."""
+    left: list[Element] = []
+    for element in elements:
+        if isinstance(element, InnerLoop):
+            left.append(InnerLoop(tuple(_without(branch, names) for branch in element.branches), element.name))
+        elif element.name not in names:
+            left.append(element)
+        elif isinstance(element, ChainJoint) and element.type is CYLINDRICAL:
+            left.append(dataclasses.replace(element, type=REVOLUTE))
+    return tuple(left)

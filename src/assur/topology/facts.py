@@ -68,8 +68,8 @@ class Topology:
         loops: in the order that attains the coupling degree.
         assur_chains: each with the indices of its loops.
         decoupling: None where the inputs do not determine the platform.
+        decoupling_refusal: why the theory does not confirm that pattern, empty where it does.
         linkage: what the twists were computed on.
-        derivations: of the platform with its limbs; of the limbs alone where the rules refuse the platform.
     """
 
     name: str
@@ -90,8 +90,9 @@ class Topology:
     decoupling: Decoupling | None
     plan: SolutionPlan
     linkage: Linkage
-    derivations: tuple[Derivation, ...] = ()
+    decoupling_refusal: str = ""
     notes: tuple[str, ...] = ()
+    derive: Callable[[], tuple[Derivation, ...]] = field(repr=False, default=tuple)
     actuate: Callable[[], Actuation] = field(repr=False, default=NotImplemented)
     relax: Callable[[], Relaxation] = field(repr=False, default=NotImplemented)
 
@@ -114,6 +115,11 @@ class Topology:
     def routes_agree(self) -> bool:
         """Whether the rules answered everywhere; where they did, they agree with the twists, or an error was raised."""
         return all(item.route == "both" for item in (self.known, *(limb.known for limb in self.limbs)))
+
+    @cached_property
+    def derivations(self) -> tuple[Derivation, ...]:
+        """Of the platform with its limbs; of the limbs alone where the rules refuse the platform."""
+        return self.derive()
 
     @cached_property
     def actuation(self) -> Actuation:

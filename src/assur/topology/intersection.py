@@ -9,7 +9,7 @@ from assur.topology.blocks import mirrored
 from assur.topology.constraints import Resisted, resisted
 from assur.topology.limb_steps import limb_derivation
 from assur.topology.motion import Limb, Mode, Motion, motion_of
-from assur.topology.orientations import EVERY, UNTURNED, Orientations, orientations
+from assur.topology.orientations import EVERY, UNTURNED, Orientations, orientations, returns
 from assur.topology.platform_set import is_helical, platform_set
 from assur.topology.refusals import Refusal
 from assur.topology.spans import Span
@@ -107,17 +107,17 @@ def _as_written(limbs: Sequence[Limb]) -> Assembly | Refusal:
     configuration in. If it does not turn then, it never does. Else it turns as far as it keeps as many freedoms.
     """
     still = _assembled(limbs, UNTURNED)
-    widest = _narrowed(limbs)
     if isinstance(still, Refusal):
-        return widest
+        return still if any(returns(limb.structure) for limb in limbs) else _narrowed(limbs)
     if not still.turned.dim:
         return still
-    if isinstance(widest, Assembly) and widest.freedoms == still.freedoms:
-        return widest
     if still.turned.dim == 1 and still.turned.is_fixed:
         about = _assembled(limbs, Orientations(1, still.turned.fixed))
         if isinstance(about, Assembly) and about.turned.dim == 1 and about.freedoms == still.freedoms:
             return about
+    widest = _narrowed(limbs)
+    if isinstance(widest, Refusal) or widest.freedoms == still.freedoms:
+        return widest
     return Refusal("as written, the limbs are in a position from which they can move on in several modes")
 
 

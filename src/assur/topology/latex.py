@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from assur.topology.derivation import Derivation, Step
-from assur.topology.facts import Topology
+from assur.topology.facts import Limb, Topology
 from assur.topology.poc import Mark, PocSet
 
 NEEDS = r"\usepackage{amsmath,amssymb}"
@@ -84,39 +84,47 @@ def _escaped(text: str) -> str:
 
 def _poc_sets(found: Topology) -> Iterator[Equation]:
     """The sets of inner loops and limbs, and what the limbs have in common: Eqs. (1) and (2)."""
-    for number, (limb, part) in enumerate(zip(found.limbs, _parts(found), strict=True), 1):
-        for loop in part.parts if part else ():
-            yield _equation(rf"M_{{{name(loop.of)}}}", loop.whole, "(2)", f"an inner loop of limb {number}")
-        left, said = rf"M_{{b_{{{number}}}}}", f"limb {number}: {limb.text}"
-        if part:
-            yield _equation(left, part.whole, "(1)", f"{said}; O' {part.origin}")
-        else:
-            yield Equation(left, _with_dimension(left, limb.poc), "(1)", said)
+    platform = next((item for item in found.derivations if item.whole.operation == "intersection"), None)
+    parts = {item.of: item for item in (platform.parts if platform else found.derivations)}
+    for number, limb in enumerate(found.limbs, 1):
+        yield from _limb(number, limb, parts.get(f"limb {number}"))
     count = len(found.limbs)
-    if count == 1:
-        return
-    if found.derivation and found.derivation.whole.operation == "intersection":
-        yield _equation("M_{Pa}", found.derivation.whole, "(2)", f"the platform; O' {found.derivation.origin}")
-    else:
+    if platform:
+        yield _equation("M_{Pa}", platform.whole, "(2)", f"the platform; O' {platform.origin}")
+    elif count != 1:
         common = rf"\bigcap_{{i=1}}^{{{count}}} M_{{b_i}} = " if count else ""
-        yield Equation("M_{Pa}", common + _with_dimension("M_{Pa}", found.poc), "(2)", "the platform")
+        yield Equation("M_{Pa}", common + _with_dimension("M_{Pa}", found.poc), "(2)", "the platform, by twists")
 
 
-def _parts(found: Topology) -> tuple[Derivation | None, ...]:
-    """The derivation of each limb, None where the rules gave none."""
-    whole = found.derivation
-    parts: tuple[Derivation | None, ...] = ()
-    if whole is not None:
-        parts = (whole,) if whole.whole.operation == "union" else whole.parts
-    return parts if len(parts) == len(found.limbs) else (None,) * len(found.limbs)
+def _limb(number: int, limb: Limb, part: Derivation | None) -> Iterator[Equation]:
+    """The sets of its inner loops, and its own; another time if it has another one in the mechanism."""
+    left, said = rf"M_{{b_{{{number}}}}}", f"limb {number}: {limb.text}"
+    if part is None:
+        yield Equation(left, _with_dimension(left, limb.poc), "(1)", f"{said}; by twists")
+        return
+    for loop in part.parts:
+        yield _equation(rf"M_{{{name(loop.of)}}}", loop.whole, "(2)", f"an inner loop of limb {number}")
+    yield _equation(left, part.whole, "(1)", f"{said}; O' {part.origin}")
+    result = part.whole.result
+    if (result.t, result.r, result.dim) != (limb.poc.t, limb.poc.r, limb.poc.dim):
+        held = f"{left}'"
+        yield Equation(held, _with_dimension(held, limb.poc), "", f"limb {number} as it moves in the mechanism")
+
+
+def step_latex(step: Step) -> str:
+    """A union or an intersection with its result."""
+    return f"{_joined(step)} = {poc_matrix(step.result)}"
 
 
 def _equation(left: str, step: Step, number: str, meaning: str) -> Equation:
+    return Equation(left, f"{_joined(step)}\n= {_with_dimension(left, step.result)}", number, meaning)
+
+
+def _joined(step: Step) -> str:
     sign = SIGNS[step.operation]
     sets = list(map(poc_matrix, step.operands))
     rows = [f" {sign} ".join(sets[start : start + PER_LINE]) for start in range(0, len(sets), PER_LINE)]
-    right = f"\n{sign} ".join(rows)
-    return Equation(left, f"{right}\n= {_with_dimension(left, step.result)}", number, meaning)
+    return f"\n{sign} ".join(rows)
 
 
 def _with_dimension(left: str, poc: PocSet) -> str:

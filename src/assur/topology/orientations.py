@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 from assur.topology.blocks import Block, Structure, backwards
 from assur.topology.directions import Vector
@@ -65,6 +66,12 @@ def orientations(structure: Structure) -> Orientations:
     if len(axes) > 2:
         return EVERY
     return Orientations(len(axes), tuple(axis for axis in axes if axis is not None))
+
+
+def returns(structure: Structure) -> bool:
+    """Whether an axis is parallel to an earlier one, as written, with others between."""
+    axes = [block.direction for block in structure.blocks if block.direction is not None]
+    return any(aligned(first, second) for first, second in combinations(axes, 2))
 
 
 def held(structure: Structure, to: Orientations) -> Structure | Refusal:

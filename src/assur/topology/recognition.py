@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Iterator, Mapping
 from itertools import count
 from typing import cast
@@ -82,9 +83,16 @@ def _marked(elements: tuple[Element, ...], lines: Mapping[str, Line], labels: It
         marked += _labelled(run, labels)
         run = []
         if isinstance(element, InnerLoop):
-            element = InnerLoop(tuple(_marked(branch, lines, labels) for branch in element.branches), element.name)
+            branches = tuple(_marked(branch, lines, labels) for branch in element.branches)
+            element = InnerLoop(branches, element.name or _called(branches))
         marked.append(element)
     return (*marked, *_labelled(run, labels))
+
+
+def _called(branches: tuple[tuple[Element, ...], ...]) -> str:
+    """The name of a loop's rotation, after the first joint of each branch: R12 for a loop on P1 and P2."""
+    numbers = [re.search(r"\d+$", getattr(branch[0], "name", "")) for branch in branches]
+    return "R" + "".join(number.group() for number in numbers if number) if all(numbers) else ""
 
 
 def _labelled(run: list[ChainJoint], labels: Iterator[str]) -> list[ChainJoint]:

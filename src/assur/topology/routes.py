@@ -32,12 +32,17 @@ class Rules:
     Attributes:
         limbs: each limb's motion as it is in the mechanism.
         platform: the platform's motion.
-        derivations: of the platform with its limbs, or of the limbs where the rules refuse the platform.
+        free: the limbs' motions by themselves, from which the platform's is derived.
     """
 
     limbs: tuple[Motion | Refusal, ...]
     platform: Motion | Refusal
-    derivations: tuple[Derivation, ...]
+    free: tuple[Motion | Refusal, ...] = ()
+
+    def derivations(self) -> tuple[Derivation, ...]:
+        """Of the platform with its limbs, or of the limbs where the rules refuse the platform."""
+        whole = (self.platform,) if isinstance(self.platform, Motion) else self.free
+        return tuple(item.derive() for item in whole if isinstance(item, Motion) and item.derive is not None)
 
 
 def by_rules(chains: Sequence[Chain] | None, *, keeps_orientation: bool, held: bool) -> Rules:
@@ -49,14 +54,12 @@ def by_rules(chains: Sequence[Chain] | None, *, keeps_orientation: bool, held: b
         held: whether this is because it was asked for, and not by the mechanism's own making.
     """
     if chains is None:
-        return Rules((), Refusal("the joint graph has no limbs: it does not reduce to chains and inner loops"), ())
+        return Rules((), Refusal("the joint graph has no limbs: it does not reduce to chains and inner loops"))
     free = [_motion(chain, "translation" if held else "free", number) for number, chain in enumerate(chains, 1)]
     limbs = [_motion(chain, "translation", n) for n, chain in enumerate(chains, 1)] if keeps_orientation else free
     limbs = [one if isinstance(other, Refusal) else other for one, other in zip(free, limbs, strict=True)]
     platform = _platform(free, "translation" if held else "free")
-    whole = [platform] if isinstance(platform, Motion) else free
-    derivations = tuple(item.derive() for item in whole if isinstance(item, Motion) and item.derive is not None)
-    return Rules(tuple(limbs), platform, derivations)
+    return Rules(tuple(limbs), platform, tuple(free))
 
 
 def _motion(chain: Chain, mode: Mode, number: int) -> Motion | Refusal:

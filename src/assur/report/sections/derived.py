@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from assur.report.findings import Findings
 from assur.report.formulas.latex import latex_mathml
-from assur.report.formulas.mathml import display
-from assur.results.kinds import Facts, Formula, Formulas, Result, Scalar, Section, Table
+from assur.report.formulas.mathml import display, inline
+from assur.results.kinds import Cell, Facts, Formula, Formulas, Result, Scalar, Section, Table
 from assur.topology.answers import refusals, replacements_by_kind
 from assur.topology.decoupling import Decoupling
+from assur.topology.derivation import Derivation
 from assur.topology.facts import Topology
-from assur.topology.latex import equations
+from assur.topology.latex import equations, step_latex
 
 KNOWN = {"both": "rules and twists", "twists": "twists alone"}
 COLLAPSED = "parallelograms as one joint"
@@ -137,7 +138,15 @@ def _relaxation(topology: Topology) -> list[Result]:
 
 
 def _derivation(topology: Topology) -> list[Result]:
-    if topology.derivation is None:
-        return []
-    lines = topology.derivation.text("unicode").splitlines()
-    return [Table("The derivation, step by step", ("step",), tuple((line,) for line in lines), folded=True)]
+    """Every step with its rule and its reason."""
+    rows = tuple(row for item in topology.derivations for row in _steps(item))
+    columns = ("of", "step", "rule", "reason")
+    return [Table("The derivation, step by step", columns, rows, folded=True)] if rows else []
+
+
+def _steps(derivation: Derivation) -> list[tuple[Cell, ...]]:
+    rows = [row for part in derivation.parts for row in _steps(part)]
+    for step in derivation.steps:
+        formula = Formula(inline(latex_mathml(step_latex(step)), step.text()))
+        rows.append((derivation.of, formula, step.rule, step.reason))
+    return [*rows, (derivation.of, derivation.conclusion, "", f"O' {derivation.origin}")]

@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from assur.audit.audit import reference_entry
-from assur.audit.configurations import random_poses
+from assur.audit.configurations import freedoms_with_inputs_locked, random_poses
 from assur.audit.rows import Evidence
 from assur.audit.tables import solve
-from assur.audit.twists import freedoms_with_inputs_locked
 from assur.kinematics.closure import closure_error
 from assur.kinematics.position import direct, inverse
 

@@ -9,10 +9,16 @@ from types import SimpleNamespace
 import numpy as np
 import sympy
 
-from assur.audit.configurations import configurations, joint_scales, null_space, random_poses, scaled_closure
+from assur.audit.configurations import (
+    configurations,
+    freedoms_with_inputs_locked,
+    joint_scales,
+    null_space,
+    random_poses,
+    scaled_closure,
+)
 from assur.audit.equations import rates_of
 from assur.audit.rows import Evidence
-from assur.audit.twists import freedoms_with_inputs_locked
 from assur.kinematics.closure import mobility
 from assur.kinematics.modes import all_modes
 from assur.kinematics.position import inverse

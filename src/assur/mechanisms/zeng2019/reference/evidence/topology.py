@@ -6,14 +6,20 @@ import numpy as np
 
 from assur.audit.audit import reference_entry, reference_of
 from assur.audit.configurations import configurations, random_assemblies
+from assur.audit.parts import called, sampled
 from assur.audit.rows import Evidence
-from assur.audit.topology import decomposition_rows
-from assur.audit.twists import constraint_rank, freedom_sum, part
+from assur.audit.topology import collapsed_mobility, decomposition_rows
 from assur.kinematics.closure import closure_error, mobility
 from assur.kinematics.position import direct
+from assur.mechanism import topology
 from assur.model.formula import parse
 from assur.model.joint_graph import joint_graph
 from assur.model.points import quantity
+from assur.topology.analysis import sample
+from assur.topology.coupling import coupling_of
+from assur.topology.edges import closure, rank
+from assur.topology.recognition import recognised
+from assur.topology import mobility as counting
 
 CLOSE = 1e-9
 
@@ -97,33 +103,10 @@ def _numbers(record):
     return decomposition_rows(record, _decomposition(record))
 
 
-def _tripod_with_passive_limb(seed=0):
-    """Delta of the loops of a platform on three UPS limbs and one passive UP limb, by rank of twists."""
-    rng = np.random.default_rng(seed)
-    limbs = [_limb(rng, spherical=True) for _ in range(3)] + [_limb(rng, spherical=False)]
-    inputs = [1, 1, 1, 0]
-    deltas, before = [], 0
-    for count in (2, 3, 4):
-        widths = [limb.shape[1] for limb in limbs[:count]]
-        starts = np.cumsum([0, *widths])
-        matrix = np.zeros((6 * (count - 1), starts[-1]))
-        for index in range(1, count):
-            rows = slice(6 * (index - 1), 6 * index)
-            matrix[rows, : starts[1]] = limbs[0]
-            matrix[rows, starts[index] : starts[index + 1]] = -limbs[index]
-        rank = int(np.linalg.matrix_rank(matrix))
-        new = range(2) if count == 2 else [count - 1]
-        deltas.append(sum(widths[i] - inputs[i] for i in new) - (rank - before))
-        before = rank
-    return deltas
-
-
-def _limb(rng, *, spherical):
-    """Twists (6, f) of a U joint at one random point, a P joint along the leg and, if wanted, an S joint at another."""
-    foot, head = rng.normal(size=(2, 3))
-    axes = np.linalg.qr(rng.normal(size=(3, 3)))[0]
-    columns = [np.concatenate([axis, np.cross(foot, axis)]) for axis in axes[:2]]
-    columns.append(np.concatenate([np.zeros(3), head - foot]))
-    if spherical:
-        columns += [np.concatenate([axis, np.cross(head, axis)]) for axis in np.eye(3)]
-    return np.stack(columns, axis=1)
+def _tripod_with_passive_limb():
+    """Delta of the loops of a platform on three UPS limbs and one passive UP limb, added in this order."""
+    found = topology("three_ups_up").linkage
+    here = sample(found)
+    first, *later = [[joint.name for joint in chain.joints] for chain in recognised(found)]
+    order = [first + later[0], *later[1:]]
+    return [loop.delta for loop in coupling_of(here.collapsed, order, collapsed_mobility(here).internal).loops]

@@ -6,9 +6,9 @@ import numpy as np
 
 from assur.audit.audit import reference_entry
 from assur.audit.configurations import configurations
+from assur.audit.parts import link_motion
 from assur.audit.rows import Evidence
 from assur.audit.tables import solve
-from assur.audit.twists import poc_dimensions
 from assur.kinematics.modes import all_modes
 from assur.kinematics.position import direct
 from assur.model.formula import parse
@@ -25,7 +25,7 @@ def small_print(record):
     apart = float(np.linalg.norm(np.cross(third.at - first.at, first.axes[0])))
     parallel = np.allclose(np.cross(first.axes[0], third.axes[0]), 0) and apart > 1
     lost, reached, dimensions = _straight_angle(record)
-    chain = poc_dimensions(record, record.platform.link, record.chains["HSOC2"].serial)
+    chain = link_motion(record, record.platform.link, record.chains["HSOC2"].serial).poc
     given = reference_entry(record, "inverse", "Table 2").given
     not_real = len(all_modes(record, "inverse")) - len(solve(record, "inverse", given))
     printed = reference_entry(record, "count", "Inverse solutions, imaginary").printed.value
@@ -35,13 +35,13 @@ def small_print(record):
         bool(coaxial and parallel)
         and lost
         and reached
-        and chain == (3, 0, 3)
+        and (chain.t, chain.r, chain.dim) == (3, 0, 3)
         and not_real == printed
         and fifteen < CLOSE,
         f"P1 and P2 share one axis; P3 is parallel to it, {apart:g} {record.unit} away. With {dimensions} "
         "there are inputs with J2 = J3, where the closed form has a solution with α = π that closes the "
-        "joint graph and Eq. (17) divides by zero. Right are: chain II alone has t3 r0 by rank of "
-        f"twists; {not_real} of {len(all_modes(record, 'inverse'))} inverse solutions are not real at "
+        "joint graph and Eq. (17) divides by zero. Right are: chain II alone has t3 r0 by the rules and by "
+        f"rank of twists; {not_real} of {len(all_modes(record, 'inverse'))} inverse solutions are not real at "
         f"Table 1 row 3; Eq. (15) holds on {len(here)} random configurations within {CLOSE:g}.",
         {"apart": apart, "not_real": not_real, "fifteen": fifteen},
     )

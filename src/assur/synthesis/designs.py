@@ -1,0 +1,95 @@
+"""A mechanism that was found: its limbs in their positions, and what makes it good or bad."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from assur.synthesis.limb_motions import Limb
+from assur.topology.chains import Chain
+from assur.topology.coupling import Decomposition
+from assur.topology.facts import Known, RedundantConstraints
+
+PARALLELOGRAM_REDUNDANT = 3
+"""Redundant constraints of a planar loop of four R by itself, 6 - 3."""
+
+_COUNTS = ("no", "one", "two", "three", "four", "five", "six")
+
+
+@dataclass(frozen=True, eq=False)
+class Design:
+    """A mechanism with the wanted motion, confirmed by both routes.
+
+    Attributes:
+        limbs: in the order of their positions.
+        chains: the limbs as they stand, joints named through the mechanism.
+        known: the platform's POC set, and by which routes.
+        loops: in the order that attains the coupling degree.
+        dof: F of Eq. (3), all of it the platform's.
+        mode: "translation" where the limbs keep the platform from turning only once it does not turn, else "home".
+        names: known mechanisms with the same limbs.
+    """
+
+    limbs: tuple[Limb, ...]
+    chains: tuple[Chain, ...]
+    known: Known
+    loops: Decomposition
+    dof: int
+    mode: str
+    names: tuple[str, ...] = ()
+
+    @property
+    def coupling_degree(self) -> int:
+        """κ of Eq. (6)."""
+        return self.loops.coupling_degree or 0
+
+    @property
+    def xi(self) -> tuple[int, ...]:
+        """ξ of each loop, Eq. (4)."""
+        return tuple(loop.xi for loop in self.loops.loops)
+
+    @property
+    def joints(self) -> int:
+        """Joints; a U and a P(4R) count as one."""
+        return sum(limb.type.joints for limb in self.limbs)
+
+    @property
+    def parallelograms(self) -> int:
+        """Number of P(4R)."""
+        return sum(limb.type.parallelograms for limb in self.limbs)
+
+    @property
+    def redundant(self) -> RedundantConstraints:
+        """Redundant constraints, with a P(4R) as one joint and with its four R."""
+        collapsed = sum(loop.redundant_constraints for loop in self.loops.loops)
+        return RedundantConstraints(collapsed, collapsed + PARALLELOGRAM_REDUNDANT * self.parallelograms)
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether all limbs are of one type."""
+        return self.kinds == 1
+
+    @property
+    def kinds(self) -> int:
+        """Number of different limb types."""
+        return len({limb.type.key for limb in self.limbs})
+
+    @property
+    def actuated(self) -> tuple[tuple[int, int], ...]:
+        """(limb, joint) of the driven joints, both counted from 1."""
+        return tuple((number, limb.type.driven + 1) for number, limb in enumerate(self.limbs, 1))
+
+    @property
+    def order(self) -> tuple[int, int, int, int, int, tuple[str, ...]]:
+        """What designs are ranked by: κ, redundant constraints, joints, then simplicity: P(4R), kinds of limbs, text."""
+        texts = tuple(limb.text for limb in self.limbs)
+        return (self.coupling_degree, self.redundant.collapsed, self.joints, self.parallelograms, self.kinds, texts)
+
+    @property
+    def reason(self) -> str:
+        """Why it stands where it stands, in one sentence."""
+        search = self.coupling_degree
+        coupled = f"{_COUNTS[search]} virtual variable{'s' * (search > 1)}" if search else "every loop solves in turn"
+        surplus = self.redundant.collapsed
+        exact = f"{surplus} redundant constraint{'s' * (surplus > 1)}" if surplus else "no redundant constraint"
+        equal = f"{_COUNTS[len(self.limbs)]} equal limbs" if self.symmetric else f"{_COUNTS[self.kinds]} kinds of limbs"
+        return f"κ = {search}, {coupled}; {exact}; {self.joints} joints in {equal}"
