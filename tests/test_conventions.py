@@ -8,6 +8,7 @@ from pathlib import Path
 import assur
 from assur import errors
 from assur.kinematics import closure, status
+from assur.topology import directions, edges, twists
 
 PAGE = (Path(__file__).parents[1] / "CONVENTIONS.md").read_text(encoding="utf-8")
 
@@ -33,6 +34,12 @@ def test_it_prints_the_tolerances():
     code = {**vars(status), **vars(closure)}
     assert len(printed) == 5
     assert {name: float(value) for name, value in printed.items()} == {name: code[name] for name in printed}
+
+
+def test_it_prints_the_tolerances_of_topology():
+    printed = {cells[0].strip("`"): float(cells[1]) for cells in rows("Topology")}
+    code = {**vars(edges), **vars(directions), **vars(twists)}
+    assert printed == {name: code[name] for name in ("EXACT", "NEARLY", "RANK_GAP", "CLEAR")}
 
 
 def test_it_lists_the_exit_code_of_every_error():

@@ -18,8 +18,9 @@ OUTPUT = re.compile(r"<!-- output: (assur .*?) -->\n```text\n(.*?)```", re.S)
 def printed(command, capsys):
     from assur.cli.main import main
 
+    command, _, count = command.partition(" | head -n ")
     main(shlex.split(command)[1:])
-    lines = capsys.readouterr().out.splitlines()
+    lines = capsys.readouterr().out.splitlines()[: int(count) if count else None]
     return "\n".join(line.rstrip() for line in lines).strip("\n") + "\n"
 
 

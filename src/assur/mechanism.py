@@ -9,12 +9,12 @@ import dataclasses
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Self, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from assur.errors import UsageError
+from assur.errors import UnknownNameError, UsageError
 from assur.kinematics import closure, position, velocity
 from assur.kinematics.home import home_values
 from assur.kinematics.solutions import SolutionSet
@@ -147,7 +147,7 @@ def topology(
 
     Errors:
         NotationError: a chain that cannot be read. UnknownNameError, MechanismFileError: as `load`.
-        UsageError: more actuated joints than degrees of freedom, links that nothing connects.
+        UsageError: more actuated joints than degrees of freedom, links that nothing connects, an unknown mode.
         RoutesDisagreeError: the two routes give different answers; the message names the chain.
 
     Example:
@@ -157,8 +157,12 @@ def topology(
         >>> topology("R[x] R[x] R[x] R[y] R[y]").limbs[0].poc.dim
         5
     """
+    if mode not in (None, *get_args(Mode)):
+        raise UnknownNameError("mode", str(mode), get_args(Mode))
     if isinstance(what, MechanismRecord):
         return _of_record(what, actuate, mode)
+    if not isinstance(what, str | Path | Sequence):
+        raise UsageError(f"a topology is given by a name, a file or chains of joints, not by {what!r}")
     if isinstance(what, str) and not _is_name(what):
         what = [what]
     if isinstance(what, str | Path):
@@ -184,7 +188,8 @@ def _of_record(record: MechanismRecord, actuate: Sequence[str] | None, mode: Mod
         if chains is None:
             raise UsageError(f"{record.name} has no limbs by which joints could be numbered; name inputs in its file")
         names = numbered_inputs(chains, actuate)
-        built = dataclasses.replace(built, inputs=tuple((name, 0) for name in names))
+        hinges = {name: group.joints[0] for name, group in built.groups.items()}
+        built = dataclasses.replace(built, inputs=tuple((hinges.get(name, name), 0) for name in names))
     return analyse(built, chains, name=record.name, title=record.title, source=record.source, mode=mode or "home")
 
 

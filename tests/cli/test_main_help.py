@@ -7,7 +7,7 @@ from assur.cli.main import application
 
 COMMANDS = (
     *("list", "show", "topology", "direct", "inverse", "singularity", "workspace", "audit"),
-    *("figures", "report", "demo", "doctor"),
+    *("figures", "report", "synthesize", "demo", "doctor"),
 )
 
 

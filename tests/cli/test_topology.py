@@ -256,18 +256,34 @@ def test_a_mechanism_of_ones_own(assur_cli, tmp_path):
     assert found["redundant_constraints"] == {"collapsed": 3, "joint_graph": 3}
 
 
-@pytest.mark.parametrize(
-    "cut",
-    [
-        ['B = { type = "revolute"', "S = {"],
-        ["C = {", "S = {"],
-    ],
-)
-def test_a_graph_in_pieces_is_refused(assur_cli, tmp_path, cut):
+def without(*joints):
+    return "\n".join(line for line in SLIDER.splitlines() if line[:1] not in joints or line[1:4] != " = ")
+
+
+@pytest.mark.parametrize(("cut", "links"), [("CS", ["block"]), ("BS", ["rod", "block"])])
+def test_a_platform_that_nothing_reaches_is_refused(assur_cli, tmp_path, cut, links):
     path = tmp_path / "slider.toml"
-    lines = [line for line in SLIDER.splitlines() if not any(line.startswith(word) for word in cut)]
-    path.write_text("\n".join(line for line in lines if not re.match("[BCS] = -?[0-9]", line)))
+    path.write_text(without(*cut))
     run = assur_cli("topology", str(path))
     assert (run.code, run.out) == (3, "")
-    assert "error: " in run.err
-    assert "Traceback" not in run.err
+    for link in links:
+        assert f"links.{link}: '{link}' is not connected to the base; allowed: one connected graph" in run.err
+
+
+def test_an_arm_with_a_free_end_has_no_loops(assur_cli, tmp_path):
+    path = tmp_path / "slider.toml"
+    path.write_text(without("S"))
+    found = assur_cli("topology", str(path), "--json").json
+    assert (found["dof"], found["loops"]) == (3, [])
+    (limb,) = found["limbs"]
+    assert (limb["t"], limb["r"], limb["dim"]) == (2, 1, 3)
+
+
+def test_faults_of_a_topology_file_are_listed_with_their_lines(assur_cli, tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text('format = 1\nkind = "topology"\nname = "x"\nchains = ["P[x] Q", "R[x] R[x"]\n')
+    run = assur_cli("topology", str(path))
+    assert (run.code, run.out) == (3, "")
+    assert run.err.startswith("error: 2 problems:\n")
+    assert f"{path}:4: chains[0]: 'Q' at character 6" in run.err
+    assert f"{path}:4: chains[1]: a bracket that is not closed" in run.err

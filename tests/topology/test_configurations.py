@@ -142,6 +142,14 @@ def test_a_freedom_that_is_only_instantaneous_is_refused():
         configurations(flat)
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_another_rigid_assembly_is_no_displacement(seed):
+    """Six joints in one loop that are rigid, but not to first order; they close elsewhere too."""
+    linkage = _placed(["P[x] R[0.6,0.8,0] R[0.6,0.8,0]", "R[x] R[0.6,0.8,0] R[x]"], seed)
+    with pytest.raises(ImmobileError):
+        configurations(linkage)
+
+
 def test_home_is_special_where_it_has_freedoms_that_are_lost_on_the_way():
     special = _placed(["U[y,x] P[z] U[x,y]", "U[x,y] P[z] U[y,x]"])
     assert home_is_special(special, configurations(special))

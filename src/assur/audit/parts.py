@@ -17,15 +17,14 @@ from assur.model.mechanism import MechanismRecord
 from assur.topology.agreement import agreed, by_twists
 from assur.topology.analysis import Sample, sample
 from assur.topology.edges import Edge
-from assur.topology.intersection import parallel
 from assur.topology.limb_linkage import limb_values
 from assur.topology.linkage import Linkage, part
 from assur.topology.motion import Motion
 from assur.topology.poc import PocSet
 from assur.topology.recognition import recognised
 from assur.topology.refusals import Refusal
-from assur.topology.twists import edges, motion_space
-from assur.topology.union import serial
+from assur.topology.routes import by_rules
+from assur.topology.twists import dimensions, edges, motion_space
 
 FloatArray = NDArray[np.float64]
 
@@ -137,30 +136,32 @@ def link_motion(
     """
     here = sampled(record)
     some = _part(here.linkage, called(record, joints) or tuple(here.linkage.joints), link, base)
+    still = here.keeps_orientation and (some.base, link) == (here.linkage.base, here.linkage.platform)
     if opened:
         some = _opened(some, *called(record, [opened]))
     _check_connected(some)
     found = edges(some, limb_values(here.linkage, some, here.values), collapsed=False)
     space = motion_space(found, some.base, some.platform)
-    rules = by_rules(some)
+    rules = _rules(some, still, dimensions(space))
     if isinstance(rules, Refusal):
         return LinkMotion(by_twists(space), rules.reason, space, found)
     what = f"{record.name}, {link} moved by {' '.join(joints) or 'all joints'}"
-    return LinkMotion(agreed(what, rules.restated, space), "", space, found)
+    return LinkMotion(agreed(what, rules, space), "", space, found)
 
 
-def by_rules(some: Linkage) -> Motion | Refusal:
-    """The union of Eq. (1) for each limb of a linkage, and the intersection of Eq. (2) where it has several."""
-    chains = recognised(some)
-    if not chains:
-        return Refusal("the joints do not make limbs")
-    limbs = []
-    for chain in chains:
-        limb = serial(chain)
-        if isinstance(limb, Refusal):
-            return limb
-        limbs.append(limb)
-    return limbs[0] if len(limbs) == 1 else parallel(limbs)
+def _rules(some: Linkage, still: bool, numbers: tuple[int, int, int]) -> PocSet | Refusal:
+    """The POC set by Eqs. (1) and (2), at a general point.
+
+    A mechanism that keeps its platform from turning may hold a limb where it has fewer elements than by itself; so both
+    are tried, and that which has the numbers of the twists is taken.
+    """
+    chains = recognised(some) or None
+    free = by_rules(chains, still=False, held=False).platform
+    held = by_rules(chains, still=True, held=True).platform if still else free
+    for motion in (free, held):
+        if isinstance(motion, Motion) and numbers == (motion.restated.t, motion.restated.r, motion.dim):
+            return motion.restated
+    return free if isinstance(free, Refusal) else free.restated
 
 
 def _part(whole: Linkage, names: Sequence[str], link: str, base: str) -> Linkage:
@@ -178,8 +179,9 @@ def _opened(some: Linkage, name: str) -> Linkage:
     if link not in (joint.parent, joint.child):
         raise UsageError(f"the joint {name} is not on {link}, off which it was to be taken")
     end = f"{link} at {name}"
-    side = {"parent": end} if joint.parent == link else {"child": end}
-    return dataclasses.replace(some, joints={**some.joints, name: dataclasses.replace(joint, **side)}, platform=end)
+    parent, child = (end if item == link else item for item in (joint.parent, joint.child))
+    moved = dataclasses.replace(joint, parent=parent, child=child)
+    return dataclasses.replace(some, joints={**some.joints, name: moved}, platform=end)
 
 
 def _check_connected(some: Linkage) -> None:

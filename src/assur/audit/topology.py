@@ -9,10 +9,10 @@ from assur.audit.reference import Digits
 from assur.audit.rows import Row
 from assur.model.file.schema import Entry
 from assur.model.mechanism import MechanismRecord
-from assur.topology.analysis import COUNT, Sample
+from assur.topology.analysis import COUNT
 from assur.topology.coupling import coupling, coupling_of
 from assur.topology.derivation import counted, matrix
-from assur.topology.mobility import Mobility, mobility
+from assur.topology.mobility import mobility
 
 TWISTS = f"rank of twists at {COUNT} random finite displacements"
 COLLAPSED = "parallelograms as one joint"
@@ -125,12 +125,14 @@ def decomposition_rows(record: MechanismRecord, entry: Decomposition) -> list[Ro
         UnknownNameError: no such joint. UsageError: the loops of the entry are not those of the joint graph.
     """
     here = sampled(record)
-    free = collapsed_mobility(here)
+    free = mobility(here.collapsed, here.linkage.base, here.linkage.platform)
     order = [called(record, loop.joints) for loop in entry.loops]
     rows: list[Row] = []
     for printed, loop in zip(entry.loops, coupling_of(here.collapsed, order, free.internal).loops, strict=True):
         rows += [
-            _row(entry.sources["freedoms"], f"sum of f, {printed.name}", printed.freedoms, loop.freedoms, "joint graph"),
+            _row(
+                entry.sources["freedoms"], f"sum of f, {printed.name}", printed.freedoms, loop.freedoms, "joint graph"
+            ),
             _row(entry.sources["inputs"], f"I, {printed.name}", printed.inputs, loop.inputs, "inputs of the file"),
             _row(entry.sources["xi"], f"xi, {printed.name}", printed.xi, loop.xi, TWISTS),
             _row(entry.sources["delta"], f"Delta, {printed.name}", printed.delta, loop.delta, TWISTS),
@@ -143,11 +145,6 @@ def decomposition_rows(record: MechanismRecord, entry: Decomposition) -> list[Ro
         _row(entry.sources["freedom"], "F", entry.freedom, free.dof, TWISTS),
         _row(entry.sources["kappa"], "kappa", entry.kappa, kappa, least),
     ]
-
-
-def collapsed_mobility(here: Sample) -> Mobility:
-    """Freedoms and constraints with parallelograms as one joint, the graph to which xi, Delta and kappa belong."""
-    return mobility(here.collapsed, here.linkage.base, here.linkage.platform)
 
 
 def _row(source: str, quantity: str, digits: Digits, computed: int | None, note: str) -> Row:

@@ -40,6 +40,7 @@ def application() -> App:
     from assur.cli.report import report
     from assur.cli.show import show
     from assur.cli.singularity import singularity
+    from assur.cli.synthesize import synthesize
     from assur.cli.topology import topology
     from assur.cli.workspace import workspace
 
@@ -52,7 +53,8 @@ def application() -> App:
         default_parameter=Parameter(negative="", show_default=False),
     )
     app.command(list_, name="list")
-    for command in (show, topology, direct, inverse, singularity, workspace, audit, figures, report, demo, doctor):
+    mechanism = (show, topology, direct, inverse, singularity, workspace, audit, figures, report)
+    for command in (*mechanism, synthesize, demo, doctor):
         app.command(command)
     return app
 

@@ -122,6 +122,8 @@ def _derivation(found: Topology, say: Said) -> Iterator[RenderableType]:
         for line in derivation.text("unicode").splitlines():
             text = line.lstrip()
             yield Padding(say(text), (0, 0, 0, len(line) - len(text)), expand=False)
+    if len(found.limbs) != 1:  # of one chain alone it stands below the table of limbs
+        yield from map(say, _refused("the platform", found.known))
 
 
 def _limbs(found: Topology, say: Said) -> Iterator[RenderableType]:
@@ -146,12 +148,11 @@ def _limbs(found: Topology, say: Said) -> Iterator[RenderableType]:
         yield "The graph has no limbs in the sense of POC theory: it does not reduce in series and in parallel."
     for number, limb in enumerate(found.limbs, 1):
         yield from map(say, _refused(f"limb {number}", limb.known))
-    yield from map(say, _refused("the platform", found.known))
 
 
 def _refused(name: str, known: Known) -> Iterator[str]:
     if known.refusal:
-        yield f"{name}: the rules give no answer, because {known.refusal}; its POC set is that of the twists."
+        yield f"{name}: the rules give no answer, because {known.refusal}; the twists say {known.poc}."
 
 
 def _loops(found: Topology, say: Said) -> Iterator[RenderableType]:

@@ -29,6 +29,11 @@ class Confirmed:
     edges: tuple[Edge, ...]
 
     @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the limbs in the order of their positions."""
+        return tuple(edge.name for edge in self.edges)
+
+    @property
     def loops(self) -> Decomposition:
         """Loops in the order that attains the coupling degree."""
         return coupling(self.edges)

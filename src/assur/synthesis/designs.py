@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from assur.model.topology_description import Mode
 from assur.synthesis.limb_motions import Limb
 from assur.topology.chains import Chain
 from assur.topology.coupling import Decomposition
@@ -34,7 +35,7 @@ class Design:
     known: Known
     loops: Decomposition
     dof: int
-    mode: str
+    mode: Mode
     names: tuple[str, ...] = ()
 
     @property
@@ -86,10 +87,11 @@ class Design:
 
     @property
     def reason(self) -> str:
-        """Why it stands where it stands, in one sentence."""
-        search = self.coupling_degree
-        coupled = f"{_COUNTS[search]} virtual variable{'s' * (search > 1)}" if search else "every loop solves in turn"
+        """Why it stands where it stands, in one sentence without a full stop."""
+        first, degree = self.loops.loops[0], self.coupling_degree
+        loop = f"{' and '.join(first.edges)} close a loop with Δ = {first.delta:+d}"
+        coupled = f"{_COUNTS[degree]} virtual variable{'s' * (degree > 1)}: {loop}" if degree else f"closed form: {loop}"
         surplus = self.redundant.collapsed
-        exact = f"{surplus} redundant constraint{'s' * (surplus > 1)}" if surplus else "no redundant constraint"
+        exact = f"{surplus} constraint{'s are' if surplus > 1 else ' is'} redundant" if surplus else "no constraint is redundant"
         equal = f"{_COUNTS[len(self.limbs)]} equal limbs" if self.symmetric else f"{_COUNTS[self.kinds]} kinds of limbs"
-        return f"κ = {search}, {coupled}; {exact}; {self.joints} joints in {equal}"
+        return f"{coupled}; ξ = {', '.join(map(str, self.xi))}, so {exact}; {self.joints} joints in {equal}"

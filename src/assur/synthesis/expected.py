@@ -39,6 +39,20 @@ class Expected:
         count = max(map(len, self.dims))
         return min(self._coupling(order) for order in permutations(range(count)))
 
+    def xi(self, order: Sequence[int], freedoms: Sequence[int]) -> tuple[int, ...]:
+        """ξ of each loop, Eq. (4), where the limbs come in this order: dim of both sides less what they share.
+
+        Args:
+            order: of the limbs.
+            freedoms: sum of f of each limb, all of them independent.
+        """
+        found, before = [], freedoms[order[0]]
+        for end in range(2, len(order) + 1):
+            after = self.dims[frozenset(order[:end])]
+            found.append(before + freedoms[order[end - 1]] - after)
+            before = after
+        return tuple(found)
+
     def _coupling(self, order: Sequence[int]) -> int:
         """The largest κ of the Assur chains in one order; the first loop takes two limbs, each other one more."""
         ends = range(2, len(order) + 1)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 from zlib import crc32
 
@@ -59,6 +60,15 @@ class Limb:
     def text(self) -> str:
         """The limb in the plain form, in its first position."""
         return self.chains[0].text
+
+    @cached_property
+    def needs_mode(self) -> bool:
+        """Whether it is such a limb only while the platform keeps its orientation, and moves otherwise when it does not."""
+        free = serial(self.chains[0])
+        if isinstance(free, Refusal):
+            return True
+        poc = self.known.poc
+        return (free.poc.t, free.poc.r, free.poc.dim) != (poc.t, poc.r, poc.dim)
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from assur.synthesis.isomorphism import Key, limb_key
+from assur.synthesis.poses import is_special
 from assur.synthesis.positions import upright
 from assur.synthesis.wanted import WantedMotion
 from assur.synthesis.words import Word, crossing, words
@@ -58,10 +59,11 @@ class LimbType:
         return sum(isinstance(element, Parallelogram) for element in self.chain.elements)
 
 
-def limb_types(motion: WantedMotion, max_joints: int, actuators: Actuators) -> Iterator[LimbType]:
+def limb_types(motion: WantedMotion, max_joints: int, actuators: Actuators) -> tuple[LimbType, ...]:
     """Every limb that can be told apart, has a joint to drive and no freedom that shows as passive or idle, once.
 
-    Whether it has the motion is for the two routes to say.
+    Whether it has the motion is for the two routes to say. Of several ways to write a limb, the first is taken that is
+    no special configuration of it, as P[x] R[z] P[x] is one of P[x] R[z] P[y].
 
     >>> from assur.synthesis.wanted import MOTIONS
     >>> from assur.topology.notation import plain_text
@@ -69,21 +71,30 @@ def limb_types(motion: WantedMotion, max_joints: int, actuators: Actuators) -> I
     >>> "C[x] R[x] R[x]" in found, "P[x] R[x] R[x] R[x]" in found
     (True, False)
     """
+    ways: dict[Key, list[tuple[Chain, int]]] = {}
+    for groups, driven in _candidates(motion, max_joints, actuators):
+        chain = Chain(tuple(_element(group) for group in groups))
+        ways.setdefault(limb_key(chain, motion, driven), []).append((chain, driven))
+    found = []
+    for key, written in ways.items():
+        chain, driven = next((way for way in written if not is_special(way[0])), written[0])
+        found.append(LimbType(upright(chain) if motion.axis is None else chain, driven, key))
+    return tuple(found)
+
+
+def _candidates(
+    motion: WantedMotion, max_joints: int, actuators: Actuators
+) -> Iterator[tuple[tuple[_Group, ...], int]]:
+    """Every way to write a limb, and the place of its driven joint."""
     always = next((name for name, vector in NAMED.items() if vector == motion.axis), "")
-    seen = set()
     for freedoms in range(motion.dim, FREE + 1):
         free = freedoms == FREE
         joints = min(max_joints, FREE_LIMB_JOINTS) if free else max_joints
         for word in words(freedoms, joints, always=always, ball=free):
             for groups in _groupings(word):
                 driven = _driven(groups, actuators)
-                if len(groups) > joints or driven is None or _spoils_a_cylinder(groups, driven):
-                    continue
-                chain = Chain(tuple(_element(group) for group in groups))
-                key = limb_key(chain, motion, driven)
-                if key not in seen:
-                    seen.add(key)
-                    yield LimbType(upright(chain) if motion.axis is None else chain, driven, key)
+                if len(groups) <= joints and driven is not None and not _spoils_a_cylinder(groups, driven):
+                    yield groups, driven
 
 
 def _groupings(word: Word, start: int = 0) -> Iterator[tuple[_Group, ...]]:

@@ -16,6 +16,7 @@ from assur.errors import UsageError
 from assur.numerics.least_squares import IndexArray, minimise
 from assur.numerics.rotations import about_axis, to_vector
 from assur.topology.chains import Chain, ChainJoint, Parallelogram
+from assur.topology.edges import rank
 
 FloatArray = NDArray[np.float64]
 
@@ -56,6 +57,21 @@ def twists_at_poses(chain: Chain, orientations: FloatArray, generator: np.random
     axes = [axis for kind, axis in steps if kind == "R"]
     angles = _angles(axes, orientations, generator)
     return None if angles is None else _twists(steps, angles, generator)
+
+
+def is_special(chain: Chain) -> bool:
+    """Whether the limb as written has fewer independent freedoms than when it is displaced.
+
+    >>> from assur.topology.notation import parse_chain
+    >>> is_special(parse_chain("P[x] R[z] P[x]")), is_special(parse_chain("P[x] R[z] P[y]"))
+    (True, False)
+    """
+    steps = _steps(chain)
+    turns = sum(kind == "R" for kind, _ in steps)
+    generator = np.random.default_rng(turns)
+    written, displaced = np.zeros((1, turns)), generator.uniform(-SPREAD, SPREAD, (1, turns))
+    at_home, away = (rank(_twists(steps, angles, generator)) for angles in (written, displaced))
+    return at_home < away
 
 
 def _steps(chain: Chain) -> list[_Step]:

@@ -19,6 +19,9 @@ FloatArray = NDArray[np.float64]
 CYCLE: FloatArray = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 """Takes x to y, y to z, z to x."""
 
+DIGITS = 15
+"""Decimals of a direction that is not along x, y or z: enough for parallel axes, and short to read."""
+
 
 def positions(motion: WantedMotion, limbs: int) -> tuple[FloatArray, ...]:
     """Rotations (3, 3) that take a limb as written into each of its positions.
@@ -33,7 +36,8 @@ def positions(motion: WantedMotion, limbs: int) -> tuple[FloatArray, ...]:
     if motion.axis is None:
         return tuple(np.linalg.matrix_power(CYCLE, index) for index in range(limbs))
     step = math.pi / 2 if limbs == 2 else 2 * math.pi / limbs
-    return tuple(about_axis(np.array(motion.axis), np.array(step * index)) for index in range(limbs))
+    turns = [about_axis(np.array(motion.axis), np.array(step * index)) for index in range(limbs)]
+    return tuple(np.round(turn, DIGITS) for turn in turns)
 
 
 def turned(chain: Chain, turn: FloatArray) -> Chain:

@@ -39,8 +39,9 @@ def agreed(what: str, rules: PocSet, basis: FloatArray) -> PocSet:
             f"{what}: the rules say t{rules.t} r{rules.r} with dim {rules.dim}, the twists t{t} r{r} with dim {dim}",
             hint="its dimensions may be special in a way that axes and labels do not say; or assur has an error",
         )
-    for part, mark, found in zip("tr", (rules.t_mark, rules.r_mark), fixed_directions(basis), strict=True):
-        if mark.axes and not _same(mark, found):
+    marks, counts = (rules.t_mark, rules.r_mark), (t, r)
+    for part, mark, count, found in zip("tr", marks, counts, fixed_directions(basis), strict=True):
+        if mark.axes and not (len(mark.axes) == count and _same(mark, found)):
             raise RoutesDisagreeError(
                 f"{what}: the rules say {part}({mark.relation} {', '.join(mark.names)}), the twists do not",
                 hint="the directions of its axes at home may not be what they seem; or assur has an error",

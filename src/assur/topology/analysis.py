@@ -13,26 +13,28 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.topology.actuation import actuation
 from assur.topology.chains import Chain
-from assur.topology.configurations import configurations
+from assur.topology.configurations import home_is_special
 from assur.topology.coupling import coupling
 from assur.topology.decoupling import Decoupling, by_jacobian, confirmed
 from assur.topology.decoupling import by_rules as decoupled_by_rules
 from assur.topology.edges import Edge
-from assur.topology.facts import Limb, RedundantConstraints, Topology
+from assur.topology.facts import Known, Limb, RedundantConstraints, Topology
 from assur.topology.linkage import Linkage
 from assur.topology.mobility import Mobility, mobility
 from assur.topology.notation import plain_text, symbolic_text
 from assur.topology.recognition import recognised
 from assur.topology.relaxation import relaxation
-from assur.topology.routes import Rules, both, by_rules, check_xi, limb_space, turns
+from assur.topology.routes import KnownLimb, Rules, both, by_rules, check_xi, limb_known
 from assur.topology.solution_plan import solution_plan
-from assur.topology.twists import edges, motion_space
+from assur.topology.twists import dimensions, edges, generic_values, motion_space
 
 FloatArray = NDArray[np.float64]
 Mode = Literal["home", "translation"]
 
 COUNT = 4
-"""Configurations at which ranks are taken."""
+"""Configurations, at least, at which ranks are taken."""
+
+SPECIAL = "home is special: it has instantaneous freedoms that are lost on the way, and operation modes may meet there"
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +46,7 @@ class Sample:
         joints: every joint as an edge.
         collapsed: the same with parallelograms as one edge each.
         space: (N, 6, k) motion space of the platform.
+        poc: its (t, r, dim).
     """
 
     linkage: Linkage
@@ -51,14 +54,24 @@ class Sample:
     joints: tuple[Edge, ...]
     collapsed: tuple[Edge, ...]
     space: FloatArray
+    poc: tuple[int, int, int]
+
+    @property
+    def keeps_orientation(self) -> bool:
+        """Whether the platform moves and does not turn."""
+        return self.poc[1] == 0 < self.poc[2]
 
 
 def sample(linkage: Linkage, mode: Mode = "home") -> Sample:
-    """A linkage at configurations displaced from home, the platform kept from turning in translation mode."""
-    values = configurations(linkage, COUNT, hold="orientation" if mode == "translation" else None)
+    """A linkage at configurations displaced from home, the platform kept from turning in translation mode.
+
+    Errors:
+        UnclearRankError: what is reached from home disagrees on a rank. ImmobileError: home cannot be left.
+    """
+    values = generic_values(linkage, COUNT, hold="orientation" if mode == "translation" else None)
     collapsed = edges(linkage, values)
     space = motion_space(collapsed, linkage.base, linkage.platform)
-    return Sample(linkage, values, edges(linkage, values, collapsed=False), collapsed, space)
+    return Sample(linkage, values, edges(linkage, values, collapsed=False), collapsed, space, dimensions(space))
 
 
 def analyse(
@@ -90,17 +103,18 @@ def analyse(
     collapsed = mobility(here.collapsed, base, platform)
     whole = mobility(here.joints, base, platform)
     refuse_too_many(linkage, collapsed)
-    still, held = not turns(here.space), mode == "translation"
-    rules = by_rules(chains, keeps_orientation=still, held=held)
+    still, held = here.keeps_orientation, mode == "translation"
+    rules = by_rules(chains, still=still, held=held)
+    limbs = _limbs(here, chains or (), rules)
     order = coupling(here.collapsed, collapsed.internal)
-    check_xi(chains, rules, order.loops, held=held)
+    check_xi(chains or (), [limb.here for limb in limbs], order.loops, held=held)
     decoupling = by_jacobian(here.collapsed, base, platform)
     return Topology(
         name=name,
         title=title,
         source=source,
         mode=mode,
-        limbs=_limbs(here, chains or (), rules, still),
+        limbs=tuple(_limb(chain, limb.known) for chain, limb in zip(chains or (), limbs, strict=True)),
         known=both("the platform", rules.platform, here.space),
         dof=collapsed.dof,
         internal_freedoms=collapsed.internal_freedoms,
@@ -115,6 +129,7 @@ def analyse(
         decoupling_refusal=_decoupling_refusal(decoupling, chains, still),
         plan=solution_plan(order, here.collapsed, base, platform),
         linkage=linkage,
+        notes=(SPECIAL,) if home_is_special(linkage, here.values, "orientation" if held else None) else (),
         derive=rules.derivations,
         actuate=partial(actuation, here.collapsed, base, platform),
         relax=partial(relaxation, here.joints, base, platform),
@@ -130,15 +145,19 @@ def _decoupling_refusal(found: Decoupling | None, chains: Sequence[Chain] | None
     return confirmed(decoupled_by_rules(chains, found.inputs), found)
 
 
-def _limbs(here: Sample, chains: Sequence[Chain], rules: Rules, still: bool) -> tuple[Limb, ...]:
-    """Limbs as they are in the mechanism where its platform does not turn, else displaced at will."""
-    found = []
-    for number, (chain, motion) in enumerate(zip(chains, rules.limbs, strict=True), 1):
-        text = chain.text or plain_text(chain)
-        space = limb_space(here.linkage, chain, here.values if still or len(chains) == 1 else None)
-        known = both(f"limb {number}, {text}", motion, space)
-        found.append(Limb(text, symbolic_text(chain), sum(joint.freedoms for joint in chain.joints), known))
-    return tuple(found)
+def _limbs(here: Sample, chains: Sequence[Chain], rules: Rules) -> list[KnownLimb]:
+    return [
+        limb_known(f"limb {number}, {_text(chain)}", motions, here.linkage, chain, here.values)
+        for number, (chain, *motions) in enumerate(zip(chains, rules.still, rules.free, strict=True), 1)
+    ]
+
+
+def _limb(chain: Chain, known: Known) -> Limb:
+    return Limb(_text(chain), symbolic_text(chain), sum(joint.freedoms for joint in chain.joints), known)
+
+
+def _text(chain: Chain) -> str:
+    return chain.text or plain_text(chain)
 
 
 def refuse_too_many(linkage: Linkage, found: Mobility) -> None:

@@ -55,6 +55,7 @@ def answers(found: Topology) -> dict[str, Any]:
         },
         "routes_agree": found.routes_agree,
         "refusals": refusals(found),
+        "derivation": [line for item in found.derivations for line in item.text().splitlines()],
         "notes": list(found.notes),
     }
 

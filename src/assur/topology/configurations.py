@@ -28,11 +28,13 @@ CLOSED = 1e-11
 """Rotation (rad) and gap (lengths) below which a loop is closed."""
 
 STEPS = 2
-STEP = 0.22
-"""Largest joint rate (rad, lengths) of one step, and how many steps are taken from home."""
+"""How many steps are taken from home."""
 
-MOVED = 0.05
-"""Displacements (rad, lengths) smaller than this do not count as having left home."""
+STEP = 0.22
+"""Largest displacement of a joint (rad, lengths) in one step."""
+
+ASTRAY = 0.75
+"""Closing the loops may undo so much of a step; a motion along the freedom loses little of it."""
 
 NULL = 1e-7
 """Singular values of the closure below this share of the largest count as zero."""
@@ -67,8 +69,8 @@ def configurations(linkage: Linkage, count: int = 4, seed: int = 0, hold: Hold |
         linkage: assembled at home.
         count: how many.
         seed: of the random directions.
-        hold: "orientation" for the translation mode, in which the platform does not turn; "parallelograms" to keep
-            all parallelograms such in a mechanism too.
+        hold: "parallelograms" to keep all P(4S) and P(2US) parallelograms in a mechanism too; "orientation" for the
+            translation mode, which does the same and in which the platform does not turn.
 
     Errors:
         ImmobileError: the loops do not close anywhere but at home although they have a freedom there.
@@ -164,10 +166,10 @@ def _displaced(
             return None, None
         aim = values + step * direction / np.maximum(size, STILL)
         closed = minimise(system.at, aim, tolerance=CLOSED, max_steps=30)
-        # No motion leads to an assembly that is rigid, or far from where the step went.
-        near = np.max(np.abs(closed.x - aim), axis=1) < step
+        # No motion leads to an assembly that is rigid, or far from where the step went, or back.
+        near = np.max(np.abs(closed.x - aim), axis=1) < ASTRAY * step
         values, arrived = closed.x, arrived & closed.converged & near & (size[:, 0] > STILL)
-    return values, arrived & (np.max(np.abs(values), axis=1) > MOVED)
+    return values, arrived
 
 
 def _projected(jacobian: FloatArray, target: FloatArray) -> FloatArray:

@@ -18,7 +18,7 @@ from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop
 from assur.topology.directions import NAMED
 from assur.topology.edges import Edge, along, at_generic, closure, column_names, input_columns, null_basis
 from assur.topology.intersection import parallel
-from assur.topology.joints import CYLINDRICAL, REVOLUTE
+from assur.topology.joints import CYLINDRICAL, PRISMATIC, REVOLUTE
 from assur.topology.motion import Motion
 from assur.topology.refusals import Refusal
 from assur.topology.union import serial
@@ -29,7 +29,7 @@ OUTPUTS = ("x", "y", "z", "rx", "ry", "rz")
 """The platform's coordinates: along the base's axes, then about them."""
 
 ZERO = 1e-8
-"""Entries of the Jacobian below this share of its largest are zero."""
+"""Entries of the Jacobian below this share of its largest at the same configuration are zero."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ def by_jacobian(edges: Sequence[Edge], base: str, platform: str) -> Decoupling |
         return None
     columns = column_names(edges)
     names = tuple(columns[index] for index in input_columns(edges))
-    used = np.any(np.abs(matrix) > ZERO * np.max(np.abs(matrix)), axis=0)
+    used = np.any(np.abs(matrix) > ZERO * np.max(np.abs(matrix), axis=(1, 2), keepdims=True), axis=0)
     kept = [row for row in range(len(OUTPUTS)) if used[row].any()]
     return Decoupling(
         tuple(OUTPUTS[row] for row in kept), names, tuple(tuple(bool(item) for item in used[row]) for row in kept)
@@ -143,13 +143,25 @@ def _meeting(limbs: Sequence[Motion | Refusal]) -> Motion | Refusal:
 
 
 def _without(elements: tuple[Element, ...], names: set[str]) -> tuple[Element, ...]:
-    """The elements with some joints locked; of a C only its translation, so that an R stays."""
+    """The elements with some inputs locked, "P1" or a component as "C1.1"; of a C or U the other component stays."""
     left: list[Element] = []
     for element in elements:
         if isinstance(element, InnerLoop):
-            left.append(InnerLoop(tuple(_without(branch, names) for branch in element.branches), element.name))
+            branches = tuple(_without(branch, names) for branch in element.branches)
+            if all(branches):  # a branch without joints holds the whole loop
+                left.append(InnerLoop(branches, element.name))
+        elif isinstance(element, ChainJoint) and element.freedoms == 2:
+            left += _other_component(element, names)
         elif element.name not in names:
             left.append(element)
-        elif isinstance(element, ChainJoint) and element.type is CYLINDRICAL:
-            left.append(dataclasses.replace(element, type=REVOLUTE))
     return tuple(left)
+
+
+def _other_component(joint: ChainJoint, names: set[str]) -> list[ChainJoint]:
+    """What is left of a C or U, of which one component, both or none may be locked."""
+    free = [index for index in (0, 1) if f"{joint.name}.{index + 1}" not in names]
+    if len(free) != 1:
+        return [joint] if free else []
+    if joint.type is CYLINDRICAL and free == [0]:
+        return [dataclasses.replace(joint, type=PRISMATIC, point="")]
+    return [dataclasses.replace(joint, type=REVOLUTE, axes=joint.axes[-1:] if free == [1] else joint.axes[:1])]

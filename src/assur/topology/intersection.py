@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 from assur.topology.blocks import mirrored
 from assur.topology.constraints import Resisted, resisted
 from assur.topology.limb_steps import limb_derivation
-from assur.topology.motion import Limb, Mode, Motion, motion_of
-from assur.topology.orientations import EVERY, UNTURNED, Orientations, orientations, returns
+from assur.topology.motion import Limb, Mode, Motion, motion_at_home, motion_of
+from assur.topology.orientations import EVERY, UNTURNED, Orientations, orientations, returns, turn_alike
 from assur.topology.platform_set import is_helical, platform_set
 from assur.topology.refusals import Refusal
 from assur.topology.spans import Span
@@ -45,12 +46,11 @@ def parallel(motions: Sequence[Motion], mode: Mode = "free", name: str = "the pl
         return refusal
     poc = platform_set(found.limbs, found.resisted)
     return Motion(
-        poc=poc,
-        restated=poc,
         translations=found.resisted.forces.complement,
         rotations=found.turned,
         orientations=found.taken,
         freedoms=poc.dim,
+        given=poc,
         conditions=tuple(dict.fromkeys(condition for limb in limbs for condition in limb.conditions)),
         helical=is_helical(found.limbs, found.resisted),
         derive=lambda: limb_derivation(motions, lambda some: parallel(some, mode), name),
@@ -91,55 +91,74 @@ class Assembly:
 
 def _assembled(limbs: Sequence[Limb], taken: Orientations) -> Assembly | Refusal:
     """Limbs whose platform takes given orientations."""
-    held = [motion_of(limb, taken) for limb in limbs]
-    refusal = next((motion for motion in held if isinstance(motion, Refusal)), None)
+    return _together([motion_of(limb, taken) for limb in limbs], taken)
+
+
+def _together(motions: Sequence[Motion | Refusal], taken: Orientations) -> Assembly | Refusal:
+    refusal = next((motion for motion in motions if isinstance(motion, Refusal)), None)
     if refusal is not None:
         return refusal
-    carried = tuple(motion for motion in held if isinstance(motion, Motion))
-    found = resisted(carried, taken)
-    return found if isinstance(found, Refusal) else Assembly(carried, taken, found)
+    carried = tuple(motion for motion in motions if isinstance(motion, Motion))
+    common = _common([motion.orientations for motion in carried])
+    if isinstance(common, Refusal):
+        return common
+    least = min(common, taken, key=lambda item: item.dim)
+    found = resisted(carried, least)
+    return found if isinstance(found, Refusal) else Assembly(carried, least, found)
 
 
 def _as_written(limbs: Sequence[Limb]) -> Assembly | Refusal:
     """Limbs as they can move from the configuration as written.
 
-    Where all limbs are unturned, the mechanism has as many freedoms as there are directions to leave that
-    configuration in. If it does not turn then, it never does. Else it turns as far as it keeps as many freedoms.
+    The mechanism leaves it in as many directions as it has freedoms there, and moves on in one mode where it keeps
+    as many: with the platform unturned, turning about one axis, or taking every orientation that the limbs leave.
     """
+    home = _together([motion_at_home(limb) for limb in limbs], UNTURNED)
+    if isinstance(home, Refusal):
+        return home
     still = _assembled(limbs, UNTURNED)
     if isinstance(still, Refusal):
-        return still if any(returns(limb.structure) for limb in limbs) else _narrowed(limbs)
-    if not still.turned.dim:
-        return still
-    if still.turned.dim == 1 and still.turned.is_fixed:
-        about = _assembled(limbs, Orientations(1, still.turned.fixed))
-        if isinstance(about, Assembly) and about.turned.dim == 1 and about.freedoms == still.freedoms:
-            return about
-    widest = _narrowed(limbs)
-    if isinstance(widest, Refusal) or widest.freedoms == still.freedoms:
-        return widest
+        return still if any(returns(limb.structure) for limb in limbs) else _narrowed(limbs, _common(orientations(limb.structure) for limb in limbs))
+    for found in _modes(limbs, still):
+        if isinstance(found, Refusal) or found.freedoms == home.freedoms:
+            return found
     return Refusal("as written, the limbs are in a position from which they can move on in several modes")
 
 
-def _narrowed(limbs: Sequence[Limb]) -> Assembly | Refusal:
-    """Limbs whose platform takes every orientation that they leave it."""
-    taken = _common_orientations(limbs)
+def _modes(limbs: Sequence[Limb], still: Assembly) -> Iterator[Assembly | Refusal]:
+    """Ways in which a platform may turn, the least first."""
+    if not still.turned.dim:
+        yield still
+    if still.turned.dim == 1 and still.turned.is_fixed:
+        about = _assembled(limbs, Orientations(1, still.turned.fixed))
+        if isinstance(about, Assembly) and about.turned.dim == about.taken.dim == 1:
+            yield about
+    taken = _common(orientations(limb.structure) for limb in limbs)
+    if taken != UNTURNED:
+        yield _narrowed(limbs, taken)
+
+
+def _narrowed(limbs: Sequence[Limb], taken: Orientations | Refusal) -> Assembly | Refusal:
+    """Limbs whose platform takes every one of some orientations that they leave it."""
     while not isinstance(taken, Refusal):
         found = _assembled(limbs, taken)
-        if isinstance(found, Refusal) or found.turned.dim >= taken.dim:
+        if isinstance(found, Refusal) or found.turned.dim >= found.taken.dim == taken.dim:
             return found
+        if found.taken.dim < taken.dim:
+            taken = found.taken
+            continue
         fixed = found.turned.dim == 1 and found.turned.is_fixed
         taken = Orientations(found.turned.dim, found.turned.fixed if fixed else ())
     return taken
 
 
-def _common_orientations(limbs: Sequence[Limb]) -> Orientations | Refusal:
-    """The orientations that every limb takes."""
+def _common(sets: Iterable[Orientations]) -> Orientations | Refusal:
+    """The orientations in every set."""
     common: Orientations | Refusal = EVERY
-    for limb in limbs:
+    for one in sets:
         if isinstance(common, Refusal):
             return common
-        common = common.meet(orientations(limb.structure))
+        common = common.meet(one)
     return common
 
 
@@ -148,19 +167,31 @@ def _does_not_last(found: Assembly) -> Refusal | None:
     rods = any(limb.structure is not None and limb.structure.rods for limb in found.limbs)
     if found.turned.dim > found.taken.dim and not rods:
         return Refusal("the limbs leave the platform a rotation that does not last as it turns")
-    turning = [limb for limb in found.limbs if 0 < limb.translations.dim < 3 and limb.translations.turning]
+    turning = [limb.structure for limb in found.limbs if limb.structure and limb.translations.turning]
     if not found.taken.dim or len(turning) < 2:
         return None
-    if found.taken.dim == 2 and found.taken.axes:
-        return Refusal("translations of several limbs turn with the platform")
-    seen = found.resisted
-    if _from_the_platform(found) != (seen.forces.dim, seen.couples.dim):
+    if any(turn_alike(*pair) for pair in combinations(turning, 2)):
+        return Refusal("translations of several limbs turn alike with the platform")
+    seen = _from_the_platform(found)
+    if isinstance(seen, Refusal):
+        return seen
+    mixed = [a for a, b in zip(found.limbs, seen.limbs, strict=True) if _is_partly_fixed(a) and _is_partly_fixed(b)]
+    if len(mixed) > 1 or _size(seen) != _size(found):
         return Refusal("directions fixed in the platform decide together with some fixed in the base")
     return None
 
 
-def _from_the_platform(found: Assembly) -> tuple[int, int] | None:
-    """Numbers of forces and couples as seen by the platform, where other directions stay fixed than in the base."""
+def _from_the_platform(found: Assembly) -> Assembly | Refusal:
+    """The limbs as seen by the platform, where other directions stay fixed than in the base."""
     limbs = [replace(limb.limb, structure=mirrored(limb.limb.structure)) for limb in found.limbs if limb.limb]
-    seen = _assembled(limbs, Orientations(found.taken.dim, found.taken.axes[::-1]))
-    return None if isinstance(seen, Refusal) else (seen.resisted.forces.dim, seen.resisted.couples.dim)
+    return _assembled(limbs, Orientations(found.taken.dim, found.taken.axes[::-1]))
+
+
+def _is_partly_fixed(limb: Motion) -> bool:
+    """Whether translations turn, but not every way."""
+    moved = limb.translations
+    return moved.turning > 0 and bool(moved.fixed or moved.complement.fixed or moved.plane or moved.complement.plane)
+
+
+def _size(found: Assembly) -> tuple[int, int]:
+    return found.resisted.forces.dim, found.resisted.couples.dim

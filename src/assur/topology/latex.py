@@ -28,20 +28,28 @@ _INDEXED = re.compile(r"([A-Za-z]+?)(\d+[a-z]?|)")
 class Equation:
     """Its two sides in LaTeX, the number that the theory gives it, and what it says.
 
-    A line break in the right side is where print may break it.
+    A line break in the right side is where print may break it. `dim` is that of the set on the left, if it is one.
     """
 
     left: str
     right: str
     number: str
     meaning: str
+    dim: int | None = None
 
 
 def fragment(found: Topology) -> str:
     r"""The equations of a topology, aligned, to be put into a document with the packages of `NEEDS`."""
-    lines = [f"{item.left} &= {item.right}".replace("\n", f" {BROKEN}\n  &\\quad ") for item in equations(found)]
+    lines = [
+        f"{item.left} &= {item.right}{_dimension(item)}".replace("\n", f" {BROKEN}\n  &\\quad ")
+        for item in equations(found)
+    ]
     body = " \\\\\n".join(f"  {line}" for line in lines)
     return f"% {_ascii(found.name)}: needs {NEEDS}\n\\begin{{align}}\n{body}\n\\end{{align}}"
+
+
+def _dimension(item: Equation) -> str:
+    return "" if item.dim is None else rf", \quad \dim {item.left} = {item.dim}"
 
 
 def equations(found: Topology) -> tuple[Equation, ...]:
@@ -93,22 +101,22 @@ def _poc_sets(found: Topology) -> Iterator[Equation]:
         yield _equation("M_{Pa}", platform.whole, "(2)", f"the platform; O' {platform.origin}")
     elif count != 1:
         common = rf"\bigcap_{{i=1}}^{{{count}}} M_{{b_i}} = " if count else ""
-        yield Equation("M_{Pa}", common + _with_dimension("M_{Pa}", found.poc), "(2)", "the platform, by twists")
+        yield Equation("M_{Pa}", common + poc_matrix(found.poc), "(2)", "the platform, by twists", found.poc.dim)
 
 
 def _limb(number: int, limb: Limb, part: Derivation | None) -> Iterator[Equation]:
     """The sets of its inner loops, and its own; another time if it has another one in the mechanism."""
     left, said = rf"M_{{b_{{{number}}}}}", f"limb {number}: {limb.text}"
     if part is None:
-        yield Equation(left, _with_dimension(left, limb.poc), "(1)", f"{said}; by twists")
+        yield Equation(left, poc_matrix(limb.poc), "(1)", f"{said}; by twists", limb.poc.dim)
         return
     for loop in part.parts:
         yield _equation(rf"M_{{{name(loop.of)}}}", loop.whole, "(2)", f"an inner loop of limb {number}")
     yield _equation(left, part.whole, "(1)", f"{said}; O' {part.origin}")
     result = part.whole.result
     if (result.t, result.r, result.dim) != (limb.poc.t, limb.poc.r, limb.poc.dim):
-        held = f"{left}'"
-        yield Equation(held, _with_dimension(held, limb.poc), "", f"limb {number} as it moves in the mechanism")
+        said = f"limb {number} as it moves in the mechanism"
+        yield Equation(f"{left}'", poc_matrix(limb.poc), "", said, limb.poc.dim)
 
 
 def step_latex(step: Step) -> str:
@@ -117,7 +125,8 @@ def step_latex(step: Step) -> str:
 
 
 def _equation(left: str, step: Step, number: str, meaning: str) -> Equation:
-    return Equation(left, f"{_joined(step)}\n= {_with_dimension(left, step.result)}", number, meaning)
+    before = "" if step.operands == (step.result,) else f"{_joined(step)}\n= "
+    return Equation(left, before + poc_matrix(step.result), number, meaning, step.result.dim)
 
 
 def _joined(step: Step) -> str:
@@ -125,10 +134,6 @@ def _joined(step: Step) -> str:
     sets = list(map(poc_matrix, step.operands))
     rows = [f" {sign} ".join(sets[start : start + PER_LINE]) for start in range(0, len(sets), PER_LINE)]
     return f"\n{sign} ".join(rows)
-
-
-def _with_dimension(left: str, poc: PocSet) -> str:
-    return rf"{poc_matrix(poc)}, \quad \dim {left} = {poc.dim}"
 
 
 def _freedoms(found: Topology) -> Iterator[Equation]:

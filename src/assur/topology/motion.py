@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal
 
+from assur.topology.at_home import at_home
 from assur.topology.base_point import poc_set
 from assur.topology.blocks import Structure
 from assur.topology.bundles import bundles
 from assur.topology.chain_steps import chain_derivation
 from assur.topology.derivation import Derivation
 from assur.topology.directions import Vector
-from assur.topology.orientations import EVERY, Orientations, held, orientations
+from assur.topology.elementary import Elementary
+from assur.topology.orientations import EVERY, UNTURNED, Orientations, held, orientations
 from assur.topology.poc import PocSet
 from assur.topology.refusals import Refusal
 from assur.topology.spaces import rotations, translations
@@ -26,7 +29,8 @@ class Limb:
     """A chain as the rules see it, before anything holds its end link.
 
     Attributes:
-        structure: its slides and blocks.
+        chain: its slides and turns.
+        structure: the same, gathered into blocks.
         freedoms: sum of f_i; an inner loop counts as many as its output link has.
         conditions: where it is such a chain, in words.
         centre: label of the point that all axes run through, where they do.
@@ -35,6 +39,7 @@ class Limb:
         name: how it is named in steps.
     """
 
+    chain: tuple[Elementary, ...]
     structure: Structure
     freedoms: int
     conditions: tuple[str, ...] = ()
@@ -44,13 +49,15 @@ class Limb:
     name: str = ""
 
 
+AT_REST = PocSet(0, 0, 0)
+"""The set of a link that does not move."""
+
+
 @dataclass(frozen=True)
 class Motion:
     """The motion of an end link against the base.
 
     Attributes:
-        poc: the POC set with O' on the last axis or at its joint's centre; of a platform, at a general point.
-        restated: the POC set at a general point of the end link.
         translations: T, the pure translations.
         rotations: Omega, the directions that it rotates about; dim M = dim T + dim Omega.
         orientations: those that the end link takes.
@@ -58,12 +65,11 @@ class Motion:
         conditions: where the motion is only such, in words.
         limb: the chain that makes it; None for a platform.
         structure: that chain, held to the orientations.
+        given: the POC set where no chain makes it: of a platform, or of a helical joint alone.
         helical: whether a rotation advances along its axis.
         derive: gives the derivation.
     """
 
-    poc: PocSet
-    restated: PocSet
     translations: Span
     rotations: Span
     orientations: Orientations
@@ -71,13 +77,24 @@ class Motion:
     conditions: tuple[str, ...] = ()
     limb: Limb | None = None
     structure: Structure | None = None
+    given: PocSet = AT_REST
     helical: bool = False
     derive: Callable[[], Derivation] | None = field(default=None, repr=False, compare=False)
+
+    @cached_property
+    def poc(self) -> PocSet:
+        """The POC set with O' on the last axis or at its joint's centre; of a platform, at a general point."""
+        return poc_set(self.structure, self.structure.end) if self.structure else self.given
+
+    @cached_property
+    def restated(self) -> PocSet:
+        """The POC set at a general point of the end link."""
+        return poc_set(self.structure) if self.structure else self.given
 
     @property
     def dim(self) -> int:
         """dim M, the number of independent elements."""
-        return self.poc.dim
+        return self.translations.dim + self.rotations.dim
 
     @property
     def passive(self) -> int:
@@ -130,12 +147,19 @@ def motion_of(limb: Limb, to: Orientations = EVERY) -> Motion | Refusal:
     structure = held(limb.structure, taken)
     if isinstance(structure, Refusal):
         return structure
-    moved, turned = translations(structure), rotations(structure)
+    return _moving(limb, structure, taken)
+
+
+def motion_at_home(limb: Limb) -> Motion | Refusal:
+    """The motion of a chain's end link in the configuration as written, where it may have fewer elements."""
+    structure = at_home(limb.chain)
+    return structure if isinstance(structure, Refusal) else _moving(limb, structure, UNTURNED)
+
+
+def _moving(limb: Limb, structure: Structure, taken: Orientations) -> Motion:
     return Motion(
-        poc=poc_set(structure, structure.end),
-        restated=poc_set(structure),
-        translations=moved,
-        rotations=turned,
+        translations=translations(structure),
+        rotations=rotations(structure),
         orientations=taken,
         freedoms=limb.freedoms,
         conditions=limb.conditions,

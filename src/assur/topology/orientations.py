@@ -74,6 +74,20 @@ def returns(structure: Structure) -> bool:
     return any(aligned(first, second) for first, second in combinations(axes, 2))
 
 
+def turn_alike(first: Structure, second: Structure) -> bool:
+    """Whether links inside two chains with one end link are parallel, because both turn about the same axes."""
+    one, other = _turning_axes(first), _turning_axes(second)
+    return 1 < len(one) == len(other) < 4 and all(map(_parallel, one, other))
+
+
+def _turning_axes(structure: Structure) -> list[Vector | None]:
+    return [item.direction for item in structure.items if isinstance(item, Block) and item.net]
+
+
+def _parallel(first: Vector | None, second: Vector | None) -> bool:
+    return first is not None and second is not None and aligned(first, second)
+
+
 def held(structure: Structure, to: Orientations) -> Structure | Refusal:
     """A chain whose end link takes only some of the orientations that it could take.
 

@@ -38,14 +38,12 @@ def coupled(chain: Sequence[Elementary]) -> str | None:
 def lone_helix(turn: Turn, axis: Vector) -> Motion:
     """A helical joint alone: one translation and one rotation that are one element."""
     mark = Mark("parallel", (turn.name,), (axis,))
-    poc = PocSet(1, 1, 1, mark, mark)
     return Motion(
-        poc=poc,
-        restated=PocSet(1, 1, 1, Mark("moving"), mark),
         translations=Span(),
         rotations=along(axis),
         orientations=Orientations(1, (axis,)),
         freedoms=1,
+        given=PocSet(1, 1, 1, mark, mark),
         helical=True,
     )
 

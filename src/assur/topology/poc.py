@@ -1,7 +1,7 @@
 """POC sets: how many translations and rotations a link has, along which directions, and how they print.
 
 M = [t^p(directions); r^q(directions)], seen at a base point O' of the link. dim M is the number of
-independent elements; the p + q - dim M others are non-independent and print in braces.
+independent elements; the p + q - dim M others are non-independent, and `dependent` counts them.
 """
 
 from __future__ import annotations

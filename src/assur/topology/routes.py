@@ -30,14 +30,14 @@ class Rules:
     """What the rules say of the limbs of a mechanism and of its platform.
 
     Attributes:
-        limbs: each limb's motion as it is in the mechanism.
+        free: the limbs' motions by themselves (in translation mode where that was asked for).
+        still: the same in translation mode, where the platform does not turn; else as `free`.
         platform: the platform's motion.
-        free: the limbs' motions by themselves, from which the platform's is derived.
     """
 
-    limbs: tuple[Motion | Refusal, ...]
+    free: tuple[Motion | Refusal, ...]
+    still: tuple[Motion | Refusal, ...]
     platform: Motion | Refusal
-    free: tuple[Motion | Refusal, ...] = ()
 
     def derivations(self) -> tuple[Derivation, ...]:
         """Of the platform with its limbs, or of the limbs where the rules refuse the platform."""
@@ -45,21 +45,19 @@ class Rules:
         return tuple(item.derive() for item in whole if isinstance(item, Motion) and item.derive is not None)
 
 
-def by_rules(chains: Sequence[Chain] | None, *, keeps_orientation: bool, held: bool) -> Rules:
+def by_rules(chains: Sequence[Chain] | None, *, still: bool, held: bool) -> Rules:
     """The rules' answers.
 
     Args:
         chains: the limbs; None where the joint graph has none.
-        keeps_orientation: whether the platform does not turn, so that limbs are taken in translation mode.
+        still: whether the platform does not turn, so that limbs are in translation mode.
         held: whether this is because it was asked for, and not by the mechanism's own making.
     """
     if chains is None:
-        return Rules((), Refusal("the joint graph has no limbs: it does not reduce to chains and inner loops"))
-    free = [_motion(chain, "translation" if held else "free", number) for number, chain in enumerate(chains, 1)]
-    limbs = [_motion(chain, "translation", n) for n, chain in enumerate(chains, 1)] if keeps_orientation else free
-    limbs = [one if isinstance(other, Refusal) else other for one, other in zip(free, limbs, strict=True)]
-    platform = _platform(free, "translation" if held else "free")
-    return Rules(tuple(limbs), platform, tuple(free))
+        return Rules((), (), Refusal("the joint graph has no limbs: it does not reduce to chains and inner loops"))
+    free = tuple(_motion(chain, "translation" if held else "free", number) for number, chain in enumerate(chains, 1))
+    quiet = free if held or not still else tuple(_motion(chain, "translation", n) for n, chain in enumerate(chains, 1))
+    return Rules(free, quiet, _platform(free, "translation" if held else "free"))
 
 
 def _motion(chain: Chain, mode: Mode, number: int) -> Motion | Refusal:
@@ -90,27 +88,56 @@ def both(what: str, rules: Motion | Refusal, space: FloatArray) -> Known:
     return Known(agreed(what, rules.poc, space), "both")
 
 
-def limb_space(linkage: Linkage, chain: Chain, values: FloatArray | None) -> FloatArray:
-    """(N, 6, k) motion space of one limb alone, O' at its end.
+@dataclass(frozen=True, eq=False)
+class KnownLimb:
+    """A limb's POC set, and its motion by the rules where that holds at the mechanism's configurations too."""
+
+    known: Known
+    here: Motion | None
+
+
+def limb_known(
+    what: str, rules: Sequence[Motion | Refusal], linkage: Linkage, chain: Chain, values: FloatArray
+) -> KnownLimb:
+    """The POC set of one limb alone, O' at its end, by both routes.
 
     Args:
+        what: for the error, where they disagree.
+        rules: the rules' answers, as the platform lets the limb move and for the limb by itself.
         linkage: of the mechanism.
         chain: the limb.
-        values: (N, n) configurations of the mechanism; None to displace the limb at will.
+        values: (N, n) configurations of the mechanism.
     """
     limb = limb_linkage(linkage, chain)
-    here = configurations(limb) if values is None else limb_values(linkage, limb, values)
-    return motion_space(edges(limb, here), limb.base, limb.platform)
+    space = _space(limb, limb_values(linkage, limb, values))
+    for motion in rules:
+        if isinstance(motion, Motion) and dimensions(space) == (motion.poc.t, motion.poc.r, motion.poc.dim):
+            return KnownLimb(both(what, motion, space), motion)
+    if isinstance(rules[1], Refusal):
+        return KnownLimb(both(what, rules[1], space), None)
+    # the mechanism may hold the limb where it is special; by itself it is not
+    return KnownLimb(both(what, rules[1], _space(limb, configurations(limb))), None)
 
 
-def check_xi(chains: Sequence[Chain] | None, rules: Rules, loops: Sequence[Loop], *, held: bool) -> None:
+def _space(limb: Linkage, values: FloatArray) -> FloatArray:
+    """(N, 6, k) motion space of the end link."""
+    return motion_space(edges(limb, values), limb.base, limb.platform)
+
+
+def check_xi(chains: Sequence[Chain], limbs: Sequence[Motion | None], loops: Sequence[Loop], *, held: bool) -> None:
     """Compare xi of Eq. (4) by the rules with the rank of the closure, for every loop that closes whole limbs.
+
+    Args:
+        chains: the limbs.
+        limbs: their motions at the mechanism's configurations; nothing is compared where one is not known.
+        loops: in their order.
+        held: whether the platform was asked to keep its orientation.
 
     Errors:
         RoutesDisagreeError: they disagree.
     """
-    motions = [limb for limb in rules.limbs if isinstance(limb, Motion)]
-    if chains is None or len(motions) < len(chains) or isinstance(rules.platform, Refusal):
+    motions = [limb for limb in limbs if limb is not None]
+    if len(motions) < len(chains):
         return
     names = [{joint.name for joint in chain.joints} for chain in chains]
     taken: set[str] = set()
@@ -138,8 +165,3 @@ def _compare(number: int, loop: Loop, xi: int) -> None:
             f"loop {number} ({', '.join(loop.edges)}): the rules say xi = {xi}, the rank of the closure {loop.xi}",
             hint="its dimensions may be special in a way that axes and labels do not say; or assur has an error",
         )
-
-
-def turns(space: FloatArray) -> bool:
-    """Whether a motion space (N, 6, k) has rotations."""
-    return dimensions(space)[1] > 0

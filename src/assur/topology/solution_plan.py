@@ -2,22 +2,20 @@
 
 An Assur chain with coupling degree kappa takes kappa virtual variables, assumed in the loops with positive
 constraint degree and found by a search on the equations of the loops with negative one. A special constraint
-removes the search where the platform can never move in some directions: that is known beforehand, and may leave
-the first loops nothing to assume (the paper's step from Eq. (6) to Eq. (7)).
+may give them before any loop is solved (the paper's step from Eq. (6) to Eq. (7)); see `special_constraints`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
-import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.topology.coupling import Decomposition, Loop
-from assur.topology.edges import Edge, along, at_generic, closure, graph, input_columns, null_basis, rank
+from assur.topology.coupling import AssurChain, Decomposition, Loop
+from assur.topology.edges import Edge, along, at_generic, closure, input_columns, null_basis, rank
+from assur.topology.special_constraints import SpecialConstraint, connected, special_constraints, way_to
 
 FloatArray = NDArray[np.float64]
 
@@ -32,7 +30,7 @@ class Step:
         delta: its constraint degree, Eq. (5).
         virtual: virtual variables that are assumed here.
         equations: equations for virtual variables that it gives.
-        left: virtual variables that still must be assumed here once the platform's fixed directions are used.
+        left: virtual variables that still must be assumed here once special constraints are used.
     """
 
     loop: int
@@ -45,7 +43,10 @@ class Step:
 
 @dataclass(frozen=True)
 class AssurPlan:
-    """The plan of one Assur chain: `coupling_degree` virtual variables, `search` of them found by a search."""
+    """The plan of one Assur chain: of `coupling_degree` virtual variables `search` are found by a search, at most.
+
+    `reason` names the special constraints that make it fewer; empty where none does.
+    """
 
     steps: tuple[Step, ...]
     coupling_degree: int
@@ -55,18 +56,25 @@ class AssurPlan:
 
 @dataclass(frozen=True)
 class SolutionPlan:
-    """The order in which the direct problem is solved, Assur chain by Assur chain."""
+    """The order in which the direct problem is solved, Assur chain by Assur chain.
+
+    `free` is how many freedoms the loops have left when the inputs are locked; unless it is 0 there is no plan.
+    """
 
     parts: tuple[AssurPlan, ...]
+    free: int = 0
 
     @property
-    def search(self) -> int:
-        """The largest dimension of a search that is left; 0 means every loop is solved in turn."""
-        return max((part.search for part in self.parts), default=0)
+    def search(self) -> int | None:
+        """The largest dimension of a search that is left, 0 if every loop is solved in turn; None without a plan."""
+        return None if self.free else max((part.search for part in self.parts), default=0)
 
     @property
     def words(self) -> tuple[str, ...]:
         """The plan in sentences."""
+        if self.free:
+            left = "1 freedom" if self.free == 1 else f"{self.free} freedoms"
+            return (f"These inputs determine no solution: with all of them locked the loops have {left} left.",)
         return tuple(
             line for number, part in enumerate(self.parts, 1) for line in _sentences(part, number, len(self.parts))
         )
@@ -82,117 +90,134 @@ def solution_plan(decomposition: Decomposition, edges: Sequence[Edge], base: str
         platform: a link.
     """
     edges = at_generic(edges)
-    blocked = _blocked(edges, base, platform)
-    place = {edge.name: edge for edge in edges}
-    solved: list[str] = []
-    before = 0
-    parts = []
-    for chain in decomposition.assur_chains:
-        steps = []
-        for index in chain.loops:
-            loop = decomposition.loops[index]
-            solved += loop.edges
-            free = _unknowns([place[name] for name in solved], edges, base, platform, blocked)
-            steps.append(_step(index, loop, max(free - before, 0)))
-            before = free
-        search = sum(step.left for step in steps)
-        reason = "" if search == chain.coupling_degree else _reason(blocked)
-        parts.append(AssurPlan(tuple(steps), chain.coupling_degree, search, reason))
-    return SolutionPlan(tuple(parts))
-
-
-def _step(index: int, loop: Loop, left: int) -> Step:
-    virtual = max(loop.delta, 0)
-    return Step(index, loop.edges, loop.delta, virtual, max(-loop.delta, 0), min(left, virtual))
+    stages = _stages(decomposition.loops, edges, base, platform)
+    free = stages[-1].unknowns(()) if stages else 0
+    if free:
+        return SolutionPlan((), free)
+    known = special_constraints(edges, base, platform) if decomposition.coupling_degree else ()
+    return SolutionPlan(tuple(_plan(chain, decomposition.loops, stages, known) for chain in decomposition.assur_chains))
 
 
 @dataclass(frozen=True, eq=False)
-class _Blocked:
-    """Directions (k, 3) in the base in which the platform never turns, and in which O' never moves."""
+class _Stage:
+    """The loops that are solved after some step, inputs locked, and the way on from them to the platform.
 
-    rotations: FloatArray
-    translations: FloatArray
+    Attributes:
+        equations: (N, r, c) on the rates of their joints and of that way's.
+        moves: (N, 6, c) the platform's twist; (N, 0, c) where base or platform is out of reach.
+        inside: how many columns are of the loops.
+        internal: internal freedoms of the loops.
+    """
 
+    equations: FloatArray
+    moves: FloatArray
+    inside: int
+    internal: int
 
-def _blocked(edges: Sequence[Edge], base: str, platform: str) -> _Blocked:
-    """What is blocked at every configuration, by the platform's motion spaces taken together."""
-    free = null_basis(closure(edges))
-    moves = along(edges, base, platform) @ free  # (N, 6, k)
-    turned = np.concatenate(list(moves[:, :3]), axis=1)
-    moved = np.concatenate(list(moves[:, 3:]), axis=1)
-    return _Blocked(_never(turned), _never(moved))
-
-
-def _never(directions: FloatArray) -> FloatArray:
-    """Orthonormal rows (k, 3) perpendicular to all columns of directions (3, m)."""
-    left, singular, _ = np.linalg.svd(directions)
-    used = int(np.sum(singular > 1e-7))
-    rows: FloatArray = left[:, used:].T
-    return rows
+    def unknowns(self, known: Sequence[SpecialConstraint]) -> int:
+        """Freedoms of the loops that special constraints leave."""
+        rows = [item.rows @ self.moves for item in known if self.moves.shape[1]]
+        free = null_basis(np.concatenate([self.equations, *rows], axis=1))
+        return rank(free[:, : self.inside], scale=1.0) - self.internal
 
 
-def _unknowns(solved: Sequence[Edge], edges: Sequence[Edge], base: str, platform: str, blocked: _Blocked) -> int:
-    """Freedoms left in the loops solved so far, with inputs locked and the platform's blocked directions used."""
-    tail = _tail(solved, edges, base, platform)
-    used = [*solved, *(edge for edge in edges if edge.name in tail)]
+def _stages(loops: Sequence[Loop], edges: Sequence[Edge], base: str, platform: str) -> list[_Stage]:
+    place = {edge.name: edge for edge in edges}
+    solved: list[Edge] = []
+    internal = 0
+    stages = []
+    for loop in loops:
+        solved += [place[name] for name in loop.edges]
+        internal += loop.internal
+        stages.append(_stage(solved, internal, edges, base, platform))
+    return stages
+
+
+def _stage(solved: Sequence[Edge], internal: int, edges: Sequence[Edge], base: str, platform: str) -> _Stage:
+    used = [*solved, *way_to(platform, solved, edges, base)]
     matrix = closure(used)
     locked = np.eye(matrix.shape[-1])[input_columns(used)]
-    rows = [matrix, np.broadcast_to(locked, (len(matrix), *locked.shape))]
-    links = {link for edge in used for link in (edge.parent, edge.child)}
-    if {base, platform} <= links:
-        moves = along(used, base, platform)
-        rows += [blocked.rotations @ moves[:, :3], blocked.translations @ moves[:, 3:]]
-    free = null_basis(np.concatenate(rows, axis=1))
-    inside = sum(edge.freedoms for edge in solved)
-    return rank(free[:, :inside], scale=1.0)
+    reached = platform in connected(used, base)
+    return _Stage(
+        equations=np.concatenate([matrix, np.broadcast_to(locked, (len(matrix), *locked.shape))], axis=1),
+        moves=along(used, base, platform) if reached else matrix[:, :0],
+        inside=sum(edge.freedoms for edge in solved),
+        internal=internal,
+    )
 
 
-def _tail(solved: Sequence[Edge], edges: Sequence[Edge], base: str, platform: str) -> set[str]:
-    """The edges that lead from the solved loops to the platform without passing the base."""
-    links = {link for edge in solved for link in (edge.parent, edge.child)} - {base}
-    if platform in links:
-        return set()
-    rest = graph(edge for edge in edges if base not in (edge.parent, edge.child))
-    if platform not in rest:
-        return set()
-    ways = [
-        nx.shortest_path(rest, link, platform) for link in links if link in rest and nx.has_path(rest, link, platform)
+def _plan(
+    chain: AssurChain, loops: Sequence[Loop], stages: Sequence[_Stage], known: Sequence[SpecialConstraint]
+) -> AssurPlan:
+    """The plan of one Assur chain, with no more special constraints than give the least search."""
+    here = [stages[index] for index in chain.loops]
+    used = list(known)
+    search, left = _searched(here, used)
+    if search < chain.coupling_degree:
+        for item in reversed(known):
+            fewer = [other for other in used if other is not item]
+            if _searched(here, fewer)[0] == search:
+                used = fewer
+        left = _searched(here, used)[1]
+    else:
+        used, search, left = [], chain.coupling_degree, [max(loops[index].delta, 0) for index in chain.loops]
+    steps = [
+        Step(index, loops[index].edges, delta, max(delta, 0), max(-delta, 0), assumed)
+        for index, assumed in zip(chain.loops, left, strict=True)
+        for delta in [loops[index].delta]
     ]
-    if not ways:
-        return set()
-    way = min(ways, key=len)
-    return {next(iter(rest[here][there])) for here, there in pairwise(way)}
+    return AssurPlan(tuple(steps), chain.coupling_degree, search, " and ".join(item.words for item in used))
 
 
-def _reason(blocked: _Blocked) -> str:
-    turns, moves = 3 - len(blocked.rotations), 3 - len(blocked.translations)
-    if not turns:
-        return "the platform does not rotate"
-    if turns < 3:
-        return f"the platform rotates in {turns} fixed direction{'s' if turns > 1 else ''} only"
-    return f"O' moves in {moves} fixed direction{'s' if moves > 1 else ''} only"
+def _searched(stages: Sequence[_Stage], known: Sequence[SpecialConstraint]) -> tuple[int, list[int]]:
+    """How many variables are searched at a time, and how many each loop adds, with some special constraints.
+
+    Loops that leave no freedom end a search, as Assur chains end without special constraints.
+    """
+    before = together = most = 0
+    added = []
+    for stage in stages:
+        now = stage.unknowns(known)
+        added.append(max(now - before, 0))
+        together += added[-1]
+        most = max(most, together)
+        before, together = now, together if now else 0
+    return most, added
 
 
 def _sentences(part: AssurPlan, number: int, of: int) -> list[str]:
     head = f"Assur chain {number}: " if of > 1 else ""
-    lines = []
-    for step in part.steps:
-        does = "is solved in what was assumed" if part.coupling_degree else "is solved by itself"
-        if step.virtual:
-            does = f"takes {_count(step.virtual, 'virtual variable')}"
-        if step.equations:
-            does = f"gives {_count(step.equations, 'equation')} for what was assumed"
-        lines.append(f"{head}loop {step.loop + 1} ({', '.join(step.joints)}), Δ = {step.delta:+d}, {does}.")
+    return [*(f"{head}{_said(step, part, number)}" for step in part.steps), f"{head}{_conclusion(part)}"]
+
+
+def _said(step: Step, part: AssurPlan, number: int) -> str:
+    """What one loop is for."""
+    if step.virtual:
+        does = f"takes {_count(step.virtual, 'virtual variable')}"
+    elif step.equations:
+        does = f"gives {_count(step.equations, 'equation')} for what was assumed"
+    elif part.coupling_degree:
+        does = "is solved in terms of what was assumed"
+    else:
+        does = "is solved by itself" if number == 1 else "is solved from what is known by then"
+    if step.left > step.virtual:
+        does += f", and {step.left - step.virtual} of its own must be assumed once special constraints are used"
+    delta = f"{step.delta:+d}" if step.delta else "0"
+    return f"loop {step.loop + 1} ({', '.join(step.joints)}), Δ = {delta}, {does}."
+
+
+def _conclusion(part: AssurPlan) -> str:
+    """What remains to be searched."""
+    head = f"κ = {part.coupling_degree}"
     if not part.coupling_degree:
-        return [*lines, f"{head}κ = 0: no search."]
-    if not part.search:
-        fixed = ", ".join(f"loop {step.loop + 1}" for step in part.steps if step.virtual)
-        return [
-            *lines,
-            f"{head}κ = {part.coupling_degree}, but {part.reason}, and that fixes {fixed}: no search is needed.",
-        ]
-    less = f" ({part.reason}, which leaves {part.search} of {part.coupling_degree})" if part.reason else ""
-    return [*lines, f"{head}κ = {part.coupling_degree}: a search in {_count(part.search, 'dimension')}{less}."]
+        return f"{head}: no search."
+    least = f"at most a search in {_count(part.search, 'dimension')}"
+    if not part.reason:
+        return f"{head}: {least}."
+    if part.search:
+        return f"{head}, but {part.reason}, which leaves {_count(part.search, 'virtual variable')}: {least}."
+    given = "the virtual variable" if part.coupling_degree == 1 else f"all {part.coupling_degree} virtual variables"
+    return f"{head}, but {part.reason}, which gives {given}: no search is needed."
 
 
 def _count(number: int, noun: str) -> str:

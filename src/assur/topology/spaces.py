@@ -55,9 +55,10 @@ def translations(structure: Structure) -> Span:
     ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
     """
     found = tracked(structure, lambda block: len(block.lines) - 1)
-    if found.dim == 3 or len(structure.blocks) + len(structure.rods) <= 3:
+    turned = rotations(structure).dim
+    if found.dim == 3 or len(structure.blocks) + len(structure.rods) <= turned:
         return found
-    return _with_relations(structure, found)
+    return _with_relations(structure, found, turned)
 
 
 def tracked(structure: Structure, count: Count) -> Span:
@@ -90,14 +91,14 @@ def _tracked(items: Sequence[Item], count: Count) -> Span:
     return span
 
 
-def _with_relations(structure: Structure, found: Span) -> Span:
-    """T with the translations by relations between more than three rotations.
+def _with_relations(structure: Structure, found: Span, turned: int) -> Span:
+    """T with the translations by relations between more rotations than are independent.
 
     They are general, unless all axes belong to one or two bundles: all through a point, none; through a point or
     parallel to u, all perpendicular to u; through two points, all perpendicular to the line that joins them.
     """
     of = bundles(structure)
-    count = of.rank - 3
+    count = min(of.rank - turned, 3)
     if of.everything in of.points:
         return tracked(structure, lambda block: 0)
     beside = _block_beside_a_point(structure, of)

@@ -54,7 +54,8 @@ def serial(chain: Chain | Sequence[Element], mode: Mode = "free", name: str = "t
     if refusal is not None:
         return refusal
     limb = Limb(
-        structure(found),
+        chain=found,
+        structure=structure(found),
         freedoms=sum(item.span.dim if isinstance(item, Slide) else 1 for item in found),
         conditions=(*conditions, *_conditions(found, mode)),
         centre=_centre(found),

@@ -12,10 +12,21 @@ EQUATIONS = {
     "Eq. (23)": 1, "Eq. (24)": 1,
 }  # fmt: skip
 TOPOLOGY = {
-    "Topology, link 11": "t2 r1", "Topology, link S": "t2 r0", "Topology, link T": "t3 r0",
-    "Topology, M_HSOC1": "t3 r2", "Topology, M_HSOC2": "t3 r0", "Topology, M_Pa": "t3 r0",
-    "Topology, xi_L2, second operand": "t3 r1",
-}  # fmt: skip
+    "Topology, link 11": "[t^2(_|_B1); r^1(||B1)]",
+    "Topology, link S": "[t^2(||<>(P3, Pa1)); r^0]",
+    "Topology, link T": "[t^3; r^0]",
+    "Topology, M_HSOC1, first operand": "[t^2(_|_B1); r^1(||B1)]",
+    "Topology, M_HSOC1, second operand": "[t^2(_|_R3); r^1(||R3)]",
+    "Topology, M_HSOC1": "[t^3; r^2(||<>(R12, R3))]",
+    "Topology, M_HSOC2, first operand": "[t^1(||P3); r^0]",
+    "Topology, M_HSOC2, second operand, i = 1": "[t^1(||<>(Pa1)); r^0]",
+    "Topology, M_HSOC2, second operand, i = 2": "[t^1(||<>(Pa2)); r^0]",
+    "Topology, M_HSOC2": "[t^3; r^0]",
+    "Topology, M_Pa": "[t^3; r^0]",
+    "Topology, xi_L2, first operand": "[t^2(_|_B1); r^1(||B1)]",
+    "Topology, xi_L2, second operand": "[t^3; r^1(||R4)]",
+    "Topology, xi_L2, union": "[t^3; r^2(||<>(R12, R3))]",
+}
 NUMBERS = {
     ("Eq. (3)", "sum of f, LOOP1"): 6, ("Eq. (3)", "sum of f, LOOP2"): 5,
     ("Eq. (3)", "v"): 2, ("Eq. (3)", "F"): 3,
@@ -52,7 +63,9 @@ def test_eq9_upper_sign(at):
 def test_poc_set(at, source):
     row = at(source)["POC set"]
     assert (row.computed, row.verdict) == (TOPOLOGY[source], "ok")
-    assert "rank of twists" in row.note
+    assert "by the rules and by rank of twists" in row.note
+    printed_directions = row.printed.count("||") + row.printed.count("_|_")
+    assert row.note.count(" as printed") == printed_directions
 
 
 @pytest.mark.parametrize("address", NUMBERS, ids=" ".join)

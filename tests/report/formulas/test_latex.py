@@ -7,7 +7,6 @@ import pytest
 import assur
 from assur.report.formulas.latex import latex_mathml, name_mathml
 
-
 MATRIX = (
     '<mrow class="matrix"><mtable><mtr><mtd><mi>a</mi></mtd><mtd><mi>b</mi></mtd></mtr>'
     "<mtr><mtd><mi>c</mi></mtd></mtr></mtable></mrow>"

@@ -10,7 +10,7 @@ from assur.topology.answers import refusals, replacements_by_kind
 from assur.topology.decoupling import Decoupling
 from assur.topology.derivation import Derivation
 from assur.topology.facts import Topology
-from assur.topology.latex import equations, step_latex
+from assur.topology.latex import Equation, equations, step_latex
 
 KNOWN = {"both": "rules and twists", "twists": "twists alone"}
 COLLAPSED = "parallelograms as one joint"
@@ -50,12 +50,14 @@ def _numbers(topology: Topology) -> list[Scalar]:
 
 def _equations(topology: Topology) -> Formulas:
     lines = tuple(
-        Formula(display(latex_mathml(f"{item.left} = {item.right}")), item.number, item.meaning)
+        Formula(display(latex_mathml(f"{item.left} = {item.right}")), item.number, _meaning(item))
         for item in equations(topology)
     )
-    return Formulas(
-        "POC sets, freedoms and degrees", lines, "Non-independent elements are those of t and r beyond dim M."
-    )
+    return Formulas("POC sets, freedoms and degrees", lines, "dim M counts independent elements of t and r.")
+
+
+def _meaning(item: Equation) -> str:
+    return item.meaning if item.dim is None else f"dim {item.dim}; {item.meaning}"
 
 
 def _limbs(topology: Topology) -> Table:
@@ -140,7 +142,7 @@ def _relaxation(topology: Topology) -> list[Result]:
 def _derivation(topology: Topology) -> list[Result]:
     """Every step with its rule and its reason."""
     rows = tuple(row for item in topology.derivations for row in _steps(item))
-    columns = ("of", "step", "rule", "reason")
+    columns = ("of", "step", "because")
     return [Table("The derivation, step by step", columns, rows, folded=True)] if rows else []
 
 
@@ -148,5 +150,5 @@ def _steps(derivation: Derivation) -> list[tuple[Cell, ...]]:
     rows = [row for part in derivation.parts for row in _steps(part)]
     for step in derivation.steps:
         formula = Formula(inline(latex_mathml(step_latex(step)), step.text()))
-        rows.append((derivation.of, formula, step.rule, step.reason))
-    return [*rows, (derivation.of, derivation.conclusion, "", f"O' {derivation.origin}")]
+        rows.append((derivation.of, formula, f"{step.rule}: {step.reason}"))
+    return [*rows, (derivation.of, derivation.conclusion, f"O' {derivation.origin}")]

@@ -8,7 +8,7 @@ from assur.audit.audit import reference_entry, reference_of
 from assur.audit.configurations import configurations, random_assemblies
 from assur.audit.parts import called, sampled
 from assur.audit.rows import Evidence
-from assur.audit.topology import collapsed_mobility, decomposition_rows
+from assur.audit.topology import decomposition_rows
 from assur.kinematics.closure import closure_error, mobility
 from assur.kinematics.position import direct
 from assur.mechanism import topology
@@ -18,8 +18,8 @@ from assur.model.points import quantity
 from assur.topology.analysis import sample
 from assur.topology.coupling import coupling_of
 from assur.topology.edges import closure, rank
+from assur.topology.mobility import mobility as counted
 from assur.topology.recognition import recognised
-from assur.topology import mobility as counting
 
 CLOSE = 1e-9
 
@@ -28,14 +28,20 @@ def loop_numbers(record):
     """E10: each dim of Eq. (4) is one xi, not their sum; Delta = -3 occurs."""
     xis = [row.computed for row in _numbers(record) if row.quantity.startswith("xi")]
     ours = [row.computed for row in _numbers(record) if row.quantity.startswith("Delta")]
-    tripod = _tripod_with_passive_limb()
+    tripod = topology("three_ups_up")
+    deltas = _limb_by_limb(tripod.linkage)
     return Evidence(
-        len(xis) == 2 and sum(xis) not in xis and sum(ours) == 0 and -3 in tripod and sum(tripod) == 0,
+        len(xis) == 2
+        and sum(xis) not in xis
+        and sum(ours) == 0
+        and -3 in deltas
+        and sum(deltas) == 0
+        and tripod.internal_freedoms == 0,
         f"By rank of twists the two loops have ξ = {xis[0]} and {xis[1]}; the right side of Eq. (4) is "
         f"{xis[1]} for the second one, the sum on its left would be {sum(xis)}. A platform on three UPS "
-        f"limbs and a passive UP limb, added in this order, has Δ = {', '.join(map(str, tripod))} (rank "
-        "of random twists), with sum 0: -3 occurs.",
-        {"xi": xis, "delta": tripod},
+        f"limbs and a passive UP limb, added in this order, has Δ = {', '.join(map(str, deltas))} (rank "
+        "of twists), with sum 0: -3 occurs.",
+        {"xi": xis, "delta": deltas},
     )
 
 
@@ -59,15 +65,13 @@ def coupling_is_a_heuristic(record):
 def joint_graph_counts(record):
     """E13: links, loops, rank, freedoms and redundant constraints, with parallelograms as loops and collapsed."""
     graph, free = joint_graph(record), mobility(record, configurations(record).values[0])
-    first = _decomposition(record).loops[0].joints
-    loops = [first, *([name] for name in record.generalised)]
-    xis = [constraint_rank(record, names) for names in loops]
-    xis.append(constraint_rank(record) - sum(xis))
-    inner = sum(xis[1:-1])
-    collapsed_loops = len(graph.cut) - len(record.generalised)
-    collapsed_redundant = 6 * collapsed_loops - (constraint_rank(record) - inner)
+    here = sampled(record)
+    ends = here.linkage.base, here.linkage.platform
+    collapsed, whole = (counted(edges, *ends) for edges in (here.collapsed, here.joints))
     counts = (len(record.joints), len(record.links), len(graph.cut), int(free.rank), 6 * len(graph.cut))
-    freedoms, redundant = int(free.freedoms), int(free.redundant)
+    loops = [_decomposition(record).loops[0].joints, *(item.joints for item in record.generalised.values())]
+    xis = [_rank(record, joints) for joints in loops]
+    xis.append(_rank(record, record.joints) - sum(xis))
     inputs = [item.value for item in reference_entry(record, "direct", "Table 1").given]
     values = random_assemblies(record, tuple(inputs))
     crossed = [
@@ -78,19 +82,23 @@ def joint_graph_counts(record):
     ]
     return Evidence(
         counts == (17, 14, 4, 14, 24)
-        and freedoms == freedom_sum(record) - counts[3] == 3
-        and redundant == 10
+        and sum(xis) == counts[3]
+        and int(free.freedoms) == collapsed.dof == whole.dof == 3
+        and int(free.redundant) == whole.redundant_constraints == 10
         and xis == [3, 3, 3, 5]
-        and collapsed_redundant == 4
-        and max(crossed) < 1e-6
-        and len(part(record).loops) == counts[2],
+        and collapsed.redundant_constraints == 4
+        and max(crossed) < 1e-6,
         f"{counts[0]} joints, {counts[1]} links, {counts[2]} independent loops with ξ = "
         f"{', '.join(map(str, xis))}; the closure has rank {counts[3]} of {counts[4]} rows, F = "
-        f"{freedoms}, {redundant} redundant constraints, and {collapsed_redundant} with the "
-        "parallelograms collapsed. At the inputs of Table 1 random search finds assemblies with "
-        "parallelogram ① crossed and with parallelogram ② crossed; they close the joint graph like the "
-        "others.",
-        {"xi": xis, "redundant": redundant, "collapsed_redundant": collapsed_redundant},
+        f"{whole.dof}, {whole.redundant_constraints} redundant constraints, and "
+        f"{collapsed.redundant_constraints} with the parallelograms collapsed. At the inputs of Table 1 "
+        "random search finds assemblies with parallelogram ① crossed and with parallelogram ② crossed; "
+        "they close the joint graph like the others.",
+        {
+            "xi": xis,
+            "redundant": whole.redundant_constraints,
+            "collapsed_redundant": collapsed.redundant_constraints,
+        },
     )
 
 
@@ -99,14 +107,18 @@ def _decomposition(record):
     return reference_of(record).entries["decomposition"][0]
 
 
+def _rank(record, joints):
+    """Rank of the closure of some joints, the sum of the xi of their loops."""
+    names = called(record, joints)
+    return rank(closure([edge for edge in sampled(record).joints if edge.name in names]))
+
+
 def _numbers(record):
     return decomposition_rows(record, _decomposition(record))
 
 
-def _tripod_with_passive_limb():
-    """Delta of the loops of a platform on three UPS limbs and one passive UP limb, added in this order."""
-    found = topology("three_ups_up").linkage
-    here = sample(found)
-    first, *later = [[joint.name for joint in chain.joints] for chain in recognised(found)]
+def _limb_by_limb(linkage):
+    """Delta of the loops of a linkage whose limbs are added in their order."""
+    first, *later = [[joint.name for joint in chain.joints] for chain in recognised(linkage) or ()]
     order = [first + later[0], *later[1:]]
-    return [loop.delta for loop in coupling_of(here.collapsed, order, collapsed_mobility(here).internal).loops]
+    return [loop.delta for loop in coupling_of(sample(linkage).collapsed, order).loops]

@@ -1,0 +1,222 @@
+"""`assur synthesize`: every mechanism of bounded size that has a wanted motion, ranked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import groupby
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Parameter
+
+from assur.cli.numbers import whole_number
+from assur.cli.options import PLAIN, Outcome, Plain
+from assur.cli.output import heading, table
+from assur.cli.progress import progress
+from assur.errors import UnknownNameError, UsageError
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from assur.synthesis.designs import Design
+    from assur.synthesis.limbs import Actuators
+    from assur.synthesis.synthesis import Synthesis
+
+SHOWN = 20
+"""Mechanisms in the table, and files, if nothing else is asked for."""
+
+Numbered = tuple[int, "Design"]
+"""A mechanism with its rank."""
+
+
+def synthesize(
+    *,
+    motion: Annotated[
+        str, Parameter(metavar="3T|3T1R|2T1R", help="T counts translations, R rotations about z; 3T if left out.")
+    ] = "3T",
+    limbs: Annotated[
+        str | None, Parameter(metavar="N", help="As many as the motion has freedoms: one actuator in each.")
+    ] = None,
+    max_joints: Annotated[
+        str, Parameter(metavar="N", help="Joints of a limb; U and P(4R) count as one. 5 if left out.")
+    ] = "5",
+    coupling: Annotated[
+        str, Parameter(metavar="LOW..HIGH", help="Coupling degrees that are wanted, as 0..1 or 1; any if left out.")
+    ] = "",
+    symmetric: Annotated[bool, Parameter(help="Only mechanisms of equal limbs.")] = False,
+    actuators: Annotated[
+        str, Parameter(metavar="base|leg", help="Drive the first joint of each limb, or a P inside it, as in U-P-U.")
+    ] = "base",
+    top: Annotated[
+        str, Parameter(metavar="N", help="How many to show and write; 20 if left out, with --json all.")
+    ] = "",
+    toml: Annotated[
+        str, Parameter(metavar="FOLDER", help="Write each as a topology file that `assur topology` reads.")
+    ] = "",
+    shared: Plain = PLAIN,
+) -> Outcome:
+    """Find mechanisms with a wanted motion: type synthesis.
+
+    Limbs are series of R, P, C, U and P(4R), axes parallel or perpendicular to
+    each other; S stands in limbs that constrain nothing. Every mechanism that
+    is listed is confirmed by the rules of POC sets and by the rank of twists.
+    The best come first: smallest coupling degree, then fewest redundant
+    constraints, fewest joints, fewest parallelograms, fewest kinds of limbs.
+
+    For example:
+        assur synthesize --motion 3T --limbs 3 --max-joints 5 --symmetric
+        assur synthesize --coupling 0..1 --top 40
+        assur synthesize --actuators leg --symmetric --toml found
+        assur synthesize --motion 2T1R --max-joints 3 --json
+    """
+    from assur.cli.paths import output_folder
+    from assur.synthesis.synthesis import synthesis
+
+    wanted = {
+        "motion": motion,
+        "limbs": None if limbs is None else whole_number(limbs, "--limbs"),
+        "max_joints": whole_number(max_joints, "--max-joints"),
+        "coupling": _range(coupling),
+        "symmetric": symmetric,
+        "actuators": _place(actuators),
+    }
+    count = _count(top)
+    folder = output_folder(toml) if toml else None
+    with progress("synthesis", shared) as step:
+        found = synthesis(**wanted, step=step)
+    return _outcome(found, wanted, count, folder)
+
+
+def _range(text: str) -> tuple[int, int]:
+    """Coupling degrees from LOW..HIGH or one number.
+
+    >>> _range("0..1"), _range("2")
+    ((0, 1), (2, 2))
+    """
+    from assur.synthesis.synthesis import LARGEST
+
+    if not text.strip():
+        return (0, LARGEST)
+    low, dots, high = text.partition("..")
+    first = whole_number(low, "--coupling")
+    last = whole_number(high, "--coupling") if dots else first
+    if not 0 <= first <= last:
+        raise UsageError(f"--coupling {text.strip()} is empty or negative", hint="give it as 0..1, or as one number")
+    return (first, last)
+
+
+def _place(text: str) -> Actuators:
+    if text == "base":
+        return "base"
+    if text == "leg":
+        return "leg"
+    raise UnknownNameError("place of the actuators", text, ("base", "leg"))
+
+
+def _count(text: str) -> int | None:
+    if not text:
+        return None
+    count = whole_number(text, "--top")
+    if count < 1:
+        raise UsageError(f"--top {count}: one at least")
+    return count
+
+
+def _outcome(found: Synthesis, wanted: dict[str, Any], top: int | None, folder: Path | None) -> Outcome:
+    from assur.synthesis.answers import answers
+
+    data = {"asked": {**wanted, "limbs": found.motion.dim}, **answers(found, top)}
+    if folder is not None:
+        data["written"] = _write(found, folder, top or SHOWN)
+    return Outcome(data, lambda: _shown(found, data, top or SHOWN, folder))
+
+
+def _write(found: Synthesis, folder: Path, top: int) -> list[str]:
+    from assur.results.files import write_whole
+    from assur.synthesis.answers import skeletons
+
+    return [str(write_whole(folder / name, text)) for name, text in skeletons(found, top).items()]
+
+
+def _shown(found: Synthesis, data: dict[str, Any], top: int, folder: Path | None) -> Iterable[RenderableType]:
+    numbered = list(enumerate(found.designs, 1))
+    yield heading(f"{found.motion.name}: {len(numbered)} mechanisms of {found.motion.dim} limbs")
+    yield from _counts(found, data)
+    if numbered:
+        yield ""
+        yield _table(numbered[:top], f"the best {top}" if top < len(numbered) else "")
+        yield from _reasons(numbered[:top])
+    known = [item for item in numbered if item[1].names]
+    if known:
+        yield ""
+        yield _known(known)
+    if folder is not None:
+        yield f"written: {len(data['written'])} files in {folder}"
+
+
+def _counts(found: Synthesis, data: dict[str, Any]) -> Iterator[str]:
+    """How large the search was."""
+    types, tally = data["limb_types"], found.tally
+    kinds = ", ".join(f"{count} with {poc}" for poc, count in types["by_poc"].items())
+    yield f"limb types   {types['with_motion']} with the motion: {kinds or 'none'}"
+    yield f"combinations {tally.combinations}, {tally.with_motion} of them with the motion by the rules"
+    degrees = ", ".join(f"{count} with κ = {degree}" for degree, count in sorted(tally.coupling_degrees.items()))
+    yield f"coupling     {degrees or 'none'}"
+    yield f"one by one   {tally.confirmed} by twists; the actuators of {tally.unfixed} do not fix the platform"
+    if any(not design.symmetric for design in found.designs):
+        listed = data["combinations"]["listed_of_each_class_of_different_limbs"]
+        yield f"Of different limbs the {listed} simplest are listed for each combination of limb motions."
+
+
+def _table(numbered: Sequence[Numbered], title: str) -> RenderableType:
+    rows = [
+        (
+            str(rank),
+            str(design.coupling_degree),
+            str(design.redundant.collapsed),
+            str(design.joints),
+            str(design.dof),
+            " ".join(map(str, design.xi)),
+            _limbs(design),
+            "\n".join(str(poc) for poc in _pocs(design)),
+        )
+        for rank, design in numbered
+    ]
+    columns = ("rank", "κ", "red.", "joints", "F", "ξ", "limbs", "t r")
+    return table(columns, rows, title=title, left=("limbs", "t r"), wrap=("limbs",))
+
+
+def _limbs(design: Design) -> str:
+    """Limbs as they stand; equal ones once, in the first position."""
+    from assur.cli.topology_answer import shortened
+
+    if design.symmetric:
+        name = f" ({', '.join(design.names)})" if design.names else ""
+        return f"{len(design.limbs)} x {shortened(design.chains[0].text)}{name}"
+    return "\n".join(shortened(chain.text) for chain in design.chains)
+
+
+def _pocs(design: Design) -> list[str]:
+    """Numbers of the POC set of each limb that is printed."""
+    from assur.topology.poc import PocSet
+
+    limbs = design.limbs[:1] if design.symmetric else design.limbs
+    return [str(PocSet(limb.known.poc.t, limb.known.poc.r, limb.known.poc.dim)) for limb in limbs]
+
+
+def _reasons(numbered: Sequence[Numbered]) -> Iterator[str]:
+    """One sentence for each run of mechanisms that it is true of."""
+    for reason, run in groupby(numbered, key=lambda item: item[1].reason):
+        ranks = [rank for rank, _ in run]
+        yield f"{ranks[0]}{f'-{ranks[-1]}' if len(ranks) > 1 else ''}: {reason}."
+
+
+def _known(numbered: Sequence[Numbered]) -> RenderableType:
+    rows = [(str(rank), ", ".join(design.names), _limbs_alone(design)) for rank, design in numbered]
+    return table(("rank", "name", "limbs"), rows, title="known mechanisms with these limbs", left=("name", "limbs"))
+
+
+def _limbs_alone(design: Design) -> str:
+    from assur.cli.topology_answer import shortened
+
+    return shortened(design.chains[0].text) if design.symmetric else _limbs(design)
