@@ -84,9 +84,9 @@ class Mechanism(MechanismRecord):
 
         return dexterity(self, poses, mode)
 
-    def topology(self, actuate: Sequence[str] | None = None) -> Topology:
+    def topology(self, actuate: Sequence[str] | None = None, mode: Mode | None = None) -> Topology:
         """POC sets, DOF, coupling degree and what follows from them: see `assur.topology`."""
-        return topology(self, actuate=actuate)
+        return topology(self, actuate=actuate, mode=mode)
 
     def point(self, name: str, joint_values: FloatArray) -> FloatArray:
         """Position (..., 3) of a lettered point or of a joint: see `assur.model.points.point`."""

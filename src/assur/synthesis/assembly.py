@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import chain as joined
-from itertools import combinations_with_replacement, product
+from itertools import combinations_with_replacement, islice, product
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from assur.synthesis.wanted import WantedMotion
 from assur.topology.directions import span
 from assur.topology.facts import Known
 from assur.topology.notation import parse_chains
+from assur.topology.orientations import Orientations, orientations
 from assur.topology.poc import PocSet
 from assur.topology.refusals import Refusal
 from assur.topology.spans import Span
@@ -26,8 +27,11 @@ from assur.topology.spans import Span
 MEMBERS = 20
 """Of mechanisms with different limbs so many are listed for each combination of classes, the simplest first."""
 
-SIMPLEST = MEMBERS + 5
-"""Limbs of each class that these are looked for among."""
+AMONG = 20_000
+"""They are looked for among about so many mechanisms, of the simplest limbs of each class."""
+
+TRIES = 10 * MEMBERS
+"""So many of these are tried."""
 
 Class = tuple[Limb, ...]
 """Limbs with the same motion, the simplest first."""
@@ -107,20 +111,16 @@ def _mixed(
 ) -> Iterator[Design]:
     """The simplest mechanisms of limbs that are not all equal."""
     different = [limbs for limbs in _members(chosen) if len({id(limb) for limb in limbs}) > 1]
-    found = 0
-    for limbs in sorted(different, key=_simplicity_of_all):
-        design = _design(limbs, rules, motion, coupling, tally)
-        if design:
-            yield design
-            found += 1
-        if found == MEMBERS:
-            return
+    tried = sorted(different, key=_simplicity_of_all)[:TRIES]
+    designs = (_design(limbs, rules, motion, coupling, tally) for limbs in tried)
+    yield from islice((design for design in designs if design), MEMBERS)
 
 
 def _members(chosen: Sequence[Class]) -> Iterator[tuple[Limb, ...]]:
-    """One limb of each class, the order within a class without meaning."""
+    """One of the simplest limbs of each class; the order within a class makes no difference."""
+    simplest = int(AMONG ** (1 / len(chosen)))
     counts = Counter(map(id, chosen))
-    groups = {id(members): members[:SIMPLEST] for members in chosen}
+    groups = {id(members): members[:simplest] for members in chosen}
     choices = [combinations_with_replacement(groups[key], count) for key, count in counts.items()]
     for parts in product(*choices):
         yield tuple(joined.from_iterable(parts))
@@ -201,7 +201,13 @@ def _motion_key(limb: Limb) -> object:
     if not limb.motions:
         return limb.text
     found = limb.motions[0]
-    return (limb.type.freedoms, _span_key(found.translations), _span_key(found.rotations), found.orientations.dim)
+    taken = orientations(found.limb.structure) if found.limb and found.rotations.turning else found.orientations
+    return (limb.type.freedoms, _span_key(found.translations), _span_key(found.rotations), _axes_key(taken))
+
+
+def _axes_key(taken: Orientations) -> tuple[object, ...]:
+    """The axes without their sense; those that turn in the base may be fixed in the end link."""
+    return (taken.dim, *(_span_key(Span((axis,))) for axis in taken.axes))
 
 
 def _span_key(found: Span) -> tuple[object, ...]:

@@ -89,7 +89,8 @@ class Design:
     def reason(self) -> str:
         """Why it stands where it stands, in one sentence without a full stop."""
         first, degree = self.loops.loops[0], self.coupling_degree
-        loop = f"{' and '.join(first.edges)} close a loop with Δ = {first.delta:+d}"
+        both = " and ".join(edge.removeprefix("limb ") for edge in first.edges)
+        loop = f"limbs {both} close a loop with Δ = {first.delta:+d}"
         coupled = f"{_COUNTS[degree]} virtual variable{'s' * (degree > 1)}: {loop}" if degree else f"closed form: {loop}"
         surplus = self.redundant.collapsed
         exact = f"{surplus} constraint{'s are' if surplus > 1 else ' is'} redundant" if surplus else "no constraint is redundant"

@@ -78,7 +78,7 @@ def limb_types(motion: WantedMotion, max_joints: int, actuators: Actuators) -> t
     found = []
     for key, written in ways.items():
         chain, driven = next((way for way in written if not is_special(way[0])), written[0])
-        found.append(LimbType(upright(chain) if motion.axis is None else chain, driven, key))
+        found.append(LimbType(upright(chain, motion), driven, key))
     return tuple(found)
 
 

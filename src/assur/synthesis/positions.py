@@ -19,6 +19,9 @@ FloatArray = NDArray[np.float64]
 CYCLE: FloatArray = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 """Takes x to y, y to z, z to x."""
 
+SWAP: FloatArray = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+"""Takes x to y and y to x; a mirror, which to axes without sense is a quarter turn."""
+
 DIGITS = 15
 """Decimals of a direction that is not along x, y or z: enough for parallel axes, and short to read."""
 
@@ -54,13 +57,17 @@ def turned(chain: Chain, turn: FloatArray) -> Chain:
     return _with_axes(chain, axis)
 
 
-def upright(chain: Chain) -> Chain:
-    """The chain turned so that limbs of every kind fit together in the positions x, y, z.
+def upright(chain: Chain, motion: WantedMotion) -> Chain:
+    """A chain along x, y and z written so that limbs of every kind fit together in their positions.
 
-    The one direction of its R comes to x; where it has two, their plane comes to that of x and y; without R,
-    its first joint comes to x. So in the next position but one neither a direction nor a plane is met again.
+    Where the motion singles out z, the first other direction of its R comes to x. Else the one direction of its R comes to
+    x; where it has two, their plane comes to that of x and y; without R, its first joint comes to x. So in the
+    next position neither a direction nor a plane is met again.
     """
     axes = _turning_axes(chain)
+    if motion.axis is not None:
+        others = [axis for axis in axes if not parallel(axis, motion.axis)]
+        return turned(chain, SWAP) if others and parallel(others[0], NAMED["y"]) else chain
     if len(axes) == 2:
         target, leading = NAMED["z"], unit(np.cross(*axes))
     else:

@@ -16,6 +16,13 @@ SAME = 1e-6
 """Sine of the angle below which a direction of the rules is the one of the twists."""
 
 
+SPECIAL = (
+    "dimensions may be special in a way that axes and labels do not say: a parallelogram that is not declared (as a "
+    "generalised joint in a file, as P(4R) in notation), a Bennett or another paradoxical loop, which no POC set "
+    "represents; or assur has an error"
+)
+
+
 class RoutesDisagreeError(AssurError):
     """Rules and twists give different answers for a chain. One of them is wrong there; neither is chosen."""
 
@@ -37,7 +44,7 @@ def agreed(what: str, rules: PocSet, basis: FloatArray) -> PocSet:
     if (rules.t, rules.r, rules.dim) != (t, r, dim):
         raise RoutesDisagreeError(
             f"{what}: the rules say t{rules.t} r{rules.r} with dim {rules.dim}, the twists t{t} r{r} with dim {dim}",
-            hint="its dimensions may be special in a way that axes and labels do not say; or assur has an error",
+            hint=SPECIAL,
         )
     marks, counts = (rules.t_mark, rules.r_mark), (t, r)
     for part, mark, count, found in zip("tr", marks, counts, fixed_directions(basis), strict=True):

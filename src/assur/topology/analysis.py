@@ -17,6 +17,7 @@ from assur.topology.configurations import home_is_special
 from assur.topology.coupling import coupling
 from assur.topology.decoupling import Decoupling, by_jacobian, confirmed
 from assur.topology.decoupling import by_rules as decoupled_by_rules
+from assur.topology.derivation import counted
 from assur.topology.edges import Edge
 from assur.topology.facts import Known, Limb, RedundantConstraints, Topology
 from assur.topology.linkage import Linkage
@@ -162,9 +163,12 @@ def _text(chain: Chain) -> str:
 
 def refuse_too_many(linkage: Linkage, found: Mobility) -> None:
     """UsageError where there are more inputs than freedoms to lock."""
-    if len(linkage.inputs) > found.controlled:
+    allowed = max(found.controlled, 0)
+    if len(linkage.inputs) > allowed:
         names = ", ".join(joint for joint, _ in linkage.inputs)
         raise UsageError(
-            f"{len(linkage.inputs)} actuated joints ({names}) for {found.controlled} degrees of freedom",
-            hint="leave some out, or say which ones are actuated: --actuate 1.1,2.1",
+            f"{len(linkage.inputs)} actuated joints ({names}) for {counted(allowed, 'degree')} of freedom",
+            hint=f"actuate {allowed} of them: --actuate limb.joint,... with numbers from 1"
+            if allowed
+            else "the mechanism does not move: a limb has too few freedoms, or axes that do not go together",
         )

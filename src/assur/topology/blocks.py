@@ -37,6 +37,11 @@ class Block:
         """The joint that marks name."""
         return self.lines[0].name
 
+    @property
+    def index(self) -> int:
+        """The number of its first line, which no other block of its chain has."""
+        return self.lines[0].index
+
 
 Item = Slide | Block
 
@@ -97,10 +102,13 @@ def structure(chain: Sequence[Elementary]) -> Structure:
     rods: list[Line] = []
     opened: Block | None = None
     after: list[Item] = []
-    for item, line in zip(chain, found.lines, strict=True):
-        if line is None or isinstance(item, Slide):
+    left = iter(found.lines)
+    for item in chain:
+        if isinstance(item, Slide):
             after.append(item)
-        elif not item.finite:
+            continue
+        line = next(left)
+        if not item.finite:
             rods.append(line)
         elif opened is not None and _parallel(opened.direction, item.direction):
             lines = opened.lines if line in opened.lines else (*opened.lines, line)

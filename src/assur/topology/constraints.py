@@ -14,7 +14,7 @@ from assur.topology.directions import Vector
 from assur.topology.motion import Motion
 from assur.topology.orientations import Orientations
 from assur.topology.refusals import Refusal
-from assur.topology.spans import Span
+from assur.topology.spans import NOTHING, Span
 
 
 @dataclass(frozen=True)
@@ -27,8 +27,8 @@ class Resisted:
         located: whether forces on different lines added a couple.
     """
 
-    forces: Span = Span()
-    couples: Span = Span()
+    forces: Span = NOTHING
+    couples: Span = NOTHING
     located: bool = False
 
     @property

@@ -38,11 +38,11 @@ class Meeting:
     """The lines of a chain.
 
     Attributes:
-        lines: for each slide or turn of the chain, the turn's line; None for a slide.
+        lines: of its turns, in order; coaxial turns have the same one.
         end: the point O' on the last axis or at its joint's centre, GENERAL where the last axis does not keep it.
     """
 
-    lines: tuple[Line | None, ...]
+    lines: tuple[Line, ...]
     end: int
 
 
@@ -74,11 +74,10 @@ def meeting(chain: Sequence[Elementary]) -> Meeting:
     [[0], [0], [1]]
     """
     walk = _Walk()
-    indices: list[int | None] = []
+    indices: list[int] = []
     for item in chain:
         if isinstance(item, Slide):
             walk.moved = walk.moved.with_span(item.span)
-            indices.append(None)
         elif not item.finite:
             walk.lines.append(Line(len(walk.lines), item.name, frozenset({walk.point})))
             indices.append(len(walk.lines) - 1)
@@ -86,7 +85,7 @@ def meeting(chain: Sequence[Elementary]) -> Meeting:
             _turn(walk, item)
             indices.append(walk.line)
     end = _end(walk)
-    return Meeting(tuple(None if index is None else walk.lines[index] for index in indices), end)
+    return Meeting(tuple(walk.lines[index] for index in indices), end)
 
 
 def _turn(walk: _Walk, turn: Turn) -> None:

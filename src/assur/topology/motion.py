@@ -93,7 +93,7 @@ class Motion:
 
     @property
     def dim(self) -> int:
-        """dim M, the number of independent elements."""
+        """The number of independent elements, dim M."""
         return self.translations.dim + self.rotations.dim
 
     @property

@@ -23,7 +23,7 @@ def platform_set(limbs: Sequence[Motion], found: Resisted) -> PocSet:
     chains = [limb.structure for limb in limbs if limb.structure is not None]
     moved, turned = found.forces.complement, found.couples.complement
     t = found.dim - 3 + _rank_of_moments(limbs, found)
-    seen = moved if t == moved.dim else _in_plane(t, moved, turned, found)
+    seen = moved if t == moved.dim else _with_rotation(t, turned, found)
     return PocSet(t, turned.dim, found.dim, translation_mark(seen, *chains), rotation_mark(turned, *chains))
 
 
@@ -48,7 +48,7 @@ def _rank_of_moments(limbs: Sequence[Motion], found: Resisted) -> int:
     return min(3, forces.dim + couples.dim)
 
 
-def _in_plane(t: int, moved: Span, turned: Span, found: Resisted) -> Span:
+def _with_rotation(t: int, turned: Span, found: Resisted) -> Span:
     """Directions in which O' moves, where rotation about a fixed axis adds to pure translations."""
     if turned.dim == 1 and turned.is_fixed and found.forces.contains(turned.fixed[0]):
         return perpendicular(turned.fixed[0]) if t == 2 else Span((), t, turned.fixed[0])

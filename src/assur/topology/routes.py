@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.topology.agreement import RoutesDisagreeError, agreed, by_twists
+from assur.topology.agreement import SPECIAL, RoutesDisagreeError, agreed, by_twists
 from assur.topology.chains import Chain
 from assur.topology.configurations import configurations
 from assur.topology.coupling import Loop
@@ -163,5 +163,5 @@ def _compare(number: int, loop: Loop, xi: int) -> None:
     if xi != loop.xi:
         raise RoutesDisagreeError(
             f"loop {number} ({', '.join(loop.edges)}): the rules say xi = {xi}, the rank of the closure {loop.xi}",
-            hint="its dimensions may be special in a way that axes and labels do not say; or assur has an error",
+            hint=SPECIAL,
         )

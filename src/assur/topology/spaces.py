@@ -7,7 +7,7 @@ three blocks, the rotations depend on each other, and each relation between them
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from assur.topology.blocks import Block, Item, Structure
@@ -15,8 +15,8 @@ from assur.topology.bundles import Bundles, bundles
 from assur.topology.elementary import Slide
 from assur.topology.spans import Span
 
-Count = Callable[[Block], int]
-"""How many lines perpendicular to a block's axes the block adds."""
+Count = Mapping[int, int]
+"""How many lines perpendicular to its axes each block adds, by the index of its first line; none if it is not in."""
 
 
 def rotations(structure: Structure) -> Span:
@@ -54,11 +54,16 @@ def translations(structure: Structure) -> Span:
     >>> translations(structure([Turn(z, "R1"), Turn(z, "R2"), Turn(z, "R3")])).fixed
     ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
     """
-    found = tracked(structure, lambda block: len(block.lines) - 1)
+    found = tracked(structure, _pairs(structure))
     turned = rotations(structure).dim
     if found.dim == 3 or len(structure.blocks) + len(structure.rods) <= turned:
         return found
     return _with_relations(structure, found, turned)
+
+
+def _pairs(structure: Structure) -> Count:
+    """Each parallel axis after the first of its block adds a line."""
+    return {block.index: len(block.lines) - 1 for block in structure.blocks}
 
 
 def tracked(structure: Structure, count: Count) -> Span:
@@ -81,7 +86,7 @@ def _tracked(items: Sequence[Item], count: Count) -> Span:
             span = span.with_span(item.span)
             continue
         inner = _tracked(item.inner, count)
-        for _ in range(count(item)):
+        for _ in range(count.get(item.index, 0)):
             inner = inner.with_line(in_plane=item.direction)
         if item.net:
             span = span.turned(item.direction)
@@ -100,15 +105,15 @@ def _with_relations(structure: Structure, found: Span, turned: int) -> Span:
     of = bundles(structure)
     count = min(of.rank - turned, 3)
     if of.everything in of.points:
-        return tracked(structure, lambda block: 0)
+        return tracked(structure, {})
     beside = _block_beside_a_point(structure, of)
     if beside is not None:
-        return tracked(structure, lambda block: count if block is beside else 0)
+        return tracked(structure, {beside.index: count})
     if any(first | second == of.everything for first in of.points for second in of.points):
-        found = tracked(structure, lambda block: 0)
+        found = tracked(structure, {})
     else:
         lines = replace(structure, items=_without_slides(structure.items), beyond=_without_slides(structure.beyond))
-        count -= tracked(lines, lambda block: len(block.lines) - 1).dim
+        count -= tracked(lines, _pairs(structure)).dim
     for _ in range(count):
         found = found.with_line()
     return found

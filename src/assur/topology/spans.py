@@ -139,6 +139,9 @@ class Span:
         return self.complement.with_span(other.complement).complement
 
 
+NOTHING = Span()
+"""No direction."""
+
 ALL = Span(AXES)
 """Every direction."""
 

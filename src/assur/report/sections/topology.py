@@ -91,9 +91,9 @@ def _declared(found: Findings) -> Section:
         reason = found.unaudited or "the reference data have no topology"
         return Section(title, absent=f"No declared POC sets, ξ, Δ or κ to compare with: {reason}.")
     text = (
-        f"The POC sets, loops and degrees of the {found.giver} are a declared table; dimensions are checked by a route "
-        "that knows nothing of POC sets: the rank of joint twists at random assembled configurations. Directions "
-        "inside a POC set are read, not computed. The coupling degree is that of the declared order of loops."
+        f"The POC sets, loops and degrees that the {found.giver} prints, beside those that the rules derive from the "
+        "joint graph and the rank of joint twists confirms, directions included. The coupling degree is the least over "
+        "all orders of loops."
     )
     return Section(title, text, [_method(found), _table(found, rows)])
 

@@ -1,0 +1,122 @@
+"""Operation modes: how the platform of some limbs can move on from the configuration as written.
+
+It may keep its orientation, turn about one axis, or take every orientation that its limbs leave it. Where it can go
+on in several of these ways, there is no one answer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from assur.topology.constraints import Resisted, resisted
+from assur.topology.motion import Limb, Motion, motion_at_home, motion_of
+from assur.topology.orientations import EVERY, UNTURNED, Orientations, orientations, returns
+from assur.topology.refusals import Refusal
+from assur.topology.spans import Span
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """Limbs held to the orientations of the platform that they carry, and what they resist."""
+
+    limbs: tuple[Motion, ...]
+    taken: Orientations
+    resisted: Resisted
+
+    @property
+    def turned(self) -> Span:
+        """Directions that the platform rotates about."""
+        return self.resisted.couples.complement
+
+    @property
+    def has_rods(self) -> bool:
+        """Whether some limbs rotate about rods, which is no finite rotation while they are parallelograms."""
+        return any(limb.structure is not None and limb.structure.rods for limb in self.limbs)
+
+    @property
+    def freedoms(self) -> int:
+        """Freedoms of the mechanism: of the platform, and those that leave it at rest."""
+        return self.resisted.dim + sum(limb.passive for limb in self.limbs)
+
+
+def assembled(limbs: Sequence[Limb], taken: Orientations) -> Assembly | Refusal:
+    """Limbs whose platform takes given orientations."""
+    return _together([motion_of(limb, taken) for limb in limbs], taken)
+
+
+def _together(motions: Sequence[Motion | Refusal], taken: Orientations) -> Assembly | Refusal:
+    refusal = next((motion for motion in motions if isinstance(motion, Refusal)), None)
+    if refusal is not None:
+        return refusal
+    carried = tuple(motion for motion in motions if isinstance(motion, Motion))
+    fewer = [motion.orientations for motion in carried if motion.orientations.dim < taken.dim]
+    least = _common(fewer) if fewer else taken
+    if isinstance(least, Refusal):
+        return least
+    found = resisted(carried, least)
+    return found if isinstance(found, Refusal) else Assembly(carried, least, found)
+
+
+def as_written(limbs: Sequence[Limb]) -> Assembly | Refusal:
+    """Limbs as they can move from the configuration as written.
+
+    The mechanism leaves it in as many directions as it has freedoms there, and moves on in one mode where it keeps
+    as many: with the platform unturned, turning about one axis, or taking every orientation that the limbs leave.
+    """
+    home = _together([motion_at_home(limb) for limb in limbs], UNTURNED)
+    if isinstance(home, Refusal):
+        return home
+    still = assembled(limbs, UNTURNED)
+    if isinstance(still, Refusal):
+        return (
+            still
+            if any(returns(limb.structure) for limb in limbs)
+            else _narrowed(limbs, _common(orientations(limb.structure) for limb in limbs))
+        )
+    for found in _modes(limbs, still):
+        if isinstance(found, Refusal) or found.freedoms == home.freedoms:
+            return found
+    return Refusal("as written, the limbs are in a position from which they can move on in several modes")
+
+
+def _modes(limbs: Sequence[Limb], still: Assembly) -> Iterator[Assembly | Refusal]:
+    """Ways in which a platform may turn, the least first."""
+    common = _allowed(limbs)
+    if not still.turned.dim or (common == UNTURNED and still.has_rods):
+        yield still
+    if still.turned.dim == 1 and still.turned.is_fixed:
+        about = assembled(limbs, Orientations(1, still.turned.fixed))
+        if isinstance(about, Assembly) and about.turned.dim == about.taken.dim == 1:
+            yield about
+    if common != UNTURNED:
+        yield _narrowed(limbs, common)
+
+
+def _narrowed(limbs: Sequence[Limb], taken: Orientations | Refusal) -> Assembly | Refusal:
+    """Limbs whose platform takes every one of some orientations that they leave it."""
+    while not isinstance(taken, Refusal):
+        found = assembled(limbs, taken)
+        if isinstance(found, Refusal) or found.turned.dim >= found.taken.dim == taken.dim:
+            return found
+        if found.taken.dim < taken.dim:
+            taken = found.taken
+            continue
+        fixed = found.turned.dim == 1 and found.turned.is_fixed
+        taken = Orientations(found.turned.dim, found.turned.fixed if fixed else ())
+    return taken
+
+
+def _allowed(limbs: Sequence[Limb]) -> Orientations | Refusal:
+    """The orientations that every limb takes."""
+    return _common(orientations(limb.structure) for limb in limbs)
+
+
+def _common(sets: Iterable[Orientations]) -> Orientations | Refusal:
+    """The orientations in every set."""
+    common: Orientations | Refusal = EVERY
+    for one in sets:
+        if isinstance(common, Refusal):
+            return common
+        common = common.meet(one)
+    return common
