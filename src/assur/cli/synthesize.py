@@ -72,19 +72,13 @@ def synthesize(
     from assur.cli.paths import output_folder
     from assur.synthesis.synthesis import synthesis
 
-    wanted = {
-        "motion": motion,
-        "limbs": None if limbs is None else whole_number(limbs, "--limbs"),
-        "max_joints": whole_number(max_joints, "--max-joints"),
-        "coupling": _range(coupling),
-        "symmetric": symmetric,
-        "actuators": _place(actuators),
-    }
+    number = None if limbs is None else whole_number(limbs, "--limbs")
+    joints, degrees, place = whole_number(max_joints, "--max-joints"), _range(coupling), _place(actuators)
     count = _count(top)
     folder = output_folder(toml) if toml else None
     with progress("synthesis", shared) as step:
-        found = synthesis(**wanted, step=step)
-    return _outcome(found, wanted, count, folder)
+        found = synthesis(motion, number, joints, degrees, symmetric=symmetric, actuators=place, step=step)
+    return _outcome(found, count, folder)
 
 
 def _range(text: str) -> tuple[int, int]:
@@ -93,10 +87,10 @@ def _range(text: str) -> tuple[int, int]:
     >>> _range("0..1"), _range("2")
     ((0, 1), (2, 2))
     """
-    from assur.synthesis.synthesis import LARGEST
+    from assur.synthesis.synthesis import ANY
 
     if not text.strip():
-        return (0, LARGEST)
+        return ANY
     low, dots, high = text.partition("..")
     first = whole_number(low, "--coupling")
     last = whole_number(high, "--coupling") if dots else first
@@ -122,10 +116,10 @@ def _count(text: str) -> int | None:
     return count
 
 
-def _outcome(found: Synthesis, wanted: dict[str, Any], top: int | None, folder: Path | None) -> Outcome:
+def _outcome(found: Synthesis, top: int | None, folder: Path | None) -> Outcome:
     from assur.synthesis.answers import answers
 
-    data = {"asked": {**wanted, "limbs": found.motion.dim}, **answers(found, top)}
+    data = answers(found, top)
     if folder is not None:
         data["written"] = _write(found, folder, top or SHOWN)
     return Outcome(data, lambda: _shown(found, data, top or SHOWN, folder))
@@ -140,7 +134,7 @@ def _write(found: Synthesis, folder: Path, top: int) -> list[str]:
 
 def _shown(found: Synthesis, data: dict[str, Any], top: int, folder: Path | None) -> Iterable[RenderableType]:
     numbered = list(enumerate(found.designs, 1))
-    yield heading(f"{found.motion.name}: {len(numbered)} mechanisms of {found.motion.dim} limbs")
+    yield heading(f"{found.asked.motion.name}: {len(numbered)} mechanisms of {found.asked.limbs} limbs")
     yield from _counts(found, data)
     if numbered:
         yield ""
@@ -162,7 +156,7 @@ def _counts(found: Synthesis, data: dict[str, Any]) -> Iterator[str]:
     yield f"combinations {tally.combinations}, {tally.with_motion} of them with the motion by the rules"
     degrees = ", ".join(f"{count} with κ = {degree}" for degree, count in sorted(tally.coupling_degrees.items()))
     yield f"coupling     {degrees or 'none'}"
-    yield f"one by one   {tally.confirmed} by twists; the actuators of {tally.unfixed} do not fix the platform"
+    yield f"one by one   {tally.tried} by twists; the actuators of {tally.unfixed} do not fix the platform"
     if any(not design.symmetric for design in found.designs):
         listed = data["combinations"]["listed_of_each_class_of_different_limbs"]
         yield f"Of different limbs the {listed} simplest are listed for each combination of limb motions."

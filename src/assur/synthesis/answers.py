@@ -10,7 +10,7 @@ from assur.model.file.topology_text import topology_text
 from assur.model.topology_description import Declared, TopologyDescription
 from assur.synthesis.assembly import MEMBERS
 from assur.synthesis.designs import Design
-from assur.synthesis.synthesis import Synthesis
+from assur.synthesis.synthesis import ANY, Synthesis
 from assur.topology.notation import symbolic_text
 from assur.topology.poc import PocSet
 
@@ -22,9 +22,16 @@ def answers(found: Synthesis, top: int | None = None) -> dict[str, Any]:
         found: by `synthesis`.
         top: how many mechanisms, the best ones; all where it is None.
     """
-    tally = found.tally
+    asked, tally = found.asked, found.tally
     return {
-        "motion": found.motion.name,
+        "asked": {
+            "motion": asked.motion.name,
+            "limbs": asked.limbs,
+            "max_joints": asked.max_joints,
+            "coupling": None if asked.coupling == ANY else list(asked.coupling),
+            "symmetric": asked.symmetric,
+            "actuators": asked.actuators,
+        },
         "limb_types": {
             "with_motion": len(found.limbs),
             "by_poc": dict(sorted(Counter(_numbers(limb.known.poc) for limb in found.limbs).items())),
@@ -34,7 +41,7 @@ def answers(found: Synthesis, top: int | None = None) -> dict[str, Any]:
             "all": tally.combinations,
             "with_motion": tally.with_motion,
             "by_coupling_degree": {str(key): value for key, value in sorted(tally.coupling_degrees.items())},
-            "tried_one_by_one": tally.confirmed,
+            "tried_one_by_one": tally.tried,
             "not_fixed_by_actuators": tally.unfixed,
             "listed_of_each_class_of_different_limbs": MEMBERS,
         },
@@ -88,7 +95,7 @@ def skeletons(found: Synthesis, top: int | None = None) -> Mapping[str, str]:
     """Names and texts of topology files, one for each of the best mechanisms, as `assur.topology` reads them."""
     width = len(str(len(found.designs)))
     return {
-        f"{found.motion.name.lower()}-{rank:0{width}}.toml": _skeleton(found, rank, width, design)
+        f"{found.asked.motion.name.lower()}-{rank:0{width}}.toml": _skeleton(found, rank, width, design)
         for rank, design in enumerate(found.designs[:top], 1)
     }
 
@@ -97,9 +104,9 @@ def _skeleton(found: Synthesis, rank: int, width: int, design: Design) -> str:
     poc = design.known.poc
     known = f", with the limbs of {' and '.join(design.names)}" if design.names else ""
     described = TopologyDescription(
-        name=f"{found.motion.name.lower()}-{rank:0{width}}",
+        name=f"{found.asked.motion.name.lower()}-{rank:0{width}}",
         chains=design.chains,
-        title=f"{found.motion.name} mechanism {rank} of {len(found.designs)}{known}",
+        title=f"{found.asked.motion.name} mechanism {rank} of {len(found.designs)}{known}",
         source="assur synthesize",
         note=design.reason,
         actuate=design.actuated,

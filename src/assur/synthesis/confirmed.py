@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from assur.topology.edges import Edge, closure, input_columns, rank
 BASE, PLATFORM = "base", "platform"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Confirmed:
     """What the ranks say.
 
@@ -33,7 +34,7 @@ class Confirmed:
         """Names of the limbs in the order of their positions."""
         return tuple(edge.name for edge in self.edges)
 
-    @property
+    @cached_property
     def loops(self) -> Decomposition:
         """Loops in the order that attains the coupling degree."""
         return coupling(self.edges)

@@ -81,18 +81,21 @@ class Design:
 
     @property
     def order(self) -> tuple[int, int, int, int, int, tuple[str, ...]]:
-        """What designs are ranked by: κ, redundant constraints, joints, then simplicity: P(4R), kinds of limbs, text."""
+        """The rank: κ, redundant constraints, joints; then simplicity: P(4R), kinds of limbs, text."""
         texts = tuple(limb.text for limb in self.limbs)
         return (self.coupling_degree, self.redundant.collapsed, self.joints, self.parallelograms, self.kinds, texts)
 
     @property
     def reason(self) -> str:
         """Why it stands where it stands, in one sentence without a full stop."""
-        first, degree = self.loops.loops[0], self.coupling_degree
+        first, degree, surplus = self.loops.loops[0], self.coupling_degree, self.redundant.collapsed
         both = " and ".join(edge.removeprefix("limb ") for edge in first.edges)
-        loop = f"limbs {both} close a loop with Δ = {first.delta:+d}"
-        coupled = f"{_COUNTS[degree]} virtual variable{'s' * (degree > 1)}: {loop}" if degree else f"closed form: {loop}"
-        surplus = self.redundant.collapsed
-        exact = f"{surplus} constraint{'s are' if surplus > 1 else ' is'} redundant" if surplus else "no constraint is redundant"
+        virtual = f"{_COUNTS[degree]} virtual variable{_plural(degree)}"
+        coupled = f"{virtual}, for limbs {both} close a loop with Δ = {first.delta:+d}"
+        exact = f"{surplus or 'no'} constraint{'s are' if surplus > 1 else ' is'} redundant"
         equal = f"{_COUNTS[len(self.limbs)]} equal limbs" if self.symmetric else f"{_COUNTS[self.kinds]} kinds of limbs"
         return f"{coupled}; ξ = {', '.join(map(str, self.xi))}, so {exact}; {self.joints} joints in {equal}"
+
+
+def _plural(count: int) -> str:
+    return "" if count == 1 else "s"

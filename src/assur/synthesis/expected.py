@@ -20,36 +20,28 @@ Set = frozenset[int]
 
 
 @dataclass(frozen=True)
-class Expected:
-    """What the rules say of limbs in their positions.
+class Counts:
+    """What the rules count, where they answer for every set of limbs.
 
     Attributes:
-        platform: the motion of the platform.
         dims: dim of the motion that the limbs of each set, of two or more, have in common.
-        reaches: whether the platform's motion is the wanted one.
+        freedoms: sum of f of each limb, all of them independent.
     """
 
-    platform: Motion
     dims: Mapping[Set, int]
-    reaches: bool
+    freedoms: Sequence[int]
 
     @property
     def coupling_degree(self) -> int:
         """κ of Eq. (6)."""
-        count = max(map(len, self.dims))
-        return min(self._coupling(order) for order in permutations(range(count)))
+        return min(self._coupling(order) for order in permutations(range(len(self.freedoms))))
 
-    def xi(self, order: Sequence[int], freedoms: Sequence[int]) -> tuple[int, ...]:
-        """ξ of each loop, Eq. (4), where the limbs come in this order: dim of both sides less what they share.
-
-        Args:
-            order: of the limbs.
-            freedoms: sum of f of each limb, all of them independent.
-        """
-        found, before = [], freedoms[order[0]]
+    def xi(self, order: Sequence[int]) -> tuple[int, ...]:
+        """ξ of each loop, Eq. (4), where the limbs come in this order: dim of both sides less what they share."""
+        found, before = [], self.freedoms[order[0]]
         for end in range(2, len(order) + 1):
             after = self.dims[frozenset(order[:end])]
-            found.append(before + freedoms[order[end - 1]] - after)
+            found.append(before + self.freedoms[order[end - 1]] - after)
             before = after
         return tuple(found)
 
@@ -66,32 +58,44 @@ class Expected:
         return max(chains, default=0)
 
 
+@dataclass(frozen=True)
+class Expected:
+    """What the rules say of limbs in their positions.
+
+    Attributes:
+        platform: the motion of the platform.
+        reaches: whether it is the wanted one.
+        counts: None where the rules refuse on a part of the limbs.
+    """
+
+    platform: Motion
+    reaches: bool
+    counts: Counts | None
+
+
 def expected(motions: Sequence[Motion], motion: WantedMotion) -> Expected | Refusal:
     """What the rules say of limbs with these motions, side by side.
 
     >>> from assur.synthesis.wanted import MOTIONS
     >>> from assur.topology.notation import parse_chain
     >>> from assur.topology.union import serial
-    >>> limbs = [serial(parse_chain(text), "translation") for text in ("C[x] R[x] R[x]", "C[y] R[y] R[y]", "C[z] R[z] R[z]")]
+    >>> limbs = [serial(parse_chain(f"C[{u}] R[{u}] R[{u}]"), "translation") for u in "xyz"]
     >>> found = expected(limbs, MOTIONS["3T"])
-    >>> found.reaches, found.coupling_degree
-    (True, 1)
+    >>> found.reaches, found.counts.coupling_degree, found.counts.xi((0, 1, 2))
+    (True, 1, (5, 4))
     """
     mode: Mode = "free" if motion.rotations else "translation"
-    dims = {}
-    platform: Motion | Refusal = Refusal("there are no limbs")
-    for chosen in _sets(len(motions)):
-        platform = parallel([motions[index] for index in sorted(chosen)], mode)
-        if isinstance(platform, Refusal):
-            return platform
-        dims[chosen] = platform.dim
+    platform = parallel(motions, mode)
     if isinstance(platform, Refusal):
         return platform
-    return Expected(platform, dims, _reaches(platform, motion))
+    some = {chosen: parallel([motions[index] for index in sorted(chosen)], mode) for chosen in _sets(len(motions))}
+    dims = {chosen: found.dim for chosen, found in some.items() if isinstance(found, Motion)}
+    counts = Counts(dims, [item.freedoms for item in motions]) if len(dims) == len(some) else None
+    return Expected(platform, _reaches(platform, motion), counts)
 
 
 def _sets(count: int) -> Iterator[Set]:
-    """Sets of two or more, that of all last."""
+    """Sets of two or more."""
     for size in range(2, count + 1):
         yield from map(frozenset, combinations(range(count), size))
 

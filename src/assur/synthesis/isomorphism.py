@@ -2,7 +2,7 @@
 
 An axis about which something turns cuts a limb into *stretches*; a stretch holds directions that stay fixed
 against each other: the axis that leads into it, its P joints, the axis that leads out of it. Stretches that
-are not turned against each other while the platform has the wanted motion share a frame. So the two limbs are the same if
+are not turned against each other while the platform has the wanted motion share a frame. So two limbs are the same if
 the same kinds of joints stand in the same order, and the directions in each frame have the same relations.
 
 Between two axes the order of P joints makes no difference, but it does which of them is driven. A limb and its
@@ -87,7 +87,8 @@ def _cut(chain: Chain, driven: int | None) -> tuple[list[_Turn], list[list[_Dire
     for index, element in enumerate(chain.elements):
         mark = "*" if index == driven else ""
         if isinstance(element, Parallelogram):
-            kind, axes, label = f"P({element.kind})", (element.axis,), ""
+            kind, label = f"P({element.kind})", ""
+            axes: tuple[Vector, ...] = (element.axis,)
         elif isinstance(element, ChainJoint):
             kind, axes, label = element.type.letter, element.axes, element.point
         else:
@@ -96,19 +97,22 @@ def _cut(chain: Chain, driven: int | None) -> tuple[list[_Turn], list[list[_Dire
             stretches[-1].append(_Direction(kind + mark, axes[0]))
             continue
         number = labels.setdefault(label, len(labels)) if label else -1
-        for axis in axes or (None,):
+        for axis in axes:
             turns.append(_Turn(kind + mark, number, axis))
-            stretches[-1] += [_Direction("", axis)] if axis else []
-            stretches.append([_Direction("", axis)] if axis else [])
+            stretches[-1].append(_Direction("", axis))
+            stretches.append([_Direction("", axis)])
+        if not axes:
+            turns.append(_Turn(kind + mark, number, None))
+            stretches.append([])
     return turns, stretches
 
 
 def _frames(turns: Sequence[_Turn], motion: WantedMotion) -> list[str]:
     """The frame of each stretch.
 
-    Neighbouring parallel axes are a block. While the platform has its motion, a block turns what is behind it by nothing
-    in all, unless its axis is that of the motion; of three blocks, the first and the last undo each other where they are
-    parallel. Behind a ball joint, or more blocks, only the platform is known again.
+    Neighbouring parallel axes are a block. While the platform has its motion, a block turns what is behind it by
+    nothing in all, unless its axis is that of the motion; of three blocks, the first and the last undo each other
+    where they are parallel. Behind a ball joint, or more blocks, only the platform is known again.
     """
     blocks = _blocks(turns)
     last = TURNED if motion.rotations else BASE

@@ -22,7 +22,7 @@ from assur.topology.facts import Known
 from assur.topology.joints import SPHERICAL
 from assur.topology.motion import Motion, motion_of
 from assur.topology.notation import parse_chain, plain_text
-from assur.topology.orientations import UNTURNED, Orientations
+from assur.topology.orientations import Orientations
 from assur.topology.refusals import Refusal
 from assur.topology.union import serial
 
@@ -63,7 +63,7 @@ class Limb:
 
     @cached_property
     def needs_mode(self) -> bool:
-        """Whether it is such a limb only while the platform keeps its orientation, and moves otherwise when it does not."""
+        """Whether it moves otherwise when the platform does not keep its orientation."""
         free = serial(self.chains[0])
         if isinstance(free, Refusal):
             return True

@@ -120,7 +120,7 @@ def _driven(groups: tuple[_Group, ...], actuators: Actuators) -> int | None:
 
 
 def _spoils_a_cylinder(groups: tuple[_Group, ...], driven: int) -> bool:
-    """Whether a P that is not driven slides along the next R, which is not driven either: they are a C, which is listed."""
+    """Whether a P slides along the next R, and neither is driven: together they are a C, which is listed."""
     for index, (letter, axis) in enumerate(groups):
         if letter == "P" and index != driven:
             before = next((place for place in range(index - 1, -1, -1) if groups[place][0] not in "PA"), driven)

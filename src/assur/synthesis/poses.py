@@ -1,7 +1,7 @@
 """A limb at random poses of the wanted motion, as twists: the second route's data, computed once for each limb.
 
 Links have random lengths and joints random values, subject to one thing only: the platform is turned as the
-wanted motion says. Where the limb stands on the base is free, so every limb can be put at a common pose of the platform,
+wanted motion says. Where a limb stands on the base is free, so each can be put at a common pose of the platform,
 and limbs that were computed apart can be joined.
 """
 
@@ -32,7 +32,7 @@ _Step = tuple[str, FloatArray]
 
 
 def twists_at_poses(chain: Chain, orientations: FloatArray, generator: np.random.Generator) -> FloatArray | None:
-    """Twists (N, 6, f) of a limb, columns (omega, v at the base's origin) in the base frame, at N poses of its platform.
+    """Twists (N, 6, f) of a limb at N poses of its platform, columns (omega, v at the base's origin) in the base frame.
 
     Args:
         chain: R, P, C, U, S and P(4R) in series.

@@ -1,4 +1,4 @@
-"""Where the limbs of a mechanism stand: each is turned into its position, so that together they are in general position."""
+"""Where the limbs of a mechanism stand: each is turned into a position of its own."""
 
 from __future__ import annotations
 
@@ -60,8 +60,8 @@ def turned(chain: Chain, turn: FloatArray) -> Chain:
 def upright(chain: Chain, motion: WantedMotion) -> Chain:
     """A chain along x, y and z written so that limbs of every kind fit together in their positions.
 
-    Where the motion singles out z, the first other direction of its R comes to x. Else the one direction of its R comes to
-    x; where it has two, their plane comes to that of x and y; without R, its first joint comes to x. So in the
+    Where the motion singles out z, the first other direction of its R comes to x. Else the one direction of its R
+    comes to x; where it has two, their plane comes to that of x and y; without R, its first joint comes to x. So in the
     next position neither a direction nor a plane is met again.
     """
     axes = _turning_axes(chain)
@@ -69,7 +69,7 @@ def upright(chain: Chain, motion: WantedMotion) -> Chain:
         others = [axis for axis in axes if not parallel(axis, motion.axis)]
         return turned(chain, SWAP) if others and parallel(others[0], NAMED["y"]) else chain
     if len(axes) == 2:
-        target, leading = NAMED["z"], unit(np.cross(*axes))
+        target, leading = NAMED["z"], unit(np.cross(axes[0], axes[1]))
     else:
         target, leading = NAMED["x"], axes[0] if len(axes) == 1 else _first_axis(chain)
     for turn in (np.linalg.matrix_power(CYCLE, index) for index in range(3)):

@@ -10,20 +10,39 @@ from itertools import combinations_with_replacement
 from typing import get_args
 
 from assur.errors import UnknownNameError, UsageError
-from assur.synthesis.assembly import Tally, assemble, classes
+from assur.synthesis.assembly import Range, assemble
+from assur.synthesis.classes import are_equal, classes
 from assur.synthesis.designs import Design
 from assur.synthesis.isomorphism import mechanism_key
 from assur.synthesis.known_mechanisms import known_mechanisms
 from assur.synthesis.limb_motions import Limb, verdict
 from assur.synthesis.limbs import Actuators, limb_types
 from assur.synthesis.positions import positions
+from assur.synthesis.tally import Tally, total
 from assur.synthesis.wanted import WantedMotion, motion_named
 from assur.topology.agreement import RoutesDisagreeError
 
 Step = Callable[[int, int], None]
+"""Called with (steps done, steps in all)."""
 
-LARGEST = 99
-"""No coupling degree is larger."""
+ANY = (0, 99)
+"""Every coupling degree."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """What was asked for; see `synthesis`."""
+
+    motion: WantedMotion
+    max_joints: int
+    coupling: tuple[int, int]
+    symmetric: bool
+    actuators: Actuators
+
+    @property
+    def limbs(self) -> int:
+        """Number of limbs: one actuator in each."""
+        return self.motion.dim
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,29 +50,33 @@ class Synthesis:
     """What was found.
 
     Attributes:
-        motion: that was wanted.
-        limbs: limb types that have it, the simplest first in each class of equal motion.
-        left_out: limb types that have not, by the reason.
+        asked: the question.
+        limbs: limb types that have the motion, the simplest first in each class of equal motion.
+        left_out: number of limb types that have not, by the reason.
         tally: of the combinations.
         designs: the mechanisms, best first.
     """
 
-    motion: WantedMotion
+    asked: Question
     limbs: tuple[Limb, ...]
     left_out: Counter[str]
     tally: Tally
     designs: tuple[Design, ...]
 
 
+def ignored(done: int, whole: int) -> None:
+    """A step that nobody counts."""
+
+
 def synthesis(
     motion: str = "3T",
     limbs: int | None = None,
     max_joints: int = 5,
-    coupling: tuple[int, int] = (0, LARGEST),
+    coupling: tuple[int, int] = ANY,
     *,
     symmetric: bool = False,
     actuators: Actuators = "base",
-    step: Step = lambda done, total: None,
+    step: Step = ignored,
 ) -> Synthesis:
     """Mechanisms with a wanted motion, each confirmed by rules and by twists.
 
@@ -79,48 +102,59 @@ def synthesis(
         >>> [design.names for design in found.designs if "three_crr" in design.names]
         [('three_crr',)]
     """
-    wanted = _checked(motion, limbs, max_joints, coupling, actuators)
-    types = list(limb_types(wanted, max_joints, actuators))
-    turns = positions(wanted, wanted.dim)
-    verdicts = []
-    for done, limb in enumerate(types):
-        step(done, 2 * len(types))
-        verdicts.append(verdict(limb, wanted, turns))
-    usable = classes([item.limb for item in verdicts if item.limb])
-    tally = Tally(disagreements=[item.disagreement for item in verdicts if item.disagreement])
-    designs: list[Design] = []
-    chosen = list(combinations_with_replacement(usable, wanted.dim))
+    asked = _question(motion, limbs, max_joints, coupling, symmetric, actuators)
+    usable, left_out, disagreements = _limbs(asked, step)
+    found = classes(usable)
+    chosen = [some for some in combinations_with_replacement(found, asked.limbs) if not symmetric or are_equal(some)]
+    parts = []
     for done, some in enumerate(chosen):
         step(len(chosen) + done, 2 * len(chosen))
-        if not symmetric or len({id(members) for members in some}) == 1:
-            designs += assemble(some, wanted, coupling, symmetric, tally)
-    if tally.disagreements:
-        raise RoutesDisagreeError("; ".join(tally.disagreements), hint="assur has an error; please report these chains")
+        parts.append(assemble(some, asked.motion, Range(*coupling), symmetric=symmetric))
+    tally = total(part.tally for part in parts)
+    disagreements += tally.disagreements
+    if disagreements:
+        raise RoutesDisagreeError("; ".join(disagreements), hint="assur has an error; please report these chains")
+    designs = sorted((design for part in parts for design in part.designs), key=lambda design: design.order)
     return Synthesis(
-        motion=wanted,
-        limbs=tuple(limb for members in usable for limb in members),
-        left_out=Counter(item.reason for item in verdicts if item.reason),
+        asked=asked,
+        limbs=tuple(limb for members in found for limb in members),
+        left_out=left_out,
         tally=tally,
-        designs=_named(sorted(designs, key=lambda design: design.order), wanted),
+        designs=_named(designs, asked.motion),
     )
 
 
-def _checked(
-    motion: str, limbs: int | None, max_joints: int, coupling: tuple[int, int], actuators: str
-) -> WantedMotion:
+def _question(
+    motion: str, limbs: int | None, max_joints: int, coupling: tuple[int, int], symmetric: bool, actuators: Actuators
+) -> Question:
     wanted = motion_named(motion)
     if limbs is not None and limbs != wanted.dim:
         raise UsageError(
             f"{limbs} limbs for {wanted.name}; {wanted.dim} are wanted, one actuator in each",
-            hint=f"--limbs {wanted.dim}, or leave it out",
+            hint=f"give {wanted.dim}, or leave the number out",
         )
     if max_joints < 1:
         raise UsageError(f"at most {max_joints} joints in a limb; allowed: 1 or more", hint="5 finds all known ones")
     if not 0 <= coupling[0] <= coupling[1]:
-        raise UsageError(f"coupling degree {coupling[0]}..{coupling[1]}: no such degree", hint="give it as 0..1")
+        raise UsageError(f"coupling degrees {coupling[0]}..{coupling[1]}: there are none", hint="give them as 0..1")
     if actuators not in get_args(Actuators):
         raise UnknownNameError("place of the actuators", actuators, get_args(Actuators))
-    return wanted
+    return Question(wanted, max_joints, coupling, symmetric, actuators)
+
+
+def _limbs(asked: Question, step: Step) -> tuple[list[Limb], Counter[str], tuple[str, ...]]:
+    """Limbs with the motion, how many have it not and why, and those on which the routes disagree."""
+    types = limb_types(asked.motion, asked.max_joints, asked.actuators)
+    turns = positions(asked.motion, asked.limbs)
+    verdicts = []
+    for done, limb in enumerate(types):
+        step(done, 2 * len(types))
+        verdicts.append(verdict(limb, asked.motion, turns))
+    return (
+        [item.limb for item in verdicts if item.limb],
+        Counter(item.reason for item in verdicts if item.reason),
+        tuple(item.disagreement for item in verdicts if item.disagreement),
+    )
 
 
 def _named(designs: list[Design], motion: WantedMotion) -> tuple[Design, ...]:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError
+from assur.numerics.rotations import about_axis
 from assur.topology.directions import NAMED, Vector
 
 FloatArray = NDArray[np.float64]
@@ -36,15 +37,13 @@ class WantedMotion:
 
     @property
     def twists(self) -> FloatArray:
-        """Basis (6, dim) of the platform's twists (omega, v), the same at every point of the base up to `translations`."""
+        """Basis (6, dim) of the platform's twists (omega, v): the same space at every point, as T holds what R adds."""
         columns = [(*direction, 0.0, 0.0, 0.0) for direction in self.rotations]
         columns += [(0.0, 0.0, 0.0, *direction) for direction in self.translations]
         return np.array(columns).T
 
     def orientations(self, angles: FloatArray) -> FloatArray:
-        """Rotations (N, 3, 3) of the platform at some angles (N,) in rad about its axis; the identity where it has none."""
-        from assur.numerics.rotations import about_axis
-
+        """Rotations (N, 3, 3) of the platform by angles (N,) in rad about its axis; identities where it has none."""
         if not self.rotations:
             return np.broadcast_to(np.eye(3), (len(angles), 3, 3))
         return about_axis(np.array(self.rotations[0]), angles)

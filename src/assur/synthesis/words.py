@@ -30,8 +30,8 @@ ROTATIONS = 3
 class _State:
     """A word as far as it goes.
 
-    `known` are the directions that have been used; `slides` the P joints, "Py" or "Az", since the last turn; `blocks` the runs
-    of parallel R as (axis, number).
+    `known` are the directions that have been used, `slides` the P joints ("Py", "Az") since the last turn, `blocks` the
+    runs of parallel R as (axis, number).
     """
 
     word: Word
@@ -96,10 +96,8 @@ def _with(state: _State, letter: str, axis: str) -> _State | None:
     if letter in "PA":
         return replace(state, word=word, known=state.known | {axis}, slides=slides)
     blocks = state.blocks
-    if blocks and blocks[-1][0] == axis:
-        blocks = (*blocks[:-1], (axis, blocks[-1][1] + 1))
-    else:
-        blocks = (*blocks, (axis, 1))
+    again = bool(blocks) and blocks[-1][0] == axis
+    blocks = (*blocks[:-1], (axis, blocks[-1][1] + 1)) if again else (*blocks, (axis, 1))
     if len(blocks) > ROTATIONS or blocks[-1][1] > ROTATIONS:
         return None
     return _State(word, state.known | {axis}, (f"P{axis}",) if letter == "C" else (), blocks)

@@ -17,7 +17,6 @@ from assur.topology.configurations import home_is_special
 from assur.topology.coupling import coupling
 from assur.topology.decoupling import Decoupling, by_jacobian, confirmed
 from assur.topology.decoupling import by_rules as decoupled_by_rules
-from assur.topology.derivation import counted
 from assur.topology.edges import Edge
 from assur.topology.facts import Known, Limb, RedundantConstraints, Topology
 from assur.topology.linkage import Linkage
@@ -165,9 +164,9 @@ def refuse_too_many(linkage: Linkage, found: Mobility) -> None:
     """UsageError where there are more inputs than freedoms to lock."""
     allowed = max(found.controlled, 0)
     if len(linkage.inputs) > allowed:
-        names = ", ".join(joint for joint, _ in linkage.inputs)
+        names, plural = ", ".join(joint for joint, _ in linkage.inputs), "" if allowed == 1 else "s"
         raise UsageError(
-            f"{len(linkage.inputs)} actuated joints ({names}) for {counted(allowed, 'degree')} of freedom",
+            f"{len(linkage.inputs)} actuated joints ({names}) for {allowed} degree{plural} of freedom",
             hint=f"actuate {allowed} of them: --actuate limb.joint,... with numbers from 1"
             if allowed
             else "the mechanism does not move: a limb has too few freedoms, or axes that do not go together",

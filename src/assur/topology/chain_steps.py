@@ -12,22 +12,30 @@ from assur.topology.operands import Operand, joints, operands
 from assur.topology.poc import PocSet
 
 
-def chain_derivation(structure: Structure, name: str, parts: tuple[Derivation, ...]) -> Derivation:
+def chain_derivation(structure: Structure, name: str, parts: tuple[Derivation, ...], conditions: str) -> Derivation:
     """How the set of a chain's end link follows from those of its joints.
 
     O' is any point of the end link where that makes no difference, as in the papers, and else on the last axis.
+
+    Args:
+        structure: the chain.
+        name: what the derivation calls it.
+        parts: derivations of its inner loops.
+        conditions: where all this is so, to be said at the end.
     """
-    anywhere = poc_set(structure)
-    at_end = poc_set(structure, structure.end)
+    anywhere, at_end = poc_set(structure), poc_set(structure, structure.end)
     point = GENERAL if anywhere.t == at_end.t else structure.end
+    result = anywhere if point == GENERAL else at_end
     found = operands(structure)
     sets = [poc_set(item.structure, point if item is found[-1] else GENERAL) for item in found]
-    result = anywhere if point == GENERAL else at_end
-    steps = [step for item, poc in zip(found, sets, strict=True) for step in _inside(item, poc, structure, point)]
+    inside = [step for item, poc in zip(found, sets, strict=True) for step in _inside(item, poc, structure, point)]
+    between = _between(found, sets, structure, point)
     whole = Step("union", tuple(sets), tuple(item.text for item in found), result, "", "")
-    steps += _between(found, sets, structure, point)
+    if len(found) == 1 and inside:
+        whole = inside[0]
     origin = "at any point of the end link" if point == GENERAL else "on the last axis"
-    return Derivation(name, origin, parts, whole, tuple(steps), f"so the end link has {in_words(result)}")
+    said = f"so the end link has {in_words(result)}{conditions}"
+    return Derivation(name, origin, parts, whole, (*inside, *between), said)
 
 
 def _inside(item: Operand, poc: PocSet, structure: Structure, point: int) -> list[Step]:
@@ -37,7 +45,7 @@ def _inside(item: Operand, poc: PocSet, structure: Structure, point: int) -> lis
         return []
     last = item.structure.items[-1] is structure.items[-1]
     sets = tuple(poc_set(piece.structure, point if last else GENERAL) for piece in pieces)
-    reason = f"{_elements(poc)} of {item.text}, {_independence(poc, sum(each.dim for each in sets))}"
+    reason = f"{in_words(poc)} of {item.text}, {_independence(poc, sum(each.dim for each in sets))}"
     return [Step("union", sets, tuple(piece.text for piece in pieces), poc, "criterion C1", reason)]
 
 
@@ -58,15 +66,12 @@ def _between(found: Sequence[Operand], sets: Sequence[PocSet], structure: Struct
 
 
 def _union(before: PocSet, added: PocSet, poc: PocSet, old: str, new: str) -> Step:
-    lost = before.dim + added.dim - poc.dim
-    rule = "criterion C2" if lost else "linear rule"
-    more = f"{new} adds {in_words(PocSet(poc.t - before.t, poc.r - before.r, 0))}"
-    reason = f"{more}, {_independence(poc, before.dim + added.dim)}"
+    rule = "linear rule" if poc.dim == before.dim + added.dim else "criterion C2"
+    verb = "add" if "," in new else "adds"
+    more = PocSet(poc.t - before.t, poc.r - before.r, 0)
+    elements = in_words(more) if more.t or more.r else "no element"
+    reason = f"{new} {verb} {elements}, {_independence(poc, before.dim + added.dim)}"
     return Step("union", (before, added), (old, new), poc, rule, reason)
-
-
-def _elements(poc: PocSet) -> str:
-    return in_words(poc)
 
 
 def _independence(poc: PocSet, freedoms: int) -> str:

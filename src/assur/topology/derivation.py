@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -45,7 +46,10 @@ class Step:
         '[t^0; r^1] u [t^0; r^1] = [t^0; r^2]'
         """
         operator = _OPERATORS[style][self.operation]
-        return f"{operator.join(matrix(poc, style) for poc in self.operands)} = {matrix(self.result, style)}"
+        result = matrix(self.result, style)
+        if len(self.operands) < 2:
+            return result
+        return f"{operator.join(matrix(poc, style) for poc in self.operands)} = {result}"
 
 
 @dataclass(frozen=True)
@@ -69,13 +73,13 @@ class Derivation:
     conclusion: str
 
     def text(self, style: Style = "unicode") -> str:
-        """The derivation on several lines: parts, the equation, reasons, the conclusion."""
+        """The derivation on several lines: parts, steps with their reasons, the whole equation, the conclusion."""
         lines = [part.text(style) for part in self.parts]
-        lines += [f"{self.of}, O' {self.origin}:", f"  {self.whole.text(style)}"]
+        lines.append(f"{self.of}, O' {self.origin}:")
         for step in self.steps:
-            if len(self.steps) > 1 or step.operands != self.whole.operands:
-                lines.append(f"  {step.text(style)}")
-            lines.append(f"    by {step.rule}: {step.reason}")
+            lines += [f"  {step.text(style)}", f"    by {step.rule}: {step.reason}"]
+        if not self.steps or self.steps[-1].operands != self.whole.operands:
+            lines.append(f"  {self.whole.text(style)}")
         return "\n".join([*lines, f"  {self.conclusion}"])
 
 
@@ -89,6 +93,16 @@ def matrix(poc: PocSet, style: Style = "unicode") -> str:
         return poc.text(style)
     translation, rotation = re.split(r" (?=r[\\^⁰¹²³])", poc.text(style))
     return f"[{translation}; {rotation}]"
+
+
+def under(conditions: Iterable[str]) -> str:
+    """Conditions as the end of a sentence.
+
+    >>> under(["P1 is a parallelogram"])
+    ', while P1 is a parallelogram'
+    """
+    text = " and ".join(dict.fromkeys(conditions))
+    return f", while {text}" if text else ""
 
 
 _NUMBERS = ("no", "one", "two", "three", "four", "five", "six")

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from assur.errors import UsageError
 from assur.topology.lasting import why_it_does_not_last
 from assur.topology.limb_steps import limb_derivation
-from assur.topology.motion import Mode, Motion
+from assur.topology.motion import Mode, Motion, check_mode
 from assur.topology.operation_modes import as_written, assembled
 from assur.topology.orientations import UNTURNED
 from assur.topology.platform_set import is_helical, platform_set
@@ -24,6 +25,9 @@ def parallel(motions: Sequence[Motion], mode: Mode = "free", name: str = "the pl
     Returns:
         The motion with O' at a general point of the platform, or why the rules give none.
 
+    Errors:
+        UsageError: no limb, or another mode.
+
     >>> from assur.topology.chains import ChainJoint
     >>> from assur.topology.joints import PRISMATIC, REVOLUTE
     >>> from assur.topology.union import serial
@@ -32,6 +36,9 @@ def parallel(motions: Sequence[Motion], mode: Mode = "free", name: str = "the pl
     >>> print(parallel(limbs).poc)
     t³ r⁰
     """
+    if not motions:
+        raise UsageError("there is no limb; at least one is needed")
+    check_mode(mode)
     limbs = [motion.limb for motion in motions if motion.limb is not None]
     if len(limbs) < len(motions):
         return Refusal("the pitch of a helical joint couples a rotation and a translation")

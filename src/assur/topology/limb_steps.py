@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from assur.topology.derivation import Derivation, Step, counted, in_words
+from assur.topology.derivation import Derivation, Step, counted, in_words, under
 from assur.topology.motion import Motion
 from assur.topology.poc import PocSet
 from assur.topology.refusals import Refusal
@@ -25,7 +25,8 @@ def limb_derivation(limbs: Sequence[Motion], carried: Carried, name: str) -> Der
     names = tuple(_name(limb, index) for index, limb in enumerate(limbs))
     whole = Step("intersection", tuple(limb.restated for limb in limbs), names, result, "", "")
     parts = tuple(limb.derivation for limb in limbs)
-    said = f"so the platform has {in_words(result)}"
+    conditions = motions[-1].conditions if isinstance(motions[-1], Motion) else ()
+    said = f"so the platform has {in_words(result)}{under(conditions)}"
     return Derivation(name, "at a general point of the platform", parts, whole, tuple(steps), said)
 
 
@@ -46,7 +47,8 @@ def _reason(before: Motion, limb: Motion, after: Motion, names: tuple[str, str])
     if after.dim == limb.dim:
         return "containment", f"all motions of {names[1]} are motions of {names[0]} too"
     lost = PocSet(before.translations.dim - after.translations.dim, before.rotations.dim - after.rotations.dim, 0)
-    taken = f"{names[1]} takes away {in_words(lost)}"
+    parts = [counted(lost.t, "translation")] * bool(lost.t) + [counted(lost.r, "rotation")] * bool(lost.r)
+    taken = f"{names[1]} takes away {' and '.join(parts)}"
     common = before.rotations.meet(limb.rotations).dim
     if after.rotations.dim == common:
         return "linear rule", f"{taken}; what is left lies in both sets"

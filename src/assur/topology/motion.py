@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal
+from typing import Literal, get_args
 
+from assur.errors import UnknownNameError
 from assur.topology.at_home import at_home
 from assur.topology.base_point import poc_set
 from assur.topology.blocks import Structure
 from assur.topology.bundles import bundles
 from assur.topology.chain_steps import chain_derivation
-from assur.topology.derivation import Derivation
+from assur.topology.derivation import Derivation, under
 from assur.topology.directions import Vector
 from assur.topology.elementary import Elementary
 from assur.topology.orientations import EVERY, UNTURNED, Orientations, held, orientations
@@ -22,6 +23,17 @@ from assur.topology.spaces import rotations, translations
 from assur.topology.spans import Span
 
 Mode = Literal["free", "translation"]
+"""A chain displaced at will, or a mechanism from the configuration as written; or an end link that does not turn."""
+
+
+def check_mode(mode: str) -> None:
+    """Refuse an unknown mode.
+
+    Errors:
+        UnknownNameError: neither "free" nor "translation".
+    """
+    if mode not in get_args(Mode):
+        raise UnknownNameError("mode", mode, get_args(Mode))
 
 
 @dataclass(frozen=True)
@@ -165,5 +177,5 @@ def _moving(limb: Limb, structure: Structure, taken: Orientations) -> Motion:
         conditions=limb.conditions,
         limb=limb,
         structure=structure,
-        derive=lambda: chain_derivation(structure, limb.name, limb.parts),
+        derive=lambda: chain_derivation(structure, limb.name, limb.parts, under(limb.conditions)),
     )

@@ -69,11 +69,8 @@ def as_written(limbs: Sequence[Limb]) -> Assembly | Refusal:
         return home
     still = assembled(limbs, UNTURNED)
     if isinstance(still, Refusal):
-        return (
-            still
-            if any(returns(limb.structure) for limb in limbs)
-            else _narrowed(limbs, _common(orientations(limb.structure) for limb in limbs))
-        )
+        returning = any(returns(limb.structure) for limb in limbs)
+        return still if returning else _narrowed(limbs, _allowed(limbs))
     for found in _modes(limbs, still):
         if isinstance(found, Refusal) or found.freedoms == home.freedoms:
             return found

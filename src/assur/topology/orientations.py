@@ -98,7 +98,7 @@ def held(structure: Structure, to: Orientations) -> Structure | Refusal:
     if to.dim in (3, len(blocks)) or (to.dim and not to.axes):
         return structure
     last = _last_of_sphere(blocks)
-    if last is not None:
+    if last is not None and (len(blocks) > 3 or last.direction is None):
         place = next(index for index, item in enumerate(structure.items) if item is last) + 1
         behind = backwards(structure.items[place:])
         return replace(structure, items=structure.items[:place], beyond=behind, axes=to.axes)
@@ -131,7 +131,7 @@ def _wrapped(structure: Structure, blocks: Sequence[Block], net: bool) -> Struct
     between = [replace(item, net=False) if item is blocks[1] else item for item in structure.items[first + 1 : last]]
     around = Block(
         blocks[0].direction,
-        (*blocks[0].lines, *blocks[2].lines),
+        (*blocks[0].lines, *(line for line in blocks[2].lines if not line.points & blocks[0].lines[-1].points)),
         (*blocks[0].inner, *between, *blocks[2].inner),
         net,
     )
@@ -142,7 +142,7 @@ def _wrapped(structure: Structure, blocks: Sequence[Block], net: bool) -> Struct
 def _last_of_sphere(blocks: Sequence[Block]) -> Block | None:
     """The last of three axes through one point that can take every orientation already as written."""
     for three in reversed(list(zip(blocks, blocks[1:], blocks[2:], strict=False))):
-        if len(set.intersection(*map(_points, three))) and _independent(three):
+        if len(three[2].lines) == 1 and set.intersection(*map(_points, three)) and _independent(three):
             return three[2]
     return None
 

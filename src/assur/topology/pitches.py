@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from assur.topology.blocks import structure
+from assur.topology.derivation import Derivation, Step
 from assur.topology.directions import Vector
 from assur.topology.elementary import Elementary, Slide, Turn
 from assur.topology.motion import Motion
@@ -38,13 +39,17 @@ def coupled(chain: Sequence[Elementary]) -> str | None:
 def lone_helix(turn: Turn, axis: Vector) -> Motion:
     """A helical joint alone: one translation and one rotation that are one element."""
     mark = Mark("parallel", (turn.name,), (axis,))
+    poc = PocSet(1, 1, 1, mark, mark)
+    step = Step("union", (poc,), (turn.name,), poc, "", "")
+    said = "so the end link has one translation and one rotation, which its pitch makes one element"
     return Motion(
         translations=Span(),
         rotations=along(axis),
         orientations=Orientations(1, (axis,)),
         freedoms=1,
-        given=PocSet(1, 1, 1, mark, mark),
+        given=poc,
         helical=True,
+        derive=lambda: Derivation(turn.name, "on the axis", (), step, (), said),
     )
 
 

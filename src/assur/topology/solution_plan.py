@@ -100,10 +100,10 @@ def solution_plan(decomposition: Decomposition, edges: Sequence[Edge], base: str
 
 @dataclass(frozen=True, eq=False)
 class _Stage:
-    """The loops that are solved after some step, inputs locked, and the way on from them to the platform.
+    """The loops that are solved after some step, inputs locked, and the ways from them to base and platform.
 
     Attributes:
-        equations: (N, r, c) on the rates of their joints and of that way's.
+        equations: (N, r, c) on the rates of their joints and of those on the ways.
         moves: (N, 6, c) the platform's twist; (N, 0, c) where base or platform is out of reach.
         inside: how many columns are of the loops.
         internal: internal freedoms of the loops.
@@ -134,7 +134,9 @@ def _stages(loops: Sequence[Loop], edges: Sequence[Edge], base: str, platform: s
 
 
 def _stage(solved: Sequence[Edge], internal: int, edges: Sequence[Edge], base: str, platform: str) -> _Stage:
-    used = [*solved, *way_to(platform, solved, edges, base)]
+    links = list(dict.fromkeys(link for edge in solved for link in (edge.parent, edge.child)))
+    used = [*solved, *way_to(base, links, edges, platform)]
+    used += [edge for edge in way_to(platform, connected(used, base), edges, base) if edge not in used]
     matrix = closure(used)
     locked = np.eye(matrix.shape[-1])[input_columns(used)]
     reached = platform in connected(used, base)

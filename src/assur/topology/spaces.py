@@ -90,9 +90,7 @@ def _tracked(items: Sequence[Item], count: Count) -> Span:
             inner = inner.with_line(in_plane=item.direction)
         if item.net:
             span = span.turned(item.direction)
-        if len(item.lines) > 1:
-            inner = inner.turned(item.direction)
-        span = span.with_span(inner)
+        span = span.with_span(inner.turned(item.direction))
     return span
 
 

@@ -63,30 +63,29 @@ def connected(edges: Sequence[Edge], link: str) -> tuple[str, ...]:
     return tuple(nx.dfs_preorder_nodes(built, link)) if link in built else ()
 
 
-def way_to(platform: str, solved: Sequence[Edge], edges: Sequence[Edge], base: str) -> list[Edge]:
-    """The edges that lead on to the platform from what is connected with the base, and have fewest freedoms.
+def way_to(goal: str, links: Sequence[str], edges: Sequence[Edge], avoid: str) -> list[Edge]:
+    """The edges of the way from some links to another one that has fewest freedoms and does not pass a third.
 
-    Inputs do not count, for they are given. Empty where the platform is reached already, or without passing the base
-    cannot be.
+    Inputs do not count, for they are given. Empty where the goal is among the links, or cannot be reached so.
 
     Args:
-        platform: a link.
-        solved: edges that are there.
-        edges: all.
-        base: a link.
+        goal: a link.
+        links: where the way may start, those first that are preferred.
+        edges: all that may be passed.
+        avoid: a link.
     """
-    links = [link for link in connected(solved, base) if link != base]
     ways: nx.MultiGraph[str] = nx.MultiGraph()
-    ways.add_nodes_from((*links, platform))
+    ways.add_nodes_from((*links, goal))
     for edge in edges:
-        if base not in (edge.parent, edge.child):
+        if avoid not in (edge.parent, edge.child):
             ways.add_edge(edge.parent, edge.child, key=edge.name, weight=edge.freedoms - len(edge.inputs))
-    if not links or not any(nx.has_path(ways, link, platform) for link in links):
+    starts = [link for link in links if link != avoid and nx.has_path(ways, link, goal)]
+    if not starts:
         return []
-    _, way = nx.multi_source_dijkstra(ways, links, platform)
+    _, way = nx.multi_source_dijkstra(ways, starts, goal)
     between = [ways[here][there] for here, there in pairwise(way)]
     names = {min(some, key=lambda name: some[name]["weight"]) for some in between}
-    return [edge for edge in edges if edge.name in names and edge not in solved]
+    return [edge for edge in edges if edge.name in names]
 
 
 def _blocked(moves: FloatArray) -> list[SpecialConstraint]:

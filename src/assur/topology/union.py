@@ -9,7 +9,7 @@ from assur.topology.chains import Chain, Element, InnerLoop
 from assur.topology.derivation import Derivation
 from assur.topology.elementary import Elementary, Slide, Turn, elementary
 from assur.topology.intersection import parallel
-from assur.topology.motion import Limb, Mode, Motion, motion_of
+from assur.topology.motion import Limb, Mode, Motion, check_mode, motion_of
 from assur.topology.orientations import EVERY, UNTURNED
 from assur.topology.pitches import lone_helix, pitch_refusal
 from assur.topology.refusals import Refusal
@@ -26,6 +26,9 @@ def serial(chain: Chain | Sequence[Element], mode: Mode = "free", name: str = "t
     Returns:
         The motion at a generic configuration of the chain, or why the rules give none.
 
+    Errors:
+        UsageError: another mode.
+
     >>> from assur.topology.chains import ChainJoint
     >>> from assur.topology.joints import PRISMATIC, REVOLUTE
     >>> x = (1.0, 0.0, 0.0)
@@ -33,6 +36,7 @@ def serial(chain: Chain | Sequence[Element], mode: Mode = "free", name: str = "t
     >>> print(serial(limb).poc)
     t³ r¹(∥R1)
     """
+    check_mode(mode)
     elements = chain.elements if isinstance(chain, Chain) else tuple(chain)
     parts: list[Derivation] = []
     conditions: list[str] = []
@@ -97,7 +101,7 @@ def as_chain(motion: Motion, name: str) -> tuple[Elementary, ...] | Refusal:
 
 def _conditions(chain: Sequence[Elementary], mode: Mode) -> tuple[str, ...]:
     rods = [item.name for item in chain if isinstance(item, Turn) and not item.finite]
-    kept = ["the end link keeps its orientation"] if mode == "translation" else []
+    kept = ["the orientation is kept"] if mode == "translation" else []
     return (*(f"{name} is a parallelogram" for name in rods), *kept)
 
 

@@ -1,0 +1,89 @@
+"""Classes of limbs with equal motion, so that the rules are asked once for all their members."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from itertools import chain as joined
+from itertools import combinations_with_replacement, product
+
+import numpy as np
+
+from assur.synthesis.limb_motions import Limb
+from assur.topology.directions import span
+from assur.topology.orientations import Orientations, orientations
+from assur.topology.spans import Span
+
+Class = tuple[Limb, ...]
+"""Limbs with the same motion, the simplest first."""
+
+Simplicity = tuple[int, int, int, tuple[str, ...]]
+"""Joints, parallelograms, kinds of limbs, texts."""
+
+AMONG = 20_000
+"""The simplest members are looked for among about so many, of the simplest limbs of each class."""
+
+
+def classes(limbs: Sequence[Limb]) -> tuple[Class, ...]:
+    """The limbs by their motion; a limb on which the rules refuse is a class of its own."""
+    found: dict[object, list[Limb]] = {}
+    for limb in sorted(limbs, key=lambda limb: simplicity([limb])):
+        found.setdefault(_motion_key(limb), []).append(limb)
+    ordered = sorted(found.values(), key=lambda members: (members[0].type.freedoms, simplicity(members[:1])))
+    return tuple(map(tuple, ordered))
+
+
+def are_equal(chosen: Sequence[Class]) -> bool:
+    """Whether it is one class again and again."""
+    return all(members is chosen[0] for members in chosen)
+
+
+def number_of_members(chosen: Sequence[Class]) -> int:
+    """Ways to take one limb of each class; of equal classes, the order makes no difference."""
+    counts = Counter(map(id, chosen))
+    sizes = {id(members): len(members) for members in chosen}
+    return math.prod(math.comb(sizes[key] + count - 1, count) for key, count in counts.items())
+
+
+def simplest_members(chosen: Sequence[Class]) -> list[tuple[Limb, ...]]:
+    """One limb of each class, not all equal, the simplest first."""
+    different = [limbs for limbs in _members(chosen) if any(limb is not limbs[0] for limb in limbs)]
+    return sorted(different, key=simplicity)
+
+
+def simplicity(limbs: Sequence[Limb]) -> Simplicity:
+    """What limbs with equal motions are ranked by."""
+    joints = sum(limb.type.joints for limb in limbs)
+    parallelograms = sum(limb.type.parallelograms for limb in limbs)
+    return (joints, parallelograms, len({id(limb) for limb in limbs}), tuple(limb.text for limb in limbs))
+
+
+def _members(chosen: Sequence[Class]) -> Iterator[tuple[Limb, ...]]:
+    simplest = int(AMONG ** (1 / len(chosen)))
+    counts = Counter(map(id, chosen))
+    groups = {id(members): members[:simplest] for members in chosen}
+    choices = [combinations_with_replacement(groups[key], count) for key, count in counts.items()]
+    for parts in product(*choices):
+        yield tuple(joined.from_iterable(parts))
+
+
+def _motion_key(limb: Limb) -> object:
+    """Equal for limbs with the same motion in their first position."""
+    if not limb.motions:
+        return limb.text
+    found = limb.motions[0]
+    taken = orientations(found.limb.structure) if found.limb and found.rotations.turning else found.orientations
+    return (limb.type.freedoms, _span_key(found.translations), _span_key(found.rotations), _axes_key(taken))
+
+
+def _axes_key(taken: Orientations) -> tuple[object, ...]:
+    """The axes without their sense; one that turns in the base may be fixed in the end link."""
+    return (taken.dim, *(_span_key(Span((axis,))) for axis in taken.axes))
+
+
+def _span_key(found: Span) -> tuple[object, ...]:
+    """A subspace by its projector, which does not depend on the basis."""
+    basis = span(found.fixed)
+    projector = np.round(basis.T @ basis, 6) + 0.0
+    return (tuple(projector.ravel().tolist()), found.turning, found.plane)
