@@ -70,37 +70,34 @@ def planned(*texts, actuate=(), order=None):
 
 @pytest.mark.parametrize("name", SEARCHES)
 def test_the_search_that_is_left(name):
-    (part,) = facts(name).plan.parts
-    assert (part.coupling_degree, part.search, part.reason) == SEARCHES[name]
-    assert facts(name).plan.search == part.search
+    (only,) = facts(name).plan.parts
+    assert (only.coupling_degree, only.search, only.reason) == SEARCHES[name]
+    assert facts(name).plan.search == only.search
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_laws_of_every_plan(name):
     found = facts(name)
     plan = found.plan
-    assert [part.coupling_degree for part in plan.parts] == [item.coupling_degree for item in found.assur_chains]
-    assert [step.loop for part in plan.parts for step in part.steps] == list(range(len(found.loops)))
-    for part in plan.parts:
-        assert sum(step.virtual for step in part.steps) == part.coupling_degree
-        assert sum(step.equations for step in part.steps) == part.coupling_degree
-        assert 0 <= part.search <= part.coupling_degree
-        assert (part.search < part.coupling_degree) == bool(part.reason)
-        assert part.search <= sum(step.left for step in part.steps)
-        for step in part.steps:
+    assert [item.coupling_degree for item in plan.parts] == [item.coupling_degree for item in found.assur_chains]
+    assert [step.loop for item in plan.parts for step in item.steps] == list(range(len(found.loops)))
+    for item in plan.parts:
+        assert sum(step.virtual for step in item.steps) == item.coupling_degree
+        assert sum(step.equations for step in item.steps) == item.coupling_degree
+        assert 0 <= item.search <= item.coupling_degree
+        assert (item.search < item.coupling_degree) == bool(item.reason)
+        assert item.search <= sum(step.left for step in item.steps)
+        for step in item.steps:
             assert step.joints == found.loops[step.loop].edges
             assert step.delta == found.loops[step.loop].delta == step.virtual - step.equations
 
 
 def test_a_known_orientation_may_be_of_no_help():
-    """It gives the angle of the first loop, but the second then has a freedom that only the third one's rod stops.
-
-    Two degrees of freedom of the platform are left by loops one and two, one of them for the input of the third.
-    """
+    """It gives the angle of the first loop, but the platform can still move until the third loop's rod stops it."""
     _, loops, plan = planned(HYBRID, SLIDES, "U P S", actuate=("1.1", "1.4", "3.2"))
     assert [loop.delta for loop in loops.loops] == [1, 0, -1]
-    (part,) = plan.parts
-    assert (part.search, part.reason, [step.left for step in part.steps]) == (1, "", [1, 0, 0])
+    (only,) = plan.parts
+    assert (only.search, only.reason, [step.left for step in only.steps]) == (1, "", [1, 0, 0])
 
 
 def test_spins_of_rods_are_no_virtual_variables():
@@ -109,10 +106,10 @@ def test_spins_of_rods_are_no_virtual_variables():
     texts = ("S P[z] S", "S P[x] S", "S P[y] S", "P[x] P[y] P[z]")
     _, loops, plan = planned(*texts, actuate=("1.2", "2.2", "3.2"), order=order)
     assert [loop.delta for loop in loops.loops] == [4, -1, -3]
-    (part,) = plan.parts
-    assert (part.coupling_degree, part.search) == (4, 1)
-    assert [step.left for step in part.steps] == [1, 0, 0]
-    assert part.reason == "the platform does not rotate"
+    (only,) = plan.parts
+    assert (only.coupling_degree, only.search) == (4, 1)
+    assert [step.left for step in only.steps] == [1, 0, 0]
+    assert only.reason == "the platform does not rotate"
 
 
 def test_what_a_passive_limb_knows_is_used_in_the_loops_before_it():
@@ -120,9 +117,9 @@ def test_what_a_passive_limb_knows_is_used_in_the_loops_before_it():
     order = (("U1", "P1", "S1", "S2", "P2", "U2"), ("U3", "P3", "S3"), ("R3", "R2", "R1"))
     texts = ("U P S", "U P S", "U P S", "R[z] R[z] R[z]")
     _, _, plan = planned(*texts, actuate=("1.2", "2.2", "3.2"), order=order)
-    (part,) = plan.parts
-    assert (part.coupling_degree, part.search) == (4, 1)
-    assert part.reason == "the platform rotates about one fixed direction only and O' stays in a known plane"
+    (only,) = plan.parts
+    assert (only.coupling_degree, only.search) == (4, 1)
+    assert only.reason == "the platform rotates about one fixed direction only and O' stays in a known plane"
 
 
 def test_assur_chains_one_after_the_other():
@@ -130,7 +127,7 @@ def test_assur_chains_one_after_the_other():
     three = "{R[z] R[z] R[z] | R[z] R[z] R[z] | R[z] R[z] R[z]}"
     _, loops, plan = planned(f"{three} {three}", actuate=("1.1", "1.4", "1.7", "1.10", "1.13", "1.16"))
     assert [loop.delta for loop in loops.loops] == [1, -1, 1, -1]
-    assert [(part.coupling_degree, part.search) for part in plan.parts] == [(1, 1), (1, 1)]
+    assert [(item.coupling_degree, item.search) for item in plan.parts] == [(1, 1), (1, 1)]
     assert plan.search == 1
     assert [line.partition(":")[0] for line in plan.words] == ["Assur chain 1"] * 3 + ["Assur chain 2"] * 3
     assert plan.words[-1] == "Assur chain 2: κ = 1: at most a search in 1 dimension."
@@ -154,8 +151,8 @@ def test_a_loop_in_the_middle_of_a_limb_is_reached_from_both_sides():
     order = (("P2", "R1", "R2", "R4", "R3", "P3"), ("P1", "R5", "R6", "Pa2", "Pa1", "P4"))
     _, loops, plan = planned(inner, SLIDES, actuate=("1.1", "1.2", "1.5", "2.1"), order=order)
     assert [loop.delta for loop in loops.loops] == [1, -1]
-    (part,) = plan.parts
-    assert (part.search, part.reason) == (0, "the platform does not rotate")
+    (only,) = plan.parts
+    assert (only.search, only.reason) == (0, "the platform does not rotate")
 
 
 def test_two_loops_that_hang_on_nothing_yet():
@@ -164,7 +161,34 @@ def test_two_loops_that_hang_on_nothing_yet():
     order = (("R2", "R3", "R4", "R6", "R5"), ("R9", "R10", "R11", "R13", "R12"), ("R1", "R7", "R14", "R8"))
     _, loops, plan = planned(inner, inner, actuate=("1.2", "1.3", "2.2", "2.3", "1.1"), order=order)
     assert [loop.delta for loop in loops.loops] == [0, 0, 0]
-    assert [part.search for part in plan.parts] == [0, 0, 0]
+    assert [item.search for item in plan.parts] == [0, 0, 0]
+
+
+def test_a_search_ends_where_nothing_is_left_although_the_assur_chain_goes_on():
+    """Planar: one variable until the third limb, none then, and another one inside the fourth limb."""
+    rod, looped = "R[z] P[x] R[z]", "{R[z] R[z] | R[z] P[x] R[z]} R[z] R[z]"
+    order = (
+        ("R1", "P1", "R2", "R4", "P2", "R3"),
+        ("R5", "P3", "R6"),
+        ("R7", "R8", "R11", "R12"),
+        ("R9", "P4", "R10"),
+        ("P6", "P5"),
+    )
+    _, loops, plan = planned(rod, rod, rod, looped, "P[x] P[y]", actuate=("1.2", "3.2", "4.4"), order=order)
+    assert [loop.delta for loop in loops.loops] == [2, -1, 1, -1, -1]
+    (only,) = plan.parts
+    assert (only.coupling_degree, only.search, only.reason) == (3, 1, "the platform does not rotate")
+    assert [step.left for step in only.steps] == [1, 0, 1, 0, 0]
+
+
+def test_a_loop_beyond_the_platform_is_planned_without_it():
+    """What is known of the platform says nothing about a four-bar that it carries."""
+    chains = parse_chains(["P[x] {R[z] R[z] | R[z] R[z]} P[y]"])
+    placed = place(chains, actuated=["P1", "R1"])
+    linkage = dataclasses.replace(placed, platform=placed.joints["P1"].child)
+    given = edges(linkage, generic_values(linkage))
+    plan = solution_plan(coupling(given), given, linkage.base, linkage.platform)
+    assert [item.search for item in plan.parts] == [0]
 
 
 @pytest.mark.parametrize(
@@ -200,13 +224,16 @@ def held(linkage):
     return dataclasses.replace(linkage, joints=joints, inputs=(), groups={})
 
 
-def freedoms_with_orientation_held(linkage):
-    """Of loops by themselves after a finite displacement, as far as the platform does not turn."""
+def freedoms_with_orientation_held(linkage, way):
+    """Of loops by themselves after a finite displacement, as far as the platform does not turn; `way` leads to it."""
     (values,) = configurations(linkage, 1, hold="orientation")
     moved = 1e-6 * np.concatenate([np.eye(len(values)), -np.eye(len(values))])
     turned = poses(linkage, values + moved)["platform"][0].reshape(2, len(values), 9)
     matrix = np.concatenate([closure_jacobian(linkage, values[None])[0], ((turned[0] - turned[1]) / 2e-6).T])
-    return matrix.shape[1] - int(np.sum(np.linalg.svd(matrix, compute_uv=False) > 1e-6))
+    _, singular, axes = np.linalg.svd(matrix)
+    free = axes[int(np.sum(singular > 1e-6)) :]
+    outside = [column for name in way for column in range(len(values))[linkage.slices[name]]]
+    return int(np.linalg.matrix_rank(np.delete(free, outside, axis=1), tol=1e-6))
 
 
 def most_at_a_time(unknowns):
@@ -233,7 +260,8 @@ def test_the_loops_by_themselves_are_as_free_as_the_plan_says(texts, actuate, wa
     counts = []
     for loop, way, spin in zip(loops.loops, ways, spins, strict=True):
         taken += loop.edges
-        counts.append(freedoms_with_orientation_held(held(part(linkage, [*taken, *way], "platform"))) - spin)
+        loose = held(part(linkage, [*taken, *way], "platform"))
+        counts.append(freedoms_with_orientation_held(loose, way) - spin)
     assert counts == left
     assert plan.search == most_at_a_time(counts)
 

@@ -111,6 +111,12 @@ def test_a_limb_with_a_loop_of_its_own_is_not_asked():
     assert said == ["by P3, Pa1, Pa2 alone the platform does not rotate"]
 
 
+def test_not_even_where_one_of_its_branches_alone_would_say_as_much():
+    linkage = place(parse_chains(["{P[x] | P[x]} P[y] P[z]", "U P S"]), actuated=["P1"])
+    words = [item.words for item in special_constraints(edges(linkage, generic_values(linkage)), "base", "platform")]
+    assert words == ["the platform does not rotate"]
+
+
 def test_a_single_joint_from_base_to_platform_is_a_limb():
     chains = parse_chains(["P[x]", "R[y] R[y] R[y]"])
     linkage = place(chains)

@@ -138,13 +138,16 @@ def _shown(found: Synthesis, data: dict[str, Any], top: int, folder: Path | None
     yield from _counts(found, data)
     if numbered:
         yield ""
-        yield _table(numbered[:top], f"the best {top}" if top < len(numbered) else "")
+        yield heading(f"the best {top}" if top < len(numbered) else "ranked")
+        yield _table(numbered[:top])
         yield from _reasons(numbered[:top])
     known = [item for item in numbered if item[1].names]
     if known:
         yield ""
+        yield heading("known mechanisms with these limbs")
         yield _known(known)
     if folder is not None:
+        yield ""
         yield f"written: {len(data['written'])} files in {folder}"
 
 
@@ -152,17 +155,20 @@ def _counts(found: Synthesis, data: dict[str, Any]) -> Iterator[str]:
     """How large the search was."""
     types, tally = data["limb_types"], found.tally
     kinds = ", ".join(f"{count} with {poc}" for poc, count in types["by_poc"].items())
+    yield f"positions    {data['positions']}"
     yield f"limb types   {types['with_motion']} with the motion: {kinds or 'none'}"
     yield f"combinations {tally.combinations}, {tally.with_motion} of them with the motion by the rules"
     degrees = ", ".join(f"{count} with κ = {degree}" for degree, count in sorted(tally.coupling_degrees.items()))
-    yield f"coupling     {degrees or 'none'}"
+    unknown = tally.with_motion - sum(tally.coupling_degrees.values())
+    rest = f", {unknown} on which only twists can tell" if unknown else ""
+    yield f"coupling     {degrees or 'none'}{rest}"
     yield f"one by one   {tally.tried} by twists; the actuators of {tally.unfixed} do not fix the platform"
     if any(not design.symmetric for design in found.designs):
         listed = data["combinations"]["listed_of_each_class_of_different_limbs"]
         yield f"Of different limbs the {listed} simplest are listed for each combination of limb motions."
 
 
-def _table(numbered: Sequence[Numbered], title: str) -> RenderableType:
+def _table(numbered: Sequence[Numbered]) -> RenderableType:
     rows = [
         (
             str(rank),
@@ -177,7 +183,7 @@ def _table(numbered: Sequence[Numbered], title: str) -> RenderableType:
         for rank, design in numbered
     ]
     columns = ("rank", "κ", "red.", "joints", "F", "ξ", "limbs", "t r")
-    return table(columns, rows, title=title, left=("limbs", "t r"), wrap=("limbs",))
+    return table(columns, rows, left=("limbs", "t r"), wrap=("limbs",))
 
 
 def _limbs(design: Design) -> str:
@@ -207,7 +213,7 @@ def _reasons(numbered: Sequence[Numbered]) -> Iterator[str]:
 
 def _known(numbered: Sequence[Numbered]) -> RenderableType:
     rows = [(str(rank), ", ".join(design.names), _limbs_alone(design)) for rank, design in numbered]
-    return table(("rank", "name", "limbs"), rows, title="known mechanisms with these limbs", left=("name", "limbs"))
+    return table(("rank", "name", "limbs"), rows, left=("name", "limbs"))
 
 
 def _limbs_alone(design: Design) -> str:

@@ -10,6 +10,7 @@ from assur.model.file.topology_text import topology_text
 from assur.model.topology_description import Declared, TopologyDescription
 from assur.synthesis.assembly import MEMBERS
 from assur.synthesis.designs import Design
+from assur.synthesis.positions import in_words
 from assur.synthesis.synthesis import ANY, Synthesis
 from assur.topology.notation import symbolic_text
 from assur.topology.poc import PocSet
@@ -32,6 +33,7 @@ def answers(found: Synthesis, top: int | None = None) -> dict[str, Any]:
             "symmetric": asked.symmetric,
             "actuators": asked.actuators,
         },
+        "positions": in_words(asked.motion, asked.limbs),
         "limb_types": {
             "with_motion": len(found.limbs),
             "by_poc": dict(sorted(Counter(_numbers(limb.known.poc) for limb in found.limbs).items())),

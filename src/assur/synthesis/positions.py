@@ -30,7 +30,7 @@ def positions(motion: WantedMotion, limbs: int) -> tuple[FloatArray, ...]:
     """Rotations (3, 3) that take a limb as written into each of its positions.
 
     Where the motion singles out no direction, x -> y -> z -> x, as on three walls of a room; otherwise around its axis,
-    evenly, but by right angles for two and for four limbs.
+    evenly, but two limbs at a right angle.
 
     >>> from assur.synthesis.wanted import MOTIONS
     >>> [tuple(map(float, turn @ (1, 0, 0))) for turn in positions(MOTIONS["3T"], 3)]
@@ -38,9 +38,26 @@ def positions(motion: WantedMotion, limbs: int) -> tuple[FloatArray, ...]:
     """
     if motion.axis is None:
         return tuple(np.linalg.matrix_power(CYCLE, index) for index in range(limbs))
-    step = math.pi / 2 if limbs == 2 else 2 * math.pi / limbs
+    step = math.radians(_step(limbs))
     turns = [about_axis(np.array(motion.axis), np.array(step * index)) for index in range(limbs)]
     return tuple(np.round(turn, DIGITS) for turn in turns)
+
+
+def _step(limbs: int) -> float:
+    """Angle in degrees from one position around an axis to the next."""
+    return 90.0 if limbs == 2 else 360.0 / limbs
+
+
+def in_words(motion: WantedMotion, limbs: int) -> str:
+    """How the limbs stand to each other.
+
+    >>> from assur.synthesis.wanted import MOTIONS
+    >>> in_words(MOTIONS["2T1R"], 3)
+    'each limb is the one before turned about z by 120°'
+    """
+    if motion.axis is None:
+        return "each limb is the one before with x, y, z turned into y, z, x"
+    return f"each limb is the one before turned about z by {_step(limbs):g}°"
 
 
 def turned(chain: Chain, turn: FloatArray) -> Chain:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -32,6 +34,9 @@ class RoutesDisagreeError(AssurError):
 def agreed(what: str, rules: PocSet, basis: FloatArray) -> PocSet:
     """The POC set of the rules, if the twists confirm its numbers and every direction that it calls fixed.
 
+    Where the rules name no direction and the twists find it fixed, it is set by the location of joints, and the mark
+    says so.
+
     Args:
         what: the chain, for the error.
         rules: by the symbolic route.
@@ -53,7 +58,13 @@ def agreed(what: str, rules: PocSet, basis: FloatArray) -> PocSet:
                 f"{what}: the rules say {part}({mark.relation} {', '.join(mark.names)}), the twists do not",
                 hint="the directions of its axes at home may not be what they seem; or assur has an error",
             )
-    return rules
+    moved, turned = (_located(*item) for item in zip(marks, counts, fixed_directions(basis), strict=True))
+    return dataclasses.replace(rules, t_mark=moved, r_mark=turned)
+
+
+def _located(mark: Mark, count: int, found: FloatArray) -> Mark:
+    """The mark, or "located" where no axis names its directions and they stay fixed all the same."""
+    return Mark("located") if mark.relation == "moving" and len(found) == count else mark
 
 
 def _same(mark: Mark, found: FloatArray) -> bool:

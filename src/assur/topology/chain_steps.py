@@ -27,8 +27,8 @@ def chain_derivation(structure: Structure, name: str, parts: tuple[Derivation, .
     point = GENERAL if anywhere.t == at_end.t else structure.end
     result = anywhere if point == GENERAL else at_end
     found = operands(structure)
-    sets = [poc_set(item.structure, point if item is found[-1] else GENERAL) for item in found]
-    inside = [step for item, poc in zip(found, sets, strict=True) for step in _inside(item, poc, structure, point)]
+    sets = [poc_set(item.structure, point) for item in found]
+    inside = [step for item, poc in zip(found, sets, strict=True) for step in _inside(item, poc, point)]
     between = _between(found, sets, structure, point)
     whole = Step("union", tuple(sets), tuple(item.text for item in found), result, "", "")
     if len(found) == 1 and inside:
@@ -38,13 +38,12 @@ def chain_derivation(structure: Structure, name: str, parts: tuple[Derivation, .
     return Derivation(name, origin, parts, whole, (*inside, *between), said)
 
 
-def _inside(item: Operand, poc: PocSet, structure: Structure, point: int) -> list[Step]:
+def _inside(item: Operand, poc: PocSet, point: int) -> list[Step]:
     """How the joints of one block or one point make its set."""
     pieces = joints(item)
     if len(pieces) < 2:
         return []
-    last = item.structure.items[-1] is structure.items[-1]
-    sets = tuple(poc_set(piece.structure, point if last else GENERAL) for piece in pieces)
+    sets = tuple(poc_set(piece.structure, point) for piece in pieces)
     reason = f"{in_words(poc)} of {item.text}, {_independence(poc, sum(each.dim for each in sets))}"
     return [Step("union", sets, tuple(piece.text for piece in pieces), poc, "criterion C1", reason)]
 
@@ -58,7 +57,7 @@ def _between(found: Sequence[Operand], sets: Sequence[PocSet], structure: Struct
         count += len(found[index].structure.items)
         rods = tuple(rod for rod in structure.rods if any(rod in item.structure.rods for item in found[: index + 1]))
         prefix = Structure(structure.items[:count], rods, structure.end)
-        poc = poc_set(prefix, point if count == len(structure.items) else GENERAL)
+        poc = poc_set(prefix, point)
         steps.append(
             _union(before, sets[index], poc, ", ".join(item.text for item in found[:index]), found[index].text)
         )

@@ -6,7 +6,6 @@ and asks for the POC set that is left: an output perpendicular to all of it does
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -14,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.topology.agreement import RoutesDisagreeError
-from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop
+from assur.topology.chains import Chain
 from assur.topology.directions import NAMED
 from assur.topology.edges import Edge, along, at_generic, closure, column_names, input_columns, null_basis
 from assur.topology.intersection import parallel
-from assur.topology.joints import CYLINDRICAL, PRISMATIC, REVOLUTE
+from assur.topology.locking import locked
 from assur.topology.motion import Motion
 from assur.topology.refusals import Refusal
 from assur.topology.union import serial
@@ -101,10 +100,10 @@ def by_rules(chains: Sequence[Chain], inputs: Sequence[str]) -> Decoupling | Ref
     """
     columns = []
     for name in inputs:
-        locked = [_without(chain.elements, set(inputs) - {name}) for chain in chains]
-        if not all(locked):
+        left = [locked(chain.elements, set(inputs) - {name}) for chain in chains]
+        if not all(left):
             return Refusal(f"a limb has no joint left when every input but {name} is locked")
-        limbs = [serial(elements, "translation") for elements in locked]
+        limbs = [serial(elements, "translation") for elements in left]
         found = _meeting(limbs)
         if isinstance(found, Refusal):
             return found
@@ -140,28 +139,3 @@ def _meeting(limbs: Sequence[Motion | Refusal]) -> Motion | Refusal:
     if refused is not None:
         return refused
     return motions[0] if len(motions) == 1 else parallel(motions, "translation")
-
-
-def _without(elements: tuple[Element, ...], names: set[str]) -> tuple[Element, ...]:
-    """The elements with some inputs locked, "P1" or a component as "C1.1"; of a C or U the other component stays."""
-    left: list[Element] = []
-    for element in elements:
-        if isinstance(element, InnerLoop):
-            branches = tuple(_without(branch, names) for branch in element.branches)
-            if all(branches):  # a branch without joints holds the whole loop
-                left.append(InnerLoop(branches, element.name))
-        elif isinstance(element, ChainJoint) and element.freedoms == 2:
-            left += _other_component(element, names)
-        elif element.name not in names:
-            left.append(element)
-    return tuple(left)
-
-
-def _other_component(joint: ChainJoint, names: set[str]) -> list[ChainJoint]:
-    """What is left of a C or U, of which one component, both or none may be locked."""
-    free = [index for index in (0, 1) if f"{joint.name}.{index + 1}" not in names]
-    if len(free) != 1:
-        return [joint] if free else []
-    if joint.type is CYLINDRICAL and free == [0]:
-        return [dataclasses.replace(joint, type=PRISMATIC, point="")]
-    return [dataclasses.replace(joint, type=REVOLUTE, axes=joint.axes[-1:] if free == [1] else joint.axes[:1])]

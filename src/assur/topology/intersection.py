@@ -8,8 +8,7 @@ from assur.errors import UsageError
 from assur.topology.lasting import why_it_does_not_last
 from assur.topology.limb_steps import limb_derivation
 from assur.topology.motion import Mode, Motion, check_mode
-from assur.topology.operation_modes import as_written, assembled
-from assur.topology.orientations import UNTURNED
+from assur.topology.operation_modes import as_written, unturned
 from assur.topology.platform_set import is_helical, platform_set
 from assur.topology.refusals import Refusal
 
@@ -42,7 +41,7 @@ def parallel(motions: Sequence[Motion], mode: Mode = "free", name: str = "the pl
     limbs = [motion.limb for motion in motions if motion.limb is not None]
     if len(limbs) < len(motions):
         return Refusal("the pitch of a helical joint couples a rotation and a translation")
-    found = assembled(limbs, UNTURNED) if mode == "translation" else as_written(limbs)
+    found = unturned(limbs) if mode == "translation" else as_written(limbs)
     if isinstance(found, Refusal):
         return found
     refusal = why_it_does_not_last(found) if mode == "free" else None

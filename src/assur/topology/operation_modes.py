@@ -7,12 +7,23 @@ on in several of these ways, there is no one answer.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import reduce
 
 from assur.topology.constraints import Resisted, resisted
 from assur.topology.motion import Limb, Motion, motion_at_home, motion_of
-from assur.topology.orientations import EVERY, UNTURNED, Orientations, orientations, returns
+from assur.topology.orientations import (
+    EVERY,
+    UNTURNED,
+    Orientations,
+    at_rest,
+    axes_around,
+    orientations,
+    returns,
+    without_axes,
+)
 from assur.topology.refusals import Refusal
+from assur.topology.spaces import rotations, translations
 from assur.topology.spans import Span
 
 
@@ -71,23 +82,51 @@ def as_written(limbs: Sequence[Limb]) -> Assembly | Refusal:
     if isinstance(still, Refusal):
         returning = any(returns(limb.structure) for limb in limbs)
         return still if returning else _narrowed(limbs, _allowed(limbs))
-    for found in _modes(limbs, still):
-        if isinstance(found, Refusal) or found.freedoms == home.freedoms:
+    for found in _modes(limbs, home, still):
+        if isinstance(found, Refusal) or _goes_on(home, found):
             return found
     return Refusal("as written, the limbs are in a position from which they can move on in several modes")
 
 
-def _modes(limbs: Sequence[Limb], still: Assembly) -> Iterator[Assembly | Refusal]:
+def _goes_on(home: Assembly, found: Assembly) -> bool:
+    """Whether a mode starts at home: as many freedoms as there, and a platform that can do no less."""
+    more = found.resisted.dim >= home.resisted.dim and found.turned.dim >= home.turned.dim
+    return more and found.freedoms == home.freedoms
+
+
+def _modes(limbs: Sequence[Limb], home: Assembly, still: Assembly) -> Iterator[Assembly | Refusal]:
     """Ways in which a platform may turn, the least first."""
     common = _allowed(limbs)
     if not still.turned.dim or (common == UNTURNED and still.has_rods):
         yield still
-    if still.turned.dim == 1 and still.turned.is_fixed:
-        about = assembled(limbs, Orientations(1, still.turned.fixed))
-        if isinstance(about, Assembly) and about.turned.dim == about.taken.dim == 1:
-            yield about
+    for turned in (home.turned, still.turned):
+        if turned.dim == 1 and turned.is_fixed:
+            about = assembled(limbs, Orientations(1, turned.fixed))
+            if isinstance(about, Assembly) and about.turned.dim == about.taken.dim == 1:
+                yield about
     if common != UNTURNED:
         yield _narrowed(limbs, common)
+
+
+def unturned(limbs: Sequence[Limb]) -> Assembly | Refusal:
+    """Limbs whose platform keeps its orientation.
+
+    First and last axes of a limb that turn against each other do so only where the platform's translations need it.
+    """
+    found = assembled(limbs, UNTURNED)
+    if isinstance(found, Refusal):
+        return found
+    motions, rigid = list(found.limbs), [limb.translations for limb in found.limbs]
+    for index, motion in enumerate(found.limbs):
+        around = axes_around(motion.structure) if motion.structure else None
+        if motion.structure is None or around is None:
+            continue
+        without = [*rigid[:index], translations(without_axes(motion.structure, around)), *rigid[index + 1 :]]
+        if reduce(Span.meet, without).dim == reduce(Span.meet, rigid).dim:
+            kept = at_rest(motion.structure, around)
+            motions[index] = replace(motion, structure=kept, rotations=rotations(kept), translations=translations(kept))
+            rigid = without
+    return _together(motions, UNTURNED)
 
 
 def _narrowed(limbs: Sequence[Limb], taken: Orientations | Refusal) -> Assembly | Refusal:

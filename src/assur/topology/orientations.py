@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from assur.topology.blocks import Block, Structure, backwards
+from assur.topology.blocks import Block, Item, Structure, backwards
 from assur.topology.directions import Vector
 from assur.topology.refusals import Refusal
 from assur.topology.vectors import aligned, coplanar
@@ -137,6 +137,30 @@ def _wrapped(structure: Structure, blocks: Sequence[Block], net: bool) -> Struct
     )
     items = (*structure.items[:first], around, *structure.items[last + 1 :])
     return replace(structure, items=items)
+
+
+def axes_around(structure: Structure) -> Block | None:
+    """The first and last axes of a chain that were made one block around the rest."""
+    for item in structure.items:
+        if isinstance(item, Block) and any(isinstance(other, Block) for other in item.inner):
+            return item
+    return None
+
+
+def at_rest(structure: Structure, around: Block) -> Structure:
+    """The chain where the axes around the rest do not turn it, although they could."""
+    items = _in_place_of(around, (replace(around, inner=()), *around.inner), structure)
+    return replace(structure, items=items)
+
+
+def without_axes(structure: Structure, around: Block) -> Structure:
+    """The chain without the axes around the rest."""
+    return replace(structure, items=_in_place_of(around, around.inner, structure))
+
+
+def _in_place_of(block: Block, items: tuple[Item, ...], structure: Structure) -> tuple[Item, ...]:
+    place = next(index for index, item in enumerate(structure.items) if item is block)
+    return (*structure.items[:place], *items, *structure.items[place + 1 :])
 
 
 def _last_of_sphere(blocks: Sequence[Block]) -> Block | None:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from assur.topology.directions import Vector
 
-Relation = Literal["none", "parallel", "perpendicular", "plane", "arm", "moving", "fixed"]
+Relation = Literal["none", "parallel", "perpendicular", "plane", "arm", "moving", "located", "fixed"]
 FloatArray = NDArray[np.float64]
 Style = Literal["unicode", "ascii", "latex"]
 
@@ -27,8 +27,9 @@ class Mark:
         relation: "none" (0 or 3 elements, nothing to say); "parallel" to the one axis named; "perpendicular"
             to it (a plane); "plane" spanned by the axes named, the paper's diamond; "arm": one element
             perpendicular to the axis named and to the arm rho from it to O'; "moving": the direction turns as the
-            mechanism moves and no axis of the base names it; "fixed": a direction (or plane) of the base that the
-            twists found, which `axes` gives and no joint names.
+            mechanism moves and no axis of the base names it; "located": fixed in the base by where joints are,
+            such as the line that joins two centres; "fixed": a direction (or plane) of the base that the twists
+            found, which `axes` gives and no joint names.
         names: the joints that the mark names.
         axes: orthonormal basis of the part's directions where they stay fixed in the base, else empty.
     """
@@ -85,8 +86,8 @@ def _mark(mark: Mark, style: Style) -> str:
     signs = _SIGNS[style]
     if mark.relation == "none":
         return ""
-    if mark.relation == "moving":
-        return "(moving)" if style != "latex" else r"(\text{moving})"
+    if mark.relation in ("moving", "located"):
+        return f"({mark.relation})" if style != "latex" else rf"(\text{{{mark.relation}}})"
     if mark.relation == "fixed":
         plane = len(mark.axes) == 2
         vector = np.cross(mark.axes[0], mark.axes[1]) if plane else np.array(mark.axes[0])

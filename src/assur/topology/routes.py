@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.topology.agreement import SPECIAL, RoutesDisagreeError, agreed, by_twists
-from assur.topology.chains import Chain
+from assur.topology.chains import Chain, InnerLoop
 from assur.topology.configurations import configurations
 from assur.topology.coupling import Loop
 from assur.topology.derivation import Derivation
@@ -140,12 +140,16 @@ def check_xi(chains: Sequence[Chain], limbs: Sequence[Motion | None], loops: Seq
     if len(motions) < len(chains):
         return
     names = [{joint.name for joint in chain.joints} for chain in chains]
+    passed = [{item.name for item in chain.elements if not isinstance(item, InnerLoop)} for chain in chains]
     taken: set[str] = set()
     inside: list[int] = []
     for number, loop in enumerate(loops, 1):
         taken |= set(loop.edges)
         new = [index for index, name in enumerate(names) if name <= taken and index not in inside]
-        whole = set().union(*(names[index] & set(loop.edges) for index in new)) == set(loop.edges) if new else False
+        # a loop may pass a limb and leave one of its branches to later loops: no POC set stands for such a part
+        part = [own for name, own in zip(names, passed, strict=True) if name & taken and not name <= taken]
+        broken = any(not own or own & taken for own in part)
+        whole = not broken and all(passed[index] and passed[index] <= set(loop.edges) for index in new)
         if whole and (len(inside), len(new)) in ((0, 2), (len(inside) or -1, 1)):
             first, last = (inside or new[:1]), new[-1]
             before, after = (_together(motions, some, held) for some in (first, [*first, last]))

@@ -1,0 +1,88 @@
+from __future__ import annotations
+
+import json
+
+import pytest
+
+import assur
+from assur.synthesis.answers import answers
+from assur.synthesis.synthesis import synthesis
+
+SMALL = ("--max-joints", "3", "--symmetric")
+
+
+def test_the_answer_is_that_of_the_library(assur_cli):
+    data = assur_cli("synthesize", *SMALL, "--json").json
+    assert data == json.loads(json.dumps(answers(synthesis("3T", 3, 3, symmetric=True))))
+    assert {"three_crr", "three_rrc"} <= {name for item in data["mechanisms"] for name in item["names"]}
+
+
+def test_a_person_sees_counts_a_ranked_table_reasons_and_known_names(assur_cli):
+    run = assur_cli("synthesize", "--motion", "3T", "--limbs", "3", *SMALL, "--coupling", "0..1")
+    assert (run.code, run.err) == (0, "")
+    assert run.out.startswith("3T: ")
+    assert "limb types" in run.out
+    assert "3 x C[x] R[x] R[x] (three_crr)" in run.out
+    assert "one virtual variable, for limbs 1 and 2 close a loop with Δ = +1" in " ".join(run.out.split())
+    assert "known mechanisms with these limbs" in run.out
+    assert max(map(len, run.out.splitlines())) <= 80
+
+
+def test_different_limbs_stand_below_each_other(assur_cli):
+    run = assur_cli("synthesize", "--max-joints", "3", "--actuators", "leg", "--top", "2")
+    assert "the best 2" in run.out
+    assert "Of different limbs the 20 simplest" in run.out
+    assert "t³ r³" in run.out
+    assert max(map(len, run.out.splitlines())) <= 80
+
+
+def test_the_best_are_cut_off_where_asked(assur_cli):
+    data = assur_cli("synthesize", *SMALL, "--top", "3", "--json").json
+    assert [item["rank"] for item in data["mechanisms"]] == [1, 2, 3]
+    assert data["found"] > 3
+
+
+def test_nothing_found_says_which_coupling_degrees_there_are(assur_cli):
+    run = assur_cli("synthesize", *SMALL, "--coupling", "0")
+    assert run.code == 0
+    assert "3T: 0 mechanisms" in run.out
+    assert "with κ = 1" in run.out
+
+
+def test_files_are_written_that_topology_reads(assur_cli, tmp_path):
+    folder = tmp_path / "found"
+    run = assur_cli("synthesize", *SMALL, "--top", "2", "--toml", str(folder), "--json")
+    written = run.json["written"]
+    assert sorted(map(str, folder.iterdir())) == sorted(written)
+    assert len(written) == 2
+    read = assur_cli("topology", written[0], "--json").json
+    best = run.json["mechanisms"][0]
+    assert (read["dof"], read["coupling_degree"]) == (best["dof"], best["coupling_degree"])
+    assert assur.topology(written[1]).redundant_constraints.collapsed == 3
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--motion", "4T"), "unknown motion '4T'"),
+        (("--limbs", "4"), "4 limbs for 3T"),
+        (("--limbs", "three"), "--limbs: 'three' is not a whole number"),
+        (("--max-joints", "0"), "at most 0 joints"),
+        (("--coupling", "1..0"), "--coupling 1..0"),
+        (("--coupling", "a"), "--coupling: 'a' is not a whole number"),
+        (("--actuators", "arm"), "unknown place of the actuators 'arm'; there is: base, leg"),
+        (("--top", "0"), "--top 0"),
+    ],
+)
+def test_misuse_says_what_is_allowed(assur_cli, words, message):
+    run = assur_cli("synthesize", *words)
+    assert (run.code, run.out) == (2, "")
+    assert message in run.err
+
+
+def test_a_folder_that_cannot_be_made_is_said_before_the_search(assur_cli, tmp_path):
+    path = tmp_path / "file"
+    path.write_text("")
+    run = assur_cli("synthesize", "--toml", str(path / "found"))
+    assert run.code == 2
+    assert "cannot make the folder" in run.err

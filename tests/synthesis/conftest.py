@@ -1,0 +1,25 @@
+"""Searches that several tests look at, each made once."""
+
+from __future__ import annotations
+
+import pytest
+
+from assur.synthesis.synthesis import synthesis
+
+
+@pytest.fixture(scope="session")
+def in_space():
+    """Three translations, actuators at the base, equal and different limbs."""
+    return synthesis("3T", 3, 5)
+
+
+@pytest.fixture(scope="session")
+def in_legs():
+    """Three translations, actuators in the legs, equal limbs."""
+    return synthesis("3T", 3, 5, symmetric=True, actuators="leg")
+
+
+@pytest.fixture(scope="session")
+def small():
+    """Three translations by limbs of three joints."""
+    return synthesis("3T", max_joints=3)

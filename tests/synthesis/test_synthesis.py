@@ -1,0 +1,200 @@
+from __future__ import annotations
+
+import random
+
+import pytest
+
+import assur
+from assur.errors import UnknownNameError, UsageError
+from assur.model.registry import load_topology
+from assur.synthesis import limb_motions
+from assur.synthesis.answers import answers
+from assur.synthesis.isomorphism import mechanism_key
+from assur.synthesis.synthesis import synthesis
+from assur.topology.agreement import RoutesDisagreeError
+from assur.topology.notation import parse_chain
+from assur.topology.union import serial
+
+KNOWN_AT_BASE = [
+    "tsai_platform",
+    "three_crr",
+    "three_rrc",
+    "tripteron",
+    "orthoglide",
+    "linear_delta_4r",
+    "three_rrrp4r",
+]
+
+
+def named(found, name):
+    return [design for design in found.designs if name in design.names]
+
+
+@pytest.mark.parametrize("name", KNOWN_AT_BASE)
+def test_known_mechanisms_with_actuators_at_the_base_are_found(in_space, name):
+    """The Delta with R-R-Pa-R limbs is tsai_platform; what the catalogue declares of it is what is found."""
+    (design,) = named(in_space, name)
+    declared = load_topology(name).declared
+    assert design.symmetric
+    assert (design.dof, design.xi, design.coupling_degree) == (declared.dof, declared.xi, declared.coupling_degree)
+    assert (design.known.poc.t, design.known.poc.r) == declared.poc
+    assert (design.redundant.collapsed, design.redundant.joint_graph) == declared.redundant_constraints
+    assert design.known.route == "both"
+
+
+def test_the_three_upu_is_found_with_actuators_in_the_legs(in_legs):
+    (design,) = named(in_legs, "three_upu")
+    declared = load_topology("three_upu").declared
+    assert (design.dof, design.xi, design.coupling_degree) == (declared.dof, declared.xi, declared.coupling_degree)
+    assert design.actuated == ((1, 2), (2, 2), (3, 2))
+    assert design.mode == "translation"
+
+
+@pytest.mark.parametrize(
+    "limb", ["P[x] U[x,y] U[y,x]", "R[x] U[x,y] U[y,x]", "R[x] R[x] R[x] R[y] R[y]", "P[x] P[y] P[z]"]
+)
+def test_known_limbs_are_found(in_space, limb):
+    """P-U-U, R-U-U, R||R||R_|_R||R, P-P-P."""
+    assert any(design.symmetric and design.limbs[0].text == limb for design in in_space.designs)
+
+
+def test_no_mechanism_twice(in_space, in_legs):
+    for found in (in_space, in_legs):
+        keys = [mechanism_key(limb.type.key for limb in design.limbs) for design in found.designs]
+        assert len(keys) == len(set(keys)) > 40
+
+
+def test_limbs_of_p_r_and_c_are_those_found_by_hand(in_space):
+    """X(u) with the first joint driven, by hand.
+
+    With C: three places of C among two R, six orders of C, R and a P across. Without: PRRR; P along u driven, and
+    two R with a P across in three orders (a P along u that is not driven is written as C).
+    """
+    texts = {limb.text for limb in in_space.limbs if limb.type.freedoms == 4 and not limb.type.parallelograms}
+    assert len([text for text in texts if "C" in text]) == 3 + 6
+    assert {text for text in texts if "C" not in text} == {
+        "P[x] R[x] R[x] R[x]",
+        "P[x] P[y] R[x] R[x]",
+        "P[x] R[x] P[y] R[x]",
+        "P[x] R[x] R[x] P[y]",
+    }
+
+
+def test_every_mechanism_is_known_by_both_routes(in_space, in_legs):
+    for found in (in_space, in_legs):
+        assert {design.known.route for design in found.designs} == {"both"}
+        assert {(design.known.poc.t, design.known.poc.r, design.known.poc.dim) for design in found.designs} == {
+            (3, 0, 3)
+        }
+        assert {limb.known.route for limb in found.limbs} == {"both"}
+
+
+def test_every_limb_of_a_mechanism_is_driven_where_asked(in_space, in_legs):
+    assert {place for design in in_space.designs for _, place in design.actuated} == {1}
+    for design in in_legs.designs:
+        for limb, place in design.actuated:
+            assert design.chains[limb - 1].joints[place - 1].type.letter == "P"
+            assert place > 1
+
+
+@pytest.mark.parametrize("kind", ["equal limbs", "different limbs", "in legs"])
+def test_the_engine_of_whole_mechanisms_agrees(in_space, in_legs, kind):
+    """A placing of the whole linkage, moved along its own freedom, for a few mechanisms drawn at random."""
+    found = in_legs if kind == "in legs" else in_space
+    wanted = [design for design in found.designs if design.symmetric == (kind != "different limbs")]
+    for design in random.Random(kind).sample(wanted, 8):
+        topology = assur.topology(
+            [chain.text for chain in design.chains],
+            actuate=[f"{limb}.{joint}" for limb, joint in design.actuated],
+            mode=design.mode,
+        )
+        assert (topology.dof, topology.coupling_degree) == (design.dof, design.coupling_degree), design.chains
+        assert sorted(topology.xi) == sorted(design.xi)
+        assert topology.redundant_constraints == design.redundant
+        assert (topology.poc.t, topology.poc.r, topology.poc.dim) == (3, 0, 3)
+        assert [limb.poc.dim for limb in topology.limbs] == [limb.known.poc.dim for limb in design.limbs]
+        assert topology.actuation.verdict == "valid"
+        assert topology.idle_joints == ()
+
+
+def test_coupling_degrees_are_those_asked_for(small):
+    one = synthesis("3T", max_joints=3, coupling=(0, 1))
+    assert {design.coupling_degree for design in one.designs} == {1}
+    wanted = [design.order for design in small.designs if design.coupling_degree == 1]
+    assert [design.order for design in one.designs] == wanted
+    none = synthesis("3T", max_joints=3, coupling=(0, 0))
+    assert none.designs == ()
+    assert min(none.tally.coupling_degrees) == 1
+
+
+def test_equal_limbs_only_where_asked(small):
+    equal = synthesis("3T", max_joints=3, symmetric=True)
+    assert [design.order for design in equal.designs] == [d.order for d in small.designs if d.symmetric]
+    assert equal.tally.combinations == len(equal.limbs) < small.tally.combinations
+
+
+def test_the_same_question_has_the_same_answer(small):
+    assert answers(synthesis("3T", max_joints=3)) == answers(small)
+
+
+def test_steps_are_counted_up_to_the_end():
+    seen = []
+    synthesis("3T", max_joints=3, symmetric=True, step=lambda done, whole: seen.append(done / whole))
+    assert seen == sorted(seen)
+    assert seen[0] == 0
+    assert 0.8 < seen[-1] < 1
+
+
+@pytest.mark.parametrize(
+    ("motion", "joints", "actuators", "name"),
+    [("2T1R", 3, "base", "planar_3rrr"), ("2T1R", 3, "leg", "planar_3rpr")],
+)
+def test_planar_mechanisms(motion, joints, actuators, name):
+    found = synthesis(motion, 3, joints, symmetric=True, actuators=actuators)
+    (design,) = named(found, name)
+    declared = load_topology(name).declared
+    assert (design.dof, design.xi, design.coupling_degree) == (declared.dof, declared.xi, declared.coupling_degree)
+
+
+def test_four_limbs_for_three_translations_and_a_rotation():
+    found = synthesis("3T1R", 4, 3, symmetric=True)
+    assert found.designs
+    for design in found.designs[:6]:
+        topology = assur.topology([chain.text for chain in design.chains])
+        assert (topology.dof, topology.poc.t, topology.poc.r) == (4, 3, 1)
+        assert topology.coupling_degree == design.coupling_degree
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ({"motion": "3T", "limbs": 4}, "4 limbs for 3T; 3 are wanted"),
+        ({"max_joints": 0}, "at most 0 joints"),
+        ({"coupling": (2, 1)}, r"coupling degrees 2\.\.1"),
+        ({"coupling": (-1, 1)}, r"coupling degrees -1\.\.1"),
+    ],
+)
+def test_misuse_is_refused(words, message):
+    with pytest.raises(UsageError, match=message):
+        synthesis(**words)
+
+
+def test_unknown_names_are_refused():
+    with pytest.raises(UnknownNameError, match="2T1R, 3T, 3T1R"):
+        synthesis("6T")
+    with pytest.raises(UnknownNameError, match="base, leg"):
+        synthesis(actuators="platform")
+
+
+def test_limbs_that_are_too_short_give_nothing():
+    found = synthesis("3T", max_joints=2)
+    assert (found.designs, found.limbs, found.tally.combinations) == ((), (), 0)
+
+
+def test_disagreements_are_collected_and_raised(monkeypatch):
+    """The rules are made to speak of another chain."""
+    monkeypatch.setattr(limb_motions, "serial", lambda *_: serial(parse_chain("C[x] R[x] R[x]"), "translation"))
+    with pytest.raises(RoutesDisagreeError) as raised:
+        synthesis("3T", max_joints=3, symmetric=True)
+    assert "P[x] P[y] P[z]: the rules say" in raised.value.message
+    assert raised.value.message.count("the rules say") > 5
