@@ -243,6 +243,27 @@ def test_rules_and_twists_agree_in_translation_mode(chains):
         assert _numbers(motion) == _by_twists(chains, "translation")
 
 
+@pytest.mark.parametrize(
+    ("limbs", "mode", "numbers"),
+    [
+        # first and last axes stay parallel, for the platform turns about them only
+        (["U[y,z]", "R[y] R[y] R[y] R[x] R[y] R[y]"], "free", (1, 1, 1)),
+        # the platform turns about an axis that one limb has in its middle
+        (["P[y] U[y,z] C[y] P[y]", "U[x,z] P(4R)[z]"], "free", (2, 1, 2)),
+        (["R[z] R[x] R[x] C[z]", "R[x] C[y]"], "free", (2, 1, 2)),
+        # behind a spherical joint, directions turn with the platform
+        (["S R[x]", "P[y] R[x] R[x]"], "free", (2, 1, 2)),
+        (["R[x] S R[x] R[x] R[x]", "P(4R)[x] P[x]"], "free", (1, 0, 1)),
+        # outer axes that could turn against each other, and do not
+        (["R[x] R[y] R[y] P[x] R[x]", "R[y] R[y]"], "translation", (2, 1, 2)),
+        (["R[x] R[x]", "R[z] R[z] P[y] U[x,z]"], "translation", (0, 0, 0)),
+    ],
+)
+def test_special_positions_that_last(limbs, mode, numbers):
+    assert _numbers(_platform(limbs, mode)) == numbers
+    assert _by_twists(parse_chains(limbs), mode) == numbers
+
+
 def test_the_rules_seldom_refuse():
     """One chain in each place of a small catalogue: refusing everything would pass the laws above."""
     limbs = [

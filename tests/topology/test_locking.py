@@ -42,7 +42,18 @@ def test_a_slide_between_parallel_axes_is_locked_in_any_direction():
     assert second.axes[0] == (1.0, 0.0, 0.0)
 
 
-@pytest.mark.parametrize("text", ["R[z] P[x]", "R[z] P[x] R[y]", "R[z] P[x] S", "R[z] R[z] P[x]"])
+@pytest.mark.parametrize("behind", ["S", "R[x] R[z]", "U[x,z]", "C[y] U[y,z]"])
+def test_a_ball_joint_or_a_parallel_axis_further_on_turns_back(behind):
+    slide = next(item for item in _left(f"R[z] P[x] {behind}", {"R1"}) if item.name == "P1")
+    assert slide.axes[0] == pytest.approx((math.cos(ANYWHERE), math.sin(ANYWHERE), 0.0))
+
+
+def test_what_stands_behind_the_parallel_axis_of_a_universal_joint_is_as_written():
+    universal, slide = _left("R[z] U[z,x] P[x]", {"R1"})
+    assert (universal.axes[1], slide.axes[0]) == ((1.0, 0.0, 0.0), (1.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("text", ["R[z] P[x]", "R[z] P[x] R[y]", "R[z] R[z] P[x]"])
 def test_without_an_axis_that_turns_back_the_end_link_has_not_turned(text):
     last = {"R2"} if text.count("R[z]") == 2 else {"R1"}
     slide = next(item for item in _left(text, last) if item.name == "P1")

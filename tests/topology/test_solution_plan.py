@@ -87,6 +87,8 @@ def test_laws_of_every_plan(name):
         assert 0 <= item.search <= item.coupling_degree
         assert (item.search < item.coupling_degree) == bool(item.reason)
         assert item.search <= sum(step.left for step in item.steps)
+        if not item.reason:  # the rank of the loops with inputs locked is the running sum of Eq. (5)
+            assert [step.left for step in item.steps] == [step.virtual for step in item.steps]
         for step in item.steps:
             assert step.joints == found.loops[step.loop].edges
             assert step.delta == found.loops[step.loop].delta == step.virtual - step.equations

@@ -1,7 +1,8 @@
 """Chains with some joints locked: what is left, in a general configuration.
 
 A locked joint is a rigid piece of its chain, but it is locked anywhere, not only as written. So what a locked axis
-has turned goes on pointing in another direction: everything up to the next axis parallel to it, which turns back.
+has turned goes on pointing in another direction: everything up to the next axis parallel to it, which turns back
+because the end link keeps its orientation.
 """
 
 from __future__ import annotations
@@ -36,11 +37,9 @@ def locked(elements: Sequence[Element], names: Collection[str]) -> tuple[Element
     left: list[Element] = []
     turned: Vector | None = None
     for index, element in enumerate(elements):
-        directions = list(_axes_of_turns([element]))
-        if turned is not None and directions:
+        left += _left_of(element if turned is None else _turned(element, turned), names)
+        if turned is not None and _comes_back([element], turned):
             turned = None
-        kept = element if turned is None else _turned(element, turned)
-        left += _left_of(kept, names)
         stopped = _locked_axis(element, names)
         if stopped is not None and _comes_back(elements[index + 1 :], stopped):
             turned = stopped
@@ -74,9 +73,8 @@ def _locked_axis(element: Element, names: Collection[str]) -> Vector | None:
 
 
 def _comes_back(elements: Sequence[Element], axis: Vector) -> bool:
-    """Whether the next axis is parallel to a locked one."""
-    following = next(_axes_of_turns(elements), None)
-    return following is not None and aligned(following, axis)
+    """Whether something turns back what a locked axis has turned: a parallel axis, or a ball joint."""
+    return any(other is None or aligned(other, axis) for other in _axes_of_turns(elements))
 
 
 def _axes_of_turns(elements: Sequence[Element]) -> Iterator[Vector | None]:
@@ -92,10 +90,12 @@ def _axes_of_turns(elements: Sequence[Element]) -> Iterator[Vector | None]:
 
 
 def _turned(element: Element, axis: Vector) -> Element:
-    """An element behind a locked axis."""
+    """An element behind a locked axis; what stands behind an axis that turns back is as written."""
     if isinstance(element, InnerLoop):
         branches = tuple(tuple(_turned(item, axis) for item in branch) for branch in element.branches)
         return InnerLoop(branches, element.name)
     if isinstance(element, Parallelogram):
         return dataclasses.replace(element, axis=rotated(element.axis, axis, ANYWHERE))
+    if element.type is not PRISMATIC and element.axes and aligned(element.axes[0], axis):
+        return element
     return dataclasses.replace(element, axes=tuple(rotated(item, axis, ANYWHERE) for item in element.axes))

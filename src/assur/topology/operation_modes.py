@@ -10,7 +10,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 
+from assur.topology.blocks import Block, Structure
 from assur.topology.constraints import Resisted, resisted
+from assur.topology.elementary import Turn
 from assur.topology.motion import Limb, Motion, motion_at_home, motion_of
 from assur.topology.orientations import (
     EVERY,
@@ -25,6 +27,7 @@ from assur.topology.orientations import (
 from assur.topology.refusals import Refusal
 from assur.topology.spaces import rotations, translations
 from assur.topology.spans import Span
+from assur.topology.vectors import aligned
 
 
 @dataclass(frozen=True)
@@ -111,22 +114,36 @@ def _modes(limbs: Sequence[Limb], home: Assembly, still: Assembly) -> Iterator[A
 def unturned(limbs: Sequence[Limb]) -> Assembly | Refusal:
     """Limbs whose platform keeps its orientation.
 
-    First and last axes of a limb that turn against each other do so only where the platform's translations need it.
+    First and last axes of a limb that turn against each other do so only where the platform's translations need it,
+    or where the limb moves within itself.
     """
     found = assembled(limbs, UNTURNED)
     if isinstance(found, Refusal):
         return found
-    motions, rigid = list(found.limbs), [limb.translations for limb in found.limbs]
+    motions, moved = list(found.limbs), [limb.translations for limb in found.limbs]
     for index, motion in enumerate(found.limbs):
         around = axes_around(motion.structure) if motion.structure else None
         if motion.structure is None or around is None:
             continue
-        without = [*rigid[:index], translations(without_axes(motion.structure, around)), *rigid[index + 1 :]]
-        if reduce(Span.meet, without).dim == reduce(Span.meet, rigid).dim:
+        rest = without_axes(motion.structure, around)
+        fewer = [*moved[:index], translations(rest), *moved[index + 1 :]]
+        if _common_translations(fewer) == _common_translations(moved) and _idle(motion, around, rest) == motion.passive:
             kept = at_rest(motion.structure, around)
             motions[index] = replace(motion, structure=kept, rotations=rotations(kept), translations=translations(kept))
-            rigid = without
+            moved = fewer
     return _together(motions, UNTURNED)
+
+
+def _common_translations(spans: Sequence[Span]) -> int:
+    return reduce(Span.meet, spans).dim
+
+
+def _idle(motion: Motion, around: Block, rest: Structure) -> int:
+    """Freedoms of a limb that do not move its end link, without the axes around the rest."""
+    chain = motion.limb.chain if motion.limb else ()
+    axes = [item.direction for item in chain if isinstance(item, Turn) and item.direction is not None]
+    removed = sum(around.direction is not None and aligned(axis, around.direction) for axis in axes)
+    return motion.freedoms - removed - translations(rest).dim - rotations(rest).dim
 
 
 def _narrowed(limbs: Sequence[Limb], taken: Orientations | Refusal) -> Assembly | Refusal:

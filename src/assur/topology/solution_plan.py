@@ -153,16 +153,13 @@ def _plan(
 ) -> AssurPlan:
     """The plan of one Assur chain, with no more special constraints than give the least search."""
     here = [stages[index] for index in chain.loops]
-    used = list(known)
+    used = list(known) if _searched(here, known)[0] < chain.coupling_degree else []
+    least = _searched(here, used)[0]
+    for item in used[::-1]:
+        fewer = [other for other in used if other is not item]
+        if _searched(here, fewer)[0] == least:
+            used = fewer
     search, left = _searched(here, used)
-    if search < chain.coupling_degree:
-        for item in reversed(known):
-            fewer = [other for other in used if other is not item]
-            if _searched(here, fewer)[0] == search:
-                used = fewer
-        left = _searched(here, used)[1]
-    else:
-        used, search, left = [], chain.coupling_degree, [max(loops[index].delta, 0) for index in chain.loops]
     steps = [
         Step(index, loops[index].edges, delta, max(delta, 0), max(-delta, 0), assumed)
         for index, assumed in zip(chain.loops, left, strict=True)
