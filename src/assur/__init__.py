@@ -8,12 +8,9 @@
 Names are looked up where they live when they are first used, so that `assur --help` need not load NumPy.
 """
 
-import sys
 from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
-
-import assur.topology
 
 if TYPE_CHECKING:
     from assur.errors import AssurError, MechanismFileError, UnknownNameError, UsageError
@@ -55,4 +52,4 @@ class _CallablePackage(ModuleType):
         return import_module("assur.mechanism").topology(*what, **options)
 
 
-sys.modules["assur.topology"].__class__ = _CallablePackage
+import_module("assur.topology").__class__ = _CallablePackage

@@ -254,6 +254,8 @@ def test_rules_and_twists_agree_in_translation_mode(chains):
         # behind a spherical joint, directions turn with the platform
         (["S R[x]", "P[y] R[x] R[x]"], "free", (2, 1, 2)),
         (["R[x] S R[x] R[x] R[x]", "P(4R)[x] P[x]"], "free", (1, 0, 1)),
+        # an inner loop whose slide stands behind its turn
+        (["{S R[y] P[y] | R[x] R[x] P[y]}", "P[y]"], "free", (1, 0, 1)),
         # outer axes that could turn against each other, and do not
         (["R[x] R[y] R[y] P[x] R[x]", "R[y] R[y]"], "translation", (2, 1, 2)),
         (["R[x] R[x]", "R[z] R[z] P[y] U[x,z]"], "translation", (0, 0, 0)),

@@ -189,6 +189,14 @@ def test_the_rotations_of_the_papers_first_chain_stay_in_the_plane_of_its_two_ax
     np.testing.assert_allclose(np.abs(rotations), [[1, 0, 0]], atol=1e-6)
 
 
+@pytest.mark.parametrize("seed", [29, 96])
+def test_a_direction_that_turns_little_is_not_fixed(seed):
+    """The planes of a 3-RPS mechanism's rotations happen to have nearly a line in common at these configurations."""
+    found = generic_edges(_placed(_around("R[<0,1,0>] P[z] S"), seed), seed=seed)
+    translations, rotations = fixed_directions(motion_space(found, "base", "platform"))
+    assert (len(translations), len(rotations)) == (3, 0)
+
+
 @pytest.mark.parametrize(
     ("text", "fixed_t", "fixed_r"),
     [

@@ -206,6 +206,8 @@ def test_a_direction_that_turns_is_not_called_fixed():
         "{{R[x] R[x] | R[x] R[x]} R[x] | P[y] R[x] R[x]} R[y]",
         "{P[x] P(4R)[y] | R[y] R[y] R[y]} P[y]",
         "{S P[x] S | P[x] P[y] R[z]} R[x]",
+        "{R[z] P[x] | R[z] R[z] P[x]} R[x]",
+        "{S R[y] P[y] | R[x] R[x] P[y]} R[z] R[z]",
     ],
 )
 def test_a_chain_with_inner_loops_by_both_routes(text):

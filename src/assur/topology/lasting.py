@@ -6,11 +6,9 @@ turned about the same axes to the same orientation. The first is what the rules 
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import combinations
 
-from assur.topology.blocks import mirrored
-from assur.topology.motion import Motion
+from assur.topology.motion import Motion, seen_from_end
 from assur.topology.operation_modes import Assembly, assembled
 from assur.topology.orientations import Orientations, turn_alike
 from assur.topology.refusals import Refusal
@@ -37,7 +35,7 @@ def why_it_does_not_last(found: Assembly) -> Refusal | None:
 
 def _from_the_platform(found: Assembly) -> Assembly | Refusal:
     """The limbs as seen by the platform, where other directions stay fixed than in the base."""
-    limbs = [replace(limb.limb, structure=mirrored(limb.limb.structure)) for limb in found.limbs if limb.limb]
+    limbs = [seen_from_end(limb.limb) for limb in found.limbs if limb.limb]
     return assembled(limbs, Orientations(found.taken.dim, found.taken.axes[::-1]))
 
 

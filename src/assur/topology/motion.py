@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal, get_args
 
 from assur.errors import UnknownNameError
 from assur.topology.at_home import at_home
 from assur.topology.base_point import poc_set
-from assur.topology.blocks import Structure
+from assur.topology.blocks import Structure, mirrored
 from assur.topology.bundles import bundles
 from assur.topology.chain_steps import chain_derivation
 from assur.topology.derivation import Derivation, under
@@ -160,6 +160,11 @@ def motion_of(limb: Limb, to: Orientations = EVERY) -> Motion | Refusal:
     if isinstance(structure, Refusal):
         return structure
     return _moving(limb, structure, taken)
+
+
+def seen_from_end(limb: Limb) -> Limb:
+    """The chain as its end link sees it: with base and end link exchanged."""
+    return replace(limb, chain=limb.chain[::-1], structure=mirrored(limb.structure))
 
 
 def motion_at_home(limb: Limb) -> Motion | Refusal:

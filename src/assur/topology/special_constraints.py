@@ -5,9 +5,8 @@ platform keeps its orientation, its axis keeps its direction, or O' stays in a p
 that, as in the paper's step from Eq. (6) to Eq. (7), or a limb without loops once its own inputs are given, as each
 limb of a Cartesian mechanism holds O' in a plane.
 
-A rotation that is blocked about one direction only is of no use: it is a condition on velocities that no condition on
-orientations stands behind, for the orientations that are reached would turn in a fixed plane, and rotations in a plane
-make the third one.
+That the platform never turns about one direction, but about two others, is of no use. It restricts velocities and not
+orientations: turning about the two by turns also turns about the third.
 """
 
 from __future__ import annotations

@@ -27,7 +27,7 @@ FloatArray = NDArray[np.float64]
 CLEAR = 1e3
 """The smallest singular value that counts is at least so many times the largest one that does not."""
 
-COMMON = 1e-7
+COMMON = 1e-12
 """A direction is fixed if its part outside the space, squared and averaged over the configurations, is below this."""
 
 TRIES = 5

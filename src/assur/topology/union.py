@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from assur.topology.blocks import structure
 from assur.topology.chains import Chain, Element, InnerLoop
 from assur.topology.derivation import Derivation
 from assur.topology.elementary import Elementary, Slide, Turn, elementary
 from assur.topology.intersection import parallel
-from assur.topology.motion import Limb, Mode, Motion, check_mode, motion_of
+from assur.topology.motion import Limb, Mode, Motion, check_mode, motion_of, seen_from_end
 from assur.topology.orientations import EVERY, UNTURNED
 from assur.topology.pitches import lone_helix, pitch_refusal
 from assur.topology.refusals import Refusal
+from assur.topology.spans import Span
 
 
 def serial(chain: Chain | Sequence[Element], mode: Mode = "free", name: str = "the chain") -> Motion | Refusal:
@@ -47,7 +48,9 @@ def serial(chain: Chain | Sequence[Element], mode: Mode = "free", name: str = "t
             return motion
         parts.append(motion.derivation)
         conditions.extend(motion.conditions)
-        return as_chain(motion, element.name)
+        turns_both = motion.rotations.dim and motion.translations.turning
+        back = inner_loop(element, seen_from_end) if turns_both else motion
+        return back if isinstance(back, Refusal) else as_chain(motion, back.translations, element.name)
 
     found = elementary(elements, loop)
     if isinstance(found, Refusal):
@@ -71,23 +74,31 @@ def serial(chain: Chain | Sequence[Element], mode: Mode = "free", name: str = "t
     return motion_of(limb, UNTURNED if mode == "translation" else EVERY)
 
 
-def inner_loop(loop: InnerLoop) -> Motion | Refusal:
-    """The motion of an inner loop's output link."""
+def inner_loop(loop: InnerLoop, seen: Callable[[Limb], Limb] | None = None) -> Motion | Refusal:
+    """The motion of an inner loop's output link, or of its base as seen from there."""
     branches = []
     for number, branch in enumerate(loop.branches, 1):
         motion = serial(branch, name=f"branch {number}")
+        if isinstance(motion, Motion) and motion.limb is not None and seen is not None:
+            motion = motion_of(seen(motion.limb))
         if isinstance(motion, Refusal):
             return motion
         branches.append(motion)
     return parallel(branches, name=loop.name or "the inner loop")
 
 
-def as_chain(motion: Motion, name: str) -> tuple[Elementary, ...] | Refusal:
+def as_chain(motion: Motion, behind: Span, name: str) -> tuple[Elementary, ...] | Refusal:
     """The slides, and the one turn, that an inner loop is worth in its chain.
 
-    Its rotation must be about one direction that stays fixed in the base of the loop, and so in its output link.
+    Its rotation must be about one direction that stays fixed in the base of the loop, and so in its output link. What
+    slides in directions fixed in the output link stands behind the turn.
+
+    Args:
+        motion: of its output link.
+        behind: its translations as seen from there.
+        name: what the slides and the turn are called.
     """
-    turned = motion.rotations
+    moved, turned = motion.translations, motion.rotations
     if turned.dim > 1:
         return Refusal("an inner loop has several rotations")
     if turned.dim != motion.orientations.dim or (turned.dim and not turned.is_fixed):
@@ -95,8 +106,12 @@ def as_chain(motion: Motion, name: str) -> tuple[Elementary, ...] | Refusal:
     if motion.helical:
         return Refusal("an inner loop has a rotation that is coupled with a translation along its axis")
     name = name or next(iter((*motion.poc.r_mark.names, *motion.poc.t_mark.names)), "the inner loop")
-    slides = [Slide(motion.translations, name)] if motion.translations.dim else []
-    return (*slides, *(Turn(axis, name, located=False) for axis in turned.fixed))
+    turns = tuple(Turn(axis, name, located=False) for axis in turned.fixed)
+    if all(moved.contains(direction) for direction in behind.fixed):
+        return (Slide(moved, name), *turns) if moved.dim else turns
+    if all(behind.contains(direction) for direction in moved.fixed):
+        return (*turns, Slide(behind, name))
+    return Refusal("an inner loop translates along a direction of its base and along one of its output link")
 
 
 def _conditions(chain: Sequence[Elementary], mode: Mode) -> tuple[str, ...]:
