@@ -19,9 +19,9 @@ from rich.console import Console
 from rich.table import Table
 
 import assur
-from assur.topology.edges import closure
 from assur.topology.facts import Topology
-from assur.topology.twists import edges
+from assur.topology.linkages.edges import closure
+from assur.topology.linkages.twists import edges
 
 NAMES = ("zeng2019", "tripteron", "delta_4s", "gough_stewart")
 

@@ -8,7 +8,8 @@ from pathlib import Path
 import assur
 from assur import errors
 from assur.kinematics import closure, status
-from assur.topology import directions, edges, twists
+from assur.topology import directions
+from assur.topology.linkages import edges, twists
 
 PAGE = (Path(__file__).parents[1] / "CONVENTIONS.md").read_text(encoding="utf-8")
 

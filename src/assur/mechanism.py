@@ -26,11 +26,11 @@ from assur.model.points import point
 from assur.singularity.verdict import Verdict, verdict
 from assur.topology.analysis import Mode, analyse
 from assur.topology.chains import Chain
+from assur.topology.counting.inputs import default_inputs, numbered_inputs
 from assur.topology.facts import Topology
-from assur.topology.inputs import default_inputs, numbered_inputs
+from assur.topology.linkages.placing import place
+from assur.topology.linkages.recognition import recognised
 from assur.topology.notation import parse_chains
-from assur.topology.placing import place
-from assur.topology.recognition import recognised
 
 if TYPE_CHECKING:
     from assur.performance.dexterity import Dexterity

@@ -16,9 +16,9 @@ from assur.model.joint_graph import frames, joint_graph, screws
 from assur.model.registry import load_record
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.analysis import sample
-from assur.topology.edges import closure, rank
+from assur.topology.linkages.edges import closure, rank
+from assur.topology.linkages.recognition import recognised
 from assur.topology.poc import Mark, PocSet
-from assur.topology.recognition import recognised
 
 RECORD = load_record("zeng2019")
 RECORD_HOME = home_values(RECORD)

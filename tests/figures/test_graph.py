@@ -14,9 +14,9 @@ from assur.figures.graph import edges, graph_drawing
 from assur.figures.style import ORANGE, SERIES, styled
 from assur.mechanism import topology
 from assur.model.registry import topology_names
-from assur.topology.coupling import AssurChain, Loop
+from assur.topology.counting.coupling import AssurChain, Loop
 from assur.topology.joints import JOINT_TYPES
-from assur.topology.linkage import Group, Linkage, LinkageJoint
+from assur.topology.linkages.linkage import Group, Linkage, LinkageJoint
 
 TYPES = {item.letter: item for item in JOINT_TYPES.values()}
 

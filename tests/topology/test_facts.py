@@ -6,11 +6,11 @@ import dataclasses
 
 import pytest
 
-from assur.topology.coupling import Loop
+from assur.topology.counting.coupling import Loop
+from assur.topology.counting.solution_plan import SolutionPlan
 from assur.topology.facts import Known, Limb, RedundantConstraints, Topology
-from assur.topology.linkage import Linkage
+from assur.topology.linkages.linkage import Linkage
 from assur.topology.poc import PocSet
-from assur.topology.solution_plan import SolutionPlan
 
 AGREED = Known(PocSet(3, 0, 3), "both")
 REFUSED = Known(PocSet(3, 2, 5), "twists", "a pitch")

@@ -8,13 +8,13 @@ from functools import lru_cache
 import pytest
 
 from assur.topology.agreement import RoutesDisagreeError
-from assur.topology.coupling import coupling, coupling_of
-from assur.topology.inputs import default_inputs
+from assur.topology.counting.coupling import coupling, coupling_of
+from assur.topology.counting.inputs import default_inputs
+from assur.topology.linkages.placing import place
+from assur.topology.linkages.twists import generic_edges
 from assur.topology.notation import parse_chains
-from assur.topology.placing import place
 from assur.topology.routes import check_xi
-from assur.topology.twists import generic_edges
-from assur.topology.union import serial
+from assur.topology.rules.union import serial
 
 HYBRID = "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]"
 INNER = "P[z] {P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]"

@@ -10,9 +10,9 @@ from assur.audit.rows import Row
 from assur.model.file.schema import Entry
 from assur.model.mechanism import MechanismRecord
 from assur.topology.analysis import COUNT
-from assur.topology.coupling import coupling, coupling_of
-from assur.topology.derivation import counted, matrix
-from assur.topology.mobility import mobility
+from assur.topology.counting.coupling import coupling, coupling_of
+from assur.topology.counting.mobility import mobility
+from assur.topology.rules.derivation import counted, matrix
 
 TWISTS = f"rank of twists at {COUNT} random finite displacements"
 COLLAPSED = "parallelograms as one joint"

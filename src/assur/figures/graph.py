@@ -21,10 +21,10 @@ from assur.figures.letters import letter
 from assur.figures.spec import Drawing, Entry, always
 from assur.figures.style import GREY, INK, ORANGE, PAPER, SERIES, SMALL, TEXT, new_figure
 from assur.figures.symbols import hatching
-from assur.topology.linkage import Linkage
+from assur.topology.linkages.linkage import Linkage
 
 if TYPE_CHECKING:
-    from assur.topology.coupling import AssurChain, Loop
+    from assur.topology.counting.coupling import AssurChain, Loop
 
 FloatArray = NDArray[np.float64]
 RADIUS = 6.6

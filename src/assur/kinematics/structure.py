@@ -9,7 +9,7 @@ from assur.kinematics.home import home_values
 from assur.model.joint_graph import Frame, frames, joint_graph, screws
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.topology.joints import SPHERICAL
-from assur.topology.linkage import FloatArray, Group, Linkage, LinkageJoint
+from assur.topology.linkages.linkage import FloatArray, Group, Linkage, LinkageJoint
 
 
 def linkage(record: MechanismRecord) -> Linkage:

@@ -12,8 +12,8 @@ import numpy as np
 
 from assur.synthesis.limb_motions import Limb
 from assur.topology.directions import span
-from assur.topology.orientations import Orientations, orientations
-from assur.topology.spans import Span
+from assur.topology.rules.orientations import Orientations, orientations
+from assur.topology.rules.spans import Span
 
 Class = tuple[Limb, ...]
 """Limbs with the same motion, the simplest first."""

@@ -9,8 +9,8 @@ from functools import cached_property
 import numpy as np
 
 from assur.synthesis.limb_motions import Limb
-from assur.topology.coupling import Decomposition, coupling
-from assur.topology.edges import Edge, closure, input_columns, rank
+from assur.topology.counting.coupling import Decomposition, coupling
+from assur.topology.linkages.edges import Edge, closure, input_columns, rank
 
 BASE, PLATFORM = "base", "platform"
 

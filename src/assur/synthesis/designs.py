@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from assur.model.topology_description import Mode
 from assur.synthesis.limb_motions import Limb
 from assur.topology.chains import Chain
-from assur.topology.coupling import Decomposition
+from assur.topology.counting.coupling import Decomposition
 from assur.topology.facts import Known, RedundantConstraints
 
 PARALLELOGRAM_REDUNDANT = 3

@@ -11,7 +11,7 @@ from assur.model.topology_description import TopologyDescription
 from assur.synthesis.isomorphism import Key, limb_key, mechanism_key
 from assur.synthesis.wanted import WantedMotion
 from assur.topology.chains import Chain
-from assur.topology.inputs import default_inputs
+from assur.topology.counting.inputs import default_inputs
 
 
 def known_mechanisms(motion: WantedMotion) -> Mapping[Key, tuple[str, ...]]:

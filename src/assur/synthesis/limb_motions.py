@@ -17,14 +17,14 @@ from assur.synthesis.positions import turned
 from assur.synthesis.wanted import WantedMotion
 from assur.topology.agreement import RoutesDisagreeError, agreed, by_twists
 from assur.topology.chains import Chain
-from assur.topology.edges import rank
 from assur.topology.facts import Known
 from assur.topology.joints import SPHERICAL
-from assur.topology.motion import Motion, motion_of
+from assur.topology.linkages.edges import rank
 from assur.topology.notation import parse_chain, plain_text
-from assur.topology.orientations import Orientations
-from assur.topology.refusals import Refusal
-from assur.topology.union import serial
+from assur.topology.rules.motion import Motion, motion_of
+from assur.topology.rules.orientations import Orientations
+from assur.topology.rules.refusals import Refusal
+from assur.topology.rules.union import serial
 
 FloatArray = NDArray[np.float64]
 

@@ -11,22 +11,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.topology.actuation import actuation
 from assur.topology.chains import Chain
-from assur.topology.configurations import home_is_special
-from assur.topology.coupling import coupling
-from assur.topology.decoupling import Decoupling, by_jacobian, confirmed
-from assur.topology.decoupling import by_rules as decoupled_by_rules
-from assur.topology.edges import Edge
+from assur.topology.counting.actuation import actuation
+from assur.topology.counting.coupling import coupling
+from assur.topology.counting.decoupling import Decoupling, by_jacobian, confirmed
+from assur.topology.counting.decoupling import by_rules as decoupled_by_rules
+from assur.topology.counting.mobility import Mobility, mobility
+from assur.topology.counting.relaxation import relaxation
+from assur.topology.counting.solution_plan import solution_plan
 from assur.topology.facts import Known, Limb, RedundantConstraints, Topology
-from assur.topology.linkage import Linkage
-from assur.topology.mobility import Mobility, mobility
+from assur.topology.linkages.configurations import Hold, home_is_special
+from assur.topology.linkages.edges import Edge, column_names, input_columns
+from assur.topology.linkages.linkage import Linkage
+from assur.topology.linkages.recognition import recognised
+from assur.topology.linkages.twists import dimensions, edges, generic_values, motion_space
 from assur.topology.notation import plain_text, symbolic_text
-from assur.topology.recognition import recognised
-from assur.topology.relaxation import relaxation
 from assur.topology.routes import KnownLimb, Rules, both, by_rules, check_xi, limb_known
-from assur.topology.solution_plan import solution_plan
-from assur.topology.twists import dimensions, edges, generic_values, motion_space
 
 FloatArray = NDArray[np.float64]
 Mode = Literal["home", "translation"]
@@ -47,6 +47,7 @@ class Sample:
         collapsed: the same with parallelograms as one edge each.
         space: (N, 6, k) motion space of the platform.
         poc: its (t, r, dim).
+        special: whether home has instantaneous freedoms that these configurations have lost.
     """
 
     linkage: Linkage
@@ -55,6 +56,7 @@ class Sample:
     collapsed: tuple[Edge, ...]
     space: FloatArray
     poc: tuple[int, int, int]
+    special: bool
 
     @property
     def keeps_orientation(self) -> bool:
@@ -65,13 +67,27 @@ class Sample:
 def sample(linkage: Linkage, mode: Mode = "home") -> Sample:
     """A linkage at configurations displaced from home, the platform kept from turning in translation mode.
 
+    A P(4S) or P(2US) is kept a parallelogram, as the theory takes it, also where the mechanism does not see to that.
+
     Errors:
         UnclearRankError: what is reached from home disagrees on a rank. ImmobileError: home cannot be left.
     """
-    values = generic_values(linkage, COUNT, hold="orientation" if mode == "translation" else None)
+    hold = held_in(linkage, mode)
+    values = generic_values(linkage, COUNT, hold=hold)
     collapsed = edges(linkage, values)
     space = motion_space(collapsed, linkage.base, linkage.platform)
-    return Sample(linkage, values, edges(linkage, values, collapsed=False), collapsed, space, dimensions(space))
+    special = home_is_special(linkage, values, hold)
+    return Sample(
+        linkage, values, edges(linkage, values, collapsed=False), collapsed, space, dimensions(space), special
+    )
+
+
+def held_in(linkage: Linkage, mode: Mode) -> Hold | None:
+    """What is held while a linkage is displaced."""
+    if mode == "translation":
+        return "orientation"
+    skewing = any(group.kind in ("P(4S)", "P(2US)") for group in linkage.groups.values())
+    return "parallelograms" if skewing else None
 
 
 def analyse(
@@ -95,7 +111,7 @@ def analyse(
 
     Errors:
         RoutesDisagreeError: rules and twists differ, with the chain's name.
-        UsageError: links that nothing connects, more inputs than freedoms.
+        UsageError: links that nothing connects, more inputs than freedoms, a platform that turns in translation mode.
     """
     chains = recognised(linkage) if chains is None else tuple(chains)
     here = sample(linkage, mode)
@@ -103,6 +119,8 @@ def analyse(
     collapsed = mobility(here.collapsed, base, platform)
     whole = mobility(here.joints, base, platform)
     refuse_too_many(linkage, collapsed)
+    if mode == "translation" and len(chains or ()) != 1 and here.poc[1]:
+        raise UsageError("there is no translation mode: the platform cannot but turn", hint="leave out the mode")
     still, held = here.keeps_orientation, mode == "translation"
     rules = by_rules(chains, still=still, held=held)
     limbs = _limbs(here, chains or (), rules)
@@ -124,12 +142,12 @@ def analyse(
         assur_chains=order.assur_chains,
         coupling_degree=order.coupling_degree,
         redundant_constraints=RedundantConstraints(collapsed.redundant_constraints, whole.redundant_constraints),
-        inputs=tuple(joint for joint, _ in linkage.inputs),
+        inputs=tuple(column_names(here.collapsed)[index] for index in input_columns(here.collapsed)),
         decoupling=decoupling,
         decoupling_refusal=_decoupling_refusal(decoupling, chains, still),
         plan=solution_plan(order, here.collapsed, base, platform),
         linkage=linkage,
-        notes=(SPECIAL,) if home_is_special(linkage, here.values, "orientation" if held else None) else (),
+        notes=(SPECIAL,) if here.special else (),
         derive=rules.derivations,
         actuate=partial(actuation, here.collapsed, base, platform),
         relax=partial(relaxation, here.joints, base, platform),

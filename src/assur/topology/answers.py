@@ -9,11 +9,11 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
-from assur.topology.coupling import Loop
+from assur.topology.counting.coupling import Loop
+from assur.topology.counting.relaxation import Replacement
+from assur.topology.counting.solution_plan import AssurPlan
 from assur.topology.facts import Known, Limb, Topology
 from assur.topology.poc import Mark, PocSet
-from assur.topology.relaxation import Replacement
-from assur.topology.solution_plan import AssurPlan
 
 
 def answers(found: Topology) -> dict[str, Any]:

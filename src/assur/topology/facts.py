@@ -7,16 +7,16 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
+from assur.topology.counting.solution_plan import SolutionPlan
 from assur.topology.poc import PocSet
-from assur.topology.solution_plan import SolutionPlan
 
 if TYPE_CHECKING:
-    from assur.topology.actuation import Actuation
-    from assur.topology.coupling import AssurChain, Loop
-    from assur.topology.decoupling import Decoupling
-    from assur.topology.derivation import Derivation
-    from assur.topology.linkage import Linkage
-    from assur.topology.relaxation import Relaxation
+    from assur.topology.counting.actuation import Actuation
+    from assur.topology.counting.coupling import AssurChain, Loop
+    from assur.topology.counting.decoupling import Decoupling
+    from assur.topology.counting.relaxation import Relaxation
+    from assur.topology.linkages.linkage import Linkage
+    from assur.topology.rules.derivation import Derivation
 
 Route = Literal["both", "twists"]
 """By which routes a POC set is known: rules and twists, which agree, or twists alone where the rules refuse."""
@@ -95,6 +95,11 @@ class Topology:
     derive: Callable[[], tuple[Derivation, ...]] = field(repr=False, default=tuple)
     actuate: Callable[[], Actuation] = field(repr=False, default=NotImplemented)
     relax: Callable[[], Relaxation] = field(repr=False, default=NotImplemented)
+
+    def __str__(self) -> str:
+        loops = ", ".join(f"ξ = {loop.xi} Δ = {loop.delta:+d}" for loop in self.loops) or "none"
+        head = f"{self.name or 'mechanism'}: {self.poc}, F = {self.dof}, κ = {self.coupling_degree}; loops: {loops}"
+        return "\n".join([head, *(derivation.text() for derivation in self.derivations), *self.plan.words])
 
     @property
     def poc(self) -> PocSet:

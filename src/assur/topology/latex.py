@@ -10,9 +10,9 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from assur.topology.derivation import Derivation, Step
 from assur.topology.facts import Limb, Topology
 from assur.topology.poc import Mark, PocSet
+from assur.topology.rules.derivation import Derivation, Step
 
 NEEDS = r"\usepackage{amsmath,amssymb}"
 XI = r"\dim\left\{\left(\bigcap_{i=1}^{j} M_{b_i}\right) \cup M_{b_{j+1}}\right\}"

@@ -10,17 +10,17 @@ from numpy.typing import NDArray
 
 from assur.topology.agreement import SPECIAL, RoutesDisagreeError, agreed, by_twists
 from assur.topology.chains import Chain, InnerLoop
-from assur.topology.configurations import configurations
-from assur.topology.coupling import Loop
-from assur.topology.derivation import Derivation
+from assur.topology.counting.coupling import Loop
 from assur.topology.facts import Known
-from assur.topology.intersection import parallel, xi_of_next
-from assur.topology.limb_linkage import limb_linkage, limb_values
-from assur.topology.linkage import Linkage
-from assur.topology.motion import Mode, Motion
-from assur.topology.refusals import Refusal
-from assur.topology.twists import dimensions, edges, motion_space
-from assur.topology.union import serial
+from assur.topology.linkages.configurations import configurations
+from assur.topology.linkages.limb_linkage import limb_linkage, limb_values
+from assur.topology.linkages.linkage import Linkage
+from assur.topology.linkages.twists import dimensions, edges, motion_space
+from assur.topology.rules.derivation import Derivation
+from assur.topology.rules.intersection import parallel, xi_of_next
+from assur.topology.rules.motion import Mode, Motion
+from assur.topology.rules.refusals import Refusal
+from assur.topology.rules.union import serial
 
 FloatArray = NDArray[np.float64]
 

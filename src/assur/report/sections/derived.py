@@ -7,10 +7,10 @@ from assur.report.formulas.latex import latex_mathml
 from assur.report.formulas.mathml import display, inline
 from assur.results.kinds import Cell, Facts, Formula, Formulas, Result, Scalar, Section, Table
 from assur.topology.answers import refusals, replacements_by_kind
-from assur.topology.decoupling import Decoupling
-from assur.topology.derivation import Derivation
+from assur.topology.counting.decoupling import Decoupling
 from assur.topology.facts import Topology
 from assur.topology.latex import Equation, equations, step_latex
+from assur.topology.rules.derivation import Derivation
 
 KNOWN = {"both": "rules and twists", "twists": "twists alone"}
 COLLAPSED = "parallelograms as one joint"

@@ -16,10 +16,10 @@ from assur.model.formula import parse
 from assur.model.joint_graph import joint_graph
 from assur.model.points import quantity
 from assur.topology.analysis import sample
-from assur.topology.coupling import coupling_of
-from assur.topology.edges import closure, rank
-from assur.topology.mobility import mobility as counted
-from assur.topology.recognition import recognised
+from assur.topology.counting.coupling import coupling_of
+from assur.topology.counting.mobility import mobility as counted
+from assur.topology.linkages.edges import closure, rank
+from assur.topology.linkages.recognition import recognised
 
 CLOSE = 1e-9
 

@@ -1,0 +1,188 @@
+"""Actuation: whether the chosen inputs determine the mechanism, and which other choices would.
+
+Inputs determine it where locking them leaves no freedom but internal ones, and where none of them hinders another.
+The choices that do are the bases of a matroid: sets of rows, one for each joint component, of a basis of the
+mechanism's motions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations, islice
+from math import comb
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.topology.counting.mobility import AT_REST, motions
+from assur.topology.linkages.edges import Edge, column_names, input_columns, rank
+
+FloatArray = NDArray[np.float64]
+
+Verdict = Literal["valid", "too few", "too many", "dependent"]
+
+SETS = 20_000
+"""Sets of inputs that are tried."""
+
+DETERMINANT = 1e-9
+"""Below this the determinant of unit rows counts as zero."""
+
+
+@dataclass(frozen=True)
+class Actuation:
+    """The chosen inputs, judged, and the admissible ones.
+
+    Attributes:
+        inputs: names of the chosen components.
+        needed: F less internal freedoms, how many inputs it takes.
+        left: freedoms of the platform when the inputs are locked.
+        dependent: how many inputs less are enough to lock what these lock.
+        superfluous: inputs without which the others lock as much.
+        helpful: components that would lock a freedom that is left.
+        sets: admissible sets of components, in the order of the joints.
+        tried, possible: sets that were tried, of so many that there are.
+        in_some, in_every: components that are in some, and in every, admissible set (of all possible ones).
+    """
+
+    inputs: tuple[str, ...]
+    needed: int
+    left: int
+    dependent: int
+    superfluous: tuple[str, ...]
+    helpful: tuple[str, ...]
+    sets: tuple[tuple[str, ...], ...]
+    tried: int
+    possible: int
+    in_some: tuple[str, ...]
+    in_every: tuple[str, ...]
+
+    @property
+    def verdict(self) -> Verdict:
+        """Whether the chosen inputs determine the mechanism, or what is wrong with them."""
+        if len(self.inputs) != self.needed:
+            return "too few" if len(self.inputs) < self.needed else "too many"
+        return "dependent" if self.left or self.dependent else "valid"
+
+    @property
+    def hint(self) -> str:
+        """What to change; empty where the inputs are valid."""
+        add = f"lock also {self.left} of {', '.join(self.helpful)}" if self.helpful else ""
+        drop = f"leave out {self.dependent} of {', '.join(self.superfluous)}" if self.superfluous else ""
+        return " and ".join(part for part in (drop, add) if part)
+
+    @property
+    def complete(self) -> bool:
+        """Whether `sets` holds every admissible set."""
+        return self.tried == self.possible
+
+    def __str__(self) -> str:
+        count = f"{len(self.inputs)} input{'' if len(self.inputs) == 1 else 's'} for {self.needed}"
+        head = f"{self.verdict}: {count} freedom{'' if self.needed == 1 else 's'}"
+        sets = f"{len(self.sets)} admissible set{'' if len(self.sets) == 1 else 's'}"
+        tail = sets if self.complete else f"{sets} among the first {self.tried} of {self.possible}"
+        return "; ".join(part for part in (head, self.hint, tail) if part)
+
+
+def locked_freedoms(edges: Sequence[Edge], inputs: Sequence[int], base: str, platform: str) -> int:
+    """Freedoms that are left, beyond internal ones, when the chosen inputs are locked.
+
+    A motion with the inputs at rest that leaves the platform at rest too is internal, so these are the freedoms of
+    the platform.
+
+    Args:
+        edges: with twists at generic configurations.
+        inputs: columns of the closure that are locked.
+        base: a link.
+        platform: a link.
+
+    >>> slide = lambda name, axis, *links: Edge(name, *links, np.array([0, 0, 0, *axis], float).reshape(1, 6, 1))
+    >>> table = [slide("P1", (1, 0, 0), "base", "cart"), slide("P2", (0, 1, 0), "cart", "table")]
+    >>> locked_freedoms(table, [0], "base", "table"), locked_freedoms(table, [0, 1], "base", "table")
+    (1, 0)
+    """
+    found = motions(edges, base, platform, inputs)
+    freedoms: int = found.useful.shape[-1]
+    return freedoms - rank(found.useful[:, list(inputs)], scale=1.0)
+
+
+def actuation(edges: Sequence[Edge], base: str, platform: str, limit: int = SETS) -> Actuation:
+    """The inputs that the edges name, judged, and every admissible set of components.
+
+    Components of R, P, H, C and U joints and of parallelograms with one freedom may be actuated; those of ball joints
+    may not, nor those that an internal freedom moves. With too many combinations the first `limit` are tried;
+    `in_some` and `in_every` are exact all the same.
+
+    Args:
+        edges: with twists at generic configurations.
+        base: a link.
+        platform: a link.
+        limit: sets to try.
+
+    >>> turn = lambda *point: np.array([0, 0, 1, *np.cross(point, (0, 0, 1))], float).reshape(1, 6, 1)
+    >>> links = ("base", "crank", "rod", "rocker", "base")
+    >>> points = ((0, 0, 0), (1, 2, 0), (4, 2.5, 0), (5, 0, 0))
+    >>> driven = ((0,), (), (), ())
+    >>> bars = [Edge(f"R{i + 1}", *links[i : i + 2], turn(*points[i]), (), driven[i]) for i in range(4)]
+    >>> print(actuation(bars, "base", "rod"))
+    valid: 1 input for 1 freedom; 4 admissible sets
+    """
+    found = motions(edges, base, platform)
+    names, chosen = column_names(edges), input_columns(edges)
+    needed = found.useful.shape[-1]
+    rows = _candidates(edges, found.internal)
+    locked = rank(found.useful[:, chosen], scale=1.0)
+    sets, possible = _admissible(found.useful[:, rows], limit)
+    some, every = _in_sets(found.useful[:, rows])
+    return Actuation(
+        inputs=tuple(names[column] for column in chosen),
+        needed=needed,
+        left=needed - locked,
+        dependent=len(chosen) - locked,
+        superfluous=tuple(
+            names[column]
+            for column in chosen
+            if rank(found.useful[:, [other for other in chosen if other != column]], scale=1.0) == locked
+        ),
+        helpful=tuple(names[column] for column in rows if rank(found.useful[:, [*chosen, column]], scale=1.0) > locked)
+        if locked < needed
+        else (),
+        sets=tuple(tuple(names[rows[index]] for index in item) for item in sets),
+        tried=min(limit, possible),
+        possible=possible,
+        in_some=tuple(names[rows[index]] for index in some),
+        in_every=tuple(names[rows[index]] for index in every),
+    )
+
+
+def _candidates(edges: Sequence[Edge], internal: FloatArray) -> list[int]:
+    """Columns that may be actuated."""
+    rests = np.max(np.abs(internal), axis=(0, 2), initial=0.0) < AT_REST
+    single = np.repeat([edge.freedoms <= 2 for edge in edges], [edge.freedoms for edge in edges])
+    return [int(column) for column in np.flatnonzero(rests & single)]
+
+
+def _admissible(rows: FloatArray, limit: int) -> tuple[list[tuple[int, ...]], int]:
+    """Sets of rows (N, m, d) that span everything, of the first sets of d, and how many sets of d there are."""
+    rows = rows[:2]
+    count, size = rows.shape[1:]
+    possible = comb(count, size)
+    lengths = np.linalg.norm(rows, axis=-1, keepdims=True)
+    unit = rows / np.where(lengths > AT_REST, lengths, np.inf)
+    tried = np.array(list(islice(combinations(range(count), size), limit)), dtype=int)
+    tried = tried.reshape(min(possible, limit), size)
+    spans = np.any(np.abs(np.linalg.det(unit[:, tried])) > DETERMINANT, axis=0)
+    return [tuple(item) for item in tried[spans].tolist()], possible
+
+
+def _in_sets(rows: FloatArray) -> tuple[list[int], list[int]]:
+    """Rows (N, m, d) that are in some set that spans everything, and those that are in every one.
+
+    If any set spans at all, a row is in one unless it is zero, and in every one if the others do not span.
+    """
+    count, size = rows.shape[1:]
+    if not size or rank(rows, scale=1.0) < size:
+        return [], []
+    some = [index for index in range(count) if np.max(np.abs(rows[:, index])) > AT_REST]
+    return some, [index for index in some if rank(np.delete(rows, index, axis=1), scale=1.0) < size]

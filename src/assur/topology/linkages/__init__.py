@@ -1,0 +1,1 @@
+"""The second route: chains placed in space, moved by finite amounts, and the ranks of their twists."""

@@ -1,0 +1,259 @@
+"""Assembled configurations of a linkage, finitely displaced from home along its own freedom.
+
+A random direction is projected onto the null space of the closure, a step is taken, the loops are closed again, and
+so on until the joints have moved by some tenths of a radian or of the linkage's length. So every configuration is
+connected with home by a motion of the linkage, in the operation mode that home is in.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import networkx as nx
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import AssurError
+from assur.numerics.least_squares import minimise
+from assur.topology.linkages.edges import rank
+from assur.topology.linkages.linkage import Group, Linkage
+from assur.topology.linkages.screws import Placed, ScrewTree, screw_tree
+
+FloatArray = NDArray[np.float64]
+IndexArray = NDArray[np.intp]
+Hold = Literal["orientation", "parallelograms"]
+
+CLOSED = 1e-11
+"""Rotation (rad) and gap (lengths) below which a loop is closed."""
+
+STEPS = 2
+"""How many steps are taken from home."""
+
+STEP = 0.22
+"""Largest displacement of a joint (rad, lengths) in one step."""
+
+ASTRAY = 0.75
+"""Closing the loops may undo so much of a step; a motion along the freedom loses little of it."""
+
+NULL = 1e-7
+"""Singular values of the closure below this share of the largest count as zero."""
+
+STILL = 1e-6
+"""Rates below this share of a random one are rounding errors of zero."""
+
+TRIES = 4
+"""How often other directions, in smaller steps, are tried where loops do not close."""
+
+UNSTEADY = ("P(4S)", "P(2US)")
+"""Parallelograms that their own loop does not keep such."""
+
+
+class ImmobileError(AssurError):
+    """The linkage does not move finitely where it should, so that ranks cannot be taken after displacement."""
+
+    exit_code = 5
+
+
+def configurations(linkage: Linkage, count: int = 4, seed: int = 0, hold: Hold | None = None) -> FloatArray:
+    """Joint values (count, n), rad and the linkage's own unit of length, with all loops closed to 1e-11.
+
+    Home is never among them, because it may be special; only a linkage without any freedom, which has nothing else,
+    answers home. A linkage without loops or conditions is displaced at will, by angles up to pi.
+
+    A P(4S) or P(2US) stays a parallelogram only if something holds it. Where a single limb carries the platform
+    nothing does, so there all of them are held: their short links stay parallel. In a mechanism they are left to
+    themselves unless `hold` says otherwise.
+
+    Args:
+        linkage: assembled at home.
+        count: how many.
+        seed: of the random directions.
+        hold: "parallelograms" to keep all P(4S) and P(2US) parallelograms in a mechanism too; "orientation" for the
+            translation mode, which does the same and in which the platform does not turn.
+
+    Errors:
+        ImmobileError: the loops do not close anywhere but at home although they have a freedom there.
+
+    >>> from assur.topology.chains import Chain, ChainJoint
+    >>> from assur.topology.joints import REVOLUTE
+    >>> from assur.topology.linkages.placing import place
+    >>> from assur.topology.linkages.screws import residuals
+    >>> limb = Chain(tuple(ChainJoint(REVOLUTE, ((0.0, 0.0, 1.0),)) for _ in range(3)))
+    >>> planar = place([limb, limb, limb])
+    >>> values = configurations(planar)
+    >>> values.shape, bool(np.max(np.abs(residuals(planar, values))) < 1e-11)
+    ((4, 9), True)
+    """
+    tree = screw_tree(linkage)
+    rng = np.random.default_rng(seed)
+    system = _System.of(linkage, tree, hold)
+    columns = len(tree.scales)
+    if not system.rows:
+        return rng.uniform(-1.0, 1.0, (count, columns)) * np.where(_turning(tree), np.pi, tree.scales)
+    found = np.zeros((0, columns))
+    for attempt in range(TRIES):
+        values, moved = _displaced(system, rng.normal(size=(count, columns)), STEP / (attempt + 1))
+        if values is None:
+            return np.zeros((count, columns))
+        found = np.concatenate([found, values[moved]])
+        if len(found) >= count:
+            return found[:count] * tree.scales
+    raise ImmobileError(
+        f"the loops of the linkage have a freedom at home but do not close {count} times after a finite displacement",
+        hint="a joint at a dead centre, or a freedom that is only instantaneous; start from another configuration",
+    )
+
+
+def scattered(
+    linkage: Linkage, count: int = 40, seed: int = 0, hold: Hold | None = None, *, max_steps: int = 80
+) -> FloatArray:
+    """Joint values (N, n) of assemblies from `count` random starts anywhere, so also in other operation modes.
+
+    Not every start closes, so N <= count. A parallelogram may come out crossed unless `hold` is given.
+
+    Args:
+        linkage: assembled at home.
+        count: number of starts.
+        seed: of the starts.
+        hold: as in `configurations`.
+        max_steps: after so many a start is given up.
+    """
+    tree = screw_tree(linkage)
+    rng = np.random.default_rng(seed)
+    start = rng.uniform(-1.0, 1.0, (count, len(tree.scales))) * np.where(_turning(tree), np.pi, 1.0)
+    system = _System.of(linkage, tree, hold)
+    if not system.rows:
+        return start * tree.scales
+    found = minimise(system.at, start, tolerance=CLOSED, max_steps=max_steps, max_change=0.5)
+    return np.asarray(found.x[found.converged] * tree.scales)
+
+
+def home_is_special(linkage: Linkage, values: FloatArray, hold: Hold | None = None) -> bool:
+    """Whether home has instantaneous freedoms more than configurations (N, n) that are displaced from it.
+
+    Several operation modes may pass through such a home, and which one a configuration is in is then a matter of
+    chance; `hold` may say which one is meant.
+
+    Args:
+        linkage: assembled at home.
+        values: displaced configurations.
+        hold: as it was for them.
+    """
+    tree = screw_tree(linkage)
+    system = _System.of(linkage, tree, hold)
+    at = np.concatenate([np.zeros((1, values.shape[1])), values / tree.scales])
+    jacobian = system.at(at, np.arange(len(at)))[1]
+    return rank(jacobian[:1]) < rank(jacobian[1:])
+
+
+def _turning(tree: ScrewTree) -> NDArray[np.bool_]:
+    turning: NDArray[np.bool_] = np.any(tree.screws[:, :3] != 0.0, axis=1)
+    return turning
+
+
+def _displaced(
+    system: _System, target: FloatArray, step: float
+) -> tuple[FloatArray, NDArray[np.bool_]] | tuple[None, None]:
+    """Values (N, n) after some steps towards targets (N, n), and which of them have arrived; None if nothing moves."""
+    values = np.zeros_like(target)
+    arrived = np.ones(len(values), dtype=bool)
+    for number in range(STEPS):
+        # The loops must be closed here, or equations that imply each other at home would seem to be independent.
+        direction = _projected(system.at(values, np.arange(len(values)))[1], target)
+        size = np.max(np.abs(direction), axis=1, keepdims=True)
+        if number == 0 and np.all(size < STILL * np.max(np.abs(target))):
+            return None, None
+        aim = values + step * direction / np.maximum(size, STILL)
+        closed = minimise(system.at, aim, tolerance=CLOSED, max_steps=30)
+        # No motion leads to an assembly that is rigid, or far from where the step went, or back.
+        near = np.max(np.abs(closed.x - aim), axis=1) < ASTRAY * step
+        values, arrived = closed.x, arrived & closed.converged & near & (size[:, 0] > STILL)
+    return values, arrived
+
+
+def _projected(jacobian: FloatArray, target: FloatArray) -> FloatArray:
+    """The part of targets (N, n) in the null space of jacobians (N, r, n)."""
+    _, singular, turned = np.linalg.svd(jacobian, full_matrices=False)
+    used = turned * (singular > NULL * np.maximum(singular[:, :1], NULL))[..., None]
+    rest: FloatArray = target - np.einsum("nki,nk->ni", used, np.einsum("nki,ni->nk", used, target))
+    return rest
+
+
+@dataclass(frozen=True, eq=False)
+class _System:
+    """The equations: closed loops, and what is held.
+
+    Attributes:
+        loops: pairs (v, 2) of frames that coincide.
+        steady: frame of a link that keeps its orientation, or -1.
+        held: frames (p, 2) of the links next to each parallelogram that is held.
+        sides: (p, 3) directions of their short links at home.
+    """
+
+    tree: ScrewTree
+    loops: IndexArray
+    steady: int
+    held: IndexArray
+    sides: FloatArray
+
+    @classmethod
+    def of(cls, linkage: Linkage, tree: ScrewTree, hold: Hold | None) -> _System:
+        groups = _held(linkage, hold)
+        frames = [(tree.frames[group.child], tree.frames[group.parent]) for group in groups]
+        sides = np.array([_short_side(linkage, group) for group in groups]).reshape(-1, 3)
+        steady = tree.frames[linkage.platform] if hold == "orientation" else -1
+        return cls(tree, tree.loops, steady, np.array(frames, dtype=np.intp).reshape(-1, 2), sides)
+
+    @property
+    def rows(self) -> int:
+        return 6 * len(self.loops) + 3 * len(self.held) + 3 * (self.steady >= 0)
+
+    def at(self, values: FloatArray, _: IndexArray) -> tuple[FloatArray, FloatArray]:
+        """Residuals (k, rows) and Jacobians (k, rows, n) at values (k, n) in rad and lengths of the linkage."""
+        placed = self.tree.at(values)
+        parts = [self.tree.misfit(placed, self.loops[:, 0], self.loops[:, 1])]
+        if self.steady >= 0:
+            residual, jacobian = self.tree.misfit(placed, np.array([self.steady]), np.array([0]))
+            parts.append((residual[..., :3], jacobian[..., :3, :]))
+        if len(self.held):
+            parts.append(self._skewed(placed))
+        count, columns = values.shape
+        residuals = [residual.reshape(count, -1) for residual, _ in parts]
+        jacobians = [jacobian.reshape(count, -1, columns) for _, jacobian in parts]
+        return np.concatenate(residuals, axis=1), np.concatenate(jacobians, axis=1)
+
+    def _skewed(self, placed: Placed) -> tuple[FloatArray, FloatArray]:
+        """By how much short links of parallelograms differ in direction, (k, p, 3), and the Jacobian (k, p, 3, n)."""
+        far, near = (
+            np.einsum("kpij,pj->kpi", placed.frames[:, self.held[:, end], :3, :3], self.sides) for end in (0, 1)
+        )
+        omega = placed.twists[:, None, :3]
+        far_spin, near_spin = (omega * self.tree.paths[self.held[:, end]][:, None] for end in (0, 1))
+        jacobian = np.cross(far_spin, far[..., None], axis=-2) - np.cross(near_spin, near[..., None], axis=-2)
+        return far - near, jacobian
+
+
+def _held(linkage: Linkage, hold: Hold | None) -> list[Group]:
+    """The parallelograms that must be held such: if it is asked for, or if a single limb carries the platform."""
+    groups = [group for group in linkage.groups.values() if group.kind in UNSTEADY]
+    return groups if groups and (hold or _single_limb(linkage)) else []
+
+
+def _single_limb(linkage: Linkage) -> bool:
+    """Whether some joint, or some parallelogram as one joint, is the only connection of platform and base."""
+    inside = {name for group in linkage.groups.values() for name in group.joints}
+    ends = [(joint.parent, joint.child) for name, joint in linkage.joints.items() if name not in inside]
+    ends += [(group.parent, group.child) for group in linkage.groups.values()]
+    built: nx.MultiGraph[str] = nx.MultiGraph(ends)
+    bridges = {frozenset(pair) for pair in nx.bridges(built)}
+    rest: nx.Graph[str] = nx.Graph([pair for pair in ends if frozenset(pair) not in bridges])
+    rest.add_nodes_from((linkage.base, linkage.platform))
+    return not nx.has_path(rest, linkage.base, linkage.platform)
+
+
+def _short_side(linkage: Linkage, group: Group) -> FloatArray:
+    """Unit vector (3,) from one hinge to the other on the near link, at home."""
+    near = [name for name in group.joints if group.parent in (linkage.joints[name].parent, linkage.joints[name].child)]
+    side: FloatArray = linkage.joints[near[1]].point - linkage.joints[near[0]].point
+    return side / np.linalg.norm(side)

@@ -1,0 +1,42 @@
+"""A limb of a linkage as a linkage of its own, with O' where the entry of a single limb has it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.topology.chains import Chain, Element, InnerLoop, Parallelogram
+from assur.topology.joints import PRISMATIC
+from assur.topology.linkages.linkage import Linkage, part
+
+FloatArray = NDArray[np.float64]
+
+
+def limb_linkage(linkage: Linkage, chain: Chain) -> Linkage:
+    """The joints of one limb alone; O' is fixed in the end link, on its last R axis or joint centre at home."""
+    return part(linkage, [joint.name for joint in chain.joints], linkage.platform, _tip(linkage, chain.elements))
+
+
+def limb_values(linkage: Linkage, limb: Linkage, values: FloatArray) -> FloatArray:
+    """The joint values (N, k) of a limb among those (N, n) of its linkage."""
+    slices = linkage.slices
+    return np.concatenate([values[:, slices[name]] for name in limb.joints], axis=1)
+
+
+def _tip(linkage: Linkage, elements: Sequence[Element]) -> FloatArray | None:
+    """Where the last axis or centre of some elements is at home, None if nothing in them turns their end."""
+    for element in reversed(elements):
+        if isinstance(element, InnerLoop):
+            found = next((tip for tip in (_tip(linkage, b) for b in element.branches) if tip is not None), None)
+            if found is not None:
+                return found
+        elif isinstance(element, Parallelogram):
+            if element.kind != "4R":
+                group = linkage.groups[element.name]
+                far = [linkage.joints[name] for name in group.joints]
+                return next(joint.point for joint in far if group.child in (joint.parent, joint.child))
+        elif element.type is not PRISMATIC:
+            return linkage.joints[element.name].point
+    return None

@@ -1,0 +1,112 @@
+"""Chains recognised in a linkage: its limbs, with the directions of their axes and the points that axes share."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Iterator, Mapping
+from itertools import count
+from typing import cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram, ParallelogramKind
+from assur.topology.directions import unit
+from assur.topology.joints import HELICAL, REVOLUTE, SPHERICAL, UNIVERSAL
+from assur.topology.linkages.limbs import Path, limbs
+from assur.topology.linkages.linkage import Group, Linkage, LinkageJoint
+
+FloatArray = NDArray[np.float64]
+Line = tuple[FloatArray, FloatArray]
+"""A point in the base frame, and the direction of an axis or zero where every axis through it counts."""
+
+TURNING = (REVOLUTE, HELICAL, UNIVERSAL, SPHERICAL)
+"""Joints that may share a point with a neighbour."""
+
+MEETING = 1e-9
+"""Axes nearer than this share of their distance from the origin meet."""
+
+
+def recognised(linkage: Linkage) -> tuple[Chain, ...] | None:
+    """The limbs with their axes at home, parallelograms as one element; None where the graph has no limbs.
+
+    Neighbouring axes that meet (or coincide) get the label of their common point.
+    """
+    inside = {name for group in linkage.groups.values() for name in group.joints}
+    paths = [
+        Path(joint.parent, joint.child, (_joint(joint),))
+        for name, joint in linkage.joints.items()
+        if name not in inside
+    ]
+    paths += [Path(group.parent, group.child, (_parallelogram(group, linkage),)) for group in linkage.groups.values()]
+    found = limbs(paths, linkage.base, linkage.platform)
+    if found is None:
+        return None
+    lines = {name: _line(joint) for name, joint in linkage.joints.items()}
+    labels = (f"M{number}" for number in count(1))
+    return tuple(Chain(_marked(chain.elements, lines, labels)) for chain in found)
+
+
+def _joint(joint: LinkageJoint) -> ChainJoint:
+    """A joint with its axes at home: of a C the one axis, of an S none."""
+    axes = [row[:3] if row[:3].any() else row[3:] for row in joint.screws[: joint.type.axes]]
+    return ChainJoint(joint.type, tuple(unit(axis) for axis in axes), name=joint.name)
+
+
+def _parallelogram(group: Group, linkage: Linkage) -> Parallelogram:
+    """Its hinge direction (4R), or else the direction of the short link on the parent's side."""
+    kind = cast(ParallelogramKind, group.kind.removeprefix("P(").removesuffix(")"))
+    corners = [linkage.joints[name] for name in group.joints]
+    if kind == "4R":
+        return Parallelogram(kind, unit(corners[0].screws[0, :3]), group.name)
+    near = [corner.point for corner in corners if group.parent in (corner.parent, corner.child)]
+    return Parallelogram(kind, unit(near[1] - near[0]), group.name)
+
+
+def _line(joint: LinkageJoint) -> Line:
+    """An R or H joint's axis; of a U or S its centre alone, which no line describes."""
+    return joint.point, joint.screws[0, :3] if joint.type in (REVOLUTE, HELICAL) else np.zeros(3)
+
+
+def _marked(elements: tuple[Element, ...], lines: Mapping[str, Line], labels: Iterator[str]) -> tuple[Element, ...]:
+    """The elements with a label on every run of neighbours whose axes run through one point."""
+    marked: list[Element] = []
+    run: list[ChainJoint] = []
+    for element in elements:
+        if isinstance(element, ChainJoint) and element.type in TURNING:
+            if not _meet([lines[item.name] for item in (*run, element)]):
+                marked += _labelled(run, labels)
+                run = []
+            run.append(element)
+            continue
+        marked += _labelled(run, labels)
+        run = []
+        if isinstance(element, InnerLoop):
+            branches = tuple(_marked(branch, lines, labels) for branch in element.branches)
+            element = InnerLoop(branches, element.name or _called(branches))
+        marked.append(element)
+    return (*marked, *_labelled(run, labels))
+
+
+def _called(branches: tuple[tuple[Element, ...], ...]) -> str:
+    """The name of a loop's rotation, after the first joint of each branch: R12 for a loop on P1 and P2."""
+    numbers = [re.search(r"\d+$", getattr(branch[0], "name", "")) for branch in branches]
+    return "R" + "".join(number.group() for number in numbers if number) if all(numbers) else ""
+
+
+def _labelled(run: list[ChainJoint], labels: Iterator[str]) -> list[ChainJoint]:
+    if len(run) < 2:
+        return run
+    label = next(labels)
+    return [dataclasses.replace(item, point=label) for item in run]
+
+
+def _meet(lines: list[Line]) -> bool:
+    """Whether some axes and centres have a point in common: the least-squares point misses none of them."""
+    planes = [np.eye(3) - np.outer(axis, axis) for _, axis in lines]
+    rows = np.vstack(planes)
+    wanted = np.concatenate([plane @ point for plane, (point, _) in zip(planes, lines, strict=True)])
+    found = np.linalg.lstsq(rows, wanted)[0]
+    size = max(float(np.max(np.abs(wanted))), 1e-300)
+    return bool(np.max(np.abs(rows @ found - wanted)) < MEETING * size)

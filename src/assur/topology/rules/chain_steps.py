@@ -1,0 +1,81 @@
+"""The steps of Eq. (1) as the papers print them: a chain's blocks, one after the other, with the reason of each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from assur.topology.poc import PocSet
+from assur.topology.rules.base_point import poc_set
+from assur.topology.rules.blocks import Structure
+from assur.topology.rules.derivation import Derivation, Step, counted, in_words
+from assur.topology.rules.meeting import GENERAL
+from assur.topology.rules.operands import Operand, joints, operands
+
+
+def chain_derivation(structure: Structure, name: str, parts: tuple[Derivation, ...], conditions: str) -> Derivation:
+    """How the set of a chain's end link follows from those of its joints.
+
+    O' is any point of the end link where that makes no difference, as in the papers, and else on the last axis.
+
+    Args:
+        structure: the chain.
+        name: what the derivation calls it.
+        parts: derivations of its inner loops.
+        conditions: where all this is so, to be said at the end.
+    """
+    anywhere, at_end = poc_set(structure), poc_set(structure, structure.end)
+    point = GENERAL if anywhere.t == at_end.t else structure.end
+    result = anywhere if point == GENERAL else at_end
+    found = operands(structure)
+    sets = [poc_set(item.structure, point) for item in found]
+    inside = [step for item, poc in zip(found, sets, strict=True) for step in _inside(item, poc, point)]
+    between = _between(found, sets, structure, point)
+    whole = Step("union", tuple(sets), tuple(item.text for item in found), result, "", "")
+    if len(found) == 1 and inside:
+        whole = inside[0]
+    origin = "at any point of the end link" if point == GENERAL else "on the last axis"
+    said = f"so the end link has {in_words(result)}{conditions}"
+    return Derivation(name, origin, parts, whole, (*inside, *between), said)
+
+
+def _inside(item: Operand, poc: PocSet, point: int) -> list[Step]:
+    """How the joints of one block or one point make its set."""
+    pieces = joints(item)
+    if len(pieces) < 2:
+        return []
+    sets = tuple(poc_set(piece.structure, point) for piece in pieces)
+    reason = f"{in_words(poc)} of {item.text}, {_independence(poc, sum(each.dim for each in sets))}"
+    return [Step("union", sets, tuple(piece.text for piece in pieces), poc, "criterion C1", reason)]
+
+
+def _between(found: Sequence[Operand], sets: Sequence[PocSet], structure: Structure, point: int) -> list[Step]:
+    """The union, one operand after the other."""
+    steps: list[Step] = []
+    count = len(found[0].structure.items) if found else 0
+    for index in range(1, len(found)):
+        before = steps[-1].result if steps else sets[0]
+        count += len(found[index].structure.items)
+        rods = tuple(rod for rod in structure.rods if any(rod in item.structure.rods for item in found[: index + 1]))
+        prefix = Structure(structure.items[:count], rods, structure.end)
+        poc = poc_set(prefix, point)
+        steps.append(
+            _union(before, sets[index], poc, ", ".join(item.text for item in found[:index]), found[index].text)
+        )
+    return steps
+
+
+def _union(before: PocSet, added: PocSet, poc: PocSet, old: str, new: str) -> Step:
+    rule = "linear rule" if poc.dim == before.dim + added.dim else "criterion C2"
+    verb = "add" if "," in new else "adds"
+    more = PocSet(poc.t - before.t, poc.r - before.r, 0)
+    elements = in_words(more) if more.t or more.r else "no element"
+    reason = f"{new} {verb} {elements}, {_independence(poc, before.dim + added.dim)}"
+    return Step("union", (before, added), (old, new), poc, rule, reason)
+
+
+def _independence(poc: PocSet, freedoms: int) -> str:
+    """How many elements are independent, and how many freedoms make none."""
+    text = "all independent" if not poc.dependent else f"{counted(poc.dependent, 'element')} not independent"
+    if freedoms > poc.dim:
+        text += f", {counted(freedoms - poc.dim, 'freedom')} without effect (dim M = {poc.dim})"
+    return text
