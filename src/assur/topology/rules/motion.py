@@ -47,7 +47,7 @@ class Limb:
         conditions: where it is such a chain, in words.
         centre: label of the point that all axes run through, where they do.
         labels: every label of a point in it.
-        parts: derivations of its inner loops.
+        parts: gives the derivations of its inner loops.
         name: how it is named in steps.
     """
 
@@ -57,7 +57,7 @@ class Limb:
     conditions: tuple[str, ...] = ()
     centre: str = ""
     labels: frozenset[str] = frozenset()
-    parts: tuple[Derivation, ...] = ()
+    parts: Callable[[], tuple[Derivation, ...]] = field(default=tuple, repr=False, compare=False)
     name: str = ""
 
 
@@ -182,5 +182,5 @@ def _moving(limb: Limb, structure: Structure, taken: Orientations) -> Motion:
         conditions=limb.conditions,
         limb=limb,
         structure=structure,
-        derive=lambda: chain_derivation(structure, limb.name, limb.parts, under(limb.conditions)),
+        derive=lambda: chain_derivation(structure, limb.name, limb.parts(), under(limb.conditions)),
     )

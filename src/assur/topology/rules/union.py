@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 
 from assur.topology.chains import Chain, Element, InnerLoop
 from assur.topology.rules.blocks import structure
-from assur.topology.rules.derivation import Derivation
 from assur.topology.rules.elementary import Elementary, Slide, Turn, elementary
 from assur.topology.rules.intersection import parallel
 from assur.topology.rules.motion import Limb, Mode, Motion, check_mode, motion_of, seen_from_end
@@ -39,14 +38,14 @@ def serial(chain: Chain | Sequence[Element], mode: Mode = "free", name: str = "t
     """
     check_mode(mode)
     elements = chain.elements if isinstance(chain, Chain) else tuple(chain)
-    parts: list[Derivation] = []
+    loops: list[Motion] = []
     conditions: list[str] = []
 
     def loop(element: InnerLoop) -> tuple[Elementary, ...] | Refusal:
         motion = inner_loop(element)
         if isinstance(motion, Refusal):
             return motion
-        parts.append(motion.derivation)
+        loops.append(motion)
         conditions.extend(motion.conditions)
         turns_both = motion.rotations.dim and motion.translations.turning
         back = inner_loop(element, seen_from_end) if turns_both else motion
@@ -68,7 +67,7 @@ def serial(chain: Chain | Sequence[Element], mode: Mode = "free", name: str = "t
         centre=_centre(found),
         labels=frozenset(item.point for item in found if isinstance(item, Turn) and not item.point.startswith("#"))
         - {""},
-        parts=tuple(parts),
+        parts=lambda: tuple(motion.derivation for motion in loops),
         name=name,
     )
     return motion_of(limb, UNTURNED if mode == "translation" else EVERY)
