@@ -129,7 +129,7 @@ def topology(
     what: str | Path | MechanismRecord | Sequence[str],
     /,
     *,
-    actuate: Sequence[str] | None = None,
+    actuate: Sequence[str] | str | None = None,
     mode: Mode | None = None,
 ) -> Topology:
     """The topology of a mechanism, derived by symbolic rules and by the rank of twists.
@@ -137,8 +137,9 @@ def topology(
     Args:
         what: the name or file of a mechanism or of a topology, a mechanism, one chain, or several chains from base
             to platform, in the plain form ("P[x] R[x] R[x] R[x]") or the literature's.
-        actuate: actuated joints as "limb.joint", counted from 1, the branches of inner loops one after the other. By
-            default those of the mechanism, and for chains the first P, R or C of each branch from the base.
+        actuate: actuated joints as "limb.joint" (a list, or a text with commas), counted from 1, the branches of inner
+            loops one after the other. By default those of the mechanism, and for chains the first P, R or C of each
+            branch from the base, as many as there are freedoms.
         mode: "home" for the motion that is reached from the configuration as written; "translation" where the
             platform keeps its orientation. By default what a topology's file says, else "home".
 
@@ -157,6 +158,8 @@ def topology(
         >>> topology("R[x] R[x] R[x] R[y] R[y]").limbs[0].poc.dim
         5
     """
+    if isinstance(actuate, str):
+        actuate = actuate.split(",")
     if mode not in (None, *get_args(Mode)):
         raise UnknownNameError("mode", str(mode), get_args(Mode))
     if isinstance(what, MechanismRecord):
@@ -170,9 +173,11 @@ def topology(
             return _of_record(load(what), actuate, mode)
         described = registry.load_topology(what)
         numbers = actuate or [f"{limb}.{joint}" for limb, joint in described.actuate]
-        return _of_chains(
+        found = _of_chains(
             described.chains, numbers, mode or described.mode, described.name, described.title, described.source
         )
+        differences = () if actuate or mode else described.declared.differences(found)
+        return dataclasses.replace(found, notes=(*found.notes, *differences))
     return _of_chains(parse_chains(what), actuate, mode or "home")
 
 
@@ -203,4 +208,4 @@ def _of_chains(
 ) -> Topology:
     names = numbered_inputs(chains, actuate) if actuate else default_inputs(chains)
     built = place(chains, actuated=names)
-    return analyse(built, chains, name=name, title=title, source=source, mode=mode)
+    return analyse(built, chains, name=name, title=title, source=source, mode=mode, chosen=bool(actuate))

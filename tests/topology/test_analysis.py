@@ -106,3 +106,41 @@ def test_answers_do_not_depend_on_the_placing():
     chains = parse_chains(PAPER)
     facts = [analyse(place(chains, seed=seed, actuated=["P1", "P2", "P3"]), chains) for seed in range(4)]
     assert len({(str(item.poc), item.dof, item.xi, item.delta, item.decoupling.depends) for item in facts}) == 1
+
+
+@pytest.mark.parametrize("branches", [("R[y] R[y]", "R[y] R[y] R[y]"), ("P[y] R[y] R[y]", "R[y] R[y] R[y]")])
+def test_the_order_of_the_branches_of_a_loop_makes_no_difference(branches):
+    one, other = branches
+    found = [assur.topology(f"{{{first} | {second}}} P[y]") for first, second in ((one, other), (other, one))]
+    assert numbers(found[0].poc) == numbers(found[1].poc)
+    assert found[0].routes_agree
+    assert found[1].routes_agree
+
+
+def test_there_is_no_coupling_degree_where_the_inputs_depend_on_each_other():
+    found = assur.topology(PAPER, actuate=["1.1", "1.2", "1.4"])
+    assert found.actuation.verdict == "dependent"
+    assert found.coupling_degree is None
+    assert found.assur_chains == ()
+
+
+def test_default_inputs_that_are_too_many_are_left_out_and_said():
+    found = assur.topology(["R[z] R[z] R[z]", "R[z]"])
+    assert (found.dof, found.inputs, found.coupling_degree) == (1, ("R1",), 0)
+    assert "only R1, of R1, R4" in found.notes[0]
+
+
+def test_a_platform_that_can_turn_has_no_translation_mode():
+    with pytest.raises(UsageError, match="no translation mode"):
+        assur.topology(["R[z] R[z] R[z]"] * 3, mode="translation")
+
+
+def test_declared_facts_that_are_wrong_are_said(tmp_path):
+    file = tmp_path / "mine.toml"
+    text = (
+        'format = 1\nkind = "topology"\nname = "mine"\nchains = ["R[z] R[z] R[z]", "R[z] R[z]"]\n[declared]\ndof = %s\n'
+    )
+    file.write_text(text % 2, encoding="utf-8")
+    assert assur.topology(file).notes == ()
+    file.write_text(text % 4, encoding="utf-8")
+    assert assur.topology(file).notes == ("declared dof = 4, computed 2",)

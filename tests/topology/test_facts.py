@@ -54,9 +54,9 @@ def test_what_is_read_off_other_facts():
     [
         (AGREED, (AGREED, AGREED), True),
         (AGREED, (), True),
-        (REFUSED, (AGREED, AGREED), False),
-        (AGREED, (AGREED, REFUSED), False),
-        (REFUSED, (), False),
+        (REFUSED, (AGREED, AGREED), None),
+        (AGREED, (AGREED, REFUSED), None),
+        (REFUSED, (), None),
     ],
 )
 def test_routes_agree_where_the_rules_answered_everywhere(known, limbs, agree):

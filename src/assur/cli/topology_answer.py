@@ -47,6 +47,7 @@ def outcome(found: Topology, graph: Path | None, *, latex: bool, ascii_only: boo
     from assur.topology.answers import answers
 
     data = answers(found)
+    wrong = 1 if any(note.startswith("declared ") for note in found.notes) else 0  # a claim of the file fails
     if graph is not None:
         _draw(found, graph)
         data["graph"] = str(graph)
@@ -54,8 +55,8 @@ def outcome(found: Topology, graph: Path | None, *, latex: bool, ascii_only: boo
         from assur.topology.latex import fragment
 
         data["latex"] = fragment(found)
-        return Outcome(data, lambda: [Verbatim(data["latex"])])
-    return Outcome(data, lambda: _shown(found, graph, ascii_only=ascii_only))
+        return Outcome(data, lambda: [Verbatim(data["latex"])], wrong)
+    return Outcome(data, lambda: _shown(found, graph, ascii_only=ascii_only), wrong)
 
 
 def _draw(found: Topology, path: Path) -> None:
@@ -99,7 +100,11 @@ def _result(found: Topology) -> Iterator[str]:
     loops = "; ".join(f"ξ{k} = {loop.xi}, Δ{k} = {signed(loop.delta)}" for k, loop in enumerate(found.loops, 1))
     yield f"loops        {len(found.loops)}" + (f": {loops}" if loops else "")
     degree = found.coupling_degree
-    yield f"coupling     κ = {degree}" if degree is not None else "coupling     none: the inputs are too few for κ"
+    yield (
+        f"coupling     κ = {degree}"
+        if degree is not None
+        else "coupling     none: the inputs do not determine the mechanism"
+    )
     redundant = found.redundant_constraints
     yield f"redundant    {redundant.collapsed} with parallelograms as one joint, {redundant.joint_graph} of all joints"
 

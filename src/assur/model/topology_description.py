@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Literal
 
 from assur.topology.chains import Chain, Element, InnerLoop, Parallelogram
+from assur.topology.facts import Topology
 
 Mode = Literal["home", "translation"]
 Counts = tuple[int, int]
@@ -42,6 +43,24 @@ class Declared:
     internal_freedoms: tuple[int, int] | None = None
     source: str = ""
 
+    def differences(self, found: Topology) -> tuple[str, ...]:
+        """What the file declares and the engine does not find, one sentence each."""
+        computed = {
+            "poc": (found.poc.t, found.poc.r),
+            "dim": found.poc.dim,
+            "dof": found.dof,
+            "xi": found.xi,
+            "coupling_degree": found.coupling_degree,
+            "limbs": tuple((limb.poc.t, limb.poc.r) for limb in found.limbs),
+            "limb_dims": tuple(limb.poc.dim for limb in found.limbs),
+            "redundant_constraints": (found.redundant_constraints.collapsed, found.redundant_constraints.joint_graph),
+        }
+        return tuple(
+            f"declared {name} = {_plain(getattr(self, name))}, computed {_plain(value)}"
+            for name, value in computed.items()
+            if getattr(self, name) not in (None, value)
+        )
+
 
 @dataclass(frozen=True)
 class TopologyDescription:
@@ -71,6 +90,11 @@ class TopologyDescription:
         """The types of its limbs as they are spoken of: "3-RP(4S)", "3-UPS, 1-UP"."""
         counted = Counter(_letters(chain.elements) for chain in self.chains)
         return ", ".join(f"{count}-{letters}" for letters, count in counted.items())
+
+
+def _plain(value: object) -> str:
+    """A number, or numbers without brackets."""
+    return ", ".join(map(str, value)) if isinstance(value, tuple) else str(value)
 
 
 def _letters(elements: tuple[Element, ...]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -21,7 +22,7 @@ from assur.topology.counting.relaxation import relaxation
 from assur.topology.counting.solution_plan import solution_plan
 from assur.topology.facts import Known, Limb, RedundantConstraints, Topology
 from assur.topology.linkages.configurations import Hold, home_is_special
-from assur.topology.linkages.edges import Edge, column_names, input_columns
+from assur.topology.linkages.edges import Edge
 from assur.topology.linkages.linkage import Linkage
 from assur.topology.linkages.recognition import recognised
 from assur.topology.linkages.twists import dimensions, edges, generic_values, motion_space
@@ -98,6 +99,8 @@ def analyse(
     title: str = "",
     source: str = "",
     mode: Mode = "home",
+    chosen: bool = True,
+    notes: tuple[str, ...] = (),
 ) -> Topology:
     """Everything that the theory says of a linkage.
 
@@ -108,6 +111,8 @@ def analyse(
         title: for print.
         source: for print.
         mode: "home" for the motion that is reached from home, "translation" for a platform that keeps its orientation.
+        chosen: whether somebody chose the inputs; if not, those that are too many are left out, and a note says so.
+        notes: what to tell the reader beside the facts.
 
     Errors:
         RoutesDisagreeError: rules and twists differ, with the chain's name.
@@ -118,15 +123,25 @@ def analyse(
     base, platform = linkage.base, linkage.platform
     collapsed = mobility(here.collapsed, base, platform)
     whole = mobility(here.joints, base, platform)
+    allowed = max(collapsed.controlled, 0)
+    if len(linkage.inputs) > allowed and not chosen:
+        fewer = dataclasses.replace(linkage, inputs=linkage.inputs[:allowed])
+        notes = (*notes, _left_out(linkage, allowed))
+        return analyse(fewer, chains, name=name, title=title, source=source, mode=mode, notes=notes)
     refuse_too_many(linkage, collapsed)
     if mode == "translation" and len(chains or ()) != 1 and here.poc[1]:
-        raise UsageError("there is no translation mode: the platform cannot but turn", hint="leave out the mode")
+        raise UsageError(
+            "there is no translation mode: where the platform keeps its orientation, it can turn as well",
+            hint="leave out the mode",
+        )
     still, held = here.keeps_orientation, mode == "translation"
     rules = by_rules(chains, still=still, held=held)
     limbs = _limbs(here, chains or (), rules)
     order = coupling(here.collapsed, collapsed.internal)
     check_xi(chains or (), [limb.here for limb in limbs], order.loops, held=held)
     decoupling = by_jacobian(here.collapsed, base, platform)
+    plan = solution_plan(order, here.collapsed, base, platform)
+    solvable = not plan.free
     return Topology(
         name=name,
         title=title,
@@ -139,15 +154,15 @@ def analyse(
         internal_joints=tuple(item.joints for item in whole.internal),
         idle_joints=collapsed.idle,
         loops=order.loops,
-        assur_chains=order.assur_chains,
-        coupling_degree=order.coupling_degree,
+        assur_chains=order.assur_chains if solvable else (),
+        coupling_degree=order.coupling_degree if solvable else None,
         redundant_constraints=RedundantConstraints(collapsed.redundant_constraints, whole.redundant_constraints),
-        inputs=tuple(column_names(here.collapsed)[index] for index in input_columns(here.collapsed)),
+        inputs=_input_names(here),
         decoupling=decoupling,
         decoupling_refusal=_decoupling_refusal(decoupling, chains, still),
-        plan=solution_plan(order, here.collapsed, base, platform),
+        plan=plan,
         linkage=linkage,
-        notes=(SPECIAL,) if here.special else (),
+        notes=(*notes, SPECIAL) if here.special else notes,
         derive=rules.derivations,
         actuate=partial(actuation, here.collapsed, base, platform),
         relax=partial(relaxation, here.joints, base, platform),
@@ -178,14 +193,39 @@ def _text(chain: Chain) -> str:
     return chain.text or plain_text(chain)
 
 
+def _input_names(here: Sample) -> tuple[str, ...]:
+    """The inputs as joints, or "C1.1" where a joint has several components, in the order of the linkage."""
+    found = []
+    for joint, component in here.linkage.inputs:
+        edge = next(edge for edge in here.collapsed if joint in edge.joints)
+        found.append(edge.name if edge.freedoms == 1 else f"{edge.name}.{component + 1}")
+    return tuple(found)
+
+
+def _left_out(linkage: Linkage, allowed: int) -> str:
+    names = [joint for joint, _ in linkage.inputs]
+    taken = f"only {', '.join(names[:allowed])}" if allowed else "nothing"
+    firsts = f"{', '.join(names)}, the first joints of the branches"
+    return f"actuated: {taken}, of {firsts}; {counted(allowed, 'degree')} of freedom"
+
+
 def refuse_too_many(linkage: Linkage, found: Mobility) -> None:
     """UsageError where there are more inputs than freedoms to lock."""
     allowed = max(found.controlled, 0)
     if len(linkage.inputs) > allowed:
-        names, plural = ", ".join(joint for joint, _ in linkage.inputs), "" if allowed == 1 else "s"
+        names = ", ".join(joint for joint, _ in linkage.inputs)
         raise UsageError(
-            f"{len(linkage.inputs)} actuated joints ({names}) for {allowed} degree{plural} of freedom",
+            f"{counted(len(linkage.inputs), 'actuated joint')} ({names}) for {counted(allowed, 'degree')} of freedom",
             hint=f"actuate {allowed} of them: --actuate limb.joint,... with numbers from 1"
             if allowed
             else "the mechanism does not move: a limb has too few freedoms, or axes that do not go together",
         )
+
+
+def counted(number: int, noun: str) -> str:
+    """A number of things.
+
+    >>> counted(1, "degree")
+    '1 degree'
+    """
+    return f"{number} {noun}{'' if number == 1 else 's'}"

@@ -108,7 +108,7 @@ def _limb(limb: Limb) -> dict[str, Any]:
         **poc,
         "symbolic": limb.symbolic,
         "freedoms": limb.freedoms,
-        "poc": str(limb.poc),
+        "poc_text": str(limb.poc),
         "directions": _directions(limb.poc),
         **_route(limb.known),
     }

@@ -97,7 +97,7 @@ class Topology:
     relax: Callable[[], Relaxation] = field(repr=False, default=NotImplemented)
 
     def __str__(self) -> str:
-        loops = ", ".join(f"ξ = {loop.xi} Δ = {loop.delta:+d}" for loop in self.loops) or "none"
+        loops = ", ".join(f"ξ = {loop.xi} Δ = {loop.delta:+d}".replace("+0", "0") for loop in self.loops) or "none"
         head = f"{self.name or 'mechanism'}: {self.poc}, F = {self.dof}, κ = {self.coupling_degree}; loops: {loops}"
         return "\n".join([head, *(derivation.text() for derivation in self.derivations), *self.plan.words])
 
@@ -117,9 +117,13 @@ class Topology:
         return tuple(loop.delta for loop in self.loops)
 
     @property
-    def routes_agree(self) -> bool:
-        """Whether the rules answered everywhere; where they did, they agree with the twists, or an error was raised."""
-        return all(item.route == "both" for item in (self.known, *(limb.known for limb in self.limbs)))
+    def routes_agree(self) -> bool | None:
+        """True where rules and twists both gave every POC set; None where the rules refused one, which says why.
+
+        There is no False: where they give different answers an error is raised.
+        """
+        known = (self.known, *(limb.known for limb in self.limbs))
+        return True if all(item.route == "both" for item in known) else None
 
     @cached_property
     def derivations(self) -> tuple[Derivation, ...]:

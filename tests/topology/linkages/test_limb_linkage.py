@@ -29,8 +29,7 @@ TIPS = {
     "R[y] P(4U)[y] P[x]": "Pa1.b",
     "R[y] P(2US)[y]": "Pa1.b",
     HYBRID: "R6",
-    "R[x] {P[y] R[x] | P[y] R[x] R[x]}": "R2",
-    "R[x] {P[y] P[z] | P[y] R[x] R[x] P[z]}": "R3",
+    "R[x] {P[y] P[z] | P[y] R[x] R[x] P[z]}": "R1",
     "R[x] {P[y] | P[z]} P[x]": "R1",
 }
 REST = ["S P[x] S", "R[z] R[z] R[z]"]
@@ -55,8 +54,8 @@ def test_the_point_is_on_the_last_axis_or_centre(text):
     np.testing.assert_array_equal(limb_linkage(placed, alone).point, placed.point)
 
 
-@pytest.mark.parametrize("text", ["P[x] P[y]", "P(4R)[x] P[z]", "{P[x] | P[x]}"])
-def test_where_nothing_turns_the_point_stays_that_of_the_platform(text):
+@pytest.mark.parametrize("text", ["P[x] P[y]", "P(4R)[x] P[z]", "{P[x] | P[x]}", "R[x] {P[y] R[x] | P[y] R[x] R[x]}"])
+def test_where_nothing_turns_or_a_loop_does_last_the_point_stays_that_of_the_platform(text):
     linkage, chain = in_a_mechanism(text)
     np.testing.assert_array_equal(limb_linkage(linkage, chain).point, linkage.point)
 

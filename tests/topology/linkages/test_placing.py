@@ -139,7 +139,7 @@ def test_the_branches_of_an_inner_loop_join_the_same_two_links():
         ("R[x] S P[z]", "S1"),
         ("R[x] P(4R)[y]", "R1"),
         ("R[x] P(4S)[y]", "Pa1.b"),
-        ("R[z] {P[y] R[x] | P[y] R[y]} P[x]", "R2"),
+        ("R[z] {P[y] | P[y] R[y]} P[x]", "R1"),
     ],
 )
 def test_the_base_point_of_a_chain_alone_is_on_its_last_axis_or_centre(text, joint):
@@ -147,9 +147,11 @@ def test_the_base_point_of_a_chain_alone_is_on_its_last_axis_or_centre(text, joi
     assert [name for name, item in linkage.joints.items() if np.array_equal(item.point, linkage.point)] == [joint]
 
 
-def test_the_base_point_of_several_limbs_is_on_no_axis():
-    linkage = _placed("R[x] R[y]", "R[x] R[y]")
-    assert all(_on_axis(joint, linkage.point) > 1e-3 for joint in linkage.joints.values())
+@pytest.mark.parametrize("texts", [("R[x] R[y]", "R[x] R[y]"), ("R[z] {P[y] R[x] | P[y] R[x] R[x]} P[x]",)])
+def test_the_base_point_of_several_limbs_or_of_a_loops_output_is_on_no_axis(texts):
+    linkage = _placed(*texts)
+    turning = [joint for joint in linkage.joints.values() if joint.type.letter == "R"]
+    assert all(_on_axis(joint, linkage.point) > 1e-3 for joint in turning)
 
 
 def test_joints_keep_unique_names_and_others_are_called_by_limb_and_place():

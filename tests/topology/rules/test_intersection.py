@@ -160,7 +160,8 @@ RULES = {
     "two R with different parallel axes share nothing": (["R[x]", "R[x]"], "t⁰ r⁰"),
     "two R on one axis": (["R[x]@A", "R[x]@A"], "t¹(⊥(R1, ρ)) r¹(∥R1)"),
     "two C share t1 only": (["C[x]", "C[x]"], "t¹(∥C1) r⁰"),
-    "four-bar, inputs free": (["R[x] R[x]", "R[x] R[x]"], "t¹(⊥(R1, ρ)) r¹(∥R1)"),
+    "four-bar, its coupler": (["R[x] R[x]", "R[x] R[x]"], "t¹(moving) r¹(∥R1)"),
+    "four-bar, its rocker": (["R[x] R[x] R[x]", "R[x]"], "t¹(⊥(R4, ρ)) r¹(∥R1)"),
     "an idle R": (["R[z] P[x]", "P[x]"], "t¹(∥P1) r⁰"),
     "limbs that turn about one axis only": (["R[y] R[y] R[y] S P[x]", "R[x] R[x] R[x]"], "t²(⊥R4) r¹(∥R4)"),
 }

@@ -29,9 +29,8 @@ def _tip(linkage: Linkage, elements: Sequence[Element]) -> FloatArray | None:
     """Where the last axis or centre of some elements is at home, None if nothing in them turns their end."""
     for element in reversed(elements):
         if isinstance(element, InnerLoop):
-            found = next((tip for tip in (_tip(linkage, b) for b in element.branches) if tip is not None), None)
-            if found is not None:
-                return found
+            if all(_tip(linkage, branch) is not None for branch in element.branches):
+                return linkage.point  # no axis of a loop's branches is one of its output link
         elif isinstance(element, Parallelogram):
             if element.kind != "4R":
                 group = linkage.groups[element.name]

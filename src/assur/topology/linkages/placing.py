@@ -47,8 +47,8 @@ def place(chains: Sequence[Chain], *, seed: int = 0, actuated: Sequence[str] | N
     are unique, else they are called by limb and place in it, as "R1.2" (of one chain alone "R2"). The joints of a
     parallelogram Pa are Pa.a, Pa.b, Pa.c, Pa.d around it, from one end of the first rod to that of the second.
 
-    O' of a chain alone is fixed in its end link, on its last R axis or joint centre at home; that of several limbs is
-    a general point of the platform.
+    O' of a chain alone is fixed in its end link, on its last R axis or joint centre at home (a general point where
+    that is an inner loop's output link); that of several limbs is a general point of the platform.
 
     Args:
         chains: from base to platform.
@@ -113,7 +113,7 @@ class _Building:
     def _element(self, element: Element, start: str, end: str) -> FloatArray | None:
         if isinstance(element, InnerLoop):
             tips = [self.series(branch, start, end) for branch in element.branches]
-            return next((tip for tip in tips if tip is not None), None)
+            return None if any(tip is None for tip in tips) else self.somewhere()
         if isinstance(element, Parallelogram):
             return self._parallelogram(element, start, end)
         point = self.labels.setdefault(element.point, self.somewhere()) if element.point else self.somewhere()

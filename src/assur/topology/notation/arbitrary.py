@@ -13,6 +13,9 @@ from assur.topology.notation.brackets import direction
 FloatArray = NDArray[np.float64]
 
 _TRIED = 64
+NEARLY_BEST = 0.5
+"""Share of the best candidate's distance from special directions that is far enough."""
+
 _PLASTIC = 1.32471795724474602596
 _STEPS = (1 / _PLASTIC, 1 / _PLASTIC**2)
 
@@ -20,8 +23,9 @@ _STEPS = (1 / _PLASTIC, 1 / _PLASTIC**2)
 class Arbitrary:
     """A source of directions. The same questions in the same order have the same answers.
 
-    Every answer is the best of 64 candidates of a low-discrepancy sequence: farthest from parallel and
-    perpendicular to the directions in `others`, and from the planes of any two of those in `near`.
+    Every answer is one of 64 candidates of a low-discrepancy sequence that is far from parallel and perpendicular to
+    the directions in `others`, and from the planes of any two of those in `near`: the first that is nearly as far as
+    the best. The best itself would be alike in every limb, at half a right angle from the base's axes.
     """
 
     def __init__(self) -> None:
@@ -42,8 +46,9 @@ class Arbitrary:
         avoided = np.array([*NAMED.values(), *others])  # (n, 3)
         walls = np.vstack([avoided, _planes(near)])
         clearances = [_clearance(candidates, walls, basis), _sines(candidates, avoided)]
-        best = int(np.argmax(np.min(np.hstack(clearances), axis=1)))
-        return direction(tuple(candidates[best].tolist()))
+        far = np.min(np.hstack(clearances), axis=1)
+        chosen = int(np.argmax(far >= NEARLY_BEST * np.max(far)))
+        return direction(tuple(candidates[chosen].tolist()))
 
     def _candidates(self, dimension: int) -> FloatArray:
         """Unit vectors (64, k) of a plane or of space, other ones at every call."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from assur.topology.poc import PocSet
+from assur.topology.poc import Mark, PocSet
 from assur.topology.rules.constraints import Resisted, resists_purely
-from assur.topology.rules.marks import rotation_mark, translation_mark
+from assur.topology.rules.marks import MOVING, rotation_mark, translation_mark
 from assur.topology.rules.motion import Motion
 from assur.topology.rules.spans import Span, perpendicular
 
@@ -24,7 +24,16 @@ def platform_set(limbs: Sequence[Motion], found: Resisted) -> PocSet:
     moved, turned = found.forces.complement, found.couples.complement
     t = found.dim - 3 + _rank_of_moments(limbs, found)
     seen = moved if t == moved.dim else _with_rotation(t, turned, found)
-    return PocSet(t, turned.dim, found.dim, translation_mark(seen, *chains), rotation_mark(turned, *chains))
+    mark = translation_mark(seen, *chains)
+    if mark.relation == "arm":
+        mark = _arm(limbs, (t, turned.dim, found.dim))
+    return PocSet(t, turned.dim, found.dim, mark, rotation_mark(turned, *chains))
+
+
+def _arm(limbs: Sequence[Motion], numbers: tuple[int, int, int]) -> Mark:
+    """The arm of the limb that has no other motion than the platform; else the platform's centre of rotation moves."""
+    sets = [limb.restated for limb in limbs]
+    return next((item.t_mark for item in sets if (item.t, item.r, item.dim) == numbers), MOVING)
 
 
 def is_helical(limbs: Sequence[Motion], found: Resisted) -> bool:
