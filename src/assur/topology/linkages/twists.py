@@ -172,7 +172,7 @@ def _agreeing(linkage: Linkage, values: FloatArray) -> FloatArray:
     except UnclearRankError as error:
         raise UnclearRankError(
             f"home has freedoms that are lost on the way, and what is reached from it disagrees: {error.message}",
-            hint="operation modes may meet at home; say which one is meant, or start from a configuration inside one",
+            hint="operation modes may meet at home: ask for mode translation, or write a configuration inside one mode",
         ) from error
     return values
 
