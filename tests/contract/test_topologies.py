@@ -94,10 +94,16 @@ def test_the_inputs_determine_the_platform(name):
 
 
 @pytest.mark.parametrize("name", topology_names())
-def test_both_routes_agree_or_the_rules_say_why_they_refuse(name):
+def test_both_routes_answer_and_agree(name):
+    assert computed(name).routes_agree is True
+
+
+@pytest.mark.parametrize("name", topology_names())
+def test_redundant_constraints_loop_by_loop_are_those_of_the_joint_graph(name):
     facts = computed(name)
-    for known in (facts.known, *(limb.known for limb in facts.limbs)):
-        assert (known.route == "both") == (not known.refusal)
+    assert sum(count for _, count in facts.redundant_by_loop) == facts.redundant_constraints.joint_graph
+    of_loops = facts.redundant_by_loop[: len(facts.loops)]
+    assert sum(count for _, count in of_loops) == facts.redundant_constraints.collapsed
 
 
 @pytest.mark.parametrize("name", topology_names())

@@ -26,6 +26,7 @@ def test_the_paper_from_its_notation():
     assert str(found.limbs[0].poc) == "t³ r²(∥◇(R12, R5))"
     assert (found.dof, found.xi, found.delta, found.coupling_degree) == (3, (3, 5), (1, -1), 1)
     assert (found.redundant_constraints.collapsed, found.redundant_constraints.joint_graph) == (4, 10)
+    assert found.redundant_by_loop == (("loop 1", 3), ("loop 2", 1), ("Pa1", 3), ("Pa2", 3))
     assert found.routes_agree
     assert found.decoupling.inputs_of("y") == ("P1", "P2")
 

@@ -33,6 +33,7 @@ def topology(**changes):
         assur_chains=(),
         coupling_degree=1,
         redundant_constraints=RedundantConstraints(3, 3),
+        redundant_by_loop=(),
         inputs=("P1",),
         decoupling=None,
         plan=SolutionPlan(()),

@@ -164,7 +164,7 @@ def _loops(found: Topology, say: Said) -> Iterator[RenderableType]:
     if not found.loops:
         return
     yield table(
-        ("loop", "joints that it adds", say("Σf"), "I", say("ξ"), say("Δ")),
+        ("loop", "joints that it adds", say("Σf"), "I", say("ξ"), say("Δ"), "redundant"),
         [
             (
                 str(number),
@@ -173,11 +173,15 @@ def _loops(found: Topology, say: Said) -> Iterator[RenderableType]:
                 str(loop.inputs),
                 str(loop.xi),
                 f"{signed(loop.delta)}",
+                str(loop.redundant_constraints),
             )
             for number, loop in enumerate(found.loops, 1)
         ],
         left=("joints that it adds",),
     )
+    inside = found.redundant_by_loop[len(found.loops) :]
+    if inside:
+        yield "redundant inside parallelograms: " + ", ".join(f"{name} {count}" for name, count in inside)
     for number, chain in enumerate(found.assur_chains, 1):
         loops = ", ".join(str(index + 1) for index in chain.loops)
         noun = "loop" if len(chain.loops) == 1 else "loops"

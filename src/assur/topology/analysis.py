@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.topology.chains import Chain
 from assur.topology.counting.actuation import actuation
-from assur.topology.counting.coupling import coupling
+from assur.topology.counting.coupling import Loop, coupling
 from assur.topology.counting.decoupling import Decoupling, by_jacobian, confirmed
 from assur.topology.counting.decoupling import by_rules as decoupled_by_rules
 from assur.topology.counting.mobility import Mobility, mobility
@@ -22,7 +22,7 @@ from assur.topology.counting.relaxation import relaxation
 from assur.topology.counting.solution_plan import solution_plan
 from assur.topology.facts import Known, Limb, RedundantConstraints, Topology
 from assur.topology.linkages.configurations import Hold, home_is_special
-from assur.topology.linkages.edges import Edge
+from assur.topology.linkages.edges import Edge, closure, rank
 from assur.topology.linkages.linkage import Linkage
 from assur.topology.linkages.recognition import recognised
 from assur.topology.linkages.twists import dimensions, edges, generic_values, motion_space
@@ -157,6 +157,7 @@ def analyse(
         assur_chains=order.assur_chains if solvable else (),
         coupling_degree=order.coupling_degree if solvable else None,
         redundant_constraints=RedundantConstraints(collapsed.redundant_constraints, whole.redundant_constraints),
+        redundant_by_loop=(*_of_loops(order.loops), *_of_parallelograms(here)),
         inputs=_input_names(here),
         decoupling=decoupling,
         decoupling_refusal=_decoupling_refusal(decoupling, chains, still),
@@ -191,6 +192,17 @@ def _limb(chain: Chain, known: Known) -> Limb:
 
 def _text(chain: Chain) -> str:
     return chain.text or plain_text(chain)
+
+
+def _of_loops(loops: Sequence[Loop]) -> list[tuple[str, int]]:
+    return [(f"loop {number}", loop.redundant_constraints) for number, loop in enumerate(loops, 1)]
+
+
+def _of_parallelograms(here: Sample) -> list[tuple[str, int]]:
+    """Redundant constraints of the loop inside each parallelogram."""
+    place = {edge.name: edge for edge in here.joints}
+    inside = {name: [place[joint] for joint in group.joints] for name, group in here.linkage.groups.items()}
+    return [(name, 6 - rank(closure(joints))) for name, joints in inside.items()]
 
 
 def _input_names(here: Sample) -> tuple[str, ...]:

@@ -43,6 +43,7 @@ def answers(found: Topology) -> dict[str, Any]:
             "collapsed": found.redundant_constraints.collapsed,
             "joint_graph": found.redundant_constraints.joint_graph,
         },
+        "redundant_by_loop": dict(found.redundant_by_loop),
         "inputs": list(decoupling.inputs if decoupling else found.inputs),
         "outputs": list(decoupling.outputs) if decoupling else [],
         "decoupling": [list(row) for row in decoupling.depends] if decoupling else None,

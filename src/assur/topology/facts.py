@@ -67,6 +67,8 @@ class Topology:
         internal_freedoms: those of F that leave the platform at rest, such as a rod's spin.
         loops: in the order that attains the coupling degree.
         assur_chains: each with the indices of its loops.
+        redundant_by_loop: 6 - xi of each loop in that order, then of the loop inside each parallelogram, by name; all
+            together are those of the joint graph.
         decoupling: None where the inputs do not determine the platform.
         decoupling_refusal: why the theory does not confirm that pattern, empty where it does.
         linkage: what the twists were computed on.
@@ -86,6 +88,7 @@ class Topology:
     assur_chains: tuple[AssurChain, ...]
     coupling_degree: int | None
     redundant_constraints: RedundantConstraints
+    redundant_by_loop: tuple[tuple[str, int], ...]
     inputs: tuple[str, ...]
     decoupling: Decoupling | None
     plan: SolutionPlan
