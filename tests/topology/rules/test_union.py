@@ -156,7 +156,8 @@ joints = st.one_of(
 chains = st.lists(joints, min_size=1, max_size=8).map(lambda items: Chain(tuple(items)))
 
 
-@settings(max_examples=350, deadline=None)
+@pytest.mark.slow
+@settings(max_examples=3000, deadline=None)
 @given(chains)
 def test_rules_and_twists_agree_on_random_chains(chain):
     assert _by_rules(serial(chain)) == _by_twists(chain)
