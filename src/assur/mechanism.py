@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics import closure, position, velocity
 from assur.kinematics.home import home_values
+from assur.kinematics.position import Method
 from assur.kinematics.solutions import SolutionSet
 from assur.kinematics.structure import linkage
 from assur.model import registry
@@ -46,13 +47,13 @@ class Mechanism(MechanismRecord):
         """The same mechanism with other dimensions, checked as those of the file are."""
         return registry.with_parameters(self, **values)
 
-    def direct(self, inputs: ArrayLike, mode: str | None = None) -> SolutionSet:
+    def direct(self, inputs: ArrayLike, mode: str | None = None, method: Method = "auto") -> SolutionSet:
         """Every pose at inputs (..., n): see `assur.kinematics.position.direct`."""
-        return position.direct(self, inputs, mode)
+        return position.direct(self, inputs, mode, method)
 
-    def inverse(self, poses: ArrayLike, mode: str | None = None) -> SolutionSet:
+    def inverse(self, poses: ArrayLike, mode: str | None = None, method: Method = "auto") -> SolutionSet:
         """All inputs at poses (..., m): see `assur.kinematics.position.inverse`."""
-        return position.inverse(self, poses, mode)
+        return position.inverse(self, poses, mode, method)
 
     def velocity_map(self, poses: ArrayLike, mode: str | None = None) -> velocity.VelocityMap:
         """Jp and Jq at poses (..., m): see `assur.kinematics.velocity.velocity_map`."""

@@ -115,7 +115,7 @@ def test_chains_stand_in_the_plain_form(name):
 @pytest.mark.parametrize("name", sorted({*NAMED_BY_THE_PAPER.values(), *EXPECTED.values()}))
 def test_what_the_field_expects_is_there_or_left_out_with_a_reason(name):
     reasons = {item.name: item.reason for item in left_out()}
-    assert (name in assur.names()) + (name in topology_names()) + bool(reasons.get(name)) == 1
+    assert (name in {*assur.names(), *topology_names()}) + bool(reasons.get(name)) == 1
 
 
 def test_nothing_is_left_out_that_is_there():
@@ -125,6 +125,17 @@ def test_nothing_is_left_out_that_is_there():
 @pytest.mark.parametrize("name", [name for name in NAMED_BY_THE_PAPER.values() if name in topology_names()])
 def test_translational_mechanisms_translate(name):
     assert load_topology(name).declared.poc == (3, 0)
+
+
+@pytest.mark.parametrize("name", sorted({*assur.names()} & {*topology_names()}))
+@pytest.mark.parametrize("fact", COMPUTED)
+def test_a_mechanism_has_the_topology_that_stands_beside_it(name, fact):
+    assert getattr(load_topology(name).declared, fact) == COMPUTED[fact](computed_of_joint_graph(name))
+
+
+@lru_cache
+def computed_of_joint_graph(name):
+    return assur.topology(assur.load(name))
 
 
 def rows():

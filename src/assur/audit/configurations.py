@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.kinematics.closure import assemble, characteristic_length, loop_twists
 from assur.kinematics.home import home_values
-from assur.kinematics.modes import mode_text
+from assur.kinematics.modes import all_modes
 from assur.kinematics.position import inverse
 from assur.kinematics.status import Status
 from assur.model.joint_graph import frames
@@ -64,7 +64,8 @@ def configurations(record: MechanismRecord, seed: int = 0) -> Configurations:
     closed = assemble(record, start + rng.normal(size=start.shape) * SHAKE * joint_scales(record))
     kept = closed.closed
     values = closed.values[kept]
-    modes = [mode_text(found.modes_asked[branch]) for branch in branches[kept]]
+    names = all_modes(record, "inverse")
+    modes = [names[branch] for branch in branches[kept]]
     return Configurations(values, _motions(record, values, rng), tuple(modes))
 
 

@@ -24,6 +24,7 @@ from assur.model.file.schema import Entry
 from assur.model.file.values import Value
 from assur.model.mechanism import MechanismRecord
 from assur.model.points import quantity
+from assur.model.pose import is_angle
 
 FloatArray = NDArray[np.float64]
 
@@ -67,7 +68,7 @@ class _Border:
     @property
     def angular(self) -> list[bool]:
         if self.problem == "direct":
-            return [name not in border.LENGTHS for name in self.record.platform.pose]
+            return [is_angle(name) for name in self.record.platform.pose]
         return [item.coordinate.kind == "angle" for item in self.record.inputs]
 
     @property

@@ -25,14 +25,14 @@ def outcome(record: Mechanism, found: SolutionSet) -> Outcome:
     from assur.kinematics.answers import answer
 
     data = answer(found)
-    return Outcome(data, lambda: _shown(record, data, len(found.modes_asked)), EXIT_CODES.get(data["status"], 0))
+    return Outcome(data, lambda: _shown(record, data, found.candidates), EXIT_CODES.get(data["status"], 0))
 
 
 def lines(record: Mechanism, found: SolutionSet) -> Iterable[RenderableType]:
     """An answer as a person reads it."""
     from assur.kinematics.answers import answer
 
-    return _shown(record, answer(found), len(found.modes_asked))
+    return _shown(record, answer(found), found.candidates)
 
 
 def _shown(record: Mechanism, data: dict[str, Any], branches: int) -> Iterable[RenderableType]:

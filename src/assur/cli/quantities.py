@@ -72,9 +72,9 @@ def point_title(style: Style, names: Sequence[str]) -> str:
 
 def is_length(name: str) -> bool:
     """Whether a pose coordinate is a length; every other is an angle."""
-    from assur.kinematics.border import LENGTHS
+    from assur.model.pose import is_angle
 
-    return name in LENGTHS
+    return not is_angle(name)
 
 
 def fixed(value: float | None, decimals: int) -> str:

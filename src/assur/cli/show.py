@@ -33,8 +33,8 @@ def show(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> Ou
 def description(record: Mechanism) -> dict[str, Any]:
     """The mechanism as plain data; angles in its angle unit."""
     from assur.kinematics.answers import angle_at_border
-    from assur.kinematics.border import LENGTHS
     from assur.kinematics.closure import closure_error
+    from assur.model.pose import is_angle
 
     home = record.home_values
     free = record.mobility(home)
@@ -43,7 +43,7 @@ def description(record: Mechanism) -> dict[str, Any]:
         float(angle_at_border(record, home[item.index]) if item.kind == "angle" else home[item.index])
         for item in record.coordinates
     ]
-    low_high = {name: pair if name in LENGTHS else angle_at_border(record, pair) for name, pair in record.box.items()}
+    low_high = {name: angle_at_border(record, pair) if is_angle(name) else pair for name, pair in record.box.items()}
     return {
         "mechanism": record.name,
         "title": record.title,

@@ -10,7 +10,7 @@ from manifold3d import Manifold
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
-from assur.kinematics.border import LENGTHS
+from assur.model.pose import is_angle
 from assur.workspace.fields import Columns, sample
 from assur.workspace.grid import UniformGrid
 from assur.workspace.nearness import divided, to_triangles, triangles_of
@@ -68,7 +68,7 @@ def near_solid(found: Workspace) -> Manifold:
     if any(locus.everywhere for locus in found.loci):
         return found.region.solid
     surfaces = [triangles_of(locus.vertices, locus.faces) for locus in found.loci if len(locus.faces)]
-    if not surfaces or any(name not in LENGTHS for name in found.box.names):
+    if not surfaces or any(is_angle(name) for name in found.box.names):
         return Manifold()
     wanted = np.ceil(CELLS_IN_DISTANCE * np.subtract(found.box.high, found.box.low) / found.near).astype(int)
     grid = UniformGrid(found.box, tuple(np.clip(wanted, 24, FINEST).tolist()))

@@ -17,8 +17,8 @@ from assur.figures.context import Context
 from assur.figures.letters import mathematics
 from assur.figures.singular import condition
 from assur.figures.style import BLUE, GREEN, ORANGE, PINK, RED
-from assur.kinematics.border import LENGTHS
 from assur.model.closed_form import Factor
+from assur.model.pose import is_angle
 from assur.singularity.loci import Locus
 from assur.workspace.region import Workspace
 
@@ -181,4 +181,4 @@ def locus_words(context: Context) -> str:
 
 def axis_title(context: Context, name: str) -> str:
     """A pose coordinate with its unit."""
-    return f"${mathematics(name) or name}$ ({context.record.unit if name in LENGTHS else 'rad'})"
+    return f"${mathematics(name) or name}$ ({'rad' if is_angle(name) else context.record.unit})"

@@ -23,10 +23,10 @@ from assur.figures.solid import model_camera, paste, triad
 from assur.figures.solids import model
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import LETTER, PAGE, PAPER, RED, SMALL, TEXT
-from assur.kinematics.border import LENGTHS
 from assur.kinematics.position import inverse
 from assur.kinematics.status import FACTOR_TOLERANCE, Status, relative_factors
 from assur.model.closed_form import Factor
+from assur.model.pose import is_angle
 from assur.singularity.examples import SingularExample
 
 FloatArray = NDArray[np.float64]
@@ -96,13 +96,13 @@ def _where(context: Context, example: SingularExample) -> str:
     pose = ", ".join(
         _value(context, name, value) for name, value in zip(context.record.platform.pose, example.pose, strict=True)
     )
-    unit = f" {context.record.unit}" if all(name in LENGTHS for name in context.record.platform.pose) else ""
+    unit = f" {context.record.unit}" if not any(map(is_angle, context.record.platform.pose)) else ""
     status = example.status.name.replace("_", "-")
     return f"Working mode {signs(example.mode)}, pose ({pose}){unit}; status {status}."
 
 
 def _value(context: Context, name: str, value: float) -> str:
-    degrees = name not in LENGTHS and context.record.angle == "deg"
+    degrees = is_angle(name) and context.record.angle == "deg"
     shown = np.degrees(value) if degrees else value
     return f"{round(shown, 2) + 0.0:.2f}".replace("-", "−") + ("°" if degrees else "")
 

@@ -17,8 +17,8 @@ from assur.figures.skeleton import Skeleton, skeleton
 from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import BLUE, GREEN, INK, ORANGE, PAGE, PINK, RED, SKY, SMALL, TEXT
-from assur.kinematics.border import LENGTHS
 from assur.kinematics.solution import Solution
+from assur.model.pose import is_angle
 
 FloatArray = NDArray[np.float64]
 TALLEST = 105.0
@@ -145,12 +145,12 @@ def _table(context: Context, page: Canvas, found: list[Ghost], width: float, hei
 def _cells(context: Context, ghost: Ghost) -> list[str]:
     degrees = context.record.angle == "deg"
     values = zip(context.record.platform.pose, ghost.solution.pose, strict=True)
-    shown = [np.degrees(value) if degrees and name not in LENGTHS else value for name, value in values]
+    shown = [np.degrees(value) if degrees and is_angle(name) else value for name, value in values]
     return [f"{round(value, 4) + 0.0:.4f}".replace("-", "−") for value in shown]
 
 
 def _unit(context: Context, name: str) -> str:
-    return context.record.unit if name in LENGTHS else context.record.angle
+    return context.record.angle if is_angle(name) else context.record.unit
 
 
 def _data(context: Context, found: list[Ghost]) -> dict[str, Any]:

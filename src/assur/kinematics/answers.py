@@ -12,6 +12,7 @@ from assur.kinematics.solution import Solution
 from assur.kinematics.solutions import SolutionSet
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import is_angle
 from assur.results.json_text import plain
 
 FloatArray = NDArray[np.float64]
@@ -92,13 +93,13 @@ def inputs_from_border(record: MechanismRecord, inputs: Any) -> FloatArray:
 
 def pose_at_border(record: MechanismRecord, pose: Any) -> FloatArray:
     """Poses (..., m) with angles in the mechanism's angle unit."""
-    angular = np.array([name not in border.LENGTHS for name in record.platform.pose])
+    angular = np.array([is_angle(name) for name in record.platform.pose])
     return np.asarray(np.where(angular, angle_at_border(record, np.asarray(pose)), pose))
 
 
 def pose_from_border(record: MechanismRecord, pose: Any) -> FloatArray:
     """Poses (..., m) in rad and lengths, from the mechanism's angle unit."""
-    angular = np.array([name not in border.LENGTHS for name in record.platform.pose])
+    angular = np.array([is_angle(name) for name in record.platform.pose])
     factor = np.pi / 180 if record.angle == "deg" else 1.0
     return np.asarray(np.asarray(pose, dtype=float) * np.where(angular, factor, 1.0))
 

@@ -9,11 +9,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
 from assur.kinematics.closure import characteristic_length
+from assur.kinematics.pose import pose_error
 from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import QUATERNION, has_quaternion, is_angle
+from assur.numerics import rotations
+from assur.topology.joints import SPHERICAL
 
 FloatArray = NDArray[np.float64]
-LENGTHS = ("x", "y", "z")
+SHORTEST_QUATERNION = 1e-6
 LARGEST = 1e60
 """Beyond this the squares and products of a closed form overflow."""
 
@@ -36,6 +40,19 @@ def checked(values: ArrayLike, names: tuple[str, ...], what: str) -> FloatArray:
     if np.any(np.abs(array) > LARGEST):
         raise UsageError(f"{what}: no value may be larger than {LARGEST:g}")
     return array
+
+
+def checked_poses(record: MechanismRecord, values: ArrayLike) -> FloatArray:
+    """Poses (..., m) as `checked`; a quaternion is made a unit one."""
+    poses = checked(values, record.platform.pose, f"pose of {record.name}")
+    if not has_quaternion(record.platform.pose):
+        return poses
+    columns = [record.platform.pose.index(name) for name in QUATERNION]
+    size = np.linalg.norm(poses[..., columns], axis=-1, keepdims=True)
+    if not np.all(size > SHORTEST_QUATERNION):
+        raise UsageError(f"pose of {record.name}: a quaternion of length zero", hint="no rotation is 1, 0, 0, 0")
+    poses[..., columns] /= size
+    return poses
 
 
 def input_names(record: MechanismRecord) -> tuple[str, ...]:
@@ -61,10 +78,25 @@ def printed_inputs(record: MechanismRecord, components: tuple[Any, ...]) -> list
     ]
 
 
+def inputs_of(record: MechanismRecord, joints: FloatArray) -> FloatArray:
+    """Printed inputs (..., n) at joint values (..., coordinates)."""
+    columns = [item.sign * joints[..., item.coordinate.index] + item.offset for item in record.inputs]
+    return np.stack(columns, axis=-1)
+
+
+def held_inputs(record: MechanismRecord, joints: FloatArray, inputs: FloatArray) -> FloatArray:
+    """Joint values (..., coordinates) with the actuated ones as printed inputs (..., n) say."""
+    answer = np.broadcast_to(joints, (*np.broadcast_shapes(joints.shape[:-1], inputs.shape[:-1]), joints.shape[-1]))
+    answer = np.array(answer)
+    for k, item in enumerate(record.inputs):
+        answer[..., item.coordinate.index] = (inputs[..., k] - item.offset) * item.sign
+    return answer
+
+
 def pose_components(record: MechanismRecord, poses: FloatArray) -> tuple[Any, ...]:
-    """Kernel pose from poses (N, m): a length as it is, an angle as (cosine, sine)."""
+    """Kernel pose from poses (N, m): a number as it is, an angle as (cosine, sine)."""
     return tuple(
-        poses[:, k] if name in LENGTHS else (np.cos(poses[:, k]), np.sin(poses[:, k]))
+        (np.cos(poses[:, k]), np.sin(poses[:, k])) if is_angle(name) else poses[:, k]
         for k, name in enumerate(record.platform.pose)
     )
 
@@ -79,28 +111,35 @@ def scalar(value: Any) -> FloatArray:
 
 def joint_values(record: MechanismRecord, joints: Any) -> list[FloatArray]:
     """Joint values in the order of the record's coordinates, from a kernel's {joint or joint.component: value}."""
-    values = []
-    for item in record.coordinates:
-        key = item.joint if item.joint in joints else f"{item.joint}.{item.component}"
-        values.append(scalar(joints[key]))
+    values: list[FloatArray] = []
+    for name, joint in record.joints.items():
+        if joint.type is SPHERICAL:
+            values += _rotation_vector(joints[name])
+        elif name in joints:
+            values.append(scalar(joints[name]))
+        else:
+            values += [scalar(joints[f"{name}.{component}"]) for component in joint.type.components]
     return values
+
+
+def _rotation_vector(rows: Any) -> list[FloatArray]:
+    """Parts of the rotation vector of a rotation given as three rows of numbers that broadcast."""
+    entries = np.broadcast_arrays(*(np.asarray(entry, dtype=float) for row in rows for entry in row))
+    matrix = np.stack(entries, axis=-1)
+    vector = rotations.to_vector(matrix.reshape(*matrix.shape[:-1], 3, 3))
+    return list(np.moveaxis(vector, -1, 0))
 
 
 def distance(record: MechanismRecord, joints: FloatArray, poses: FloatArray, inputs: FloatArray) -> FloatArray:
     """How far joint values (N, coordinates) are from poses (N, m) and printed inputs (N, n), in length units.
 
-    Lengths of the pose are compared with the platform's point in the joint graph; angles of the pose are not.
+    Rotations count times the characteristic length.
     """
-    rotation, origin = frames(record, joints)[record.platform.link]
-    point = (rotation @ record.platform.point) + origin
-    gaps = [
-        np.abs(point[:, "xyz".index(name)] - poses[:, k])
-        for k, name in enumerate(record.platform.pose)
-        if name in LENGTHS
-    ]
+    length = characteristic_length(record)
+    gaps = np.max(np.abs(pose_error(record, frames(record, joints), poses, length)), axis=-1)
     for k, item in enumerate(record.inputs):
         gap = np.abs(item.sign * joints[:, item.coordinate.index] + item.offset - inputs[:, k])
         if item.coordinate.kind == "angle":
-            gap = characteristic_length(record) * np.abs((gap + np.pi) % (2 * np.pi) - np.pi)
-        gaps.append(gap)
-    return np.asarray(np.max(gaps, axis=0))
+            gap = length * np.abs((gap + np.pi) % (2 * np.pi) - np.pi)
+        gaps = np.maximum(gaps, gap)
+    return np.asarray(gaps)

@@ -15,8 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
+from assur.kinematics.pose import platform_rates, pose_error
 from assur.model.joint_graph import Frame, child_frame, frames, joint_graph, screws
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import LENGTHS, rate_names
 from assur.numerics import least_squares, rotations
 
 FloatArray = NDArray[np.float64]
@@ -107,14 +109,15 @@ def _about_cut_joints(record: MechanismRecord, values: FloatArray) -> FloatArray
     return matrix
 
 
-def _system(record: MechanismRecord, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Residual (N, 6v) and its derivative (N, 6v, n), exact where the loops close."""
+def _system(record: MechanismRecord, values: FloatArray, poses: FloatArray | None) -> tuple[FloatArray, FloatArray]:
+    """Residual (N, r) and its derivative (N, r, n), exact where it vanishes: the loops, then poses (N, m) if given."""
     graph = joint_graph(record)
     length = characteristic_length(record)
     placed = frames(record, values)
     gaps = _residuals(record, values, placed)
+    unit_twists = screws(record, placed, values)
     loops = (len(values), len(graph.cut), 6, values.shape[-1])
-    twists = _loop_twists(record, screws(record, placed, values)).reshape(loops)
+    twists = _loop_twists(record, unit_twists).reshape(loops)
     derivative = np.empty_like(twists)
     for index, joint in enumerate(graph.cut):
         rotation, origin = placed[joint.child]
@@ -123,7 +126,13 @@ def _system(record: MechanismRecord, values: FloatArray) -> tuple[FloatArray, Fl
         derivative[:, index, :3] = loop[:, 3:] + np.cross(loop[:, :3], point[:, :, None], axis=1)
         derivative[:, index, 3:] = length * loop[:, :3]
     count = 6 * len(graph.cut)
-    return gaps.reshape(len(values), count), derivative.reshape(len(values), count, values.shape[-1])
+    residual, jacobian = gaps.reshape(len(values), count), derivative.reshape(len(values), count, values.shape[-1])
+    if poses is None:
+        return residual, jacobian
+    units = np.array([1.0 if name in LENGTHS else length for name in rate_names(record.platform.pose)])
+    error = pose_error(record, placed, poses, length)
+    moves = platform_rates(record, placed, unit_twists) * units[:, None]
+    return np.concatenate([residual, error], axis=1), np.concatenate([jacobian, moves], axis=1)
 
 
 def assemble(
@@ -131,19 +140,28 @@ def assemble(
     start: FloatArray,
     *,
     held: Sequence[int] = (),
+    poses: FloatArray | None = None,
     tolerance: float = 1e-12,
     max_steps: int = 80,
 ) -> Assembly:
-    """Close the loops from starts (..., n), holding the joint values with indices `held`.
+    """Close the loops from starts (..., n), holding the joint values with indices `held`, or at given poses.
 
-    Damped least squares on the whole joint graph, so that redundant loops do no harm. `tolerance` is
-    relative to the characteristic length.
+    Args:
+        record: the mechanism.
+        start: joint values (..., n).
+        held: indices of joint values that must not change (those of the inputs: a direct problem).
+        poses: (..., m), where the platform must be (an inverse problem); anywhere by default.
+        tolerance: relative to the characteristic length.
+        max_steps: of damped least squares on the whole joint graph, so that redundant loops do no harm.
     """
     count = start.shape[-1]
     wrong = [index for index in held if index not in range(count)]
     if wrong:
         raise UsageError(f"held: no joint values {wrong} among 0 .. {count - 1}")
     values: FloatArray = np.array(start, dtype=float).reshape(int(np.prod(start.shape[:-1])), count)
+    wanted = None
+    if poses is not None:
+        wanted = np.broadcast_to(poses, (*start.shape[:-1], poses.shape[-1])).reshape(len(values), -1)
     free = np.setdiff1d(np.arange(count), np.asarray(held, dtype=int))
     length = characteristic_length(record)
     # a length counts in units of the characteristic length, so that a step mixes it fairly with angles
@@ -152,17 +170,19 @@ def assemble(
     def system(unknowns: FloatArray, rows: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
         trial = values[rows]
         trial[:, free] = unknowns * scale
-        gaps, derivative = _system(record, trial)
+        gaps, derivative = _system(record, trial, None if wanted is None else wanted[rows])
         return gaps / length, derivative[..., free] * (scale / length)
 
-    if not len(free):
-        error = closure_error(record, start)
-        return Assembly(values.reshape(start.shape), error, error <= CLOSED * length, 0)
-    found = least_squares.minimise(system, values[:, free] / scale, tolerance=tolerance, max_steps=max_steps)
-    values[:, free] = found.x * scale
-    values = values.reshape(start.shape)
+    steps = 0
+    if len(free):
+        found = least_squares.minimise(system, values[:, free] / scale, tolerance=tolerance, max_steps=max_steps)
+        values[:, free] = found.x * scale
+        steps = found.steps
     error = closure_error(record, values)
-    return Assembly(values, error, error <= CLOSED * length, found.steps)
+    if wanted is not None:
+        error = np.maximum(error, np.max(np.abs(pose_error(record, frames(record, values), wanted, length)), axis=-1))
+    error = error.reshape(start.shape[:-1])
+    return Assembly(values.reshape(start.shape), error, error <= CLOSED * length, steps)
 
 
 @dataclass(frozen=True, eq=False)

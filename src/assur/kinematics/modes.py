@@ -56,6 +56,39 @@ def mode_text(signs: Sequence[int] | NDArray[np.int8]) -> str:
     return "".join(SYMBOLS[int(sign)] for sign in signs)
 
 
+def mode_texts(signs: NDArray[np.int8]) -> NDArray[np.str_]:
+    """Texts (...) of modes from their signs (..., s).
+
+    >>> mode_texts(np.array([[1, 0, -1], [1, 1, 1]], dtype=np.int8)).tolist()
+    ['+0-', '+++']
+    """
+    symbols = np.array([SYMBOLS[0], SYMBOLS[1], SYMBOLS[-1]])[signs]
+    texts = np.zeros(signs.shape[:-1], dtype="<U1")
+    for k in range(signs.shape[-1]):
+        texts = np.char.add(texts, symbols[..., k])
+    return texts
+
+
+def numbered(texts: NDArray[np.str_], exists: NDArray[np.bool_]) -> NDArray[np.str_]:
+    """Texts (..., K) that tell solutions apart: those that several solutions of one problem share get a number.
+
+    >>> numbered(np.array(["+", "-", "+", "+"]), np.array([True, True, True, False])).tolist()
+    ['+/1', '-', '+/2', '']
+    >>> numbered(np.array(["", ""]), np.array([True, True])).tolist()
+    ['1', '2']
+    """
+    longest = texts.dtype.itemsize // 4 + 1 + len(str(texts.shape[-1]))
+    answer = np.zeros(texts.shape, dtype=f"<U{longest}")
+    for place in np.ndindex(texts.shape[:-1]):
+        rows = np.flatnonzero(exists[place])
+        own = texts[place][rows]
+        for k, row in enumerate(rows):
+            number = int(np.sum(own[: k + 1] == own[k]))
+            shared = int(np.sum(own == own[k])) > 1 or not own[k]
+            answer[(*place, row)] = f"{own[k]}{'/' if own[k] else ''}{number}" if shared else own[k]
+    return answer
+
+
 def sign_axes(names: Sequence[str], batch_axes: int = 1) -> SimpleNamespace:
     """Both values of every sign, each along a leading axis of its own, so that one call gives all branches."""
     axes = {}

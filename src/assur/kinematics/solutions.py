@@ -1,117 +1,144 @@
-"""Solutions of the direct or the inverse problem: all branches, batched, expanded only where asked."""
+"""Solutions of the direct or the inverse problem, however they were found: the one shape that all else reads."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.errors import UnknownNameError, UsageError
+from assur.errors import UsageError
 from assur.kinematics import border
 from assur.kinematics.closure import closure_error
-from assur.kinematics.existence import allows, exists, vanishes
-from assur.kinematics.modes import Problem, mode_text, sign_names
-from assur.kinematics.self_motion import SelfMotionCurve, has_self_motion, nearest_miss, self_motion_curves
+from assur.kinematics.modes import Problem
+from assur.kinematics.self_motion import SelfMotionCurve
 from assur.kinematics.solution import Failure, Solution
-from assur.kinematics.status import FACTOR_TOLERANCE, Status, classify, closed_form_of, scale
-from assur.model.closed_form import Branch, Margin
+from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
-from assur.numerics.number_types import Floats
 
 FloatArray = NDArray[np.float64]
 BLOCK = 4096
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class SolutionSet:
-    """All K branches for a batch (...) of problems; made by `direct` and `inverse`.
+class SolutionSet(ABC):
+    """K candidates for each problem of a batch (...), of which those that `exists` are the solutions.
 
     Attributes:
         problem: "direct" or "inverse".
         given: (..., n) inputs, or (..., m) poses.
-        modes_asked: (K, s) signs of the branches, in the order of the axis K.
-        branch: the kernel's numbers, with leading sign axes that are not expanded.
     """
 
     record: MechanismRecord
     problem: Problem
     given: FloatArray
-    modes_asked: NDArray[np.int8]
-    sign_shape: tuple[int, ...]
-    branch: Branch
+
+    @property
+    @abstractmethod
+    def complete(self) -> bool:
+        """Whether these are all solutions of the model `complete_for`."""
+
+    @property
+    @abstractmethod
+    def complete_for(self) -> str:
+        """The model: "joint_graph", or "reduced" where assemblies of the joint graph are left out."""
+
+    @property
+    @abstractmethod
+    def right(self) -> str:
+        """By what right the answer is complete, or why it is not known to be: one phrase."""
+
+    @property
+    @abstractmethod
+    def exists(self) -> NDArray[np.bool_]:
+        """Whether a candidate (..., K) is a solution that is listed."""
+
+    @property
+    @abstractmethod
+    def poses(self) -> FloatArray:
+        """Poses (..., K, m), NaN where there is no solution."""
+
+    @property
+    @abstractmethod
+    def inputs(self) -> FloatArray:
+        """Printed inputs (..., K, n), NaN where there is no solution."""
+
+    @property
+    @abstractmethod
+    def joints(self) -> FloatArray:
+        """Every joint's value (..., K, coordinates), in rad or length; NaN where there is no solution."""
+
+    @property
+    @abstractmethod
+    def status(self) -> NDArray[np.int8]:
+        """`Status` (..., K) of every candidate."""
+
+    @property
+    @abstractmethod
+    def overall_status(self) -> NDArray[np.int8]:
+        """`Status` (...) of the answer: the most severe among the listed solutions, or why there is none."""
+
+    @property
+    @abstractmethod
+    def labels(self) -> NDArray[np.str_]:
+        """Text (..., K) of each solution's mode in this problem."""
+
+    @property
+    @abstractmethod
+    def other_labels(self) -> NDArray[np.str_]:
+        """Text (..., K) of each solution's mode in the other problem."""
+
+    @property
+    @abstractmethod
+    def factors(self) -> Mapping[str, FloatArray]:
+        """What vanishes where a solution (..., K) is singular, by name."""
+
+    @property
+    @abstractmethod
+    def named_quantities(self) -> Mapping[str, FloatArray]:
+        """What the source names on its way (..., K), by name; angles in rad."""
+
+    @property
+    @abstractmethod
+    def curves(self) -> tuple[SelfMotionCurve, ...]:
+        """The curves of a self-motion (a batch of one): described, never one sample."""
+
+    @property
+    @abstractmethod
+    def failures(self) -> tuple[Failure, ...]:
+        """Why there is no solution (a batch of one); empty where there is one."""
 
     def __repr__(self) -> str:
-        return (
-            f"<{self.problem} solutions of {self.record.name}: batch {self.batch_shape}, {len(self.modes_asked)} modes>"
-        )
+        size = f"batch {self.batch_shape}, {self.candidates} branches"
+        return f"<{self.problem} solutions of {self.record.name}: {size}>"
+
+    @property
+    def candidates(self) -> int:
+        """K, the number of candidates for each problem."""
+        return int(self.exists.shape[-1])
 
     @property
     def batch_shape(self) -> tuple[int, ...]:
         """Shape (...) of the batch."""
         return self.given.shape[:-1]
 
-    @property
-    def complete(self) -> bool:
-        """Whether these are all solutions of the model `complete_for`, by right of the closed form."""
-        every = 2 ** len(sign_names(self.record, self.problem))
-        return len(self.modes_asked) == every and not bool(np.any(self.overall_status == Status.undecided))
-
-    @property
-    def complete_for(self) -> str:
-        """The model: "joint_graph", or "reduced" where the source leaves assemblies of the joint graph out."""
-        return closed_form_of(self.record).complete_for
-
-    @cached_property
-    def margins(self) -> dict[str, FloatArray]:
-        """Margins (..., K) by name; negative where a branch does not exist."""
-        return {name: self._expand(value) for name, value in self.branch.margins.items()}
-
-    @cached_property
-    def factors(self) -> dict[str, FloatArray]:
-        """Factors (..., K) of det Jp and det Jq by name."""
-        form = closed_form_of(self.record)
-        found = form.factors(Floats(), self.record.values, self.branch.core)
-        return {name: self._where_real(self._expand(value)) for name, value in found.items()}
-
-    @cached_property
-    def poses(self) -> FloatArray:
-        """Poses (..., K, m); NaN where the status is unreachable, self_motion or undecided without a pose."""
-        columns = [self._expand(border.scalar(value)) for value in self.branch.pose]
-        return self._where_real(np.stack(columns, axis=-1))
-
-    @cached_property
-    def inputs(self) -> FloatArray:
-        """Printed inputs (..., K, n); NaN where there is no solution."""
-        columns = [self._expand(value) for value in border.printed_inputs(self.record, self.branch.inputs)]
-        return self._where_real(np.stack(columns, axis=-1))
-
-    @cached_property
-    def joints(self) -> FloatArray:
-        """Every joint's value (..., K, coordinates), in rad or length; NaN where there is no solution."""
-        form = closed_form_of(self.record)
-        found = form.joints(Floats(), self.record.values, self.branch.core)
-        columns = [self._expand(value) for value in border.joint_values(self.record, found)]
-        return self._where_real(np.stack(columns, axis=-1))
-
     @cached_property
     def residuals(self) -> FloatArray:
         """What a solution (..., K) misses, in length units; NaN where there is no solution.
 
-        The largest of: the closure error of the full joint graph; the distance of the platform's point from
-        the pose; the difference of the actuated joint values from the inputs (angles times the characteristic
-        length). So an answer to another question than the one asked has a residual.
+        The largest of: the closure error of the full joint graph; the distance of the platform from the pose; the
+        difference of the actuated joint values from the inputs (angles times the characteristic length). So an
+        answer to another question than the one asked has a residual.
         """
         joints = self.joints.reshape(-1, self.joints.shape[-1])
-        rows = np.flatnonzero(self._real.ravel())
+        real = np.all(np.isfinite(joints), axis=-1)
+        rows = np.flatnonzero(real)
         error = np.full(len(joints), np.nan)
         for start in range(0, len(rows), BLOCK):
             block = rows[start : start + BLOCK]
             error[block] = np.maximum(closure_error(self.record, joints[block]), self._miss(joints[block], block))
-        return error.reshape(self._real.shape)
+        return error.reshape(self.joints.shape[:-1])
 
     def _miss(self, joints: FloatArray, rows: NDArray[np.intp]) -> FloatArray:
         """How far joint values (N, coordinates) are from the poses and inputs of flat rows, in length units."""
@@ -123,106 +150,13 @@ class SolutionSet:
         """What was given, where this is the problem in which it is given; else what was found."""
         return np.broadcast_to(self.given[..., None, :], found.shape) if self.problem == problem else found
 
-    @cached_property
-    def modes(self) -> NDArray[np.int8]:
-        """Signs (..., K, s) of this problem's mode; 0 where two branches have merged."""
-        shape = (*self.batch_shape, *self.modes_asked.shape)
-        signs: NDArray[np.int8] = np.broadcast_to(self.modes_asked, shape) * ~self._merged
-        return signs
-
-    @cached_property
-    def other_modes(self) -> NDArray[np.int8]:
-        """Signs (..., K, s) of the other problem's mode (working for direct, assembly for inverse)."""
-        return self.signs("inverse" if self.problem == "direct" else "direct")
-
-    def signs(self, problem: Problem) -> NDArray[np.int8]:
-        """Signs (..., K, s) of the quantities that name the modes of a problem, as they come out; 0 where zero."""
-        form = closed_form_of(self.record)
-        columns = []
-        for name in sign_names(self.record, problem):
-            sign = form.signs[name]
-            value = self._expand(getattr(self.branch.core, sign.attribute)) / scale(self.record, sign.scale)
-            columns.append(np.where(self._real & (np.abs(value) > FACTOR_TOLERANCE), np.sign(value), 0))
-        return np.stack(columns, axis=-1).astype(np.int8)
-
-    @cached_property
-    def exists(self) -> NDArray[np.bool_]:
-        """Whether a branch (..., K) is a solution that is listed: real, and not the second copy of a merged one."""
-        copies = np.any(self._merged & (self.modes_asked < 0), axis=-1) & (len(self.modes_asked) > 1)
-        return np.asarray(self._real & ~copies)
-
-    @cached_property
-    def status(self) -> NDArray[np.int8]:
-        """`Status` (..., K) of every branch."""
-        with np.errstate(invalid="ignore"):
-            status = classify(self.record, self.factors)
-        status[~self._real] = Status.unreachable
-        form = closed_form_of(self.record)
-        reachable = exists(self.record, [item for item in self._margin_list if item.zero == "merge"], self.margins)
-        for margin in self._margin_list:
-            if margin.zero == "degenerate":
-                here = vanishes(self.record, margin, self.margins[margin.name])
-                if form.self_motion is not None and form.self_motion.margin == margin.name:
-                    status[here] = Status.self_motion
-                else:
-                    status[here & reachable] = Status.undecided
-        return status
-
-    @cached_property
-    def overall_status(self) -> NDArray[np.int8]:
-        """`Status` (...) of the answer: the most severe among the listed solutions, or why there is none."""
-        listed = np.where(self.exists, self.status, -1).max(axis=-1)
-        overall: NDArray[np.int8] = np.where(listed >= 0, listed, self.status.min(axis=-1)).astype(np.int8)
-        for index in np.argwhere((listed < 0) & (overall == Status.self_motion)):
-            place = tuple(index)
-            if not has_self_motion(self.record, self.given[place]):
-                overall[place] = Status.unreachable
-        undecided = np.any(self.status == Status.undecided, axis=-1)
-        overall[undecided] = Status.undecided
-        return overall
-
-    @cached_property
-    def curves(self) -> tuple[SelfMotionCurve, ...]:
-        """The curves of a self-motion at the given inputs (a batch of one): described, never one sample."""
-        self._only_one()
-        return self_motion_curves(self.record, self.given) if self._in_self_motion else ()
-
-    @cached_property
-    def failures(self) -> tuple[Failure, ...]:
-        """Why no branch exists (a batch of one); empty where one does."""
-        self._only_one()
-        if np.any(self._real) or self.curves:
-            return ()
-        if self._in_self_motion:
-            return (nearest_miss(self.record, self.given),)
-        pending = np.ones(len(self.modes_asked), dtype=bool)
-        found = []
-        for margin in self._margin_list:
-            value = self.margins[margin.name]
-            fails = pending & ~allows(self.record, margin, value) & (margin.zero != "degenerate")
-            if np.any(fails):
-                worst = float(np.max(value[fails]))
-                found.append(Failure(margin.name, worst, margin.unit, margin.meaning, int(np.sum(fails))))
-            pending &= ~fails
-        return tuple(found)
-
-    def quantities(self, name: str) -> FloatArray:
-        """A quantity (..., K) that the source names, e.g. "gamma" (rad), "t", "J1", "M3"."""
-        form = closed_form_of(self.record)
-        found = form.quantities(Floats(), self.record.values, self.branch.core) if form.quantities else {}
-        if name not in found:
-            raise UnknownNameError(f"quantity of {self.record.name}", name, found)
-        return self._where_real(self._expand(border.scalar(found[name])))
-
     def __iter__(self) -> Iterator[Solution]:
         """The listed solutions of a batch of one."""
         self._only_one()
-        form = closed_form_of(self.record)
-        names = [item.name for item in form.quantity_list]
-        quantities = {name: self.quantities(name) for name in names}
-        labels = [self.record.coordinate_label(item) for item in self.record.coordinates]
+        names = [self.record.coordinate_label(item) for item in self.record.coordinates]
+        quantities = self.named_quantities
         for k in np.flatnonzero(self.exists):
-            mode, other = mode_text(self.modes[k]), mode_text(self.other_modes[k])
+            mode, other = str(self.labels[k]), str(self.other_labels[k])
             direct = self.problem == "direct"
             yield Solution(
                 pose=self.poses[k],
@@ -230,7 +164,7 @@ class SolutionSet:
                 mode=mode,
                 working_mode=other if direct else mode,
                 assembly_mode=mode if direct else other,
-                joints=dict(zip(labels, self.joints[k].tolist(), strict=True)),
+                joints=dict(zip(names, self.joints[k].tolist(), strict=True)),
                 residual=float(self.residuals[k]),
                 status=Status(int(self.status[k])),
                 factors={name: float(value[k]) for name, value in self.factors.items()},
@@ -242,43 +176,9 @@ class SolutionSet:
         self._only_one()
         return int(np.sum(self.exists))
 
-    @property
-    def _margin_list(self) -> tuple[Margin, ...]:
-        form = closed_form_of(self.record)
-        return form.direct_margins if self.problem == "direct" else form.inverse_margins
-
-    @property
-    def _in_self_motion(self) -> bool:
-        """Whether the direct problem (a batch of one) degenerates to a self-motion, real or not."""
-        return not np.any(self._real) and bool(np.any(self.status == Status.self_motion))
-
-    @cached_property
-    def _real(self) -> NDArray[np.bool_]:
-        return exists(self.record, self._margin_list, self.margins)
-
-    @cached_property
-    def _merged(self) -> NDArray[np.bool_]:
-        names = sign_names(self.record, self.problem)
-        merged = np.zeros((*self.batch_shape, *self.modes_asked.shape), dtype=bool)
-        for margin in self._margin_list:
-            for name in margin.signs:
-                merged[..., names.index(name)] |= vanishes(self.record, margin, self.margins[margin.name])
-        return merged
-
-    def _expand(self, value: Any) -> FloatArray:
-        """A kernel's number over sign axes and N problems, as (..., K)."""
-        count = int(np.prod(self.batch_shape, dtype=int))
-        wide = np.broadcast_to(np.asarray(value, dtype=float), (*self.sign_shape, count))
-        rows = np.moveaxis(wide.reshape(len(self.modes_asked), count), 0, -1)
-        return rows.reshape(*self.batch_shape, len(self.modes_asked))
-
-    def _where_real(self, values: FloatArray) -> FloatArray:
-        real = self._real if values.ndim == self._real.ndim else self._real[..., None]
-        return np.where(real, values, np.nan)
-
     def _only_one(self) -> None:
         if self.batch_shape != ():
             raise UsageError(
                 f"this is a batch of shape {self.batch_shape}; iterate over one problem at a time",
-                hint="use the arrays .poses, .inputs, .modes, .status, .exists, .residuals",
+                hint="use the arrays .poses, .inputs, .labels, .status, .exists, .residuals",
             )

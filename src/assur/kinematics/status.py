@@ -6,7 +6,7 @@ radicand; the factor that is this root is then at most the root of that toleranc
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from enum import IntEnum
 from functools import lru_cache
 
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.model.closed_form import ClosedForm
+from assur.model.closed_form import Branch, ClosedForm, Eliminant
 from assur.model.formula import parse
 from assur.model.mechanism import MechanismRecord
 
@@ -108,3 +108,12 @@ def closed_form_of(record: MechanismRecord) -> ClosedForm:
             hint="put a closed_form.py beside its file; assur.model.closed_form says what it declares",
         )
     return record.closed_form
+
+
+def branch_kernel(record: MechanismRecord) -> Callable[..., Branch]:
+    """The kernel of the direct problem by branches of signs, or a clear refusal where the mechanism has none."""
+    kernel = closed_form_of(record).direct
+    if kernel is None or isinstance(kernel, Eliminant):
+        has = "one polynomial" if kernel else "none"
+        raise UsageError(f"{record.name} has no closed direct solution by signs (it has {has})")
+    return kernel

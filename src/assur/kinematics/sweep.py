@@ -19,7 +19,7 @@ from assur.errors import UnknownNameError, UsageError
 from assur.kinematics import border
 from assur.kinematics.existence import exists
 from assur.kinematics.modes import Problem, mode_signs, sign_axes, sign_names
-from assur.kinematics.status import closed_form_of
+from assur.kinematics.status import branch_kernel, closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
 from assur.numerics.small_matrices import determinant
@@ -194,16 +194,17 @@ def _all_branches(
 ) -> Callable[[FloatArray], tuple[list[FloatArray], BoolArray]]:
     """A function from a block (b, k) of problems to its answers and their existence, along the sign axes."""
     form, p, ns = closed_form_of(record), record.values, Floats()
+    direct = None if problem == "inverse" else branch_kernel(record)
     sign = sign_axes(sign_names(record, problem))
     margins = form.inverse_margins if problem == "inverse" else form.direct_margins
 
     def solve(given: FloatArray) -> tuple[list[FloatArray], BoolArray]:
         with np.errstate(divide="ignore", invalid="ignore"):
-            if problem == "inverse":
+            if direct is None:
                 branch = form.inverse(ns, p, border.pose_components(record, given), sign)
                 values = border.printed_inputs(record, branch.inputs)
             else:
-                branch = form.direct(ns, p, border.input_components(record, given), sign)
+                branch = direct(ns, p, border.input_components(record, given), sign)
                 values = [border.scalar(value) for value in branch.pose]
             return values, exists(record, margins, branch.margins)
 

@@ -29,7 +29,7 @@ class Branch:
     """One branch, or all of them at once by broadcasting.
 
     Attributes:
-        pose: the coordinates of the platform, in the file's order.
+        pose: the coordinates of the platform, in the file's order; an angle is a pair (cosine, sine).
         inputs: the inputs in the file's order; a revolute input is a pair (cosine, sine).
         margins: name -> value; the branch exists where every one of them allows it.
         core: every quantity that factors, Jacobians and joint values are made of.
@@ -124,18 +124,42 @@ class SelfMotion:
 
 
 @dataclass(frozen=True)
+class Eliminant:
+    """A direct problem reduced to one polynomial: the second kind of closed form, its branches are the roots.
+
+    The root finder stands outside the kernels. All complex roots are found, so the real ones are all there are.
+
+    Attributes:
+        unknown: the name of what is found, a quantity of the mechanism ("phi").
+        kind: "angle", where the polynomial is in the tangent of half of it, or "plain".
+        degree: of the polynomial: how many poses there are at most.
+        coefficients: (ns, p, inputs) -> degree + 1 numbers, the constant term first.
+        back: (ns, p, inputs, root) -> Branch; the root is a pair (cosine, sine) where it is an angle.
+    """
+
+    unknown: str
+    kind: Literal["angle", "plain"]
+    degree: int
+    coefficients: Callable[..., Sequence[Number]]
+    back: Callable[..., Branch]
+
+
+@dataclass(frozen=True)
 class ClosedForm:
     """The closed form of a mechanism: a claim about its joint graph, made of kernels and their names.
 
     Attributes:
         complete_for: for which model the branches are all there are: "joint_graph", or "reduced" (the
             source's model, which leaves assemblies of the joint graph out; `reduced_because` says which).
-        direct: (ns, p, inputs, sign) -> Branch.
+        direct: (ns, p, inputs, sign) -> Branch; or an `Eliminant`; or None, where only a search is known.
         inverse: (ns, p, pose, sign) -> Branch.
-        joints: (ns, p, core) -> {joint: value}, a pair (cosine, sine) for a revolute.
+        joints: (ns, p, core) -> {joint: value}, a pair (cosine, sine) for a revolute; a joint with several
+            components has one entry for each ("leg1.U.first"), but a spherical joint one entry, the rotation of
+            the child against the parent as three rows. Freedoms that move nothing else may have any value.
         factors: (ns, p, core) -> {factor: value}.
         jacobians: (ns, p, core) -> (rows of Jp, rows of Jq) with Jp v = Jq qdot; a plain 0 where an entry
-            vanishes everywhere.
+            vanishes everywhere. v are the rates of the pose coordinates; those of a quaternion are the angular
+            velocity in the base frame (`assur.model.pose.rate_names`).
         quantities: (ns, p, core) -> {quantity: value}; a pair (cosine, sine) for an angle.
         constraints: (ns, p, core, inputs) -> {name: (found, wanted)}: the lengths that given inputs
             and a given pose would need, beside the lengths that the parameters say.
@@ -150,9 +174,9 @@ class ClosedForm:
     """
 
     complete_for: Literal["joint_graph", "reduced"]
-    direct: Callable[..., Branch]
+    direct: Callable[..., Branch] | Eliminant | None
     inverse: Callable[..., Branch]
-    joints: Callable[..., Mapping[str, Number]]
+    joints: Callable[..., Mapping[str, Any]]
     factors: Callable[..., Mapping[str, Number]]
     jacobians: Callable[..., tuple[Sequence[Sequence[Number]], Sequence[Sequence[Number]]]]
     signs: Mapping[str, Sign]

@@ -30,12 +30,14 @@ class JointGraph:
         loops: per cut joint, the tree joints of its loop with +1 where the loop runs from parent to
             child on the parent's side of the cut, -1 where it runs so on the child's side.
         slices: joint -> its place in the vector of joint values.
+        paths: link -> the tree joints from the base to it, +1 where run from parent to child.
     """
 
     tree: tuple[tuple[Joint, bool], ...]
     cut: tuple[Joint, ...]
     loops: tuple[Mapping[str, int], ...]
     slices: Mapping[str, slice]
+    paths: Mapping[str, Mapping[str, int]]
 
 
 @lru_cache(maxsize=64)
@@ -58,7 +60,7 @@ def joint_graph(record: MechanismRecord) -> JointGraph:
     for name, joint in record.joints.items():
         slices[name] = slice(start, start + joint.type.freedoms)
         start += joint.type.freedoms
-    return JointGraph(tuple(tree), cut, loops, slices)
+    return JointGraph(tuple(tree), cut, loops, slices, paths)
 
 
 def _paths(base: str, tree: list[tuple[Joint, bool]]) -> dict[str, dict[str, int]]:

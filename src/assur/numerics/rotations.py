@@ -90,3 +90,60 @@ def taking(start: FloatArray, end: FloatArray) -> FloatArray:
     cross = skew(np.cross(start, end))
     result: FloatArray = np.eye(3) + cross + cross @ cross / (1.0 + float(start @ end))
     return result
+
+
+def from_quaternion(quaternion: FloatArray) -> FloatArray:
+    """Rotation (..., 3, 3) of unit quaternions (..., 4), scalar first; q and -q give the same one.
+
+    >>> from_quaternion(np.array([0.0, 0.0, 0.0, 1.0])).round(12) + 0.0
+    array([[-1.,  0.,  0.],
+           [ 0., -1.,  0.],
+           [ 0.,  0.,  1.]])
+    """
+    scalar, vector = quaternion[..., :1, None], quaternion[..., 1:]
+    cross = skew(vector)
+    return np.asarray(np.eye(3) + 2.0 * (scalar * cross + cross @ cross))
+
+
+def to_quaternion(rotation: FloatArray) -> FloatArray:
+    """Unit quaternion (..., 4), scalar first and not negative, of a rotation (..., 3, 3).
+
+    >>> to_quaternion(np.diag([1.0, -1.0, -1.0])).tolist()
+    [0.0, 1.0, 0.0, 0.0]
+    """
+    trace = np.trace(rotation, axis1=-2, axis2=-1)
+    # 4 q q^T; its column with the largest diagonal entry is 4 q_k q
+    outer = np.empty((*trace.shape, 4, 4))
+    outer[..., 0, 0] = 1.0 + trace
+    outer[..., 1:, 1:] = rotation + np.swapaxes(rotation, -1, -2) + (1.0 - trace)[..., None, None] * np.eye(3)
+    skewed = [(2, 1), (0, 2), (1, 0)]
+    for k, (i, j) in enumerate(skewed, 1):
+        outer[..., 0, k] = outer[..., k, 0] = rotation[..., i, j] - rotation[..., j, i]
+    largest = np.argmax(np.einsum("...ii->...i", outer), axis=-1)
+    column = np.take_along_axis(outer, largest[..., None, None], axis=-1)[..., 0]
+    unit = column / np.linalg.norm(column, axis=-1, keepdims=True)
+    return np.asarray(np.where(unit[..., :1] < 0.0, -unit, unit)) + 0.0
+
+
+def to_angles(rotation: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Angles (...) phi, theta, psi in rad of rotations (..., 3, 3) = Rz(phi) Ry(theta) Rx(psi).
+
+    Theta is between -90 and 90 deg. Where it is one of these, phi is 0.
+
+    >>> turned = about_axis(np.array([0.0, 0.0, 1.0]), np.array(0.5)) @ about_axis(np.eye(3)[0], np.array(0.25))
+    >>> [round(float(angle), 12) for angle in to_angles(turned)]
+    [0.5, 0.0, 0.25]
+    """
+    across = np.hypot(rotation[..., 0, 0], rotation[..., 1, 0])
+    theta = np.arctan2(-rotation[..., 2, 0], across)
+    upright = across <= 1e-15
+    phi = np.where(upright, 0.0, np.arctan2(rotation[..., 1, 0], rotation[..., 0, 0]))
+    level = np.arctan2(rotation[..., 2, 1], rotation[..., 2, 2])
+    psi = np.where(upright, np.arctan2(-rotation[..., 1, 2], rotation[..., 1, 1]), level)
+    return phi, theta, psi
+
+
+def from_angles(phi: FloatArray, theta: FloatArray, psi: FloatArray) -> FloatArray:
+    """Rotation (..., 3, 3) = Rz(phi) Ry(theta) Rx(psi) of angles (...) in rad."""
+    x, y, z = np.eye(3)
+    return np.asarray(about_axis(z, phi) @ about_axis(y, theta) @ about_axis(x, psi))

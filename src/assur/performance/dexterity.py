@@ -99,7 +99,7 @@ def dexterity(record: MechanismRecord, poses: ArrayLike, mode: str | None = None
     >>> bool(abs(here.condition_index - here.velocity_factors[-1] / here.velocity_factors[0]) < 1e-12)
     True
     """
-    given = border.checked(poses, record.platform.pose, f"pose of {record.name}")
+    given = border.checked_poses(record, poses)
     flat = given.reshape(-1, given.shape[-1])
     parts = [_block(record, flat[start : start + BLOCK], mode) for start in range(0, max(1, len(flat)), BLOCK)]
     status, index, factors = (np.concatenate(column) for column in zip(*parts, strict=True))

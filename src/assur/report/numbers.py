@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from assur.kinematics.border import LENGTHS
 from assur.kinematics.closure import characteristic_length
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import is_angle
 
 NOTHING = "–"
 SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
@@ -39,7 +39,7 @@ def style_of(record: MechanismRecord) -> Style:
 
 def pose_angles(record: MechanismRecord) -> tuple[bool, ...]:
     """For every coordinate of the pose, whether it is an angle."""
-    return tuple(name not in LENGTHS for name in record.platform.pose)
+    return tuple(is_angle(name) for name in record.platform.pose)
 
 
 def input_angles(record: MechanismRecord) -> tuple[bool, ...]:

@@ -17,11 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
-from assur.kinematics.border import LENGTHS
 from assur.kinematics.modes import mode_signs, sign_names
 from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import Branch
 from assur.model.mechanism import Input, MechanismRecord
+from assur.model.pose import is_angle
 from assur.numerics.number_types import Extended
 from assur.workspace.grid import UniformGrid
 
@@ -87,7 +87,7 @@ def _branch(record: MechanismRecord, mode: str) -> Callable[[Columns], Branch]:
 
     def evaluate(columns: Columns) -> Branch:
         pose = tuple(
-            value if name in LENGTHS else (np.cos(value), np.sin(value))
+            (np.cos(value), np.sin(value)) if is_angle(name) else value
             for name, value in zip(record.platform.pose, columns, strict=True)
         )
         with np.errstate(divide="ignore", invalid="ignore"):

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
-from assur.kinematics.border import LENGTHS
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import is_angle
 from assur.singularity.loci import Locus, parallel_loci
 from assur.workspace.domain import Box, box_of
 from assur.workspace.fields import Field, Stroke, at_points, factor_fields, margin_fields
@@ -192,7 +192,7 @@ def _share(record: MechanismRecord, region: Reach, loci: Sequence[Locus], near: 
         return None
     if any(locus.everywhere for locus in loci):
         return 1.0
-    if any(name not in LENGTHS for name in record.platform.pose):
+    if any(is_angle(name) for name in record.platform.pose):
         return None
     surfaces = [triangles_of(locus.vertices, locus.faces) for locus in loci if len(locus.faces)]
     close = near_volume(region, surfaces, near) if surfaces else 0.0
@@ -200,7 +200,7 @@ def _share(record: MechanismRecord, region: Reach, loci: Sequence[Locus], near: 
 
 
 def _unit(record: MechanismRecord) -> str:
-    lengths = sum(name in LENGTHS for name in record.platform.pose)
+    lengths = sum(not is_angle(name) for name in record.platform.pose)
     angles = len(record.platform.pose) - lengths
     powers = [(record.unit, lengths), ("rad", angles)]
     return " ".join(unit if power == 1 else f"{unit}^{power}" for unit, power in powers if power)

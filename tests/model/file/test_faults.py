@@ -40,10 +40,10 @@ CASES: list[tuple[str, str, list[str]]] = [
     ('"coupler", point', '"ground", point', ["6: platform.link: 'ground' is the base; allowed: another link"]),
     ('["x", "y"]', "[]", ["6: platform.pose: a list of 0; allowed: at least 1"]),
     ('["x", "y"]', '["x", "w", "y"]',
-     ['6: platform.pose[1]: "w"; allowed: x, y, z, phi, qw, qx, qy or qz', "? did you mean 'qw'?"]),
+     ['6: platform.pose[1]: "w"; allowed: x, y, z, phi, theta, psi, qw, qx, qy or qz', "? did you mean 'qw'?"]),
     ('["x", "y"]', '["x", "y", "y"]', ["6: platform.pose: a coordinate twice; allowed: each once"]),
     ('["x", "y"]', '["x", "y", "qw"]',
-     ["6: platform.pose: half a quaternion; allowed: qw, qx, qy, qz together, without phi"]),
+     ["6: platform.pose: half a quaternion; allowed: qw, qx, qy, qz together, without angles"]),
     ('"y"] }', '"y", "phi"], orientation = "constant" }',
      ["6: platform.pose: a coordinate that turns; allowed with constant orientation: x, y, z"]),
     # parameters

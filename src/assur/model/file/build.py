@@ -21,6 +21,7 @@ from assur.model.file.parameters import evaluate_parameters
 from assur.model.file.scope import Scope
 from assur.model.file.toml_source import KeyPath
 from assur.model.mechanism import Link, MechanismRecord, Platform
+from assur.model.pose import ANGLES, LENGTHS, QUATERNION, is_angle
 
 _REQUIRED = {
     "format": "1, the format that this version reads",
@@ -34,7 +35,6 @@ _REQUIRED = {
     "inputs": "a table of the actuated joints",
     "home": "values of all joints near one assembled configuration",
 }
-_QUATERNION = {"qw", "qx", "qy", "qz"}
 
 
 def build(description: Description, overrides: Mapping[str, float], faults: Faults) -> MechanismRecord:
@@ -107,9 +107,9 @@ def _platform(file: schema.FileEntry, scope: Scope, geometry: Geometry) -> Platf
     path, names = ("platform", "pose"), set(entry.pose)
     if len(names) < len(entry.pose):
         scope.faults.add(path, "a coordinate twice", "allowed: each once")
-    if names & _QUATERNION and (not names >= _QUATERNION or "phi" in names):
-        scope.faults.add(path, "half a quaternion", "allowed: qw, qx, qy, qz together, without phi")
-    if names - {"x", "y", "z"} and entry.orientation == "constant":
+    if names & set(QUATERNION) and (not names >= set(QUATERNION) or names & set(ANGLES)):
+        scope.faults.add(path, "half a quaternion", "allowed: qw, qx, qy, qz together, without angles")
+    if names - set(LENGTHS) and entry.orientation == "constant":
         scope.faults.add(path, "a coordinate that turns", "allowed with constant orientation: x, y, z")
     point = geometry.vector(entry.point, ("platform", "point"))
     return Platform(link or "", point, entry.pose, entry.orientation)
@@ -122,7 +122,7 @@ def _box(file: schema.FileEntry, numbers: Numbers) -> dict[str, tuple[float, flo
         path = ("workspace", "box", name)
         if name not in pose and file.platform:
             numbers.faults.unknown(path, "coordinate of the pose", name, pose)
-        found[name] = numbers.interval("angle" if name == "phi" else "length", ends, path)
+        found[name] = numbers.interval("angle" if is_angle(name) else "length", ends, path)
     return found
 
 
@@ -130,4 +130,4 @@ def _sections(file: schema.FileEntry, numbers: Numbers) -> tuple[float, ...]:
     last = file.platform.pose[-1] if file.platform else ""
     path = ("workspace", "sections")
     given = enumerate(file.workspace.sections)
-    return tuple(numbers.of("angle" if last == "phi" else "length", value, (*path, at)) for at, value in given)
+    return tuple(numbers.of("angle" if is_angle(last) else "length", value, (*path, at)) for at, value in given)

@@ -149,7 +149,7 @@ class PlatformEntry(Entry):
 
     link: str
     point: Vector = ZERO
-    pose: tuple[Literal["x", "y", "z", "phi", "qw", "qx", "qy", "qz"], ...] = Field(min_length=1)
+    pose: tuple[Literal["x", "y", "z", "phi", "theta", "psi", "qw", "qx", "qy", "qz"], ...] = Field(min_length=1)
     orientation: Literal["constant", "any"] = "any"
 
 

@@ -15,11 +15,11 @@ from typing import Any
 
 import numpy as np
 
-from assur.kinematics.border import LENGTHS
 from assur.kinematics.modes import Problem, sign_names
-from assur.kinematics.status import closed_form_of
+from assur.kinematics.status import branch_kernel, closed_form_of
 from assur.model.closed_form import Branch
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import is_angle
 from assur.report.formulas.latex import latex_mathml, name_mathml
 from assur.report.formulas.trace import (
     POINTS,
@@ -110,7 +110,7 @@ class _Reader:
             **{name: leaf(book, Letter(name, name_mathml(name)), self._at(name)) for name in self.record.parameters}
         )
         given = tuple(self._given(book, letters) for letters in self._coordinates(self.problem))
-        kernel = form.direct if self.problem == "direct" else form.inverse
+        kernel = branch_kernel(self.record) if self.problem == "direct" else form.inverse
         branch = kernel(ns, p, given, self._signs(book))
         jacobians = form.jacobians(ns, p, branch.core)
         joints = form.joints(ns, p, branch.core)
@@ -184,7 +184,7 @@ class _Reader:
         """Letters of what a problem is given: of inputs, or of the coordinates of the pose."""
         if problem == "direct":
             return [_letters(item.name, item.latex, item.coordinate.kind == "angle") for item in self.record.inputs]
-        return [_letters(name, "", name not in LENGTHS) for name in self.record.platform.pose]
+        return [_letters(name, "", is_angle(name)) for name in self.record.platform.pose]
 
     def _given(self, book: Book, letters: tuple[Letter, ...]) -> Number:
         values = self._at(letters[0].name)

@@ -86,7 +86,7 @@ def _direct(found: Findings) -> Section:
     origin = f"those of {table.source}" if table else "those of the assembled home configuration"
     said = (
         f"Poses from inputs. At the inputs {given} ({origin}) there are {count(len(found.direct), 'real solution')} "
-        f"among {count(len(found.direct.modes_asked), 'branch')}."
+        f"among {count(found.direct.candidates, 'branch')}."
     )
     results: list[Result] = [*found.picture("flow"), *_formulas(found, "direct"), _solutions(found, "direct")]
     return Section("Direct problem", said, [*results, *_beside(found, "direct"), *found.picture("solutions")])
@@ -102,7 +102,7 @@ def _inverse(found: Findings) -> Section:
     )
     said = (
         f"Inputs from a pose. At the pose {given} there are {count(len(found.inverse), 'real solution')} among "
-        f"{count(len(found.inverse.modes_asked), 'branch')}."
+        f"{count(found.inverse.candidates, 'branch')}."
     )
     results = [*_formulas(found, "inverse"), _solutions(found, "inverse")]
     return Section("Inverse problem", said, [*results, *_beside(found, "inverse")])

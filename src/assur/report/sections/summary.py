@@ -38,7 +38,7 @@ def _solutions(found: Findings) -> list[Scalar]:
     for problem, given, answer in problems:
         table = found.table(problem)
         where = f"at the {given} of {table.source if table else 'home'}"
-        branches = f"of {count(len(answer.modes_asked), 'branch')}"
+        branches = f"of {count(answer.candidates, 'branch')}"
         known = f"{where}; complete for the {model}"
         scalars.append(Scalar(f"real {problem} solutions", float(len(answer)), branches, known))
     return scalars

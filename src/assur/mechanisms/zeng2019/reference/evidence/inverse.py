@@ -9,6 +9,7 @@ from assur.audit.configurations import freedoms_with_inputs_locked, random_poses
 from assur.audit.rows import Evidence
 from assur.audit.tables import solve
 from assur.kinematics.closure import closure_error
+from assur.kinematics.modes import all_modes
 from assur.kinematics.position import direct, inverse
 
 CLOSE = 1e-6
@@ -62,7 +63,7 @@ def _modes_in_self_motion(record):
     names = list(record.modes.working)
     first, second = names.index("u1"), names.index("u2")
     tally = {True: [0, 0], False: [0, 0]}
-    for branch, signs in enumerate(found.modes_asked):
+    for branch, signs in enumerate(all_modes(record, "inverse")):
         rows = np.flatnonzero(found.exists[:, branch] & regular[:, branch])[:4]
         free = [freedoms_with_inputs_locked(record, found.joints[row, branch]) for row in rows]
         same = bool(signs[first] == signs[second])

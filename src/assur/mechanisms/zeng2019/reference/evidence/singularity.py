@@ -93,8 +93,8 @@ def parallel_links(record):
     poses = random_poses(record, 4000, np.random.default_rng(0))
     poses[:, 0] = float(plane)
     found = inverse(record, poses)
-    opposite = found.modes_asked[:, 0] != found.modes_asked[:, 1]
-    turned = found.modes_asked[:, 2] != found.modes_asked[:, 3]
+    signs = np.array([list(mode) for mode in all_modes(record, "inverse")])
+    opposite, turned = signs[:, 0] != signs[:, 1], signs[:, 2] != signs[:, 3]
     there = found.exists & opposite & turned
     largest = float(np.max(np.abs(found.factors["sin_alpha_minus_beta"][there])))
     heights = poses[np.any(there, axis=1), 2]

@@ -1,0 +1,152 @@
+"""Solutions that were found on the joint graph itself, by a search or loop by loop: no closed form is asked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property, partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.border import inputs_of
+from assur.kinematics.closure import characteristic_length
+from assur.kinematics.modes import Problem, mode_texts, numbered
+from assur.kinematics.pose import pose_of
+from assur.kinematics.self_motion import SelfMotionCurve
+from assur.kinematics.solution import Failure
+from assur.kinematics.solutions import SolutionSet
+from assur.kinematics.status import FACTOR_TOLERANCE, Status
+from assur.model.formula import Formula
+from assur.model.mechanism import MechanismRecord
+from assur.model.points import quantity
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Found(SolutionSet):
+    """Solutions that are nothing but assemblies of the joint graph.
+
+    Attributes:
+        assemblies: (..., K, coordinates) joint values, NaN where a problem has fewer than K.
+        all_known: whether these are known to be all, by what `reason` says.
+        nearest: (...) the smallest gap that a problem without solution could be brought to, in length units.
+        only: the mode to which the answer is narrowed; empty for all of them.
+    """
+
+    record: MechanismRecord
+    problem: Problem
+    given: FloatArray
+    assemblies: FloatArray
+    all_known: bool
+    reason: str
+    nearest: FloatArray
+    only: str = ""
+
+    @property
+    def complete(self) -> bool:
+        """Whether these are known to be all assemblies."""
+        return self.all_known and not self.only
+
+    @property
+    def complete_for(self) -> str:
+        """Always the joint graph."""
+        return "joint_graph"
+
+    @property
+    def right(self) -> str:
+        """By what right the answer is complete, or why it is not known to be."""
+        return self.reason
+
+    @cached_property
+    def exists(self) -> BoolArray:
+        """Whether a row (..., K) is an assembly, of the mode that was asked for."""
+        return self._there & (self.labels == self.only) if self.only else self._there
+
+    @property
+    def joints(self) -> FloatArray:
+        """Every joint's value (..., K, coordinates), in rad or length."""
+        return self.assemblies
+
+    @cached_property
+    def poses(self) -> FloatArray:
+        """Poses (..., K, m), read off the platform."""
+        return self._of_joints(partial(pose_of, self.record))
+
+    @cached_property
+    def inputs(self) -> FloatArray:
+        """Printed inputs (..., K, n), read off the actuated joints."""
+        return self._of_joints(partial(inputs_of, self.record))
+
+    @property
+    def factors(self) -> dict[str, FloatArray]:
+        """None yet."""
+        return {}
+
+    @cached_property
+    def status(self) -> NDArray[np.int8]:
+        """`Status` (..., K) of every row, from the joint graph's Jacobians."""
+        return np.where(self._there, Status.regular, Status.unreachable).astype(np.int8)
+
+    @cached_property
+    def overall_status(self) -> NDArray[np.int8]:
+        """`Status` (...) of the answer: the most severe among the listed solutions; undecided where none was found."""
+        listed = np.where(self.exists, self.status, -1).max(axis=-1, initial=-1)
+        nothing = Status.unreachable if self.all_known else Status.undecided
+        return np.asarray(np.where(listed >= 0, listed, nothing), dtype=np.int8)
+
+    @cached_property
+    def labels(self) -> NDArray[np.str_]:
+        """Text (..., K) of the mode: the signs of the file's quantities, and a number where several share them."""
+        return numbered(mode_texts(self._signs(self.problem)), self._there)
+
+    @cached_property
+    def other_labels(self) -> NDArray[np.str_]:
+        """Text (..., K) of the other problem's mode, by signs alone."""
+        return mode_texts(self._signs("inverse" if self.problem == "direct" else "direct"))
+
+    @property
+    def named_quantities(self) -> Mapping[str, FloatArray]:
+        """None: the file's letters are joint values."""
+        return {}
+
+    @property
+    def curves(self) -> tuple[SelfMotionCurve, ...]:
+        """None is described: a search meets single assemblies."""
+        return ()
+
+    @property
+    def failures(self) -> tuple[Failure, ...]:
+        """Where nothing was found (a batch of one), the gap that could not be closed."""
+        self._only_one()
+        if np.any(self._there) or not np.isfinite(self.nearest):
+            return ()
+        meaning = "the gap that the loops keep at the closest approach that was found"
+        return (Failure("gap", -float(self.nearest), 1, meaning, 1),)
+
+    @cached_property
+    def _there(self) -> BoolArray:
+        return np.asarray(np.all(np.isfinite(self.assemblies), axis=-1))
+
+    def _signs(self, problem: Problem) -> NDArray[np.int8]:
+        """Signs (..., K, s) of the quantities that name modes; 0 where one vanishes."""
+        formulas = self.record.modes.assembly if problem == "direct" else self.record.modes.working
+        length = characteristic_length(self.record)
+        zero = length * FACTOR_TOLERANCE if length > 1 else FACTOR_TOLERANCE
+        signs = np.zeros((*self._there.shape, len(formulas)), dtype=np.int8)
+        for k, formula in enumerate(formulas.values()):
+            value = self._of_joints(partial(self._quantity, formula))[..., 0]
+            signs[..., k] = np.where(self._there & (np.abs(value) > zero), np.sign(np.nan_to_num(value)), 0)
+        return signs
+
+    def _quantity(self, formula: Formula, joints: FloatArray) -> FloatArray:
+        return quantity(self.record, formula, joints)[:, None]
+
+    def _of_joints(self, function: Callable[[FloatArray], FloatArray]) -> FloatArray:
+        """A function (N, coordinates) -> (N, k) at every assembly, as (..., K, k); NaN elsewhere."""
+        found = function(self.assemblies[self._there])
+        answer = np.full((*self._there.shape, found.shape[-1]), np.nan)
+        answer[self._there] = found
+        return answer

@@ -1,0 +1,254 @@
+"""Polynomials as sequences of coefficients, constant term first: algebra over any number type, and all roots of floats.
+
+The algebra is used by kernels: coefficients may be arrays, intervals, symbols, dual numbers, and a plain 0 or 1. The
+roots are found outside the kernels, for whole batches. A polynomial in the cosine and the sine of an angle becomes
+one in t = tan(angle/2) by `half_angle`; there a root at infinity is the angle pi, so `real_angles` treats it as any
+other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import zip_longest
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Number = Any
+Polynomial = Sequence[Number]
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+NOTHING = 1e-200
+"""A coefficient smaller than this part of the largest counts as zero."""
+POLISHING = 6
+MERGED = 1e-13
+"""Where a polynomial, its largest coefficient being 1, is smaller than this between two roots, they are one."""
+NEAR_REAL = 1e-3
+"""No root whose angle has a larger imaginary part (rad) is taken for a real one."""
+
+
+def add(a: Polynomial, b: Polynomial) -> tuple[Number, ...]:
+    """Sum a + b.
+
+    >>> add((1, 2), (0, 1, 5))
+    (1, 3, 5)
+    """
+    return tuple(_sum(first, second) for first, second in zip_longest(a, b, fillvalue=0))
+
+
+def subtract(a: Polynomial, b: Polynomial) -> tuple[Number, ...]:
+    """Difference a - b."""
+    return add(a, scaled(b, -1))
+
+
+def scaled(a: Polynomial, factor: Number) -> tuple[Number, ...]:
+    """Product of a polynomial and a number."""
+    return tuple(_product(factor, part) for part in a)
+
+
+def multiply(a: Polynomial, b: Polynomial) -> tuple[Number, ...]:
+    """Product a b.
+
+    >>> multiply((1, 1), (1, -1))
+    (1, 0, -1)
+    """
+    total: list[Number] = [0] * (len(a) + len(b) - 1)
+    for i, first in enumerate(a):
+        for j, second in enumerate(b):
+            total[i + j] = _sum(total[i + j], _product(first, second))
+    return tuple(total)
+
+
+def half_angle(terms: Mapping[tuple[int, int], Number], degree: int) -> tuple[Number, ...]:
+    """The polynomial in t = tan(angle/2), of degree 2 `degree`, of a polynomial in the cosine and the sine.
+
+    Args:
+        terms: (i, j) -> factor of cos^i sin^j; i + j is at most `degree`.
+        degree: of the polynomial in cosine and sine; all is multiplied by (1 + t^2)^degree.
+
+    Example: 3 cos + 4 sin = 5.
+
+    >>> half_angle({(1, 0): 3, (0, 1): 4, (0, 0): -5}, 1)
+    (-2, 8, -8)
+    """
+    total: tuple[Number, ...] = (0,) * (2 * degree + 1)
+    for (i, j), factor in terms.items():
+        basis: tuple[Number, ...] = (1,)
+        for part, times in (((1, 0, -1), i), ((0, 2), j), ((1, 0, 1), degree - i - j)):
+            for _ in range(times):
+                basis = multiply(basis, part)
+        total = add(total, scaled(basis, factor))
+    return total
+
+
+def _nothing(value: Number) -> bool:
+    return type(value) is int and value == 0
+
+
+def _sum(a: Number, b: Number) -> Number:
+    return b if _nothing(a) else a if _nothing(b) else a + b
+
+
+def _product(a: Number, b: Number) -> Number:
+    return 0 if _nothing(a) or _nothing(b) else a * b
+
+
+def roots(coefficients: ArrayLike) -> ComplexArray:
+    """All complex roots (..., d) of polynomials (..., d + 1), the constant term first; multiple roots as often.
+
+    Eigenvalues of companion matrices in a scaled unknown, then Aberth's simultaneous Newton steps, each taken only
+    where it makes the polynomial smaller. Leading coefficients that are zero give infinite roots, which stand last;
+    a polynomial that is zero everywhere, or not finite, gives NaN.
+
+    >>> roots([2.0, -3.0, 1.0, 0.0]).real
+    array([ 1.,  2., inf])
+    """
+    given = np.asarray(coefficients, dtype=float)
+    degree = given.shape[-1] - 1
+    flat = given.reshape(-1, degree + 1)
+    largest = np.max(np.abs(flat), axis=-1, initial=0.0)
+    sound = np.isfinite(largest) & (largest > 0)
+    present = (np.abs(flat) > NOTHING * largest[:, None]) & sound[:, None]
+    found = np.full((len(flat), degree), complex(np.nan, np.nan))
+    low, high = np.argmax(present, axis=-1), degree - np.argmax(present[:, ::-1], axis=-1)
+    for first, last in {(int(a), int(b)) for a, b in zip(low[sound], high[sound], strict=True)}:
+        rows = sound & (low == first) & (high == last)
+        found[rows, last:] = complex(np.inf, 0)
+        found[rows, :first] = 0
+        found[rows, first:last] = _finite_roots(flat[rows, first : last + 1])
+    return found.reshape((*given.shape[:-1], degree))
+
+
+def _finite_roots(coefficients: FloatArray) -> ComplexArray:
+    """Roots (N, d) of polynomials (N, d + 1) whose first and last coefficients are not zero."""
+    degree = coefficients.shape[-1] - 1
+    if degree == 0:
+        return np.zeros((len(coefficients), 0), dtype=complex)
+    ends = np.frexp(coefficients[:, [0, -1]])[1]
+    power = np.rint((ends[:, 0] - ends[:, 1]) / degree).astype(int)  # the unknown is 2^power times the scaled one
+    shifts = power[:, None] * np.arange(degree + 1)
+    top = np.max(np.frexp(coefficients)[1] + shifts, axis=-1, keepdims=True)
+    even = np.ldexp(coefficients, shifts - top)
+    companion = np.zeros((len(even), degree, degree))
+    companion[:, np.arange(1, degree), np.arange(degree - 1)] = 1.0
+    companion[:, :, -1] = -even[:, :-1] / even[:, -1:]
+    found = _polished(even, np.linalg.eigvals(companion).astype(complex))
+    return np.asarray(np.sort_complex(found) * np.exp2(power.astype(float))[:, None])
+
+
+def _polished(coefficients: FloatArray, found: ComplexArray) -> ComplexArray:
+    """Roots (N, d) after Aberth's steps; a step that does not make the polynomial smaller is not taken."""
+    value, logarithmic = _values(coefficients, found)
+    other = ~np.eye(found.shape[-1], dtype=bool)
+    for _ in range(POLISHING):
+        gaps = found[:, :, None] - found[:, None, :]
+        push = np.sum(np.where(other & (gaps != 0), 1 / np.where(gaps == 0, 1, gaps), 0), axis=-1)
+        denominator = logarithmic - push
+        usable = (value > 0) & np.isfinite(denominator) & (denominator != 0)
+        moved = found - np.where(usable, 1 / np.where(usable, denominator, 1), 0)
+        new_value, new_logarithmic = _values(coefficients, moved)
+        better = new_value < value
+        if not np.any(better):
+            break
+        found = np.where(better, moved, found)
+        value, logarithmic = np.where(better, new_value, value), np.where(better, new_logarithmic, logarithmic)
+    return found
+
+
+def _values(coefficients: FloatArray, at: ComplexArray) -> tuple[FloatArray, ComplexArray]:
+    """|p| / max(1, |t|)^d and p'/p at points (N, d); beyond 1 through the reversed polynomial, so nothing overflows."""
+    degree = coefficients.shape[-1] - 1
+    far = np.abs(at) > 1
+    safe = np.where(at == 0, 1, at)
+    near_it = np.where(far, 1 / safe, at)
+    value, slope = np.zeros_like(at), np.zeros_like(at)
+    for k in range(degree, -1, -1):
+        slope = slope * near_it + value
+        value = value * near_it + np.where(far, coefficients[:, degree - k, None], coefficients[:, k, None])
+    ratio = slope / np.where(value == 0, 1, value)
+    return np.abs(value), np.where(far, (degree - near_it * ratio) / safe, ratio)
+
+
+def real_angles(coefficients: ArrayLike, tolerance: float = MERGED) -> FloatArray:
+    """Real angles (..., d) in (-pi, pi], rising, of polynomials (..., d + 1) in tan(angle/2); NaN for the other roots.
+
+    Two roots are one, and given twice as their midpoint, where the polynomial there is smaller than `tolerance`
+    (per unit of its largest coefficient, divided by (1 + t^2)^(d/2)): so a double root is neither lost because
+    rounding made it complex, nor given as two angles. A zero polynomial gives NaN: every angle is a root.
+
+    >>> (real_angles([1.0, -2.0, 1.0]) / np.pi).round(12)
+    array([0.5, 0.5])
+    """
+    given = np.asarray(coefficients, dtype=float)
+    flat = given.reshape(-1, given.shape[-1])
+    found = _real_angles(flat, roots(flat), tolerance)
+    return found.reshape((*given.shape[:-1], -1))
+
+
+def real_roots(coefficients: ArrayLike, size: float = 1.0, tolerance: float = MERGED) -> FloatArray:
+    """Real roots (..., d), rising, of polynomials (..., d + 1) in an unknown of this `size`; NaN for the other roots.
+
+    Double roots are kept, by the rule of `real_angles` for the unknown divided by `size`: one of two roots whose
+    distance in that unit is about the square root of the tolerance. Infinite roots are NaN too.
+
+    >>> real_roots([-1.0, 1.0, -1.0, 1.0])
+    array([ 1., nan, nan])
+    """
+    given = np.asarray(coefficients, dtype=float)
+    degree = given.shape[-1] - 1
+    angles = real_angles(given * size ** np.arange(degree + 1), tolerance)
+    found = size * np.where(np.abs(angles) < np.pi, np.tan(angles / 2), np.nan)
+    return np.asarray(np.sort(found, axis=-1))
+
+
+def _real_angles(coefficients: FloatArray, found: ComplexArray, tolerance: float) -> FloatArray:
+    angles = _angle_of(found)
+    almost = np.abs(angles.imag) < NEAR_REAL
+    size = _size_at(coefficients, angles.real)
+    real = np.sort(np.where(almost & (size < tolerance), angles.real, np.nan), axis=-1)
+    return _merged(coefficients, real, tolerance)
+
+
+def _angle_of(found: ComplexArray) -> ComplexArray:
+    """Twice the arctangent, with real part in (-pi, pi]; pi at infinity, no real angle at +-i."""
+    infinite = np.isinf(found)
+    finite = np.where(infinite, 0, found)
+    poles = (finite == 1j) | (finite == -1j)
+    angle = 2 * np.arctan(np.where(poles, 0, finite))
+    angle = np.where(infinite | (angle.real <= -np.pi), np.pi + 1j * angle.imag, angle)
+    return np.asarray(np.where(poles, np.inf * 1j, angle))
+
+
+def _size_at(coefficients: FloatArray, angles: FloatArray) -> FloatArray:
+    """|p| cos(angle/2)^d per unit of the largest coefficient (N, d), at real angles (N, d)."""
+    degree = coefficients.shape[-1] - 1
+    cosine, sine = np.cos(angles / 2), np.sin(angles / 2)
+    total = sum(coefficients[:, k, None] * sine**k * cosine ** (degree - k) for k in range(degree + 1))
+    largest = np.max(np.abs(coefficients), axis=-1, keepdims=True)
+    return np.asarray(np.abs(total) / np.where(largest > 0, largest, 1))
+
+
+def _merged(coefficients: FloatArray, angles: FloatArray, tolerance: float) -> FloatArray:
+    """Sorted real angles (N, d), NaN last, with those that are one root made equal."""
+    following = np.roll(angles, -1, axis=-1)
+    count = np.sum(np.isfinite(angles), axis=-1)
+    last = np.arange(angles.shape[-1]) == count[:, None] - 1
+    gap = np.where(last, angles[:, :1] + 2 * np.pi, following) - angles
+    size = _size_at(coefficients, angles + gap / 2)
+    linked = (gap < NEAR_REAL) & (size < tolerance)
+    for row in np.flatnonzero(np.any(linked & (gap > 0), axis=-1)):
+        angles[row, : count[row]] = _of_one_row(angles[row, : count[row]], linked[row])
+    return angles
+
+
+def _of_one_row(angles: FloatArray, linked: NDArray[np.bool_]) -> FloatArray:
+    """Angles with every run of linked neighbours, the last being linked to the first, replaced by its mean."""
+    free = np.flatnonzero(~linked[: len(angles)])
+    start = int(free[0]) + 1 if len(free) else 0
+    turned = np.roll(angles, -start)
+    turned[len(angles) - start :] += 2 * np.pi
+    group = np.cumsum(np.concatenate([[0], ~np.roll(linked[: len(angles)], -start)[:-1]]))
+    means = np.bincount(group, turned) / np.bincount(group)
+    return np.sort(np.pi - (np.pi - means[group]) % (2 * np.pi))
