@@ -48,3 +48,30 @@ def test_taking_is_the_smallest_rotation():
         np.testing.assert_allclose(turn @ start, end, atol=1e-12)
         angle = np.linalg.norm(rotations.to_vector(turn))
         assert angle == pytest.approx(np.arccos(start @ end), abs=1e-9)
+
+
+def _turns():
+    """Rotation vectors: by chance, none, tiny ones and half turns about axes of every kind."""
+    rng = np.random.default_rng(8)
+    anywhere = rng.normal(size=(40, 3))
+    half = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0], [1, -1, 1]], dtype=float)
+    half *= np.pi / np.linalg.norm(half, axis=-1, keepdims=True)
+    return np.concatenate([anywhere, np.zeros((1, 3)), 1e-9 * anywhere[:5], half, half * (1 - 1e-9)])
+
+
+def test_quaternions_and_rotations_are_one_another():
+    turned = rotations.from_vector(_turns())
+    found = rotations.to_quaternion(turned)
+    np.testing.assert_allclose(np.linalg.norm(found, axis=-1), 1.0, rtol=0, atol=1e-15)
+    assert np.all(found[:, 0] >= 0)
+    np.testing.assert_allclose(rotations.from_quaternion(found), turned, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(rotations.from_quaternion(-found), turned, rtol=0, atol=1e-14)
+
+
+def test_angles_and_rotations_are_one_another():
+    turned = rotations.from_vector(_turns())
+    angles = rotations.to_angles(turned)
+    np.testing.assert_allclose(rotations.from_angles(*angles), turned, rtol=0, atol=1e-14)
+    assert np.max(np.abs(angles[1])) <= np.pi / 2
+    upright = rotations.from_angles(np.array(0.3), np.array(np.pi / 2), np.array(0.1))
+    np.testing.assert_allclose(rotations.from_angles(*rotations.to_angles(upright)), upright, rtol=0, atol=1e-14)

@@ -1,0 +1,81 @@
+"""Search on the joint graph: what it finds, and what it counts as one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import assur
+from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.closure import closure_error
+from assur.kinematics.search import distinct, search
+from assur.kinematics.status import Status
+
+DELTA = Path(__file__).parents[1] / "model" / "file" / "delta.toml"
+TABLE_1 = np.array([162.6907, -143.3209, -24.6776])
+
+
+def test_the_four_poses_of_the_paper_are_among_the_assemblies_of_the_joint_graph():
+    paper = assur.load("zeng2019")
+    claimed, found = paper.direct(TABLE_1), paper.direct(TABLE_1, method="search")
+    assert not found.complete
+    assert "not proved" in found.right
+    assert np.max(found.residuals) < 1e-8
+    for pose in claimed.poses[claimed.exists]:
+        assert np.min(np.linalg.norm(found.poses - pose, axis=-1)) < 1e-7
+    assert len(found) > len(claimed)  # crossed parallelograms
+
+
+def test_assemblies_of_one_sign_text_get_numbers():
+    found = assur.load("zeng2019").direct(TABLE_1, method="search")
+    labels = [solution.mode for solution in found]
+    assert len(set(labels)) == len(labels)
+    assert {label.split("/")[0] for label in labels} == {"+++", "++-", "--+", "---"}
+    one = assur.load("zeng2019").direct(TABLE_1, mode=labels[3], method="search")
+    assert [solution.mode for solution in one] == [labels[3]]
+
+
+def test_a_mechanism_without_closed_form_has_direct_and_inverse_solutions():
+    delta = assur.load(DELTA)
+    home = delta.home_values
+    inputs = [item.sign * home[item.coordinate.index] + item.offset for item in delta.inputs]
+    found = delta.direct(inputs)
+    assert len(found) >= 2
+    assert np.max(closure_error(delta, found.joints)) < 1e-9 * 1000
+    back = delta.inverse(found.poses[0])
+    assert np.min(np.linalg.norm(back.inputs - inputs, axis=-1)) < 1e-7
+
+
+def test_a_rod_that_spins_about_its_ball_joints_does_not_make_another_assembly():
+    stewart = assur.load("zeng2019")
+    values = np.tile(stewart.home_values, (3, 1))
+    values[1] += 2 * np.pi * (np.arange(17) > 2)
+    values[2, 4] += 1e-3
+    assert distinct(stewart, values).tolist() == [0, 2]
+
+
+def test_nothing_found_is_undecided_and_says_how_near_it_came():
+    paper = assur.load("zeng2019")
+    found = paper.direct([5000.0, 0.0, 0.0], method="search")
+    assert len(found) == 0
+    assert found.overall_status == Status.undecided
+    assert found.failures[0].value < -1000.0
+
+
+def test_the_same_seed_finds_the_same():
+    record = assur.load("fivebar")
+    given = np.radians([120.0, 60.0])
+    first, second = search(record, "direct", given), search(record, "direct", given)
+    np.testing.assert_array_equal(first.joints, second.joints)
+
+
+def test_misuse_is_refused():
+    paper = assur.load("zeng2019")
+    with pytest.raises(UnknownNameError, match="guess"):
+        paper.direct(TABLE_1, method="guess")
+    with pytest.raises(UnknownNameError, match="assembly mode"):
+        paper.direct(TABLE_1, mode="+-", method="search")
+    with pytest.raises(UsageError, match="no closed form of the direct problem"):
+        assur.load(DELTA).direct([0.0, 0.0, 0.0], method="closed form")
