@@ -231,7 +231,17 @@ def test_default_sections_are_those_of_the_file_inside_the_box():
 
 def test_the_json_has_its_stated_shape(built):
     found = json.loads(json.dumps(built.to_json(), allow_nan=False))
-    assert list(found) == ["volume", "volume_error", "unit", "mode", "box", "parallel_singular", "sections"]
+    assert list(found) == [
+        "volume",
+        "volume_error",
+        "unit",
+        "mode",
+        "coordinates",
+        "box",
+        "held",
+        "parallel_singular",
+        "sections",
+    ]
     assert found["box"] == [[-110.0, 90.0], [-250.0, 250.0], [180.0, 480.0]]
     assert [list(item) for item in found["sections"]] == [["z", "area"]] * 4
     assert list(found["parallel_singular"]) == ["factors", "near", "share"]

@@ -36,6 +36,7 @@ class Question:
     resolution: int
     sections: tuple[float, ...] | None
     near: float
+    held: dict[str, float] | None
 
 
 def question(
@@ -46,9 +47,13 @@ def question(
     resolution: str,
     section: Sequence[str],
     near: str,
+    at: Sequence[str] = (),
 ) -> Question:
     """What was asked for, with every word checked."""
-    last = record.platform.pose[-1]
+    from assur.workspace.slices import slice_at
+
+    held = _held(record, at)
+    last = slice_at(record, held).free[-1]
     cuts = tuple(number(text, "--section") * _factor(record, is_length(last)) for text in section)
     distance = number(near, "--near")
     if distance <= 0:
@@ -60,6 +65,7 @@ def question(
         resolution=whole_number(resolution, "--resolution"),
         sections=cuts or None,
         near=distance,
+        held=held,
     )
 
 
@@ -82,6 +88,7 @@ def outcome(record: Mechanism, asked: Question, written: Path | None, shared: Sh
             asked.resolution,
             asked.sections,
             asked.near,
+            asked.held,
             step,
         )
     data = _data(record, asked, found)
@@ -92,15 +99,15 @@ def outcome(record: Mechanism, asked: Question, written: Path | None, shared: Sh
 
 def _data(record: Mechanism, asked: Question, found: Workspace) -> dict[str, Any]:
     """The answer as plain data; angles in the mechanism's angle unit."""
-    names = record.platform.pose
+    names = found.box.names
     lengths = {item.name: item.coordinate.kind == "length" for item in record.inputs}
     data = found.to_json()
     box = [_outside(record, pair, is_length(name)) for name, pair in zip(names, data["box"], strict=True)]
     last, factor = names[-1], _factor(record, is_length(names[-1]))
     return {
         "mechanism": record.name,
-        "coordinates": list(names),
         **data,
+        "held": {name: value / _factor(record, is_length(name)) for name, value in data["held"].items()},
         "box": box,
         "sections": [{**item, last: item[last] / factor} for item in data["sections"]],
         "resolution": asked.resolution,
@@ -109,13 +116,25 @@ def _data(record: Mechanism, asked: Question, found: Workspace) -> dict[str, Any
 
 
 def _box(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
+    from assur.workspace.slices import coordinates
+
     example = f"{record.platform.pose[0]}=-110:90"
     found = {}
     for name, text in assignments(texts, "--box", example).items():
-        if name not in record.platform.pose:
-            raise UnknownNameError(f"pose coordinate of {record.name}", name, record.platform.pose)
+        if name not in coordinates(record):
+            raise UnknownNameError(f"pose coordinate of {record.name}", name, coordinates(record))
         found[name] = _inside(record, interval(text, f"--box {name}", example), is_length(name))
     return found
+
+
+def _held(record: Mechanism, texts: Sequence[str]) -> dict[str, float] | None:
+    """What is held, None where nothing was said."""
+    example = f"{record.platform.pose[-1]}=0"
+    found = {
+        name: number(text, f"--at {name}") * _factor(record, is_length(name))
+        for name, text in assignments(texts, "--at", example).items()
+    }
+    return found or None
 
 
 def _strokes(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
@@ -167,6 +186,8 @@ def _shown(record: Mechanism, data: dict[str, Any], written: Path | None) -> Ite
     dimension = len(data["coordinates"])
     yield heading(f"{data['mechanism']}, workspace of working mode {data['mode']}")
     yield f"box: {_intervals(record, dict(zip(data['coordinates'], data['box'], strict=True)))}"
+    if data["held"]:
+        yield f"held: {', '.join(_value(record, name, value) for name, value in data['held'].items())}"
     if data["strokes"]:
         yield f"strokes: {_intervals(record, data['strokes'])}"
     what = "volume" if dimension == 3 else "area"
@@ -187,6 +208,10 @@ def _intervals(record: Mechanism, pairs: dict[str, Sequence[float]]) -> str:
         unit = record.unit if lengths.get(name, is_length(name)) else record.angle
         parts.append(f"{name} {low:g} .. {high:g} {unit}")
     return ", ".join(parts)
+
+
+def _value(record: Mechanism, name: str, value: float) -> str:
+    return f"{name} = {value:g} {record.unit if is_length(name) else record.angle}"
 
 
 def _sections(data: dict[str, Any], surface: str) -> Iterable[RenderableType]:

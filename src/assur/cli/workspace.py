@@ -25,6 +25,10 @@ def workspace(
         Parameter(metavar="[NAME=]LOW:HIGH", help="Limits of one input, or of all inputs if no name is given."),
     ] = (),
     resolution: Annotated[str, Parameter(metavar="CELLS", help="Cells along each coordinate, 64 if left out.")] = "64",
+    at: Annotated[
+        tuple[str, ...],
+        Parameter(metavar="NAME=VALUE", help="Hold one coordinate; of a pose with more than three, angles as at home."),
+    ] = (),
     section: Annotated[
         tuple[str, ...],
         Parameter(metavar="VALUE", help="Cut across the last coordinate; the file's sections if left out."),
@@ -49,10 +53,11 @@ def workspace(
         assur workspace zeng2019
         assur workspace zeng2019 --box x=-110:80 --stroke -300:300 -o out.obj
         assur workspace zeng2019 --mode ++++- --stroke yA1=-200:200 --json
+        assur workspace planar_3rpr --at phi=10
     """
     record = shared.mechanism(mechanism)
     from assur.cli import regions
 
-    asked = regions.question(record, mode, box, stroke, resolution, section, near)
+    asked = regions.question(record, mode, box, stroke, resolution, section, near, at)
     target = regions.target(output) if output is not None else None
     return regions.outcome(record, asked, target, shared)

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from assur.model.pose import is_angle
-from assur.workspace.fields import Columns, sample
+from assur.workspace.fields import sample
 from assur.workspace.grid import UniformGrid
 from assur.workspace.nearness import divided, to_triangles, triangles_of
 from assur.workspace.region import Workspace
+from assur.workspace.slices import Columns
 from assur.workspace.solids import intersection, solid_where, union
 
 FloatArray = NDArray[np.float64]

@@ -59,8 +59,12 @@ class Box:
         return self.low + unit * np.subtract(self.high, self.low)
 
 
-def box_of(record: MechanismRecord, box: Mapping[str, Sequence[float]] | ArrayLike | None) -> Box:
-    """The box that a user means: pairs in the order of the pose, or some of them by name.
+def box_of(
+    record: MechanismRecord,
+    box: Mapping[str, Sequence[float]] | ArrayLike | None,
+    names: tuple[str, ...] | None = None,
+) -> Box:
+    """The box that a user means: pairs in the order of `names` (by default the pose), or some of them by name.
 
     What is left out comes from the mechanism's file; `UsageError` where that has none either.
 
@@ -68,10 +72,11 @@ def box_of(record: MechanismRecord, box: Mapping[str, Sequence[float]] | ArrayLi
     >>> box_of(load_record("zeng2019"), {"z": (200, 300)}).intervals
     [[-110.0, 90.0], [-250.0, 250.0], [200.0, 300.0]]
     """
-    names = record.platform.pose
+    names = names or record.platform.pose
     if box is not None and not isinstance(box, Mapping):
         box = dict(zip(names, _pairs(names, box), strict=True))
-    pairs: dict[str, Any] = {**record.box, **(box or {})}
+    own = {name: pair for name, pair in record.box.items() if name in names}
+    pairs: dict[str, Any] = {**own, **(box or {})}
     for name in pairs:
         if name not in names:
             raise UnknownNameError(f"pose coordinate of {record.name}", name, names)

@@ -21,22 +21,22 @@ from assur.kinematics.modes import mode_signs, sign_names
 from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import Branch
 from assur.model.mechanism import Input, MechanismRecord
-from assur.model.pose import is_angle
 from assur.numerics.number_types import Extended
 from assur.workspace.grid import UniformGrid
+from assur.workspace.slices import Columns, Slice, slice_at
 
 FloatArray = NDArray[np.float64]
-Columns = tuple[FloatArray, ...]
-"""Pose coordinates as separate arrays that broadcast against one another."""
-
 Field = Callable[[Columns], FloatArray]
 Stroke = tuple[float, float]
 
 
 def margin_fields(
-    record: MechanismRecord, mode: str, strokes: Mapping[str, Stroke | None] | None = None
+    record: MechanismRecord,
+    mode: str,
+    strokes: Mapping[str, Stroke | None] | None = None,
+    slice_: Slice | None = None,
 ) -> dict[str, Field]:
-    """Every margin of a working mode as a function of the pose, those of strokes included.
+    """Every margin of a working mode as a function of the free coordinates of a slice, those of strokes included.
 
     Margins at whose zero the formulas merely degenerate forbid no open set of poses and are left out.
 
@@ -48,7 +48,7 @@ def margin_fields(
     52900.0
     """
     form = closed_form_of(record)
-    branch = _branch(record, mode)
+    branch = _branch(record, mode, slice_)
     fields: dict[str, Field] = {
         margin.name: partial(_margin, branch, margin.name) for margin in form.inverse_margins if margin.zero == "merge"
     }
@@ -58,9 +58,9 @@ def margin_fields(
     return fields
 
 
-def factor_fields(record: MechanismRecord, mode: str) -> dict[str, Field]:
-    """Every factor of det Jp ("parallel") of a working mode as a function of the pose."""
-    branch = _branch(record, mode)
+def factor_fields(record: MechanismRecord, mode: str, slice_: Slice | None = None) -> dict[str, Field]:
+    """Every factor of det Jp ("parallel") of a working mode as a function of the free coordinates of a slice."""
+    branch = _branch(record, mode, slice_)
     names = [item.name for item in closed_form_of(record).factor_list if item.kind == "parallel"]
     return {name: partial(_factor, record, branch, name) for name in names}
 
@@ -80,18 +80,14 @@ def at_points(field: Field, dimension: int, points: FloatArray) -> FloatArray:
     return np.broadcast_to(found, (len(points),))
 
 
-def _branch(record: MechanismRecord, mode: str) -> Callable[[Columns], Branch]:
-    form = closed_form_of(record)
+def _branch(record: MechanismRecord, mode: str, slice_: Slice | None) -> Callable[[Columns], Branch]:
+    form, poses = closed_form_of(record), slice_ or slice_at(record)
     signs = map(float, mode_signs(record, "inverse", mode))
     sign = SimpleNamespace(**dict(zip(sign_names(record, "inverse"), signs, strict=True)))
 
     def evaluate(columns: Columns) -> Branch:
-        pose = tuple(
-            (np.cos(value), np.sin(value)) if is_angle(name) else value
-            for name, value in zip(record.platform.pose, columns, strict=True)
-        )
         with np.errstate(divide="ignore", invalid="ignore"):
-            return form.inverse(Extended(), record.values, pose, sign)
+            return form.inverse(Extended(), record.values, poses.components(columns), sign)
 
     return evaluate
 

@@ -9,9 +9,10 @@ from manifold3d import Manifold
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
-from assur.workspace.fields import Columns, sample
+from assur.workspace.fields import sample
 from assur.workspace.grid import UniformGrid
 from assur.workspace.reach import Reach
+from assur.workspace.slices import Columns
 from assur.workspace.solids import intersection, solid_where, union
 
 FloatArray = NDArray[np.float64]

@@ -24,6 +24,7 @@ from assur.workspace.nearness import near_volume, triangles_of
 from assur.workspace.projections import Projection, projection
 from assur.workspace.reach import Reach
 from assur.workspace.sections import Section, section
+from assur.workspace.slices import Slice, slice_at
 from assur.workspace.volume import region_and_error
 
 FloatArray = NDArray[np.float64]
@@ -40,7 +41,8 @@ class Workspace:
 
     Attributes:
         mechanism, mode, box: what it is the workspace of.
-        unit: of `volume`; the length unit to the power of the number of pose coordinates ("mm^3").
+        slice: which coordinates vary and at what the others are held.
+        unit: of `volume`: "mm^3", or "mm^2 rad" where one of three coordinates is an angle.
         volume: volume (area in a plane) of the region inside the box.
         volume_error: estimate of its error: the difference to half the resolution.
         sections: cuts across the last pose coordinate.
@@ -54,6 +56,7 @@ class Workspace:
     mechanism: str
     mode: str
     box: Box
+    slice: Slice
     unit: str
     volume: float
     volume_error: float
@@ -89,12 +92,12 @@ class Workspace:
         return projection(self.region, plane)
 
     def interior(self, count: int, rng: np.random.Generator) -> FloatArray:
-        """Poses (N, m) of equal weight inside the region: what it holds of `count` spread over the box."""
+        """Poses (N, m) of equal weight inside the region: what it holds of `count` points spread over the box."""
         points = self.box.spread(count, rng)
         inside = np.ones(count, dtype=bool)
         for margin in self.margins.values():
             inside &= at_points(margin, len(self.box.names), points) >= 0
-        return points[inside]
+        return self.slice.poses(points[inside])
 
     def to_json(self) -> dict[str, Any]:
         """The result as plain numbers, lists and None."""
@@ -104,7 +107,9 @@ class Workspace:
             "volume_error": self.volume_error,
             "unit": self.unit,
             "mode": self.mode,
+            "coordinates": list(self.box.names),
             "box": self.box.intervals,
+            "held": dict(self.slice.held),
             "parallel_singular": self.parallel_singular,
             "sections": [{key: item.value, "area": item.area} for item in self.sections],
         }
@@ -118,20 +123,23 @@ def workspace(
     resolution: int = RESOLUTION,
     sections: Sequence[float] | None = None,
     near: float = NEAR,
+    held: Mapping[str, float] | None = None,
     progress: Progress | None = None,
 ) -> Workspace:
     """The workspace of a working mode inside a box, by solids (see `assur.workspace.solids`).
 
     Args:
-        record: the mechanism; it must have a closed form, and at most three pose coordinates.
+        record: the mechanism; it must have a closed form.
         mode: signs of the working mode; the file's default where none is given.
-        box: (low, high) per pose coordinate, in order or by name, in length units and rad; the file's box
+        box: (low, high) per coordinate that varies, in order or by name, in length units and rad; the file's box
             for what is left out.
         strokes: input name -> (low, high) as printed, in length units and rad, or None for no limit; the
             file's for what is left out.
         resolution: cells along each coordinate, 4 to 400. What is thinner than a cell may be missed.
         sections: values of the last pose coordinate; by default those of the file that lie in the box.
         near: distance from a parallel-singular surface, in length units.
+        held: pose coordinates that stand still, in lengths and rad; of a pose with more than three coordinates the
+            angles by default, as they are at home. At most three may vary.
         progress: called with (steps done, steps in all).
 
     Returns:
@@ -150,15 +158,16 @@ def workspace(
     True
     """
     mode = mode or record.modes.default_working
-    domain = box_of(record, box)
+    poses = slice_at(record, held)
+    domain = box_of(record, box, poses.free)
     if not (isinstance(near, (int, float, np.number)) and np.isfinite(near) and near > 0):
         raise UsageError(f"near: {near!r} is not a positive distance")
-    margins = margin_fields(record, mode, strokes)
+    margins = margin_fields(record, mode, strokes, poses)
     tick = _ticker(2 * len(margins) + 3, progress)
-    region, error = region_and_error(margins, factor_fields(record, mode), domain, resolution, tick)
+    region, error = region_and_error(margins, factor_fields(record, mode, poses), domain, resolution, tick)
     loci = parallel_loci(record, region)
     tick()
-    share = _share(record, region, loci, near)
+    share = _share(region, loci, near)
     tick()
     values = _default_sections(record, domain) if sections is None else sections
     vertices, faces = region.mesh()
@@ -166,7 +175,8 @@ def workspace(
         mechanism=record.name,
         mode=mode,
         box=domain,
-        unit=_unit(record),
+        slice=poses,
+        unit=_unit(record, domain.names),
         volume=region.volume,
         volume_error=error,
         sections=tuple(section(region, value, domain.names[-1]) for value in values),
@@ -186,22 +196,22 @@ def _default_sections(record: MechanismRecord, box: Box) -> tuple[float, ...]:
     return tuple(value for value in record.sections if box.low[-1] <= value <= box.high[-1])
 
 
-def _share(record: MechanismRecord, region: Reach, loci: Sequence[Locus], near: float) -> float | None:
+def _share(region: Reach, loci: Sequence[Locus], near: float) -> float | None:
     volume = region.volume
     if volume == 0.0:
         return None
     if any(locus.everywhere for locus in loci):
         return 1.0
-    if any(is_angle(name) for name in record.platform.pose):
+    if any(map(is_angle, region.grid.box.names)):
         return None
     surfaces = [triangles_of(locus.vertices, locus.faces) for locus in loci if len(locus.faces)]
     close = near_volume(region, surfaces, near) if surfaces else 0.0
     return None if close is None else close / volume
 
 
-def _unit(record: MechanismRecord) -> str:
-    lengths = sum(not is_angle(name) for name in record.platform.pose)
-    angles = len(record.platform.pose) - lengths
+def _unit(record: MechanismRecord, names: Sequence[str]) -> str:
+    angles = sum(map(is_angle, names))
+    lengths = len(names) - angles
     powers = [(record.unit, lengths), ("rad", angles)]
     return " ".join(unit if power == 1 else f"{unit}^{power}" for unit, power in powers if power)
 
