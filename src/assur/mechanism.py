@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics import closure, position, velocity
 from assur.kinematics.home import home_values
+from assur.kinematics.instantaneous import Instant, instantaneous
 from assur.kinematics.position import Method
 from assur.kinematics.solutions import SolutionSet
 from assur.kinematics.structure import linkage
@@ -24,7 +25,7 @@ from assur.model import registry
 from assur.model.joint_graph import Frame, frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.points import point
-from assur.singularity.verdict import Verdict, verdict
+from assur.singularity.verdict import Verdict, verdict, verdict_at
 from assur.topology.analysis import Mode, analyse
 from assur.topology.chains import Chain
 from assur.topology.counting.inputs import default_inputs, numbered_inputs
@@ -47,17 +48,25 @@ class Mechanism(MechanismRecord):
         """The same mechanism with other dimensions, checked as those of the file are."""
         return registry.with_parameters(self, **values)
 
-    def direct(self, inputs: ArrayLike, mode: str | None = None, method: Method = "auto") -> SolutionSet:
+    def direct(
+        self, inputs: ArrayLike, mode: str | None = None, method: Method = "auto", *, crossed: bool = False
+    ) -> SolutionSet:
         """Every pose at inputs (..., n): see `assur.kinematics.position.direct`."""
-        return position.direct(self, inputs, mode, method)
+        return position.direct(self, inputs, mode, method, crossed=crossed)
 
-    def inverse(self, poses: ArrayLike, mode: str | None = None, method: Method = "auto") -> SolutionSet:
+    def inverse(
+        self, poses: ArrayLike, mode: str | None = None, method: Method = "auto", *, crossed: bool = False
+    ) -> SolutionSet:
         """All inputs at poses (..., m): see `assur.kinematics.position.inverse`."""
-        return position.inverse(self, poses, mode, method)
+        return position.inverse(self, poses, mode, method, crossed=crossed)
 
     def velocity_map(self, poses: ArrayLike, mode: str | None = None) -> velocity.VelocityMap:
         """Jp and Jq at poses (..., m): see `assur.kinematics.velocity.velocity_map`."""
         return velocity.velocity_map(self, poses, mode)
+
+    def velocity_map_at(self, joint_values: ArrayLike) -> velocity.VelocityMap:
+        """Jp and Jq from the joint graph at joint values (..., n): see `assur.kinematics.velocity.velocity_map_at`."""
+        return velocity.velocity_map_at(self, joint_values)
 
     def acceleration(
         self,
@@ -72,6 +81,14 @@ class Mechanism(MechanismRecord):
     def singularity(self, pose: ArrayLike, mode: str | None = None) -> Verdict:
         """The verdict on one pose (m,): see `assur.singularity.verdict`."""
         return verdict(self, pose, mode)
+
+    def singularity_at(self, joint_values: ArrayLike) -> Verdict:
+        """The verdict on one configuration of the joint graph (n,): see `assur.singularity.verdict.verdict_at`."""
+        return verdict_at(self, joint_values)
+
+    def instantaneous(self, joint_values: ArrayLike) -> Instant:
+        """First-order motion at joint values (..., n): see `assur.kinematics.instantaneous.instantaneous`."""
+        return instantaneous(self, joint_values)
 
     def workspace(self, mode: str | None = None, **options: Any) -> Workspace:
         """The workspace of a working mode: see `assur.workspace.region.workspace` for the options."""

@@ -6,7 +6,7 @@ import assur
 from assur.cli.main import application
 
 COMMANDS = (
-    *("list", "show", "topology", "direct", "inverse", "singularity", "workspace", "audit"),
+    *("list", "show", "check", "topology", "direct", "inverse", "follow", "singularity", "workspace", "audit"),
     *("figures", "report", "synthesize", "demo", "doctor"),
 )
 

@@ -1,9 +1,17 @@
 from __future__ import annotations
 
+import dataclasses
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 import assur
+from assur.kinematics.closure import assemble
+from assur.singularity.examples import singular_examples
+from assur.singularity.verdict import verdict_at
+
+TESTS = Path(__file__).parents[1]
 
 ROW_3 = [-15.4714, 9.6849, 456.3315]
 
@@ -70,3 +78,68 @@ def test_a_five_bar_in_one_line_loses_rank():
     verdict = narrow.singularity([194.0, 0.0], "++")
     assert (verdict.kind, verdict.reduced_kind) == ("self_motion", "comprehensive")
     assert (verdict.rank, verdict.generic_rank) == (2, 3)
+
+
+@pytest.mark.parametrize("name", ["fivebar", "zeng2019"])
+def test_the_joint_graph_gives_the_same_verdict_as_the_closed_form(name):
+    mechanism = assur.load(name)
+    for example in singular_examples(mechanism):
+        form, here = mechanism.singularity(example.pose, example.mode), verdict_at(mechanism, example.joints)
+        assert (here.kind, here.near) == (form.kind, form.near), example.factor.name
+        assert (here.rank, here.generic_rank, here.freedoms) == (form.rank, form.generic_rank, form.freedoms)
+        if here.rank == here.generic_rank:  # else the reduced model knows less
+            assert here.reduced_kind == form.reduced_kind, example.factor.name
+            assert here.closest == {"parallel": "output", "serial": "input"}[here.reduced_kind]
+            assert here.condition is None
+        else:
+            assert "IIM" in here.types
+
+
+def test_a_regular_verdict_from_joint_values(paper):
+    form = paper.singularity(ROW_3, "++-++")
+    here = verdict_at(paper, paper.inverse(ROW_3, "++-++").joints[0])
+    assert (here.kind, here.reduced_kind, here.types, here.platform_gains) == ("regular", "regular", (), False)
+    assert here.condition == pytest.approx(form.condition, rel=1e-8)
+    assert here.det_jp * here.det_jq * form.det_jp * form.det_jq > 0
+    assert here.gap > 1e6
+    assert all(0.0 < value <= 1.0 for value in here.factors.values())
+
+
+def test_a_mechanism_without_closed_form():
+    delta = assur.load(TESTS / "model" / "file" / "delta.toml")
+    verdict = verdict_at(delta, delta.home_values)
+    assert (verdict.kind, verdict.rank, verdict.generic_rank, verdict.freedoms) == ("regular", 30, 30, 3)
+
+
+def test_constraint_singularity_of_a_3_upu():
+    """On a cylinder of radius 2 |r - R| about z; tests/kinematics/test_instantaneous.py says why."""
+    upu = assur.load(TESTS / "kinematics" / "upu.toml")
+    kinds = {}
+    for radius in (190.0, 200.0, 210.0):
+        found = assemble(upu, upu.home_values, poses=np.array([radius, 0.0, 300.0]))
+        assert np.allclose(upu.frames(found.values)["platform"][0], np.eye(3), atol=1e-7)
+        kinds[radius] = verdict_at(upu, found.values)
+    assert [verdict.kind for verdict in kinds.values()] == ["regular", "constraint", "regular"]
+    assert [verdict.platform_gains for verdict in kinds.values()] == [False, True, False]
+    assert [verdict.rank for verdict in kinds.values()] == [12, 11, 12]
+    assert kinds[200.0].factors["closure"] < 1e-5
+
+
+def test_joint_values_that_do_not_close_are_a_verdict_too(paper):
+    verdict = verdict_at(paper, paper.home_values + 0.1)
+    assert (verdict.kind, verdict.condition, verdict.rank) == ("unreachable", None, None)
+
+
+def test_one_configuration_at_a_time(paper):
+    with pytest.raises(assur.UsageError, match=r"not a batch of shape \(2,\)"):
+        verdict_at(paper, np.array([paper.home_values, paper.home_values]))
+
+
+def test_a_pose_of_a_mechanism_without_closed_form_is_searched_for_and_judged():
+    five_bar = assur.load("fivebar")
+    bare = dataclasses.replace(five_bar, closed_form=None)
+    found = bare.singularity([10.0, 220.0], "-+")
+    form = five_bar.singularity([10.0, 220.0], "-+")
+    assert (found.kind, found.rank, found.freedoms) == (form.kind, form.rank, form.freedoms)
+    assert found.condition == pytest.approx(form.condition, rel=1e-6)
+    assert bare.singularity([1000.0, 0.0], "-+").kind == "undecided", "a search proves nothing"

@@ -31,7 +31,7 @@ def test_no_margin_is_negative_exactly_where_the_inverse_problem_has_a_solution(
     poses, columns = columns_of(mechanism, count=500)
     points = np.stack(columns, axis=-1)
     for mode in all_modes(mechanism, "inverse"):
-        fields = margin_fields(mechanism, mode)
+        fields = margin_fields(mechanism, mode, {item.name: None for item in mechanism.inputs})
         inside = np.all([at_points(field, len(columns), points) >= 0 for field in fields.values()], axis=0)
         np.testing.assert_array_equal(inside, mechanism.inverse(poses, mode=mode).exists[:, 0])
 

@@ -49,7 +49,13 @@ def _shown(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
     if data["failures"]:
         yield failures(data["failures"])
     if data["factors"]:
-        yield from _factors(record, data)
+        yield from _factors(record, data) if record.closed_form else _measures(data)
+
+
+def _measures(data: dict[str, Any]) -> Iterable[RenderableType]:
+    """How far the joint graph is from being singular, where there is no closed form with factors."""
+    rows = [(name, f"{value:.6f}") for name, value in data["factors"].items()]
+    yield table(("measure", "0 where singular, 1 at most"), rows, left=("measure",))
 
 
 def _factors(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:

@@ -7,7 +7,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from assur.cli.numbers import numbers
-from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+from assur.cli.options import SHARED_DEFAULTS, Crossed, MechanismName, MethodName, Outcome, Shared
 
 
 def direct(
@@ -17,6 +17,8 @@ def direct(
     mode: Annotated[
         str | None, Parameter(help="Only this assembly mode, as +++ (`assur show` names its signs).")
     ] = None,
+    method: MethodName = "auto",
+    crossed: Crossed = False,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """Every pose of the platform at given inputs.
@@ -35,4 +37,4 @@ def direct(
     from assur.kinematics.border import input_names
 
     values = numbers(inputs, input_names(record), f"inputs of {record.name}")
-    return outcome(record, record.direct(inputs_from_border(record, values), mode))
+    return outcome(record, record.direct(inputs_from_border(record, values), mode, method, crossed=crossed))

@@ -7,7 +7,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from assur.cli.numbers import numbers
-from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+from assur.cli.options import SHARED_DEFAULTS, Crossed, MechanismName, MethodName, Outcome, Shared
 
 
 def inverse(
@@ -17,6 +17,8 @@ def inverse(
     mode: Annotated[
         str | None, Parameter(help="Only this working mode, as ++-++ (`assur show` names its signs).")
     ] = None,
+    method: MethodName = "auto",
+    crossed: Crossed = False,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """All inputs that hold the platform at a given pose.
@@ -34,4 +36,4 @@ def inverse(
     from assur.kinematics.answers import pose_from_border
 
     values = numbers(pose, record.platform.pose, f"pose of {record.name}")
-    return outcome(record, record.inverse(pose_from_border(record, values), mode))
+    return outcome(record, record.inverse(pose_from_border(record, values), mode, method, crossed=crossed))

@@ -31,13 +31,17 @@ For example:
 def application() -> App:
     """The application with every command."""
     from assur.cli.audit import audit
+    from assur.cli.check import check
     from assur.cli.demo import demo
     from assur.cli.direct import direct
     from assur.cli.doctor import doctor
     from assur.cli.figures import figures
+    from assur.cli.follow import follow
     from assur.cli.inverse import inverse
     from assur.cli.list import list_
+    from assur.cli.new import new
     from assur.cli.report import report
+    from assur.cli.schema import schema
     from assur.cli.show import show
     from assur.cli.singularity import singularity
     from assur.cli.synthesize import synthesize
@@ -53,8 +57,8 @@ def application() -> App:
         default_parameter=Parameter(negative="", show_default=False),
     )
     app.command(list_, name="list")
-    mechanism = (show, topology, direct, inverse, singularity, workspace, audit, figures, report)
-    for command in (*mechanism, synthesize, demo, doctor):
+    mechanism = (show, check, topology, direct, inverse, follow, singularity, workspace, audit, figures, report)
+    for command in (*mechanism, synthesize, new, schema, demo, doctor):
         app.command(command)
     return app
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Group, Parameter
 
@@ -19,6 +19,16 @@ SHARED = Group("Shared options", sort_key=9)
 
 MechanismName = Annotated[
     str, Parameter(name="MECHANISM", help="A name (see `assur list`) or the path of a .toml file.")
+]
+
+
+MethodName = Annotated[
+    Literal["auto", "closed form", "loops", "search"],
+    Parameter(help="Closed form, or on the joint graph: loops in turn, or a search. The best of them if left out."),
+]
+
+Crossed = Annotated[
+    bool, Parameter(help="On the joint graph: let parallelograms cross over (a mode then names them, as +++~Pa1).")
 ]
 
 

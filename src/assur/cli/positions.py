@@ -47,8 +47,8 @@ def _shown(record: Mechanism, data: dict[str, Any], branches: int) -> Iterable[R
         yield from _curves(data, style)
     if data["failures"]:
         yield failures(data["failures"])
-    yield _completeness(record, data, branches)
-    yield f"mode: the signs of {_signs(record, data)}"
+    yield _completeness(record, data)
+    yield from _modes(record, data)
 
 
 def _headline(data: dict[str, Any], branches: int) -> str:
@@ -125,16 +125,31 @@ def failures(items: list[dict[str, Any]]) -> RenderableType:
     return table(("negative", "at best", "which is", "branches"), rows, left=("negative", "which is"))
 
 
-def _completeness(record: Mechanism, data: dict[str, Any], branches: int) -> str:
+def _completeness(record: Mechanism, data: dict[str, Any]) -> str:
     form = record.closed_form
-    because = f": {form.reduced_because}" if form is not None and form.reduced_because else ""
+    because = f" ({form.reduced_because})" if form is not None and form.reduced_because else ""
     reduced = data["complete_for"] == "reduced"
     model = f"the reduced model{because}" if reduced else "the joint graph"
-    if data["status"] == "undecided":
+    if data["status"] == "undecided" and form is not None and data["right"].startswith("closed form"):
         return f"Undecided: the closed form of {model} degenerates here, and no curve of poses is known to it."
-    if branches == 1:
-        return f"Only this mode was asked for. By the closed form of {model}."
-    return f"Complete, by the closed form, for {model}."
+    right = data["right"]
+    if data["complete"]:
+        return f"Complete for {model}, by {right}."
+    if right.startswith("not proved"):
+        return f"Complete: {right}."
+    return f"Only this mode was asked for, of {model}, by {right}."
+
+
+def _modes(record: Mechanism, data: dict[str, Any]) -> Iterable[str]:
+    """How the modes read: their signs, their numbers, their crossed parallelograms."""
+    signs = _signs(record, data)
+    texts = [item["mode"] for item in data["solutions"]]
+    parts = [f"the signs of {signs}"] if signs else []
+    if any("~" in text for text in texts):
+        parts.append("after ~ a crossed parallelogram")
+    if any("/" in text for text in texts) or not signs:
+        parts.append("a number among those that share the rest" if parts else "a number")
+    yield f"mode: {', '.join(parts)}"
 
 
 def _signs(record: Mechanism, data: dict[str, Any]) -> str:

@@ -35,7 +35,7 @@ class Question:
     strokes: dict[str, Interval]
     resolution: int
     sections: tuple[float, ...] | None
-    near: float
+    near: float | None
     held: dict[str, float] | None
 
 
@@ -46,7 +46,7 @@ def question(
     stroke: Sequence[str],
     resolution: str,
     section: Sequence[str],
-    near: str,
+    near: str | None,
     at: Sequence[str] = (),
 ) -> Question:
     """What was asked for, with every word checked."""
@@ -55,8 +55,8 @@ def question(
     held = _held(record, at)
     last = slice_at(record, held).free[-1]
     cuts = tuple(number(text, "--section") * _factor(record, is_length(last)) for text in section)
-    distance = number(near, "--near")
-    if distance <= 0:
+    distance = None if near is None else number(near, "--near")
+    if near is not None and distance is not None and distance <= 0:
         raise UsageError(f"--near: {near.strip()} is not a positive length")
     return Question(
         mode=mode or record.modes.default_working,

@@ -34,8 +34,9 @@ def workspace(
         Parameter(metavar="VALUE", help="Cut across the last coordinate; the file's sections if left out."),
     ] = (),
     near: Annotated[
-        str, Parameter(metavar="LENGTH", help="How near to a parallel singularity counts as near, 10 if left out.")
-    ] = "10",
+        str | None,
+        Parameter(metavar="LENGTH", help="How near a parallel singularity is near; 3.5 % of the size if left out."),
+    ] = None,
     output: Annotated[
         str | None,
         Parameter(name=("-o", "--output"), metavar="FILE", help="Write the answer (.json) or surface (.obj)."),

@@ -40,6 +40,7 @@ def answer(found: SolutionSet) -> dict[str, Any]:
         "status": Status(int(found.overall_status)).name,
         "complete": found.complete,
         "complete_for": found.complete_for,
+        "right": found.right,
         "solutions": [_solution(record, found, item) for item in found],
         "curves": [
             {

@@ -54,7 +54,7 @@ class Branches(SolutionSet):
     @property
     def right(self) -> str:
         """By what right the answer is complete."""
-        return "closed form: every branch of its roots"
+        return "closed form, every branch of its roots"
 
     @cached_property
     def labels(self) -> NDArray[np.str_]:
@@ -134,7 +134,9 @@ class Branches(SolutionSet):
             status = classify(self.record, self.factors)
         status[~self._real] = Status.unreachable
         form = closed_form_of(self.record)
-        reachable = exists(self.record, [item for item in self._margin_list if item.zero == "merge"], self.margins)
+        merging = [item for item in self._margin_list if item.zero == "merge"]
+        known = {item.name: np.nan_to_num(self.margins[item.name]) for item in merging}  # NaN: nothing forbids it
+        reachable = exists(self.record, merging, known)
         for margin in self._margin_list:
             if margin.zero == "degenerate":
                 here = vanishes(self.record, margin, self.margins[margin.name])

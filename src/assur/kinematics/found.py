@@ -5,13 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import characteristic_length
-from assur.kinematics.modes import Problem, mode_texts, numbered
+from assur.kinematics.finite_motion import status_of
+from assur.kinematics.instantaneous import Instant, instantaneous
+from assur.kinematics.modes import Problem, is_of_mode, mode_texts, numbered
+from assur.kinematics.ordered.loops import crossed_parallelograms
 from assur.kinematics.pose import pose_of
 from assur.kinematics.self_motion import SelfMotionCurve
 from assur.kinematics.solution import Failure
@@ -31,7 +35,7 @@ class Found(SolutionSet):
 
     Attributes:
         assemblies: (..., K, coordinates) joint values, NaN where a problem has fewer than K.
-        all_known: whether these are known to be all, by what `reason` says.
+        all_known: whether these are known to be all of the `model`, by what `reason` says.
         nearest: (...) the smallest gap that a problem without solution could be brought to, in length units.
         only: the mode to which the answer is narrowed; empty for all of them.
     """
@@ -41,6 +45,7 @@ class Found(SolutionSet):
     given: FloatArray
     assemblies: FloatArray
     all_known: bool
+    model: Literal["joint_graph", "reduced"]
     reason: str
     nearest: FloatArray
     only: str = ""
@@ -52,8 +57,8 @@ class Found(SolutionSet):
 
     @property
     def complete_for(self) -> str:
-        """Always the joint graph."""
-        return "joint_graph"
+        """The model: "reduced" where assemblies with crossed parallelograms are left out."""
+        return self.model
 
     @property
     def right(self) -> str:
@@ -63,7 +68,7 @@ class Found(SolutionSet):
     @cached_property
     def exists(self) -> BoolArray:
         """Whether a row (..., K) is an assembly, of the mode that was asked for."""
-        return self._there & (self.labels == self.only) if self.only else self._there
+        return self._there & is_of_mode(self.labels, self.only) if self.only else self._there
 
     @property
     def joints(self) -> FloatArray:
@@ -80,15 +85,17 @@ class Found(SolutionSet):
         """Printed inputs (..., K, n), read off the actuated joints."""
         return self._of_joints(partial(inputs_of, self.record))
 
-    @property
+    @cached_property
     def factors(self) -> dict[str, FloatArray]:
-        """None yet."""
-        return {}
+        """How far each solution (..., K) is from being singular: the measures of `Instant`, 0 where it is."""
+        measures = self._instant.measures
+        return {name: self._spread(value) for name, value in measures.items()}
 
     @cached_property
     def status(self) -> NDArray[np.int8]:
         """`Status` (..., K) of every row, from the joint graph's Jacobians."""
-        return np.where(self._there, Status.regular, Status.unreachable).astype(np.int8)
+        found = status_of(self.record, self.assemblies[self._there], self._instant)
+        return np.where(self._there, np.nan_to_num(self._spread(found)), Status.unreachable).astype(np.int8)
 
     @cached_property
     def overall_status(self) -> NDArray[np.int8]:
@@ -100,7 +107,7 @@ class Found(SolutionSet):
     @cached_property
     def labels(self) -> NDArray[np.str_]:
         """Text (..., K) of the mode: the signs of the file's quantities, and a number where several share them."""
-        return numbered(mode_texts(self._signs(self.problem)), self._there)
+        return numbered(np.char.add(mode_texts(self._signs(self.problem)), self._crossed), self._there)
 
     @cached_property
     def other_labels(self) -> NDArray[np.str_]:
@@ -130,6 +137,18 @@ class Found(SolutionSet):
     def _there(self) -> BoolArray:
         return np.asarray(np.all(np.isfinite(self.assemblies), axis=-1))
 
+    @cached_property
+    def _crossed(self) -> NDArray[np.str_]:
+        """Names (..., K) of the parallelograms that are crossed, each after a tilde."""
+        texts = np.zeros(self._there.shape, dtype=object)
+        texts[...] = ""
+        if self.record.generalised:
+            for place in zip(*np.nonzero(self._there), strict=True):
+                texts[place] = "".join(
+                    f"~{name}" for name in crossed_parallelograms(self.record, self.assemblies[place])
+                )
+        return texts.astype(np.str_)
+
     def _signs(self, problem: Problem) -> NDArray[np.int8]:
         """Signs (..., K, s) of the quantities that name modes; 0 where one vanishes."""
         formulas = self.record.modes.assembly if problem == "direct" else self.record.modes.working
@@ -143,6 +162,17 @@ class Found(SolutionSet):
 
     def _quantity(self, formula: Formula, joints: FloatArray) -> FloatArray:
         return quantity(self.record, formula, joints)[:, None]
+
+    @cached_property
+    def _instant(self) -> Instant:
+        """First-order motion of every assembly, one after another."""
+        return instantaneous(self.record, self.assemblies[self._there])
+
+    def _spread(self, values: NDArray[Any]) -> FloatArray:
+        """Numbers of the assemblies, one after another, as (..., K); NaN elsewhere."""
+        answer = np.full(self._there.shape, np.nan)
+        answer[self._there] = values
+        return answer
 
     def _of_joints(self, function: Callable[[FloatArray], FloatArray]) -> FloatArray:
         """A function (N, coordinates) -> (N, k) at every assembly, as (..., K, k); NaN elsewhere."""

@@ -89,6 +89,15 @@ def numbered(texts: NDArray[np.str_], exists: NDArray[np.bool_]) -> NDArray[np.s
     return answer
 
 
+def is_of_mode(labels: NDArray[np.str_], mode: str) -> NDArray[np.bool_]:
+    """Which labels (..., K) a mode means: that one, or, where it has no number, all that share its signs.
+
+    >>> is_of_mode(np.array(["+/1", "+/2", "-"]), "+").tolist()
+    [True, True, False]
+    """
+    return np.asarray((labels == mode) | np.char.startswith(labels, f"{mode}/"))
+
+
 def sign_axes(names: Sequence[str], batch_axes: int = 1) -> SimpleNamespace:
     """Both values of every sign, each along a leading axis of its own, so that one call gives all branches."""
     axes = {}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Literal, get_args
 
@@ -10,10 +11,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UnknownNameError, UsageError
-from assur.kinematics import border
+from assur.kinematics import border, soundness
 from assur.kinematics.branches import Branches
 from assur.kinematics.found import Found
 from assur.kinematics.modes import Problem, all_modes, mode_signs, sign_axes, sign_names
+from assur.kinematics.ordered.loops import solve_by_loops
 from assur.kinematics.roots import roots_of
 from assur.kinematics.search import search
 from assur.kinematics.solutions import SolutionSet
@@ -23,22 +25,33 @@ from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
 
 FloatArray = NDArray[np.float64]
-Method = Literal["auto", "closed form", "search"]
+Method = Literal["auto", "closed form", "loops", "search"]
 
 
-def direct(record: MechanismRecord, inputs: ArrayLike, mode: str | None = None, method: Method = "auto") -> SolutionSet:
+def direct(
+    record: MechanismRecord,
+    inputs: ArrayLike,
+    mode: str | None = None,
+    method: Method = "auto",
+    *,
+    crossed: bool = False,
+) -> SolutionSet:
     """Every pose at inputs (..., n), in lengths and rad, in the file's order; or that of one assembly mode.
 
     Args:
         record: the mechanism.
         inputs: as printed.
         mode: an assembly mode; all of them by default.
-        method: "closed form"; "search", on the joint graph from many starts, never known to be complete; by default
-            the closed form where there is one.
+        method: "closed form"; on the joint graph "loops", one after another as the theory orders them, complete where
+            it says so, or "search" from many starts, never known to be complete. By default the first of the three
+            that has a complete answer.
+        crossed: on the joint graph: whether parallelograms may cross over; a mode says which do ("+++~Pa1").
 
     Errors:
         UsageError: inputs that are not n finite numbers, a closed form that there is not.
         UnknownNameError: a mode or a method that there is not.
+        MechanismFileError: on the joint graph, where the file has a fault that only shows there
+            (`assur.kinematics.soundness`).
 
     Example: the inputs of Table 1 of Zeng et al. 2019 have four poses; row 3 of the table is the first.
 
@@ -50,10 +63,17 @@ def direct(record: MechanismRecord, inputs: ArrayLike, mode: str | None = None, 
     array([-15.4714,   9.6849, 456.3315])
     """
     given = border.checked(inputs, border.input_names(record), f"inputs of {record.name}")
-    return _answer(record, "direct", given, mode, method)
+    return _answer(record, "direct", given, mode, method, crossed)
 
 
-def inverse(record: MechanismRecord, poses: ArrayLike, mode: str | None = None, method: Method = "auto") -> SolutionSet:
+def inverse(
+    record: MechanismRecord,
+    poses: ArrayLike,
+    mode: str | None = None,
+    method: Method = "auto",
+    *,
+    crossed: bool = False,
+) -> SolutionSet:
     """All inputs at poses (..., m), in lengths and rad, in the file's order; or those of one working mode.
 
     Arguments and errors are as for `direct`.
@@ -65,18 +85,22 @@ def inverse(record: MechanismRecord, poses: ArrayLike, mode: str | None = None, 
     >>> next(iter(found)).inputs.round(3)
     array([ 162.691, -143.321,  -24.678])
     """
-    return _answer(record, "inverse", border.checked_poses(record, poses), mode, method)
+    return _answer(record, "inverse", border.checked_poses(record, poses), mode, method, crossed)
 
 
-def _answer(record: MechanismRecord, problem: Problem, given: FloatArray, mode: str | None, method: str) -> SolutionSet:
+def _answer(
+    record: MechanismRecord, problem: Problem, given: FloatArray, mode: str | None, method: Method, crossed: bool
+) -> SolutionSet:
     if method not in get_args(Method):
         raise UnknownNameError("method", method, get_args(Method))
     form = record.closed_form
     kernel = None if form is None else form.direct if problem == "direct" else form.inverse
     if method == "closed form" and kernel is None:
         raise UsageError(f"{record.name} has no closed form of the {problem} problem", hint="leave the method out")
-    if method == "search" or kernel is None:
-        return _searched(record, problem, given, _numbered_mode(record, problem, mode))
+    if method == "closed form" and crossed:
+        raise UsageError("crossed parallelograms are found on the joint graph", hint="leave the method out")
+    if method in ("loops", "search") or kernel is None or crossed:
+        return _on_joint_graph(record, problem, given, _numbered_mode(record, problem, mode), method, crossed)
     if isinstance(kernel, Eliminant):
         return roots_of(record, kernel, given, _numbered_mode(record, problem, mode))
     return _branches(record, problem, given, mode)
@@ -102,19 +126,52 @@ def _branches(record: MechanismRecord, problem: Problem, given: FloatArray, mode
     return Branches(record, problem, given, np.array(asked, dtype=np.int8), shape, branch)
 
 
-def _searched(record: MechanismRecord, problem: Problem, given: FloatArray, only: str) -> Found:
-    """What a search on the joint graph finds, problem by problem."""
-    found = [search(record, problem, one) for one in given.reshape(-1, given.shape[-1])]
+def _on_joint_graph(
+    record: MechanismRecord, problem: Problem, given: FloatArray, only: str, method: Method, crossed: bool
+) -> Found:
+    """What is found on the joint graph, problem by problem: loop by loop where that is complete, else by a search."""
+    soundness.check(record)
+    found = [_assemblies(record, problem, one, method, crossed) for one in given.reshape(-1, given.shape[-1])]
     most = max((len(item.joints) for item in found), default=0)
     joints = np.full((len(found), most, len(record.coordinates)), np.nan)
     for row, item in zip(joints, found, strict=True):
         row[: len(item.joints)] = item.joints
-    starts = found[0].starts if found else 0
-    last = max((item.last_new for item in found), default=0)
-    reason = f"not proved: a search from {starts} starts, of which number {last} found the last new assembly"
     batch = given.shape[:-1]
-    nearest = np.array([item.nearest for item in found]).reshape(batch)
-    return Found(record, problem, given, joints.reshape(*batch, *joints.shape[1:]), False, reason, nearest, only)
+    return Found(
+        record,
+        problem,
+        given,
+        joints.reshape(*batch, *joints.shape[1:]),
+        all_known=all(item.complete for item in found),
+        model="reduced" if record.generalised and all(item.uncrossed for item in found) else "joint_graph",
+        reason="; ".join(dict.fromkeys(item.right for item in found)),
+        nearest=np.array([item.nearest for item in found]).reshape(batch),
+        only=only,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Assemblies:
+    """Joint values (K, coordinates) of one problem; `uncrossed`: crossed parallelograms are left out."""
+
+    joints: FloatArray
+    complete: bool
+    right: str
+    nearest: float
+    uncrossed: bool
+
+
+def _assemblies(
+    record: MechanismRecord, problem: Problem, given: FloatArray, method: Method, crossed: bool
+) -> _Assemblies:
+    if method != "search":
+        asked = {"inputs": given} if problem == "direct" else {"pose": given}
+        turn = solve_by_loops(record, **asked, crossed=crossed)
+        if turn.complete or method == "loops" or (crossed and len(turn.joints)):
+            return _Assemblies(turn.joints, turn.complete, turn.right, np.nan, not crossed)
+    found = search(record, problem, given)
+    reason = f"not proved: a search from {found.starts} starts, of which number {found.last_new} found the last new one"
+    return _Assemblies(found.joints, False, reason, found.nearest, False)
 
 
 def _numbered_mode(record: MechanismRecord, problem: Problem, mode: str | None) -> str:
@@ -122,7 +179,7 @@ def _numbered_mode(record: MechanismRecord, problem: Problem, mode: str | None) 
     if mode is None:
         return ""
     count = len(sign_names(record, problem))
-    if not re.fullmatch(rf"[+-]{{{count}}}(/[1-9]\d*)?" if count else r"[1-9]\d*", mode):
+    if not re.fullmatch(rf"[+-]{{{count}}}(~\w+)*(/[1-9]\d*)?" if count else r"(~\w+)*/?([1-9]\d*)?", mode):
         signs = all_modes(record, problem) if count else ("1", "2")
         kind = "assembly mode" if problem == "direct" else "working mode"
         raise UnknownNameError(f"{kind} of {record.name}", mode, signs, hint="a number may follow, as in +/2")

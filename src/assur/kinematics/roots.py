@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from assur.kinematics import border
 from assur.kinematics.branches import Branches
-from assur.kinematics.modes import mode_texts, numbered
+from assur.kinematics.modes import is_of_mode, mode_texts, numbered
 from assur.kinematics.status import Status
 from assur.model.closed_form import Eliminant, Margin
 from assur.model.mechanism import MechanismRecord
@@ -48,7 +48,7 @@ class RootBranches(Branches):
     @property
     def right(self) -> str:
         """By what right the answer is complete."""
-        return f"closed form: all roots of a polynomial of degree {len(self.modes_asked)}"
+        return f"closed form, all roots of a polynomial of degree {len(self.modes_asked)}"
 
     @cached_property
     def status(self) -> NDArray[np.int8]:
@@ -70,7 +70,7 @@ class RootBranches(Branches):
     @cached_property
     def exists(self) -> BoolArray:
         """Whether a branch (..., K) is a solution: a real root, and not the second copy of a double one."""
-        return self._distinct & (self.labels == self.only) if self.only else self._distinct
+        return self._distinct & is_of_mode(self.labels, self.only) if self.only else self._distinct
 
     @cached_property
     def _distinct(self) -> BoolArray:

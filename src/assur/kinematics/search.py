@@ -69,8 +69,8 @@ def _assembled(record: MechanismRecord, problem: Problem, given: FloatArray, sta
 def distinct(record: MechanismRecord, joints: FloatArray) -> NDArray[np.intp]:
     """Indices of the first of each group of joint values (N, coordinates) that are one configuration.
 
-    Configurations are told apart by where the joints and the platform are; a rod that spins about its ball joints
-    does not make another one.
+    Configurations are told apart by where the joints and the platform are, and by their inputs; a rod that spins about
+    its ball joints does not make another one.
     """
     places = _places(record, joints)
     kept: list[int] = []
@@ -91,13 +91,17 @@ def in_one_turn(record: MechanismRecord, joints: FloatArray) -> FloatArray:
 
 
 def _places(record: MechanismRecord, joints: FloatArray) -> FloatArray:
-    """Places (N, 3 j + 9) of all joints in units of the characteristic length, and the platform's orientation."""
-    placed = frames(record, joints)
+    """Places (N, k) of all joints in units of the characteristic length, the platform's orientation, the inputs."""
+    placed, length = frames(record, joints), characteristic_length(record)
     columns = []
     for joint in record.joints.values():
         rotation, origin = placed[joint.parent]
-        columns.append((rotation @ joint.at + origin) / characteristic_length(record))
+        columns.append((rotation @ joint.at + origin) / length)
     columns.append(placed[record.platform.link][0].reshape(len(joints), 9))
+    for item in record.inputs:
+        value = joints[:, item.coordinate.index]
+        angular = item.coordinate.kind == "angle"
+        columns += [np.cos(value)[:, None], np.sin(value)[:, None]] if angular else [value[:, None] / length]
     return np.concatenate(columns, axis=-1)
 
 

@@ -14,10 +14,12 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UsageError
 from assur.kinematics import border
 from assur.kinematics.existence import exists
+from assur.kinematics.instantaneous import Instant, instantaneous
 from assur.kinematics.modes import mode_signs, sign_names
 from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of, relative_factors
 from assur.model.closed_form import Branch
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import QUATERNION, has_quaternion, rate_names
 from assur.numerics.dual import Dual, Duals
 from assur.numerics.number_types import Floats
 
@@ -26,11 +28,13 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class VelocityMap:
-    """Jp (..., r, m) and Jq (..., r, n) with Jp v = Jq qdot at poses (..., m) in one working mode.
+    """Jp (..., r, k) and Jq (..., r, n) with Jp v = Jq qdot at poses in one working mode, or at joint values.
 
-    v are the rates of the pose coordinates, qdot those of the printed inputs. `exists` (...) says where the mode
-    reaches the pose; elsewhere every number is NaN. `singular_output` (...) marks where Jp is singular,
-    `singular_input` where Jq is, judged by the factors of the closed form.
+    v are the rates of the pose as `assur.model.pose.rate_names` names them, for a quaternion the angular velocity; qdot
+    are those of the printed inputs. `exists` (...) says where the mode reaches the pose, or the joint values close the
+    loops; elsewhere every number is NaN. `singular_output` (...) marks where Jp is singular, `singular_input` where Jq
+    is, judged by the factors of the closed form or by the ranks of the joint graph. Of a mechanism with more or fewer
+    inputs than rates, Jq is not square: it has no determinant (NaN) and is solved by least squares.
     """
 
     jp: FloatArray
@@ -38,6 +42,11 @@ class VelocityMap:
     singular_output: NDArray[np.bool_]
     singular_input: NDArray[np.bool_]
     exists: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, instant: Instant) -> VelocityMap:
+        """The velocity map of a first-order motion on the joint graph."""
+        return cls(instant.jp, instant.jq, instant.singular_output, instant.singular_input, instant.closed)
 
     @cached_property
     def det_jp(self) -> FloatArray:
@@ -50,17 +59,19 @@ class VelocityMap:
         return self._determinant(self.jq)
 
     def _determinant(self, matrix: FloatArray) -> FloatArray:
+        if matrix.shape[-1] != matrix.shape[-2]:
+            return np.full(matrix.shape[:-2], np.nan)
         finite = np.all(np.isfinite(matrix), axis=(-1, -2))
         return np.where(finite, np.linalg.det(np.where(finite[..., None, None], matrix, 0.0)), np.nan)
 
     @cached_property
     def matrix(self) -> FloatArray:
-        """J = Jp^-1 Jq (..., m, n), with v = J qdot; NaN where `singular_output`."""
+        """J = Jp^-1 Jq (..., k, n), with v = J qdot; NaN where `singular_output`."""
         return _solve(self.jp, self.jq, self.singular_output)
 
     @cached_property
     def velocity_factors(self) -> FloatArray:
-        """Singular values of J (..., k), largest first: by how much inputs are made faster; NaN where singular."""
+        """Singular values of J (..., min(k, n)), largest first: how much faster than inputs; NaN where singular."""
         unknown = self.singular_output | ~self.exists
         safe = np.where(unknown[..., None, None], 0.0, self.matrix)
         factors: FloatArray = np.linalg.svd(safe, compute_uv=False)
@@ -74,13 +85,13 @@ class VelocityMap:
         return np.where(self.singular_output | self.singular_input, np.inf, ratio)
 
     def output(self, input_rates: ArrayLike) -> FloatArray:
-        """Rates v (..., m) of the pose at input rates (..., n); NaN where `singular_output`."""
+        """Rates v (..., k) of the pose at input rates (..., n); NaN where `singular_output`."""
         rates = np.asarray(input_rates, dtype=float)
         product: FloatArray = (self.matrix @ rates[..., None])[..., 0]
         return product
 
     def input(self, output_rates: ArrayLike) -> FloatArray:
-        """Input rates (..., n) at pose rates v (..., m); NaN where `singular_input`."""
+        """Input rates (..., n) at pose rates v (..., k); NaN where `singular_input`."""
         rates = np.asarray(output_rates, dtype=float)
         return _solve(self.jq, self.jp @ rates[..., None], self.singular_input)[..., 0]
 
@@ -101,6 +112,23 @@ def velocity_map(record: MechanismRecord, poses: ArrayLike, mode: str | None = N
     return _velocity_map(record, given.shape[:-1], branch, jp, jq)
 
 
+def velocity_map_at(record: MechanismRecord, joints: ArrayLike) -> VelocityMap:
+    """The velocity map at joint values (..., coordinates), from the joint graph alone: for any mechanism.
+
+    Jp and Jq are those of `assur.kinematics.instantaneous`: the same relation as a closed form's, in other rows.
+
+    Example: at the same configuration as above all inputs at one speed move the platform along Y.
+
+    >>> from assur.kinematics.position import inverse
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("zeng2019")
+    >>> found = inverse(record, [-15.4714, 9.6849, 456.3315], "++-++")
+    >>> velocity_map_at(record, found.joints[0]).output([1.0, 1.0, 1.0]).round(9) + 0.0
+    array([0., 1., 0.])
+    """
+    return VelocityMap.of(instantaneous(record, joints))
+
+
 def printed_velocity_map(record: MechanismRecord, poses: ArrayLike, mode: str | None = None) -> VelocityMap:
     """The velocity map with Jp and Jq as the source prints them; where it divides by zero the rows are not finite."""
     given, branch = branch_at(record, poses, mode, Floats())
@@ -119,17 +147,19 @@ def acceleration(
     input_accelerations: ArrayLike,
     mode: str | None = None,
 ) -> tuple[FloatArray, FloatArray]:
-    """Velocity v and acceleration (..., m) of the pose for given rates and accelerations (..., n) of the inputs.
+    """Velocity v and acceleration (..., k) of the pose for given rates and accelerations (..., n) of the inputs.
 
     a = Jp^-1 (Jq qddot + Jq' qdot - Jp' v), the primes being derivatives along the motion, exact by dual
-    numbers through the same kernels. Both are NaN out of reach and where Jp is singular; the acceleration is
-    NaN where Jq is singular too, because the kernels have no derivative at the root of zero.
+    numbers through the same kernels. Of a quaternion they are the angular velocity and acceleration. Both are
+    NaN out of reach and where Jp is singular; the acceleration is NaN where Jq is singular too, because the
+    kernels have no derivative at the root of zero.
     """
     here = velocity_map(record, poses, mode)
     rates = np.asarray(input_rates, dtype=float)
     velocity = here.output(rates)
-    given = border.checked(poses, record.platform.pose, f"pose of {record.name}")
-    flat, moving = given.reshape(-1, given.shape[-1]), velocity.reshape(-1, given.shape[-1])
+    given = border.checked_poses(record, poses)
+    flat = given.reshape(-1, given.shape[-1])
+    moving = _coordinate_rates(record, flat, velocity.reshape(len(flat), -1))
     values = border.pose_components(record, flat)
     components = tuple(_moving(value, moving[:, k]) for k, value in enumerate(values))
     form = closed_form_of(record)
@@ -144,7 +174,7 @@ def acceleration(
 
 def branch_at(record: MechanismRecord, poses: ArrayLike, mode: str | None, ns: Any) -> tuple[FloatArray, Branch]:
     """Poses (..., m) as checked, and the inverse kernel's branch (components of N) in one working mode."""
-    given = border.checked(poses, record.platform.pose, f"pose of {record.name}")
+    given = border.checked_poses(record, poses)
     components = border.pose_components(record, given.reshape(-1, given.shape[-1]))
     form = closed_form_of(record)
     return given, form.inverse(ns, record.values, components, _sign(record, mode))
@@ -153,6 +183,19 @@ def branch_at(record: MechanismRecord, poses: ArrayLike, mode: str | None, ns: A
 def _sign(record: MechanismRecord, mode: str | None) -> SimpleNamespace:
     signs = mode_signs(record, "inverse", mode or record.modes.default_working)
     return SimpleNamespace(**dict(zip(sign_names(record, "inverse"), map(float, signs), strict=True)))
+
+
+def _coordinate_rates(record: MechanismRecord, poses: FloatArray, velocity: FloatArray) -> FloatArray:
+    """Rates (N, m) of the coordinates of poses (N, m) at velocities (N, k): q' = (0, w) q / 2 for a quaternion."""
+    pose = record.platform.pose
+    named = dict(zip(rate_names(pose), velocity.T, strict=True))
+    if has_quaternion(pose):
+        quaternion = poses[:, [pose.index(name) for name in QUATERNION]]
+        turn = velocity[:, -3:]
+        vector = quaternion[:, :1] * turn + np.cross(turn, quaternion[:, 1:])
+        scalar = -np.sum(turn * quaternion[:, 1:], axis=-1)
+        named |= zip(QUATERNION, 0.5 * np.stack([scalar, *vector.T]), strict=True)
+    return np.stack([named[name] for name in pose], axis=-1)
 
 
 def _moving(value: Any, rate: FloatArray) -> Any:
@@ -201,8 +244,10 @@ def _matrix(rows: Sequence[Any], batch: tuple[int, ...], *, derivative: bool = F
 
 
 def _solve(matrix: FloatArray, right: FloatArray, singular: NDArray[np.bool_]) -> FloatArray:
-    """Solution of matrix X = right; NaN where `singular`."""
+    """Solution of matrix X = right, by least squares where it is not square; NaN where `singular`."""
     mask = singular[..., None, None] | ~np.all(np.isfinite(matrix), axis=(-1, -2), keepdims=True)
-    identity = np.eye(matrix.shape[-1])
-    solved = np.linalg.solve(np.where(mask, identity, matrix), np.where(mask, 0.0, right))
+    safe = np.where(mask, np.eye(*matrix.shape[-2:]), matrix)
+    given = np.where(mask, 0.0, right)
+    square = matrix.shape[-2] == matrix.shape[-1]
+    solved = np.linalg.solve(safe, given) if square else np.linalg.pinv(safe) @ given
     return np.where(mask, np.nan, solved)

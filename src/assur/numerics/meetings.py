@@ -60,6 +60,42 @@ def three_spheres(
     return add(first, add(foot, scaled(normal, height))), radicand, square
 
 
+def coincident_spheres(
+    ns: Any, centres: tuple[Vector, Vector, Vector], square: Number, across: Vector, turn: Pair
+) -> tuple[Vector, Number]:
+    """A point at one distance from three centres of which two coincide: it runs on a circle.
+
+    Args:
+        ns: the namespace of the kernel.
+        centres: three points, any two of them the same, the third another.
+        square: square of the radius.
+        across: a vector that is not parallel to the line through the centres.
+        turn: (cosine, sine) of the angle along the circle.
+
+    Returns:
+        The point; the radicand: the square of the circle's radius.
+
+    Example:
+        >>> from assur.numerics.number_types import Floats
+        >>> centres = ((0, 0, 0), (0, 0, 2), (0, 0, 0))
+        >>> point, radicand = coincident_spheres(Floats(), centres, 10, (1, 0, 0), (1, 0))
+        >>> [float(part) for part in point], radicand
+        ([0.0, 3.0, 1.0], 9.0)
+    """
+    first, second, third = centres
+    u, v = subtract(second, first), subtract(third, first)
+    # one of u, v, u - v is zero, so u + v is not; and (point - first) . u = u^2 / 2, the same for v
+    axis = add(u, v)
+    length = dot(axis, axis)
+    foot = scaled(axis, (dot(u, u) + dot(v, v)) / (2 * length))
+    radicand = square - dot(foot, foot)
+    level = cross(axis, across)
+    width = dot(level, level)
+    right = scaled(level, turn[0] * ns.sqrt(radicand) / ns.sqrt(width))
+    up = scaled(cross(axis, level), turn[1] * ns.sqrt(radicand) / (ns.sqrt(length) * ns.sqrt(width)))
+    return add(add(first, foot), add(right, up)), radicand
+
+
 def linear_in_three(rows: tuple[Vector, Vector, Vector], right: Vector) -> tuple[Vector, Number]:
     """The vector x with rows x = right, by Cramer's rule, and the determinant; no answer where that is zero.
 

@@ -23,10 +23,8 @@ ComplexArray = NDArray[np.complex128]
 NOTHING = 1e-200
 """A coefficient smaller than this part of the largest counts as zero."""
 POLISHING = 6
-MERGED = 1e-13
-"""Where a polynomial, its largest coefficient being 1, is smaller than this between two roots, they are one."""
-NEAR_REAL = 1e-3
-"""No root whose angle has a larger imaginary part (rad) is taken for a real one."""
+NEARLY_REAL = 1e-6
+"""Imaginary part (in rad, or relative) up to which a root counts as real; rounding splits a double root by 1e-8."""
 
 
 def add(a: Polynomial, b: Polynomial) -> tuple[Number, ...]:
@@ -171,44 +169,32 @@ def _values(coefficients: FloatArray, at: ComplexArray) -> tuple[FloatArray, Com
     return np.abs(value), np.where(far, (degree - near_it * ratio) / safe, ratio)
 
 
-def real_angles(coefficients: ArrayLike, tolerance: float = MERGED) -> FloatArray:
+def real_angles(coefficients: ArrayLike, tolerance: float = NEARLY_REAL) -> FloatArray:
     """Real angles (..., d) in (-pi, pi], rising, of polynomials (..., d + 1) in tan(angle/2); NaN for the other roots.
 
-    Two roots are one, and given twice as their midpoint, where the polynomial there is smaller than `tolerance`
-    (per unit of its largest coefficient, divided by (1 + t^2)^(d/2)): so a double root is neither lost because
-    rounding made it complex, nor given as two angles. A zero polynomial gives NaN: every angle is a root.
+    A root counts as real where the imaginary part of its angle is at most `tolerance` (rad). So a double root that
+    rounding made complex is not lost: it is given twice. A zero polynomial gives NaN: every angle is a root.
 
     >>> (real_angles([1.0, -2.0, 1.0]) / np.pi).round(12)
     array([0.5, 0.5])
     """
-    given = np.asarray(coefficients, dtype=float)
-    flat = given.reshape(-1, given.shape[-1])
-    found = _real_angles(flat, roots(flat), tolerance)
-    return found.reshape((*given.shape[:-1], -1))
+    angles = _angle_of(roots(coefficients))
+    return np.asarray(np.sort(np.where(np.abs(angles.imag) <= tolerance, angles.real, np.nan), axis=-1))
 
 
-def real_roots(coefficients: ArrayLike, size: float = 1.0, tolerance: float = MERGED) -> FloatArray:
+def real_roots(coefficients: ArrayLike, size: float = 1.0, tolerance: float = NEARLY_REAL) -> FloatArray:
     """Real roots (..., d), rising, of polynomials (..., d + 1) in an unknown of this `size`; NaN for the other roots.
 
-    Double roots are kept, by the rule of `real_angles` for the unknown divided by `size`: one of two roots whose
-    distance in that unit is about the square root of the tolerance. Infinite roots are NaN too.
+    A root counts as real where its imaginary part is at most `tolerance` times its magnitude or `size`, whichever is
+    larger; so a double root is kept, and given twice. Infinite roots are NaN.
 
     >>> real_roots([-1.0, 1.0, -1.0, 1.0])
     array([ 1., nan, nan])
     """
-    given = np.asarray(coefficients, dtype=float)
-    degree = given.shape[-1] - 1
-    angles = real_angles(given * size ** np.arange(degree + 1), tolerance)
-    found = size * np.where(np.abs(angles) < np.pi, np.tan(angles / 2), np.nan)
-    return np.asarray(np.sort(found, axis=-1))
-
-
-def _real_angles(coefficients: FloatArray, found: ComplexArray, tolerance: float) -> FloatArray:
-    angles = _angle_of(found)
-    almost = np.abs(angles.imag) < NEAR_REAL
-    size = _size_at(coefficients, angles.real)
-    real = np.sort(np.where(almost & (size < tolerance), angles.real, np.nan), axis=-1)
-    return _merged(coefficients, real, tolerance)
+    found = roots(coefficients)
+    finite = np.where(np.isfinite(found), found, 1j * np.inf)
+    real = np.abs(finite.imag) <= tolerance * np.maximum(np.abs(finite.real), size)
+    return np.asarray(np.sort(np.where(real, finite.real, np.nan), axis=-1))
 
 
 def _angle_of(found: ComplexArray) -> ComplexArray:
@@ -219,36 +205,3 @@ def _angle_of(found: ComplexArray) -> ComplexArray:
     angle = 2 * np.arctan(np.where(poles, 0, finite))
     angle = np.where(infinite | (angle.real <= -np.pi), np.pi + 1j * angle.imag, angle)
     return np.asarray(np.where(poles, np.inf * 1j, angle))
-
-
-def _size_at(coefficients: FloatArray, angles: FloatArray) -> FloatArray:
-    """|p| cos(angle/2)^d per unit of the largest coefficient (N, d), at real angles (N, d)."""
-    degree = coefficients.shape[-1] - 1
-    cosine, sine = np.cos(angles / 2), np.sin(angles / 2)
-    total = sum(coefficients[:, k, None] * sine**k * cosine ** (degree - k) for k in range(degree + 1))
-    largest = np.max(np.abs(coefficients), axis=-1, keepdims=True)
-    return np.asarray(np.abs(total) / np.where(largest > 0, largest, 1))
-
-
-def _merged(coefficients: FloatArray, angles: FloatArray, tolerance: float) -> FloatArray:
-    """Sorted real angles (N, d), NaN last, with those that are one root made equal."""
-    following = np.roll(angles, -1, axis=-1)
-    count = np.sum(np.isfinite(angles), axis=-1)
-    last = np.arange(angles.shape[-1]) == count[:, None] - 1
-    gap = np.where(last, angles[:, :1] + 2 * np.pi, following) - angles
-    size = _size_at(coefficients, angles + gap / 2)
-    linked = (gap < NEAR_REAL) & (size < tolerance)
-    for row in np.flatnonzero(np.any(linked & (gap > 0), axis=-1)):
-        angles[row, : count[row]] = _of_one_row(angles[row, : count[row]], linked[row])
-    return angles
-
-
-def _of_one_row(angles: FloatArray, linked: NDArray[np.bool_]) -> FloatArray:
-    """Angles with every run of linked neighbours, the last being linked to the first, replaced by its mean."""
-    free = np.flatnonzero(~linked[: len(angles)])
-    start = int(free[0]) + 1 if len(free) else 0
-    turned = np.roll(angles, -start)
-    turned[len(angles) - start :] += 2 * np.pi
-    group = np.cumsum(np.concatenate([[0], ~np.roll(linked[: len(angles)], -start)[:-1]]))
-    means = np.bincount(group, turned) / np.bincount(group)
-    return np.sort(np.pi - (np.pi - means[group]) % (2 * np.pi))

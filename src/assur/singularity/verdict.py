@@ -11,10 +11,13 @@ from numpy.typing import ArrayLike
 
 from assur.errors import UsageError
 from assur.kinematics.closure import mobility
-from assur.kinematics.home import home_values
+from assur.kinematics.finite_motion import sides, status_of
+from assur.kinematics.instantaneous import instantaneous
+from assur.kinematics.motions import checked_joints, general
 from assur.kinematics.position import inverse
+from assur.kinematics.solutions import SolutionSet
 from assur.kinematics.status import Status, closed_form_of, relative_factors
-from assur.kinematics.velocity import velocity_map
+from assur.kinematics.velocity import VelocityMap, velocity_map
 from assur.model.mechanism import MechanismRecord
 
 SAMPLES = 40
@@ -26,13 +29,19 @@ class Verdict:
 
     Attributes:
         kind: regular, serial, parallel, comprehensive, constraint or self_motion; unreachable where the
-            mode does not reach the pose.
+            mode does not reach the pose, or the joint values do not close the loops.
         near: whether a factor is within `NEAR_SINGULAR` of zero without being zero.
         reduced_kind: the kind by the factors of det Jp and det Jq alone (serial, parallel, comprehensive).
         closest: name of the factor that is closest to zero, relative to its scale.
-        det_jp, det_jq, condition: of the regular form; the condition number is None where singular.
+        factors, relative: those of the closed form, and divided by their scales. Judged on the joint graph: its
+            measures, output, input and closure (`assur.kinematics.instantaneous.Instant`).
+        det_jp, det_jq, condition: of the regular form; the condition number is None where singular. On the joint graph
+            the determinants are known up to a factor of both, and only the sign of their product means anything.
         rank, generic_rank: of the closure of the whole joint graph, here and in general.
         freedoms: mobility of the joint graph here, by that rank.
+        types: Zlatanov's types, on the joint graph (`Instant.types`).
+        platform_gains: whether the platform has more freedoms than in general, all inputs free; None where not asked.
+        gap: of the ranks on the joint graph, the least ratio of a singular value kept to the largest dropped.
     """
 
     kind: str
@@ -47,13 +56,16 @@ class Verdict:
     rank: int | None
     generic_rank: int | None
     freedoms: int | None
+    types: tuple[str, ...] = ()
+    platform_gains: bool | None = None
+    gap: float | None = None
 
 
 @lru_cache(maxsize=64)
 def generic_rank(record: MechanismRecord) -> int:
     """Rank of the closure of the joint graph in general: the largest over solutions at poses of the file's box.
 
-    Where the box holds no solution, at the assembled home.
+    Where the box holds no solution or there is no closed form, around the assembled home.
     """
     if record.closed_form and all(name in record.box for name in record.platform.pose):
         low, high = np.array([record.box[name] for name in record.platform.pose]).T
@@ -62,25 +74,28 @@ def generic_rank(record: MechanismRecord) -> int:
         solutions = found.joints[found.exists][:SAMPLES]
         if len(solutions):
             return int(np.max(mobility(record, solutions).rank))
-    return int(mobility(record, home_values(record)).rank)
+    return int(general(record).closure)
 
 
 def verdict(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) -> Verdict:
     """Judge one pose (m,) in a working mode (the file's default where none is given).
 
-    The kind is the most severe of what the factors say and what the rank of the joint graph says.
+    The kind is the most severe of what the factors say and what the rank of the joint graph says. Of a mechanism
+    without closed form the one assembly of the mode is found by a search and judged by `verdict_at`.
 
     >>> from assur.model.registry import load_record
     >>> verdict(load_record("zeng2019"), [-15.4714, 9.6849, 456.3315], "++-++").kind
     'regular'
     """
-    mode = mode or record.modes.default_working
+    mode = mode or record.modes.default_working or None
     found = inverse(record, pose, mode)
     if found.batch_shape:
         raise UsageError(f"one pose is judged at a time, not a batch of shape {found.batch_shape}")
+    if record.closed_form is None:
+        return _of_the_one(record, found)
     status = Status(int(found.status[0]))
     if status in (Status.unreachable, Status.undecided):
-        return Verdict(status.name, False, status.name, "", {}, {}, None, None, None, None, None, None)
+        return _nothing(status)
     free = mobility(record, found.joints[0])
     general = max(generic_rank(record), int(free.rank))
     factors = {name: value[..., 0] for name, value in found.factors.items()}
@@ -90,7 +105,6 @@ def verdict(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) -
     if int(free.rank) < general:
         kind = max(kind, Status.constraint)
     here = velocity_map(record, pose, mode)
-    condition = float(here.condition)
     return Verdict(
         kind="regular" if kind == Status.near_singular else kind.name,
         near=kind == Status.near_singular,
@@ -100,11 +114,72 @@ def verdict(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) -
         relative=relative,
         det_jp=float(here.det_jp),
         det_jq=float(here.det_jq),
-        condition=condition if np.isfinite(condition) else None,
+        condition=_finite(here.condition),
         rank=int(free.rank),
         generic_rank=general,
         freedoms=int(free.freedoms),
     )
+
+
+def verdict_at(record: MechanismRecord, joints: ArrayLike) -> Verdict:
+    """Judge one configuration of the joint graph, joint values (n,), of a mechanism with or without a closed form.
+
+    >>> from assur.kinematics.home import home_values
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("fivebar")
+    >>> found = verdict_at(record, home_values(record))
+    >>> found.kind, found.freedoms, sorted(found.factors)
+    ('regular', 2, ['closure', 'input', 'output'])
+    """
+    values = checked_joints(record, joints)
+    if values.ndim != 1:
+        raise UsageError(f"one configuration is judged at a time, not a batch of shape {values.shape[:-1]}")
+    instant = instantaneous(record, values)
+    status = Status(int(status_of(record, values, instant)))
+    if status == Status.unreachable:
+        return _nothing(status)
+    here = VelocityMap.of(instant)
+    measures = {name: float(value) for name, value in instant.measures.items()}
+    serial, parallel = sides(instant)
+    return Verdict(
+        kind="regular" if status == Status.near_singular else status.name,
+        near=status == Status.near_singular,
+        reduced_kind=_reduced_kind(bool(serial), bool(parallel)),
+        closest=min(measures, key=lambda name: measures[name]),
+        factors=measures,
+        relative=measures,
+        det_jp=_finite(here.det_jp),
+        det_jq=_finite(here.det_jq),
+        condition=_finite(here.condition),
+        rank=int(instant.ranks.closure),
+        generic_rank=int(instant.general.closure),
+        freedoms=int(instant.ranks.freedoms),
+        types=tuple(name for name, holds in instant.types.items() if holds),
+        platform_gains=bool(instant.platform_gains),
+        gap=_finite(instant.gap),
+    )
+
+
+def _of_the_one(record: MechanismRecord, found: SolutionSet) -> Verdict:
+    """The verdict on the only solution of a set that was found by a search."""
+    joints = found.joints[found.exists]
+    if not len(joints):
+        return _nothing(Status(int(found.overall_status)))
+    if len(joints) > 1:
+        several = ", ".join(found.labels[found.exists])
+        raise UsageError(
+            f"{record.name}: {len(joints)} assemblies at this pose", hint=f"name a working mode: {several}"
+        )
+    return verdict_at(record, joints[0])
+
+
+def _nothing(status: Status) -> Verdict:
+    return Verdict(status.name, False, status.name, "", {}, {}, None, None, None, None, None, None)
+
+
+def _finite(number: ArrayLike) -> float | None:
+    value = float(np.asarray(number))
+    return value if np.isfinite(value) else None
 
 
 def _reduced_kind(serial: bool, parallel: bool) -> str:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
+from assur.kinematics.closure import characteristic_length
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.singularity.loci import Locus, parallel_loci
@@ -32,7 +33,8 @@ Progress = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
 
 RESOLUTION = 64
-NEAR = 10.0
+NEAR = 0.035
+"""How near to a parallel singularity is near, as a share of the characteristic length, rounded to one digit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +124,7 @@ def workspace(
     strokes: Mapping[str, Stroke | None] | None = None,
     resolution: int = RESOLUTION,
     sections: Sequence[float] | None = None,
-    near: float = NEAR,
+    near: float | None = None,
     held: Mapping[str, float] | None = None,
     progress: Progress | None = None,
 ) -> Workspace:
@@ -137,7 +139,8 @@ def workspace(
             file's for what is left out.
         resolution: cells along each coordinate, 4 to 400. What is thinner than a cell may be missed.
         sections: values of the last pose coordinate; by default those of the file that lie in the box.
-        near: distance from a parallel-singular surface, in length units.
+        near: distance from a parallel-singular surface, in length units; by default 3.5 % of the characteristic
+            length, rounded to one digit.
         held: pose coordinates that stand still, in lengths and rad; of a pose with more than three coordinates the
             angles by default, as they are at home. At most three may vary.
         progress: called with (steps done, steps in all).
@@ -160,6 +163,8 @@ def workspace(
     mode = mode or record.modes.default_working
     poses = slice_at(record, held)
     domain = box_of(record, box, poses.free)
+    if near is None:
+        near = float(f"{NEAR * characteristic_length(record):.1g}")
     if not (isinstance(near, (int, float, np.number)) and np.isfinite(near) and near > 0):
         raise UsageError(f"near: {near!r} is not a positive distance")
     margins = margin_fields(record, mode, strokes, poses)

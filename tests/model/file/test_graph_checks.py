@@ -97,7 +97,7 @@ CASES = [
      ["26: generalised.Pa.stands_for: ground and left; allowed: opposite links, left and right or ground and top"]),
     ('kind = "P(4R)"', 'kind = "P(4U)"',
      ["25: generalised.Pa.joints: A, B, C, D; allowed in P(4U): universal joints"]),
-    ('kind = "P(4R)"', 'kind = "P(5R)"', ['24: generalised.Pa.kind: "P(5R)"; allowed: P(4R), P(4U) or P(4S)',
+    ('kind = "P(4R)"', 'kind = "P(5R)"', ['24: generalised.Pa.kind: "P(5R)"; allowed: P(4R), P(4U), P(4S) or P(2US)',
                                           "? did you mean 'P(4R)' or 'P(4U)'?"]),
     ('serial = ["Pa"]', 'serial = ["A"]',
      ["28: chains.only.serial: ends at 'left'; allowed: from 'ground' to 'top'"]),

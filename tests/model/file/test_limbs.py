@@ -41,7 +41,11 @@ def test_every_part_of_a_template_gets_its_number(read: Read) -> None:
     ]  # fmt: skip
     assert record.angles["phi1"].index == 0
     assert record.modes.working["s1"].names == {"leg1.A"}
-    assert record.home.reshape(3, 11) == pytest.approx(np.radians([[10, 5, 6, 5, 6, 1, 2, 3, 1, 2, 3]] * 3))
+    home = np.degrees(record.home).reshape(3, 11)
+    assert home[:, :5] == pytest.approx(np.array([[10, 5, 6, 5, 6]] * 3))
+    for own, angle in zip(home, (10, 120, 250), strict=True):  # a rotation vector turns with its limb
+        assert own[5:8] == pytest.approx(turn(math.radians(angle)) @ [1, 2, 3])
+        assert own[8:] == pytest.approx(own[5:8])
 
 
 def test_every_vector_of_a_template_is_turned(read: Read) -> None:

@@ -66,7 +66,7 @@ def build(description: Description, overrides: Mapping[str, float], faults: Faul
         platform=_platform(file, scope, geometry),
         inputs=build_inputs(file, tables, scope, numbers),
         coordinates=tuple(scope.coordinates),
-        home=build_home(tables, scope, numbers),
+        home=build_home(tables, scope, geometry),
         modes=build_modes(file, scope, numbers),
         file=description.path,
         folder=description.path.parent,

@@ -8,12 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.model.file import schema
+from assur.model.file.build_joints import Geometry
 from assur.model.file.faults import listed
 from assur.model.file.limbs import Tables
 from assur.model.file.numbers import Numbers
 from assur.model.file.scope import Scope
 from assur.model.file.toml_source import KeyPath
 from assur.model.mechanism import Input
+from assur.topology.joints import SPHERICAL
 
 FloatArray = NDArray[np.float64]
 
@@ -56,7 +58,7 @@ def _ordered(order: tuple[str, ...], found: Mapping[int, Input], scope: Scope) -
     return tuple(found[index] for index in indices if index in found)
 
 
-def build_home(tables: Tables, scope: Scope, numbers: Numbers) -> FloatArray:
+def build_home(tables: Tables, scope: Scope, geometry: Geometry) -> FloatArray:
     """Joint values (n,) near one assembled configuration; every joint must have its own."""
     home = np.full(len(scope.coordinates), np.nan)
     for placed in tables.home.values():
@@ -71,7 +73,10 @@ def build_home(tables: Tables, scope: Scope, numbers: Numbers) -> FloatArray:
         for place, (item, value) in enumerate(zip(items, placed.entry, strict=True)):
             if not np.isnan(home[item.index]):
                 scope.faults.add(placed.path, f"'{placed.local}' is given twice", "allowed: each joint once")
-            home[item.index] = numbers.of(item.kind, value, (*placed.path, place))
+            home[item.index] = geometry.numbers.of(item.kind, value, (*placed.path, place))
+        if len(items) == len(SPHERICAL.components) and items[0].component == SPHERICAL.components[0]:
+            places = [item.index for item in items]
+            home[places] = geometry.turned(home[places], placed.instance)  # a rotation vector turns with its limb
     given = {scope.aliases.get(name, name) for name in (*tables.home, *tables.broken.get("home", ()))}
     if tables.home or tables.broken.get("home"):
         _check_complete(given, tables, scope)

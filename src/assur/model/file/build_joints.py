@@ -47,13 +47,14 @@ class Geometry:
 
     def vector(self, components: Triple, path: KeyPath, instance: Instance | None = None) -> FloatArray:
         """A point (3,)."""
-        return self._turned(self.numbers.vector(components, path), instance)
+        return self.turned(self.numbers.vector(components, path), instance)
 
     def axis(self, components: Triple, path: KeyPath, instance: Instance | None = None) -> FloatArray:
         """A unit vector (3,)."""
-        return self._turned(self.numbers.axis(components, path), instance)
+        return self.turned(self.numbers.axis(components, path), instance)
 
-    def _turned(self, vector: FloatArray, instance: Instance | None) -> FloatArray:
+    def turned(self, vector: FloatArray, instance: Instance | None) -> FloatArray:
+        """A vector (3,) of a template, as it is in one of its limbs."""
         result = self._turns[instance.prefix] @ vector if instance else vector
         result.flags.writeable = False
         return result

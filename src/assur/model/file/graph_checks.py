@@ -14,7 +14,13 @@ from assur.model.file.toml_source import KeyPath
 from assur.model.mechanism import Chain, GeneralisedJoint, Joint, MechanismRecord
 from assur.numerics.rotations import FloatArray
 
-_CORNERS = {"P(4R)": "revolute", "P(4U)": "universal", "P(4S)": "spherical"}
+_CORNERS = {
+    "P(4R)": ("revolute",) * 4,
+    "P(4U)": ("universal",) * 4,
+    "P(4S)": ("spherical",) * 4,
+    "P(2US)": ("universal", "spherical", "spherical", "universal"),
+}
+"""Types of the four joints in turn, from one end of the first rod to that of the second."""
 _EQUAL = 1e-9
 
 
@@ -53,9 +59,11 @@ def _check_connected(record: MechanismRecord, tables: Tables, faults: Faults) ->
 def _check_parallelogram(record: MechanismRecord, item: GeneralisedJoint, path: KeyPath, faults: Faults) -> None:
     """Four joints in turn around a loop of four links, opposite sides of equal length."""
     joints = [record.joints[name] for name in item.joints]
-    wrong = [joint.name for joint in joints if joint.type.name != _CORNERS[item.kind]]
+    corners = _CORNERS[item.kind]
+    wrong = [joint.name for joint, corner in zip(joints, corners, strict=True) if joint.type.name != corner]
     if wrong:
-        faults.add((*path, "joints"), f"{listed(wrong)}", f"allowed in {item.kind}: {_CORNERS[item.kind]} joints")
+        allowed = " and ".join(dict.fromkeys(corners))
+        faults.add((*path, "joints"), f"{listed(wrong)}", f"allowed in {item.kind}: {allowed} joints")
         return
     links = _common_links(joints)
     if links is None:

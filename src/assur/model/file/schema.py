@@ -187,7 +187,7 @@ class StandsFor(Entry):
 class GeneralisedEntry(Entry):
     """A parallelogram that counts as one joint."""
 
-    kind: Literal["P(4R)", "P(4U)", "P(4S)"]
+    kind: Literal["P(4R)", "P(4U)", "P(4S)", "P(2US)"]
     joints: tuple[str, ...] = Field(min_length=4, max_length=4)
     stands_for: StandsFor
 

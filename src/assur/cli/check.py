@@ -1,0 +1,82 @@
+"""`assur check`: every fault of a file at once, and what its joint graph says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+from assur.cli.output import heading
+from assur.cli.quantities import count
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+BAD_FILE = 3
+
+
+def check(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> Outcome:
+    """Every fault of a mechanism's file, each with its line.
+
+    First the text: its form, names, numbers and formulas. Where that is sound,
+    the joint graph: whether it closes and moves, whether its inputs determine
+    it, whether pose, orientation and limits are as stated. Exit code 3: there
+    is a fault.
+
+    For example:
+        assur check my.toml
+        assur check my.toml --json
+    """
+    from assur.errors import MechanismFileError, Problem
+    from assur.kinematics.soundness import doubts, faults
+
+    try:
+        record = shared.mechanism(mechanism)
+    except MechanismFileError as error:
+        return _outcome(mechanism, error.problems, (), None)
+    found: tuple[Problem, ...] = faults(record)
+    return _outcome(record.name, found, () if found else doubts(record), None if found else _summary(record))
+
+
+def _summary(record: Any) -> dict[str, Any]:
+    from assur.kinematics.motions import general
+
+    usual = general(record)
+    return {
+        "links": len(record.links),
+        "joints": len(record.joints),
+        "freedoms": int(usual.freedoms - usual.internal),
+        "internal_freedoms": int(usual.internal),
+        "closed_form": record.closed_form is not None,
+    }
+
+
+def _outcome(name: str, problems: Iterable[Any], notes: Iterable[Any], facts: dict[str, Any] | None) -> Outcome:
+    problems, notes = list(problems), list(notes)
+    data = {
+        "mechanism": name,
+        "sound": not problems,
+        "faults": [vars(problem) for problem in problems],
+        "notes": [vars(note) for note in notes],
+        "facts": facts,
+    }
+    return Outcome(data, lambda: _shown(data, problems, notes), BAD_FILE if problems else 0)
+
+
+def _shown(data: dict[str, Any], problems: list[Any], notes: list[Any]) -> Iterable[RenderableType]:
+    from rich.text import Text
+
+    if problems:
+        yield heading(f"{data['mechanism']}: {count(len(problems), 'fault')}")
+        yield from (Text(str(problem)) for problem in problems)
+        return
+    facts = data["facts"]
+    yield heading(f"{data['mechanism']}: sound")
+    internal = facts["internal_freedoms"]
+    spins = f" and {count(internal, 'internal freedom')}" if internal else ""
+    bodies = f"{count(facts['links'], 'link')}, {count(facts['joints'], 'joint')}"
+    yield f"{bodies}; {count(facts['freedoms'], 'freedom')}{spins}"
+    yield (
+        "a closed form stands beside it" if facts["closed_form"] else "no closed form: it is solved on its joint graph"
+    )
+    yield from (Text(f"note: {note}") for note in notes)

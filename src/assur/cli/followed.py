@@ -1,0 +1,125 @@
+"""Where a path begins, and how it reads when it has been followed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any, Literal
+
+from assur.cli.numbers import numbers
+from assur.cli.options import Outcome
+from assur.cli.output import heading, table
+from assur.cli.quantities import count, fixed, short, style_of
+from assur.errors import UsageError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from rich.console import RenderableType
+
+    from assur.kinematics.course import Turns
+    from assur.kinematics.path import Path
+    from assur.kinematics.solutions import SolutionSet
+    from assur.mechanism import Mechanism
+
+Along = Literal["pose", "inputs"]
+ROWS = 12
+"""Points that a person sees; --json has all."""
+
+
+def outcome(
+    record: Mechanism,
+    along: Along,
+    start: Sequence[str],
+    target: Sequence[str],
+    *,
+    mode: str | None,
+    turns: Turns,
+    use_limits: bool,
+) -> Outcome:
+    """The path from texts `start` (home where there are none) to texts `target`; or why there is no start."""
+    from assur.cli.positions import outcome as no_start
+    from assur.kinematics.following import follow
+
+    goal = _points(record, along, target)
+    if not start:
+        if mode is not None:
+            raise UsageError("--mode names the mode at --from; home has its own", hint="give --from as well")
+        joints = record.home_values
+    else:
+        place = _points(record, along, start, "--from")
+        if len(place) != 1:
+            raise UsageError(f"--from: {count(len(place), 'point')}, one wanted", hint="further points belong to --to")
+        solve = record.inverse if along == "pose" else record.direct
+        found = solve(place[0], mode)
+        default = record.modes.default_working if along == "pose" else record.modes.default_assembly
+        row = _nearest_home(record, found, default if mode is None else "")
+        if row is None:
+            return no_start(record, found if mode else solve(place[0], default or None))
+        joints = found.joints[row]
+    options: dict[str, Any] = {"poses" if along == "pose" else "inputs": goal}
+    path = follow(record, joints, **options, turns=turns, use_limits=use_limits)
+    return Outcome(path.to_json(), lambda: _shown(record, path))
+
+
+def _points(record: Mechanism, along: Along, texts: Sequence[str], option: str = "--to") -> NDArray[Any]:
+    """Points (k, m) or (k, n) from texts, in lengths and rad."""
+    import numpy as np
+
+    from assur.kinematics.answers import inputs_from_border, pose_from_border
+    from assur.kinematics.border import input_names
+
+    names = record.platform.pose if along == "pose" else input_names(record)
+    what = f"{option}, {'pose' if along == 'pose' else 'inputs'} of {record.name}"
+    points = max(1, round(len(texts) / len(names)))
+    values = np.array(numbers(texts, list(names) * points, what)).reshape(points, len(names))
+    return pose_from_border(record, values) if along == "pose" else inputs_from_border(record, values)
+
+
+def _nearest_home(record: Mechanism, found: SolutionSet, default: str) -> int | None:
+    """The listed solution of the default mode that is nearest to home; None where there is none."""
+    import numpy as np
+
+    rows = [k for k in np.flatnonzero(found.exists) if not default or str(found.labels[k]).partition("/")[0] == default]
+    if not rows:
+        return None
+    angular = np.array([item.kind == "angle" for item in record.coordinates])
+    change = found.joints[rows] - record.home_values
+    turned = np.where(angular, 1 - np.cos(change), 0.0)
+    return int(rows[int(np.argmin(np.sum(turned, axis=-1)))])
+
+
+def _shown(record: Mechanism, path: Path) -> Iterable[RenderableType]:
+    style, data = style_of(record), path.to_json()
+    stop = path.stopped
+    along = "poses" if path.prescribed == "poses" else "inputs"
+    end = "the end was reached" if stop is None else f"stopped, {stop.kind}"
+    yield heading(f"{record.name}, path along {along}: {end}")
+    if stop is not None:
+        text = str(stop)
+        yield f"{text[:1].upper()}{text[1:]}."
+    else:
+        yield "No singularity was crossed."
+    if path.remark:
+        yield f"At the end {path.remark}."
+    yield ""
+    kinds = [item.coordinate.kind for item in record.inputs]
+    titles = [f"{name} [{style.coordinate_unit(name)}]" for name in data["coordinates"]]
+    titles += [f"{name} [{style.kind_unit(kind)}]" for name, kind in zip(data["input_names"], kinds, strict=True)]
+    rows = []
+    for k in _picked(data["shares"]):
+        pose = [style.coordinate(*pair) for pair in zip(data["coordinates"], data["poses"][k], strict=True)]
+        inputs = [style.kind(*pair) for pair in zip(kinds, data["inputs"][k], strict=True)]
+        rows.append((fixed(100 * data["shares"][k], 2), *pose, *inputs))
+    yield table(("share [%]", *titles), rows)
+    least = min(float(path.smallest[name].min()) for name in ("inputs", "poses"))
+    yield f"{count(len(path), 'point')}; smallest singular value on the way, inputs or platform locked: {short(least)}"
+    before, after = (f"working {working or '-'}, assembly {assembly or '-'}" for working, assembly in path.modes)
+    yield f"mode: {before}, {'kept' if before == after else f'then {after}'}"
+
+
+def _picked(shares: Sequence[float]) -> list[int]:
+    """At most `ROWS` indices, evenly spread over the way, both ends among them."""
+    import numpy as np
+
+    wanted = np.linspace(shares[0], shares[-1], ROWS)
+    nearest = np.argmin(np.abs(np.asarray(shares)[:, None] - wanted), axis=0)
+    return sorted({0, *nearest.tolist(), len(shares) - 1})[-ROWS:]

@@ -1,0 +1,95 @@
+"""Limits of the file: strokes of inputs, limits of joint values, cones of spherical joints; how far inside they are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.model.mechanism import MechanismRecord
+from assur.numerics import rotations
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Limit:
+    """One bound. Inside, low <= sign * value + offset <= high, in rad or lengths.
+
+    Attributes:
+        name: as a person reads it, "stroke of q1" or "limit of leg1.A".
+        index: of the joint value; for a cone, of the first part of the rotation vector.
+        axis: (3,) axis of a cone, else None; then the value is the tilt of this axis.
+        angular: whether the value is an angle.
+    """
+
+    name: str
+    index: int
+    low: float
+    high: float
+    angular: bool
+    sign: float = 1.0
+    offset: float = 0.0
+    axis: FloatArray | None = None
+
+    def value(self, joints: FloatArray) -> FloatArray:
+        """The bounded value (...) at joint values (..., n)."""
+        if self.axis is None:
+            return np.asarray(self.sign * joints[..., self.index] + self.offset)
+        turn = rotations.from_vector(joints[..., self.index : self.index + 3])
+        tilted = turn @ self.axis
+        across = np.linalg.norm(np.cross(tilted, self.axis), axis=-1)
+        return np.asarray(np.arctan2(across, tilted @ self.axis))
+
+    def margin(self, joints: FloatArray) -> FloatArray:
+        """How far inside (...) joint values (..., n) are; negative outside."""
+        value = self.value(joints)
+        return np.asarray(np.minimum(value - self.low, self.high - value))
+
+
+def limits(record: MechanismRecord, joints: FloatArray) -> tuple[Limit, ...]:
+    """Every bound of the file, for motions that begin at joint values (n,).
+
+    An angle is counted from there on without jumps; whole turns are added so that it begins as near to the middle of
+    its bounds as it can.
+
+    >>> from assur.model.registry import load_record
+    >>> limits(load_record("fivebar"), np.zeros(5))
+    ()
+    """
+    found = []
+    for item in record.inputs:
+        if item.stroke is not None:
+            low, high = item.stroke
+            angular = item.coordinate.kind == "angle"
+            name = f"stroke of {item.name}"
+            found.append(Limit(name, item.coordinate.index, low, high, angular, item.sign, item.offset))
+    for coordinate in record.coordinates:
+        joint = record.joints[coordinate.joint]
+        place = coordinate.index - record.joint_coordinates(joint.name)[0].index
+        bounds = joint.limits[place] if joint.limits else None
+        if bounds is not None:
+            name = f"limit of {record.coordinate_label(coordinate)}"
+            found.append(Limit(name, coordinate.index, *bounds, coordinate.kind == "angle"))
+    for joint in record.joints.values():
+        if joint.cone is not None and joint.cone_axis is not None:
+            index = record.joint_coordinates(joint.name)[0].index
+            found.append(Limit(f"cone of {joint.name}", index, 0.0, joint.cone, True, axis=joint.cone_axis))
+    return tuple(_begun(limit, joints) for limit in found)
+
+
+def _begun(limit: Limit, joints: FloatArray) -> Limit:
+    if not limit.angular or limit.axis is not None:
+        return limit
+    middle = (limit.low + limit.high) / 2
+    turns = np.round((middle - float(limit.value(joints))) / (2 * np.pi))
+    return Limit(
+        limit.name,
+        limit.index,
+        limit.low,
+        limit.high,
+        True,
+        limit.sign,
+        limit.offset + 2 * np.pi * float(turns),
+    )

@@ -1,0 +1,207 @@
+"""The motions that keep every loop of the joint graph closed: their null space, and what of inputs and pose they move.
+
+All of it is scaled to plain numbers: lengths count in units of the characteristic length.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from assur.kinematics.border import checked
+from assur.kinematics.closure import RANK_GAP, assemble, characteristic_length, loop_twists
+from assur.kinematics.home import home_values
+from assur.kinematics.pose import platform_rates, platform_twists
+from assur.model.joint_graph import frames, screws
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import LENGTHS, rate_names
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int_]
+
+SINGULAR = 1e-5
+"""A singular value within this share of what it could be counts as zero, one of the closure within this share of what
+the smallest is around home: a rank of the joint graph drops."""
+
+AROUND_HOME = (0.02, 0.05, 0.1)
+SAMPLES = 8
+
+
+@dataclass(frozen=True)
+class Ranks:
+    """Ranks of the joint graph's motion: in general, or (...) at configurations.
+
+    Attributes:
+        closure: of the closure Jacobian.
+        freedoms: motions that keep the loops closed, internal freedoms among them.
+        inputs, pose, twists: independent rates of the inputs, of the pose, and of the platform's whole twist.
+        related: of the inputs and the pose together.
+        moving: of the inputs and the platform's whole twist together; freedoms - moving are internal.
+    """
+
+    closure: IntArray
+    freedoms: IntArray
+    inputs: IntArray
+    pose: IntArray
+    twists: IntArray
+    related: IntArray
+    moving: IntArray
+
+    @property
+    def internal(self) -> IntArray:
+        """Motions of neither inputs nor platform, as the spin of a rod between two ball joints."""
+        return np.asarray(self.freedoms - self.moving)
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """Null space of the closure (..., n, n; columns that are none are zero), and what it moves, scaled to numbers.
+
+    `left`, `values`, `right` are the singular value decomposition of the scaled closure Jacobian, `scale` (n,) turns
+    scaled joint rates into rates; `inputs` (..., F, n), `pose` (..., k, n) and `twists` (..., 6, n) are per motion.
+    """
+
+    left: FloatArray
+    values: FloatArray
+    right: FloatArray
+    scale: FloatArray
+    null: FloatArray
+    inputs: FloatArray
+    pose: FloatArray
+    twists: FloatArray
+    ranks: Ranks
+    gap: FloatArray
+    related_left: FloatArray
+    twists_left: FloatArray
+
+
+def checked_joints(record: MechanismRecord, joints: ArrayLike) -> FloatArray:
+    """Joint values (..., n) as floats, or a clear refusal."""
+    names = tuple(record.coordinate_label(item) for item in record.coordinates)
+    return checked(joints, names, f"joint values of {record.name}")
+
+
+def pose_units(record: MechanismRecord) -> FloatArray:
+    """What each rate of the pose (k,) is divided by to be a number: the characteristic length, or 1."""
+    length = characteristic_length(record)
+    return np.array([length if name in LENGTHS else 1.0 for name in rate_names(record.platform.pose)])
+
+
+def input_units(record: MechanismRecord) -> FloatArray:
+    """What each input (F,) is divided by to be a number: the characteristic length, or 1."""
+    length = characteristic_length(record)
+    return np.array([length if item.coordinate.kind == "length" else 1.0 for item in record.inputs])
+
+
+def twist_units(record: MechanismRecord) -> FloatArray:
+    """The same for a twist (6,)."""
+    return np.repeat([1.0, characteristic_length(record)], 3)
+
+
+@lru_cache(maxsize=64)
+def general(record: MechanismRecord) -> Ranks:
+    """Ranks in general: at random assemblies around home, those at which the closure has its largest rank.
+
+    Home itself may be singular; what is near it in another mode of motion counts where its rank is larger.
+
+    >>> from assur.model.registry import load_record
+    >>> usual = general(load_record("zeng2019"))
+    >>> int(usual.closure), int(usual.freedoms), int(usual.internal)
+    (14, 3, 0)
+    """
+    ranks = _around_home(record).ranks
+    usual = ranks.closure == np.max(ranks.closure)
+    return Ranks(**{item.name: np.max(getattr(ranks, item.name)[usual]) for item in fields(Ranks)})
+
+
+@lru_cache(maxsize=64)
+def general_share(record: MechanismRecord) -> float:
+    """The smallest singular value of the closure that counts over the largest: the largest such share around home."""
+    values = _around_home(record).values
+    return float(np.max(values[:, int(general(record).closure) - 1] / values[:, 0]))
+
+
+@lru_cache(maxsize=64)
+def _around_home(record: MechanismRecord) -> Motion:
+    """The motion at home and at assemblies near it."""
+    home = home_values(record)
+    there = motions(record, home, RANK_GAP)
+    random = np.random.default_rng(0).normal(size=(len(AROUND_HOME), SAMPLES, len(home)))
+    away = np.array(AROUND_HOME)[:, None, None] * random @ there.null.T * there.scale
+    found = assemble(record, (home + away).reshape(-1, len(home)))
+    return motions(record, np.concatenate([home[None], found.values[found.closed]]), RANK_GAP)
+
+
+def motions(record: MechanismRecord, values: FloatArray, threshold: float | None = None) -> Motion:
+    """Null space of the closure at joint values (..., n), and what it moves.
+
+    `threshold` is the share of the closure's largest singular value below which one counts as zero; by default
+    `SINGULAR` times the share that the smallest has around home.
+    """
+    threshold = SINGULAR * general_share(record) if threshold is None else threshold
+    placed = frames(record, values)
+    unit_twists = screws(record, placed, values)
+    length = characteristic_length(record)
+    scale = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
+    closure = closure_at_platform(record, values) * scale  # (..., 6 v, n)
+    left, singular, right = np.linalg.svd(closure, full_matrices=closure.shape[-2] < closure.shape[-1])
+    rank, gap = _rank(singular, threshold * singular[..., 0])
+    null = np.swapaxes(right, -1, -2) * (np.arange(values.shape[-1]) >= rank[..., None])[..., None, :]
+    inputs = np.zeros((len(record.inputs), values.shape[-1]))
+    for row, item in enumerate(record.inputs):
+        inputs[row, item.coordinate.index] = item.sign
+    inputs = np.broadcast_to(inputs * scale / input_units(record)[:, None], (*values.shape[:-1], *inputs.shape))
+    pose = platform_rates(record, placed, unit_twists) * scale / pose_units(record)[:, None]
+    twists = platform_twists(record, placed, unit_twists) * scale / twist_units(record)[:, None]
+    parts = {
+        "inputs": inputs,
+        "pose": pose,
+        "twists": twists,
+        "related": np.concatenate([pose, inputs], axis=-2),
+        "moving": np.concatenate([twists, inputs], axis=-2),
+    }
+    bases, ranks, gaps = {}, {}, [gap]
+    for name, part in parts.items():
+        bases[name], sizes, _ = np.linalg.svd(part @ null)
+        ranks[name], gap = _rank(sizes, SINGULAR * np.linalg.norm(part, axis=(-1, -2)))
+        gaps.append(gap)
+    return Motion(
+        left=left,
+        values=singular,
+        right=right,
+        scale=scale,
+        null=null,
+        inputs=inputs @ null,
+        pose=pose @ null,
+        twists=twists @ null,
+        ranks=Ranks(closure=rank, freedoms=values.shape[-1] - rank, **ranks),
+        gap=np.min(gaps, axis=0),
+        related_left=bases["related"],
+        twists_left=bases["twists"],
+    )
+
+
+def closure_at_platform(record: MechanismRecord, values: FloatArray) -> FloatArray:
+    """Closure Jacobian (..., 6 v, n) with velocities taken at the platform's point, in characteristic lengths.
+
+    Far from the base's origin the moments of the rotations would drown the rank.
+    """
+    rotation, origin = frames(record, values)[record.platform.link]
+    point = (rotation @ record.platform.point) + origin
+    matrix = loop_twists(record, values)
+    blocks = matrix.reshape(*values.shape[:-1], matrix.shape[-2] // 6, 6, values.shape[-1])
+    blocks[..., 3:, :] += np.cross(blocks[..., :3, :], point[..., None, :, None], axis=-2)
+    return np.asarray((blocks / twist_units(record)[:, None]).reshape(matrix.shape))
+
+
+def _rank(singular: FloatArray, zero: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Rank (...) and gap (...) of matrices with singular values (..., k), those up to `zero` (...) counting as zero."""
+    kept = singular > zero[..., None]
+    least = np.min(np.where(kept, singular, np.inf), axis=-1, initial=np.inf)
+    dropped = np.max(np.where(kept, 0.0, singular), axis=-1, initial=0.0)
+    smallest = np.where(np.isfinite(least), least, zero)
+    with np.errstate(divide="ignore"):
+        return np.sum(kept, axis=-1), np.where(dropped > 0.0, smallest / dropped, np.inf)

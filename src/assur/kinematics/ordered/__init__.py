@@ -1,0 +1,1 @@
+"""Direct and inverse problems loop by loop: every assembly, where the loops are systems of circles."""

@@ -1,0 +1,292 @@
+"""Loops as linear equations in points on unit circles and spheres.
+
+A link that turns about u by psi carries a vector w to  w_u + z (w' - i u x w')/2 + z~ (w' + i u x w')/2,  with
+z = exp(i psi), z~ = 1/z, w_u the part of w along u and w' the rest: linear in z and z~ as if they were independent.
+So is a sliding length s along a fixed direction; across the axis of a link that turns, s z and s z~ are the unknowns.
+A rod on a hinge across u, turned by phi about it, is a point on a sphere: its unknowns are k z, k z~ and sin phi with
+k = cos phi; those of a rod between ball joints are the components of its direction. Every loop is three linear
+equations in these. What is left is quadratic: z z~ = 1 for a circle, (s z) z~ = z (s z~) for a slider,
+(k z)(k z~) + sin² phi = 1 and (k z) z~ = z (k z~) for a rod, length 1 for a direction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.closure import characteristic_length
+from assur.kinematics.ordered.hinges import NotCirclesError, middle
+from assur.kinematics.ordered.orientations import Turning
+from assur.model.joint_graph import joint_graph
+from assur.model.mechanism import Joint, MechanismRecord
+from assur.model.pose import LENGTHS
+from assur.numerics import rotations
+from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+Turnings = Mapping[str, Turning]
+UNUSED = 1e-9
+"""Coefficients below this do not occur in an equation whose lengths are over the characteristic length."""
+
+
+@dataclass(frozen=True)
+class Item:
+    """Unknowns that belong together, in columns from `first` on.
+
+    Attributes:
+        kind: "circle" (z, z~), "slider" (s z, s z~), "rod" (k z, k z~, sin phi) or "ball" (a direction's components).
+        circle: the column of its circle's z; of its own where it is one.
+        name: of the slider's joint.
+        alone: a rod whose circle occurs nowhere else: a point on a sphere.
+    """
+
+    kind: Literal["circle", "slider", "rod", "ball"]
+    first: int
+    circle: int
+    name: str = ""
+    alone: bool = False
+
+    @property
+    def columns(self) -> tuple[int, ...]:
+        """Its columns."""
+        return tuple(range(self.first, self.first + (3 if self.kind in ("rod", "ball") else 2)))
+
+    @property
+    def quadratic(self) -> tuple[tuple[tuple[float, int, int], ...], ...]:
+        """Its quadratic equations: sums of factor times column times column; column 0 is the constant 1."""
+        z, other, first, second = self.circle, self.circle + 1, self.first, self.first + 1
+        joined = ((1.0, first, other), (-1.0, z, second))
+        if self.kind == "circle":
+            return (((1.0, z, other), (-1.0, 0, 0)),)
+        if self.kind == "slider":
+            return (joined,)
+        if self.kind == "ball":
+            return ((*((1.0, column, column) for column in self.columns), (-1.0, 0, 0)),)
+        sphere = ((1.0, first, second), (1.0, first + 2, first + 2), (-1.0, 0, 0))
+        return (sphere,) if self.alone else (sphere, joined)
+
+    @property
+    def freedoms(self) -> int:
+        """How many linear equations determine it."""
+        return len(self.columns) - len(self.quadratic)
+
+
+@dataclass(frozen=True, eq=False)
+class System:
+    """Linear equations `matrix` (r, 1 + c) on (1, unknowns), lengths over `length`.
+
+    Attributes:
+        items: unknowns of links that turn.
+        slides: joint -> column of its length, where its direction is fixed.
+        turnings: orientations of the links.
+    """
+
+    record: MechanismRecord
+    matrix: ComplexArray
+    items: tuple[Item, ...]
+    slides: Mapping[str, int]
+    turnings: Turnings
+    length: float
+
+
+def system(
+    record: MechanismRecord, turnings: Turnings, locked: Mapping[int, float], place: Mapping[str, float]
+) -> System:
+    """The equations of all loops, and of the platform's point where `place` gives coordinates of it."""
+    turnings = _rods_along_circles(record, turnings)
+    circles = 1 + max((item.circle for item in turnings.values() if item.circle is not None), default=-1)
+    items = [Item("circle", 1 + 2 * number, 1 + 2 * number) for number in range(circles)]
+    column = 1 + 2 * circles
+    rods = sorted({item.rod: 1 + 2 * (item.circle or 0) for item in turnings.values() if item.rod is not None}.items())
+    for _, circle in rods:
+        items.append(Item("rod", column, circle))
+        column += 3
+    for _ in range(1 + max((item.ball for item in turnings.values() if item.ball is not None), default=-1)):
+        items.append(Item("ball", column, column, alone=True))
+        column += 3
+    slides: dict[str, int] = {}
+    for name, joint in record.joints.items():
+        if _slid(record, joint, locked) is not None:
+            continue
+        across = _across(joint, turnings[joint.parent])
+        if across is None:
+            slides[name] = column
+        else:
+            items.append(Item("slider", column, 1 + 2 * across, name))
+        column += 1 if across is None else 2
+    bare = System(
+        record, np.zeros((0, column), dtype=complex), tuple(items), slides, turnings, characteristic_length(record)
+    )
+    matrix = _equations(bare, locked, place)
+    return replace(bare, matrix=matrix, items=_alone(items, matrix))
+
+
+def joint_values(found: System, unknowns: ComplexArray, locked: Mapping[int, float]) -> FloatArray:
+    """Joint values (n,) of real unknowns (1 + c,), the first of which is 1."""
+    record = found.record
+    slices = joint_graph(record).slices
+    values = np.zeros(len(record.coordinates))
+    placed = {link: _orientation(found, item, unknowns) for link, item in found.turnings.items()}
+    lengths = {name: unknowns[column].real for name, column in found.slides.items()}
+    lengths |= {i.name: (unknowns[i.first] / unknowns[i.circle]).real for i in found.items if i.kind == "slider"}
+    for name, joint in record.joints.items():
+        own = values[slices[name]]
+        turned = placed[joint.parent].T @ placed[joint.child] @ joint.turn.T
+        if name in lengths:
+            own[0] = lengths[name] * found.length
+        if joint.type in (REVOLUTE, CYLINDRICAL):
+            own[-1] = rotations.to_vector(turned) @ joint.axes[0]
+        if joint.type is SPHERICAL:
+            own[:] = rotations.to_vector(turned)
+        if joint.type is UNIVERSAL:
+            cross = placed[joint.parent].T @ placed[middle(joint)]
+            own[0] = rotations.to_vector(cross) @ joint.axes[0]
+            own[1] = rotations.to_vector(cross.T @ turned) @ joint.axes[1]
+    for index, value in locked.items():
+        values[index] = value
+    return values
+
+
+def _rods_along_circles(record: MechanismRecord, turnings: Turnings) -> dict[str, Turning]:
+    """Rods on hinges turned so that at phi = 0 they point along hinge x axis."""
+    found = dict(turnings)
+    ends = [(j.parent, j.at) for j in record.joints.values()] + [(j.child, j.child_at) for j in record.joints.values()]
+    angles: dict[int, FloatArray] = {}
+    for link, vector in ends:
+        item = turnings[link]
+        if item.rod is None or item.hinge is None or item.axis is None or item.rod in angles:
+            continue
+        turned = item.rotation @ vector
+        across = turned - (turned @ item.hinge) * item.hinge
+        if np.linalg.norm(across) > UNUSED * characteristic_length(record):
+            wanted = np.cross(item.hinge, item.axis)
+            angles[item.rod] = np.arctan2(item.hinge @ np.cross(across, wanted), across @ wanted)
+    for link, item in turnings.items():
+        if item.rod in angles and item.hinge is not None:
+            found[link] = replace(item, rotation=rotations.about_axis(item.hinge, angles[item.rod]) @ item.rotation)
+    return found
+
+
+def _alone(items: list[Item], matrix: ComplexArray) -> tuple[Item, ...]:
+    """Rods whose circle occurs nowhere else are points on spheres, and their circles no unknowns."""
+    found = []
+    for item in items:
+        others = [other for other in items if other is not item and other.circle == item.circle]
+        used = bool(np.any(np.abs(matrix[:, item.circle : item.circle + 2]) > UNUSED))
+        if not used and item.kind == "rod" and len(others) == 1:
+            found.append(replace(item, alone=True))
+        elif used or item.kind != "circle" or [other.kind for other in others] != ["rod"]:
+            found.append(item)
+    return tuple(found)
+
+
+def _slid(record: MechanismRecord, joint: Joint, locked: Mapping[int, float]) -> float | None:
+    """How far the joint has slid; None where that is an unknown."""
+    start = joint_graph(record).slices[joint.name].start
+    if joint.type in (PRISMATIC, CYLINDRICAL):
+        return locked.get(start)
+    return locked[start] * joint.pitch / (2 * np.pi) if joint.type is HELICAL else 0.0
+
+
+def _across(joint: Joint, parent: Turning) -> int | None:
+    """The circle about whose axis the direction of a sliding joint turns; None where the direction is fixed."""
+    if parent.circle is None or parent.axis is None:
+        return None
+    along = abs(parent.axis @ parent.rotation @ joint.axes[0])
+    if parent.rod is not None or 1e-9 < along < 1.0 - 1e-12:
+        raise NotCirclesError(f"{joint.name} slides obliquely on a link that turns")
+    return None if along > 0.5 else parent.circle
+
+
+def _equations(bare: System, locked: Mapping[int, float], place: Mapping[str, float]) -> ComplexArray:
+    record, graph = bare.record, joint_graph(bare.record)
+    points: dict[str, ComplexArray] = {record.base: np.zeros((3, bare.matrix.shape[1]), dtype=complex)}
+    steps = {name: _step(bare, joint, _slid(record, joint, locked)) for name, joint in record.joints.items()}
+    for joint, forward in graph.tree:
+        near, far = (joint.parent, joint.child) if forward else (joint.child, joint.parent)
+        points[far] = points[near] + (steps[joint.name] if forward else -steps[joint.name])
+    rows = [points[joint.parent] + steps[joint.name] - points[joint.child] for joint in graph.cut]
+    link = record.platform.link
+    point = points[link] + _carried(bare, link, record.platform.point / bare.length)
+    for name, value in place.items():
+        row = point[[LENGTHS.index(name)]].copy()
+        row[:, 0] -= value / bare.length
+        rows.append(row)
+    return np.concatenate(rows) if rows else bare.matrix
+
+
+def _step(bare: System, joint: Joint, slid: float | None) -> ComplexArray:
+    """From the parent's origin to the child's (3, 1 + c)."""
+    fixed = joint.at + slid * joint.axes[0] if slid else joint.at
+    step = _carried(bare, joint.parent, fixed / bare.length) - _carried(bare, joint.child, joint.child_at / bare.length)
+    if slid is None:
+        direction = _carried(bare, joint.parent, joint.axes[0])
+        if joint.name in bare.slides:
+            step[:, bare.slides[joint.name]] += direction[:, 0]
+        else:
+            (own,) = (item for item in bare.items if item.name == joint.name)
+            step[:, own.first : own.first + 2] += direction[:, own.circle : own.circle + 2]
+    return step
+
+
+def _carried(bare: System, link: str, vector: FloatArray) -> ComplexArray:
+    """A vector (3,) fixed in a link, as (3, 1 + c) on (1, unknowns)."""
+    turning = bare.turnings[link]
+    row = np.zeros((3, bare.matrix.shape[1]), dtype=complex)
+    if turning.line is not None:
+        share = vector @ turning.line
+        if np.linalg.norm(vector - share * turning.line) > UNUSED:
+            raise NotCirclesError(f"{link} is no straight rod")
+        row[:, list(_ball(bare, turning).columns)] = share * np.eye(3)
+        return row
+    turned = turning.rotation @ vector
+    if turning.circle is None or turning.axis is None:
+        row[:, 0] = turned
+        return row
+    circle = 1 + 2 * turning.circle
+    if turning.hinge is not None:
+        rod = [item for item in bare.items if item.kind == "rod"][turning.rod or 0]
+        along = np.cross(turning.hinge, turning.axis)
+        share = turned @ along
+        turned = turned - share * along
+        if abs(turned @ turning.axis) > UNUSED:
+            raise NotCirclesError(f"{link} is no straight rod")
+        row[:, rod.first : rod.first + 2] += share * _halves(turning.axis, along)
+        row[:, rod.first + 2] -= share * turning.axis
+    row[:, 0] = (turning.axis @ turned) * turning.axis
+    row[:, circle : circle + 2] += _halves(turning.axis, turned - row[:, 0].real)
+    return row
+
+
+def _halves(axis: FloatArray, across: FloatArray) -> ComplexArray:
+    """Coefficients (3, 2) of z and z~ for a vector across the axis."""
+    quarter = np.cross(axis, across)
+    return np.stack([(across - 1j * quarter) / 2, (across + 1j * quarter) / 2], axis=1)
+
+
+def _ball(found: System, turning: Turning) -> Item:
+    return [item for item in found.items if item.kind == "ball"][turning.ball or 0]
+
+
+def _orientation(found: System, turning: Turning, unknowns: ComplexArray) -> FloatArray:
+    if turning.line is not None:
+        wanted = unknowns[list(_ball(found, turning).columns)].real
+        if turning.line @ wanted >= 0.0:
+            return rotations.taking(turning.line, wanted)
+        across = np.cross(turning.line, np.eye(3)[np.argmin(np.abs(turning.line))])
+        half_turn = rotations.about_axis(across / np.linalg.norm(across), np.asarray(np.pi))
+        return np.asarray(rotations.taking(-turning.line, wanted) @ half_turn)
+    if turning.circle is None or turning.axis is None:
+        return turning.rotation
+    z = unknowns[1 + 2 * turning.circle]
+    inner = turning.rotation
+    if turning.hinge is not None:
+        rod = [item for item in found.items if item.kind == "rod"][turning.rod or 0]
+        angle = np.arctan2(unknowns[rod.first + 2].real, (unknowns[rod.first] / z).real)
+        inner = rotations.about_axis(turning.hinge, angle) @ inner
+    return rotations.about_axis(turning.axis, np.angle(z)) @ inner

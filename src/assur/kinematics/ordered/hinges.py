@@ -1,0 +1,133 @@
+"""What joints, and parallelograms that stay such, say about the orientations of the links that they join.
+
+Opposite links of a P(4R) do not turn against each other. The short links of a P(4S) that stays a parallelogram turn
+against each other about their common direction, as if by a revolute joint. Ball joints say nothing; a rod between two
+of them has a direction only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.home import home_values
+from assur.model.joint_graph import frames, joint_graph, motion
+from assur.model.mechanism import GeneralisedJoint, Joint, MechanismRecord
+from assur.numerics import rotations
+from assur.topology.joints import CYLINDRICAL, PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL
+
+FloatArray = NDArray[np.float64]
+
+
+class NotCirclesError(Exception):
+    """Some link turns otherwise; the message says which."""
+
+
+class NoAssemblyError(Exception):
+    """Orientations that what is locked asks for contradict each other."""
+
+
+@dataclass(frozen=True, eq=False)
+class Stiff:
+    """R_child = R_parent after."""
+
+    parent: str
+    child: str
+    after: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Turn:
+    """R_child = R_parent Rot(axis, q) after, q free."""
+
+    parent: str
+    child: str
+    after: FloatArray
+    axis: FloatArray
+
+    @property
+    def back(self) -> Turn:
+        """The same, seen from the child."""
+        return Turn(self.child, self.parent, self.after.T, -self.after.T @ self.axis)
+
+
+def middle(joint: Joint) -> str:
+    """The cross of a universal joint, as a link."""
+    return f"{joint.name}'s cross"
+
+
+def turns_of_joints(record: MechanismRecord, locked: Mapping[int, float]) -> Iterable[Stiff | Turn]:
+    """What each joint allows, joint values `locked` (index -> value) given; a universal joint by way of its cross."""
+    slices = joint_graph(record).slices
+    for name, joint in record.joints.items():
+        values = np.array([locked.get(index, np.nan) for index in range(slices[name].start, slices[name].stop)])
+        if joint.type is CYLINDRICAL:
+            values[0] = 0.0
+        if joint.type is PRISMATIC:
+            yield Stiff(joint.parent, joint.child, joint.turn)
+        elif np.all(np.isfinite(values)):
+            yield Stiff(joint.parent, joint.child, motion(joint, values)[0] @ joint.turn)
+        elif joint.type in (REVOLUTE, CYLINDRICAL):
+            yield Turn(joint.parent, joint.child, joint.turn, joint.axes[0])
+        elif joint.type is UNIVERSAL:
+            links = (joint.parent, middle(joint), joint.child)
+            for k, after in enumerate((np.eye(3), joint.turn)):
+                if np.isnan(values[k]):
+                    yield Turn(links[k], links[k + 1], after, joint.axes[k])
+                else:
+                    yield Stiff(links[k], links[k + 1], rotations.about_axis(joint.axes[k], values[k]) @ after)
+        elif joint.type is not SPHERICAL:
+            raise NotCirclesError(f"{name} is {joint.type.name}")
+
+
+def turns_of_parallelograms(record: MechanismRecord, parallel: Collection[str]) -> Iterable[Stiff | Turn]:
+    """How opposite links of parallelograms can turn against each other: not at all in a P(4R)."""
+    placed = frames(record, home_values(record)) if record.generalised else {}
+    for group in record.generalised.values():
+        if group.name not in parallel:
+            continue
+        between = placed[group.parent][0].T @ placed[group.child][0]
+        if group.kind == "P(4R)":
+            yield Stiff(group.parent, group.child, between)
+            first, second = _rods(record, group)
+            yield Stiff(first, second, placed[first][0].T @ placed[second][0])
+        if group.kind == "P(4S)":
+            near, far = (_point_on(record.joints[name], group.parent) for name in _near(record, group))
+            yield Turn(group.parent, group.child, between, (far - near) / np.linalg.norm(far - near))
+
+
+def rods_between_balls(record: MechanismRecord, parallel: Collection[str]) -> dict[str, tuple[FloatArray, int]]:
+    """Rods between two ball joints: direction in their frame, and a number that the rods of a kept P(4S) share."""
+    ends: dict[str, list[Joint]] = {link: [] for link in record.links}
+    for joint in record.joints.values():
+        ends[joint.parent].append(joint)
+        ends[joint.child].append(joint)
+    together = {}
+    for group in record.generalised.values():
+        if group.kind == "P(4S)" and group.name in parallel:
+            together[_rods(record, group)[1]] = _rods(record, group)[0]
+    lines: dict[str, FloatArray] = {}
+    for link, joints in ends.items():
+        if len(joints) == 2 and all(joint.type is SPHERICAL for joint in joints):
+            near, far = (_point_on(joint, link) for joint in joints)
+            lines[link] = (far - near) / np.linalg.norm(far - near)
+    numbers = {link: number for number, link in enumerate(link for link in lines if link not in together)}
+    return {link: (line, numbers[together.get(link, link)]) for link, line in lines.items()}
+
+
+def _rods(record: MechanismRecord, group: GeneralisedJoint) -> tuple[str, str]:
+    links = {link for name in group.joints for link in (record.joints[name].parent, record.joints[name].child)}
+    first, second = sorted(links - {group.parent, group.child})
+    return first, second
+
+
+def _near(record: MechanismRecord, group: GeneralisedJoint) -> list[str]:
+    """The two joints on the parent's side."""
+    return [name for name in group.joints if group.parent in (record.joints[name].parent, record.joints[name].child)]
+
+
+def _point_on(joint: Joint, link: str) -> FloatArray:
+    return joint.at if joint.parent == link else joint.child_at

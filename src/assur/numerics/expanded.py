@@ -1,0 +1,154 @@
+"""Polynomials in several unknowns, expanded: a number type that reads a kernel of + - * once and keeps it as arrays.
+
+An `Expanded` maps exponents to coefficients, which may be arrays over a batch of problems. `expand` turns a system of
+them into a `System`: arrays that are evaluated fast at many points and at many values of its last unknown, the path's
+parameter t.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import UsageError
+
+ComplexArray = NDArray[np.complex128]
+Exponents = tuple[int, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Expanded:
+    """A polynomial: exponents of the unknowns -> coefficient, a number or an array over a batch.
+
+    >>> x, y = unknowns(2)
+    >>> ((x + 2 * y) * (x - y)).terms
+    {(2, 0): 1, (1, 1): 1, (0, 2): -2}
+    """
+
+    terms: Mapping[Exponents, Any]
+
+    # an array on the left must leave the operator to the polynomial on the right
+    __array_ufunc__ = None
+
+    def __neg__(self) -> Expanded:
+        return self * -1
+
+    def __add__(self, other: Any) -> Expanded:
+        total = dict(self.terms)
+        for exponents, factor in self._like(other).terms.items():
+            total[exponents] = total[exponents] + factor if exponents in total else factor
+        return Expanded(total)
+
+    def __sub__(self, other: Any) -> Expanded:
+        return self + self._like(other) * -1
+
+    def __mul__(self, other: Any) -> Expanded:
+        total: dict[Exponents, Any] = {}
+        if not isinstance(other, Expanded):
+            return Expanded({exponents: factor * other for exponents, factor in self.terms.items()})
+        for first, a in self.terms.items():
+            for second, b in other.terms.items():
+                exponents = tuple(i + j for i, j in zip(first, second, strict=True))
+                total[exponents] = total[exponents] + a * b if exponents in total else a * b
+        return Expanded(total)
+
+    def __radd__(self, other: Any) -> Expanded:
+        return self.__add__(other)
+
+    def __rsub__(self, other: Any) -> Expanded:
+        return (-self).__add__(other)
+
+    def __rmul__(self, other: Any) -> Expanded:
+        return self.__mul__(other)
+
+    def _like(self, other: Any) -> Expanded:
+        """A number as a constant polynomial of the same unknowns; a plain zero has no term."""
+        if isinstance(other, Expanded):
+            return other
+        if type(other) is int and other == 0:
+            return Expanded({})
+        return Expanded({(0,) * len(next(iter(self.terms))): other} if self.terms else {})
+
+
+def unknowns(count: int) -> tuple[Expanded, ...]:
+    """The unknowns of a system, each as a polynomial."""
+    return tuple(Expanded({tuple(int(k == j) for j in range(count)): 1}) for k in range(count))
+
+
+@dataclass(frozen=True, eq=False)
+class System:
+    """A family of homogeneous systems H(x, t) = 0 of E equations in n = E + 1 unknowns, for P problems.
+
+    Attributes:
+        coefficients: (P, T, E, M) by problem, power of t, equation and monomial.
+        factors: (M, d) indices of the unknowns whose product is a monomial; n stands for the constant 1.
+        size: n.
+    """
+
+    coefficients: ComplexArray
+    factors: NDArray[np.intp]
+    size: int
+
+    def evaluate(
+        self, x: ComplexArray, t: NDArray[np.inexact], problem: NDArray[np.intp]
+    ) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
+        """H (N, E), its derivatives by x (N, E, n) and by t (N, E), at points (N, n) of problems (N,)."""
+        problems, powers, equations, monomials = self.coefficients.shape
+        flat = self.coefficients.reshape(problems, powers * equations, monomials)
+        own = flat[0] if problems == 1 else flat[problem]
+        parts = (own @ self._monomials(x)).reshape(len(x), powers, equations, self.size + 1)
+        here, rate = parts[:, -1], np.zeros_like(parts[:, -1])
+        for k in range(powers - 2, -1, -1):  # Horner's rule, and for the derivative
+            rate = rate * t[:, None, None] + here
+            here = here * t[:, None, None] + parts[:, k]
+        return here[..., -1], here[..., :-1], rate[..., -1]
+
+    def _monomials(self, x: ComplexArray) -> ComplexArray:
+        """Derivatives of all monomials by the unknowns, and last the monomials (N, M, n + 1), at points (N, n)."""
+        count, degree = self.factors.shape
+        parts = np.concatenate([x, np.ones((len(x), 1))], axis=1)[:, self.factors]  # (N, M, d)
+        answer = np.zeros((len(x), count, self.size + 1), dtype=complex)
+        for k in range(degree):
+            others = parts[:, :, [j for j in range(degree) if j != k]]
+            answer[:, np.arange(count), self.factors[:, k]] += np.prod(others, axis=2)
+        answer[:, :, -1] = np.prod(parts, axis=2)  # what was added for the constant 1 is not wanted
+        return answer
+
+
+def expand(equations: Sequence[Expanded]) -> System:
+    """The arrays of homogeneous equations in n unknowns and, last, the parameter t.
+
+    Errors:
+        UsageError: an equation is not homogeneous in the unknowns, or there are not n - 1 of them.
+
+    Example: x^2 = (1 + t) y^2 at (1, 1) and t = 0.
+
+    >>> x, y, t = unknowns(3)
+    >>> system = expand([x * x - (1 + t) * y * y])
+    >>> value, slope, rate = system.evaluate(np.array([[1.0 + 0j, 1.0]]), np.zeros(1), np.zeros(1, dtype=int))
+    >>> value.real.tolist(), slope.real.tolist(), rate.real.tolist()
+    ([[0.0]], [[[2.0, -2.0]]], [[-1.0]])
+    """
+    size = len(next(iter(equations[0].terms))) - 1
+    kept = [{power: factor for power, factor in item.terms.items() if np.any(factor)} for item in equations]
+    degrees = [{sum(exponents[:-1]) for exponents in terms} for terms in kept]
+    if len(equations) != size - 1 or any(len(found) != 1 for found in degrees):
+        raise UsageError(
+            f"{len(equations)} equations of degrees {[sorted(found) for found in degrees]} in {size} unknowns",
+            hint="homogeneous equations are wanted, one fewer than the unknowns",
+        )
+    powers = 1 + max(exponents[-1] for terms in kept for exponents in terms)
+    monomials = sorted({exponents[:-1] for terms in kept for exponents in terms})
+    problems = np.broadcast_shapes(*(np.shape(factor) for terms in kept for factor in terms.values()))
+    coefficients = np.zeros((*(problems or (1,)), powers, len(equations), len(monomials)), dtype=complex)
+    for row, terms in enumerate(kept):
+        for exponents, factor in terms.items():
+            coefficients[:, exponents[-1], row, monomials.index(exponents[:-1])] = factor
+    degree = max(max(found) for found in degrees)
+    factors = [[k for k in range(size) for _ in range(item[k])] for item in monomials]
+    padded = [item + [size] * (degree - len(item)) for item in factors]
+    return System(coefficients, np.array(padded, dtype=np.intp), size)

@@ -1,0 +1,175 @@
+"""All solutions of polynomial systems from those of another one, along a path of parameters (homotopy continuation).
+
+The path begins at t = 1, with the solutions that are known, and ends at t = 0, where the coefficients are exact. The
+unknowns are homogeneous. Where solutions meet at the end, or at infinity, an end game goes round the end in circles.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.numerics.expanded import System
+from assur.numerics.path_tracking import along, polished
+
+ComplexArray = NDArray[np.complex128]
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+IndexArray = NDArray[np.intp]
+
+CLOSE = 1e-4
+"""Largest correction of a predicted point of length 1; where a larger one is needed the step was too long."""
+RADII = (2e-2, 2e-3, 2e-4, 2e-5)
+"""The t at which the end game begins, and at which it is played again until it says the same."""
+SETTLED = 1e-6
+CORNERS = 8
+MOST_CIRCLES = 8
+REGULAR = 1e-9
+"""Smallest `rank_gap` of a regular end."""
+SAME = 1e-6
+"""Points of length 1 whose distance is smaller are one solution."""
+
+
+class End(IntEnum):
+    """How a path ended: at a regular solution, at one where solutions meet, or nowhere that is known."""
+
+    regular = 0
+    singular = 1
+    lost = 2
+
+
+@dataclass(frozen=True, eq=False)
+class Ends:
+    """Ends x (N, n) of paths, of length 1, what they are, `End` (N,), and the number of steps of the slowest."""
+
+    x: ComplexArray
+    end: NDArray[np.int8]
+    steps: int
+
+
+def solve(system: System, starts: ComplexArray) -> Ends:
+    """Follow every start (K, n), a solution at t = 1, to t = 0 in each of P problems: ends (P K), problem by problem.
+
+    Paths that were lost, or came together at a regular end, where two cannot, are followed again with smaller steps.
+
+    Example: the square roots of -4 and of 9, from those of 1.
+
+    >>> from assur.numerics.expanded import expand, unknowns
+    >>> x, y, t = unknowns(3)
+    >>> system = expand([x * x - (np.array([-4.0, 9.0]) * (1 - t) + (1 - 3j * (1 - t)) * t) * y * y])
+    >>> ends = solve(system, np.array([[1, 1], [-1, 1]], dtype=complex))
+    >>> np.abs((ends.x[:, 0] / ends.x[:, 1]) ** 2 - [-4, -4, 9, 9]).max() < 1e-12
+    np.True_
+    """
+    count = len(system.coefficients)
+    problem = np.repeat(np.arange(count), len(starts))
+    first = np.tile(starts, (count, 1))
+    ends = follow(system, first, problem)
+    again = np.flatnonzero((ends.end == End.lost) | _together(ends, count))
+    if len(again):
+        better = follow(system, first[again], problem[again], close=CLOSE / 100)
+        ends.x[again], ends.end[again] = better.x, better.end
+        ends.end[_together(ends, count)] = End.lost
+    return ends
+
+
+def follow(system: System, x: ComplexArray, problem: IndexArray, *, close: float = CLOSE) -> Ends:
+    """Follow solutions x (N, n) of problems (N,) from t = 1 to t = 0.
+
+    An end is regular where the Jacobian has full rank, singular where the end game finds a limit, else lost.
+    """
+    count = len(x)
+    edge = np.full(count, RADII[0])
+    before, arrived, steps = along(system, x, problem, np.ones(count), edge, close)
+    last, reached, more = along(system, before, problem, edge, np.zeros(count), close)
+    last, converged = polished(system, last, np.zeros(count), problem)
+    regular = arrived & reached & converged & (rank_gap(system, last, problem) > REGULAR)
+    end = np.where(regular, End.regular, End.lost).astype(np.int8)
+    rest = np.flatnonzero(arrived & ~regular)
+    if len(rest):
+        limit, found = _end_game(system, before[rest], problem[rest], close)
+        last[rest[found]] = limit[found]
+        end[rest[found]] = End.singular
+    return Ends(last, end, steps + more)
+
+
+def rank_gap(system: System, x: ComplexArray, problem: IndexArray) -> FloatArray:
+    """Smallest singular value (N,) of the Jacobian at points x (N, n) of length 1 and t = 0.
+
+    Each equation is divided by its largest coefficient.
+    """
+    _, slope, _ = system.evaluate(x, np.zeros(len(x)), problem)
+    size = np.max(np.abs(system.coefficients[problem, 0]), axis=-1)
+    return np.asarray(np.linalg.svd(slope / size[..., None], compute_uv=False)[:, -1])
+
+
+def distinct(x: ComplexArray) -> IndexArray:
+    """Indices of the first of each group of points (N, n) of length 1 that are one line through the origin.
+
+    >>> distinct(np.array([[1, 0], [0, 1], [-1j, 0]]))
+    array([0, 1])
+    """
+    overlap = np.abs(x.conj() @ x.T)
+    return np.flatnonzero(~np.any(np.tril(1 - overlap**2 < SAME**2 + 1e-12, -1), axis=1))
+
+
+def _together(ends: Ends, count: int) -> BoolArray:
+    """Which regular ends (P K) are not the only one of their problem at their place."""
+    x = ends.x.reshape(count, -1, ends.x.shape[-1])
+    regular = (ends.end == End.regular).reshape(count, -1)
+    overlap = np.abs(x.conj() @ np.swapaxes(x, 1, 2)) ** 2
+    near = (1 - overlap < SAME**2 + 1e-12) & regular[:, :, None] & regular[:, None, :]
+    return np.asarray((np.sum(near, axis=2) > 1).ravel())
+
+
+def _end_game(system: System, x: ComplexArray, problem: IndexArray, close: float) -> tuple[ComplexArray, BoolArray]:
+    """Limits (N, n) at t = 0 of paths that are at x (N, n) at the first radius, and whether they have settled (N,)."""
+    limit, found = _limits(system, x, problem, RADII[0], close)
+    settled = np.zeros(len(x), dtype=bool)
+    rows = np.flatnonzero(found)
+    for first, last in itertools.pairwise(RADII):
+        ways = np.full(len(rows), first), np.full(len(rows), last)
+        nearer, arrived, _ = along(system, x[rows], problem[rows], *ways, close)
+        x[rows], rows = nearer, rows[arrived]
+        again, found = _limits(system, x[rows], problem[rows], last, close)
+        same = found & (_distance(again, limit[rows]) < SETTLED)
+        limit[rows[found]] = again[found]
+        settled[rows[same]] = True
+        rows = rows[found & ~same]
+    return limit, settled
+
+
+def _limits(
+    system: System, x: ComplexArray, problem: IndexArray, radius: float, close: float
+) -> tuple[ComplexArray, BoolArray]:
+    """Limits (N, n) at t = 0 of paths that are at x (N, n) at t = radius, and whether they come back (N,).
+
+    A path that is a power series of the w-th root of t comes back after w circles round t = 0; its mean over them is
+    its value at the centre (Cauchy's integral; Morgan, Sommese, Wampler 1991).
+    """
+    corners = radius * np.exp(2j * np.pi * np.arange(CORNERS + 1) / CORNERS)
+    reference = x.conj()
+    here, total, limit = x.copy(), np.zeros_like(x), np.ones_like(x)
+    found = np.zeros(len(x), dtype=bool)
+    rows = np.arange(len(x))
+    for circle in range(1, MOST_CIRCLES + 1):
+        for first, last in itertools.pairwise(corners):
+            total[rows] += here[rows] / np.sum(reference[rows] * here[rows], axis=1, keepdims=True)
+            ways = np.full(len(rows), first), np.full(len(rows), last)
+            here[rows], arrived, _ = along(system, here[rows], problem[rows], *ways, close)
+            rows = rows[arrived]
+        back = _distance(here[rows], x[rows]) < SAME
+        limit[rows[back]] = total[rows[back]] / (CORNERS * circle)
+        found[rows[back]] = True
+        rows = rows[~back]
+    return limit / np.linalg.norm(limit, axis=1, keepdims=True), found
+
+
+def _distance(first: ComplexArray, second: ComplexArray) -> FloatArray:
+    """Distances (N,) between lines through the origin, given by points (N, n) of length 1."""
+    overlap = np.sum(first.conj() * second, axis=1, keepdims=True)
+    return np.asarray(np.linalg.norm(second - first * overlap, axis=1))

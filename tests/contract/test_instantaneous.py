@@ -1,0 +1,46 @@
+"""Laws of first- and second-order motion: the joint graph alone says what the closed form says."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assur.kinematics.acceleration import acceleration_at
+from assur.kinematics.finite_motion import classify_at
+from assur.kinematics.instantaneous import instantaneous
+from assur.kinematics.status import Status
+
+
+def test_the_relation_of_inputs_and_pose_is_that_of_the_joint_graph(mechanism, regular):
+    chosen = regular[:25]
+    here = instantaneous(mechanism, np.array([joints for _, _, _, joints in chosen]))
+    assert np.all(here.closed)
+    for k, (pose, mode, _, _) in enumerate(chosen):
+        form = mechanism.velocity_map(pose, mode)
+        found = np.linalg.solve(here.jp[k], here.jq[k])
+        np.testing.assert_allclose(found, form.matrix, rtol=0, atol=1e-8 * np.abs(form.matrix).max())
+        if here.jq[k].shape[0] == here.jq[k].shape[1]:
+            product = np.linalg.det(here.jp[k]) * np.linalg.det(here.jq[k])
+            assert np.sign(product) == np.sign(form.det_jp * form.det_jq)
+
+
+def test_the_status_is_that_of_the_joint_graph(mechanism, regular, singular_examples):
+    found = classify_at(mechanism, np.array([joints for _, _, _, joints in regular[:100]]))
+    assert set(found.tolist()) <= {Status.regular, Status.near_singular}
+    for example in singular_examples:
+        status = Status(int(classify_at(mechanism, example.joints)))
+        assert status.name == example.status.name, (example.factor.name, example.mode)
+        here, form = instantaneous(mechanism, example.joints), mechanism.velocity_map(example.pose, example.mode)
+        if not here.types["IIM"]:  # else relations are lacking, of which a reduced model may know nothing
+            sides = (bool(here.singular_output), bool(here.singular_input))
+            assert sides == (bool(form.singular_output), bool(form.singular_input)), example.factor.name
+
+
+def test_the_acceleration_is_that_of_the_joint_graph(mechanism, regular):
+    rng = np.random.default_rng(7)
+    for pose, mode, _, joints in regular[:10]:
+        rates, second = rng.normal(size=(2, len(mechanism.inputs)))
+        velocity, acceleration = mechanism.acceleration(pose, rates, second, mode)
+        here = acceleration_at(mechanism, joints, rates, second)
+        assert bool(here.known)
+        np.testing.assert_allclose(here.velocity, velocity, rtol=0, atol=1e-8 * np.abs(velocity).max())
+        np.testing.assert_allclose(here.acceleration, acceleration, rtol=0, atol=1e-7 * np.abs(acceleration).max())

@@ -1,0 +1,50 @@
+"""The linear equations: joint values read off their solutions close the joint graph before anything is corrected."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from assur.kinematics.closure import characteristic_length, closure_error
+from assur.kinematics.home import home_values
+from assur.kinematics.ordered.circles import System, joint_values, system
+from assur.kinematics.ordered.orientations import turnings
+from assur.kinematics.ordered.solving import solve
+from assur.model.mechanism import MechanismRecord
+from assur.model.registry import load_record
+
+
+def _system(record: MechanismRecord) -> tuple[System, dict[int, float]]:
+    locked = {index: float(home_values(record)[index]) for index in record.input_indices}
+    turning = turnings(record, locked, None, parallel=tuple(record.generalised))
+    return system(record, turning, locked, {}), locked
+
+
+@pytest.mark.parametrize(
+    "name", ["zeng2019", "fivebar", "planar_3rrr", "planar_3rpr", "orthoglide", "tripteron", "delta_4s"]
+)
+def test_joint_values_close_the_loops_and_have_the_inputs(name: str) -> None:
+    record = load_record(name)
+    found, locked = _system(record)
+    solved = solve(found)
+    assert len(solved.unknowns) >= 1
+    np.testing.assert_allclose(solved.unknowns @ found.matrix.T, 0.0, atol=1e-7)
+    values = np.array([joint_values(found, row, locked) for row in solved.unknowns])
+    assert np.max(closure_error(record, values)) < 1e-7 * characteristic_length(record)
+    for index, value in locked.items():
+        assert np.all(values[:, index] == value)
+
+
+def test_rods_that_a_limb_turns_are_points_on_spheres() -> None:
+    found, _ = _system(load_record("orthoglide"))
+    assert [(item.kind, item.alone, item.freedoms) for item in found.items] == [("rod", True, 2)] * 3
+
+
+def test_freedoms_are_columns_less_quadratic_equations() -> None:
+    found, _ = _system(load_record("zeng2019"))
+    assert {item.kind for item in found.items} == {"circle"}
+    assert all(item.freedoms == 1 for item in found.items)
+    rod = dataclasses.replace(_system(load_record("orthoglide"))[0].items[0], alone=False)
+    assert rod.freedoms == 1  # its circle is known by then

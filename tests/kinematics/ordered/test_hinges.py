@@ -1,0 +1,66 @@
+"""What joints and parallelograms say about orientations holds at home and at random assemblies."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from assur.kinematics.closure import assemble
+from assur.kinematics.home import home_values
+from assur.kinematics.ordered.hinges import Stiff, Turn, rods_between_balls, turns_of_joints, turns_of_parallelograms
+from assur.model.joint_graph import frames
+from assur.model.mechanism import MechanismRecord
+from assur.model.registry import load_record
+
+
+def _near_home(record: MechanismRecord) -> np.ndarray:
+    home = home_values(record)
+    start = home + np.random.default_rng(3).uniform(-0.2, 0.2, size=(6, len(home)))
+    found = assemble(record, start)
+    return np.asarray(found.values[found.closed])
+
+
+@pytest.mark.parametrize("name", ["zeng2019", "orthoglide", "tripteron", "three_rrc"])
+def test_orientations_at_assemblies_obey_them(name: str) -> None:
+    record = load_record(name)
+    joints = [*turns_of_joints(record, {}), *turns_of_parallelograms(record, tuple(record.generalised))]
+    assert any(isinstance(joint, Turn) for joint in joints)
+    values = _near_home(record)
+    assert len(values) >= 3
+    placed = frames(record, values)
+    for joint in joints:
+        between = np.swapaxes(placed[joint.parent][0], -1, -2) @ placed[joint.child][0] @ joint.after.T
+        if isinstance(joint, Stiff):
+            np.testing.assert_allclose(between, np.broadcast_to(np.eye(3), between.shape), atol=1e-7)
+        else:
+            np.testing.assert_allclose(between @ joint.axis, np.broadcast_to(joint.axis, between.shape[:-1]), atol=1e-7)
+
+
+def test_a_locked_joint_is_stiff() -> None:
+    record = load_record("fivebar")
+    free = list(turns_of_joints(record, {}))
+    locked = list(turns_of_joints(record, dict.fromkeys(record.input_indices, 0.5)))
+    assert [isinstance(joint, Turn) for joint in free] == [True] * 5
+    assert [isinstance(joint, Turn) for joint in locked] == [False, False, True, True, True]
+
+
+def test_rods_of_a_kept_parallelogram_share_a_number_and_a_direction() -> None:
+    record = load_record("delta_4s")
+    kept = rods_between_balls(record, tuple(record.generalised))
+    apart = rods_between_balls(record, ())
+    assert [number for _, number in kept.values()] == [0, 0, 1, 1, 2, 2]
+    assert sorted(number for _, number in apart.values()) == list(range(6))
+    placed = frames(record, home_values(record))
+    for k in (1, 2, 3):
+        first, second = (placed[rod][0] @ kept[rod][0] for rod in (f"leg{k}.rod1", f"leg{k}.rod2"))
+        np.testing.assert_allclose(first, second, atol=1e-7)
+
+
+def test_short_links_of_a_ball_jointed_parallelogram_turn_about_their_direction() -> None:
+    record = load_record("delta_4s")
+    found = list(turns_of_parallelograms(record, tuple(record.generalised)))
+    assert [(turn.parent, turn.child) for turn in found] == [(f"leg{k}.arm", "platform") for k in (1, 2, 3)]
+    assert all(isinstance(turn, Turn) for turn in found)
+    motor = record.joints["leg1.A"].axes[0]
+    np.testing.assert_allclose(np.cross(found[0].axis, motor), 0.0, atol=1e-12)
+    assert not list(turns_of_parallelograms(record, ()))
