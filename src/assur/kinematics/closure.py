@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,12 @@ FloatArray = NDArray[np.float64]
 
 CLOSED = 1e-9
 """A loop counts as closed when its residual is at most this times the characteristic length."""
+
+BLOCK = 1024
+"""Configurations that are closed at a time: their matrices stay in the cache."""
+
+NEAR_DAMPING = 1e-8
+"""Damping of the first step from a start that is known to be near."""
 
 RANK_GAP = 1e-8
 """Singular values below this share of the largest count as zero."""
@@ -44,6 +51,7 @@ class Assembly:
     steps: int
 
 
+@lru_cache(maxsize=256)
 def characteristic_length(record: MechanismRecord) -> float:
     """The length that turns an angle into a length: the largest distance of a joint from its link's origin."""
     spans = [np.linalg.norm(vector) for joint in record.joints.values() for vector in (joint.at, joint.child_at)]
@@ -94,6 +102,11 @@ def _loop_twists(record: MechanismRecord, twists: FloatArray) -> FloatArray:
     return matrix.reshape(*twists.shape[:-2], 6 * len(graph.cut), twists.shape[-1])
 
 
+def _moments(angular: FloatArray, point: FloatArray) -> FloatArray:
+    """Velocities (..., 3, n) at points (..., 3) that angular velocities (..., 3, n) about the origin make."""
+    return rotations.skew(-point) @ angular
+
+
 def _about_cut_joints(record: MechanismRecord, values: FloatArray) -> FloatArray:
     """Closure Jacobian (..., 6 v, n) with each loop's velocities taken at its cut joint.
 
@@ -105,7 +118,7 @@ def _about_cut_joints(record: MechanismRecord, values: FloatArray) -> FloatArray
         rotation, origin = placed[joint.child]
         point = (rotation @ joint.child_at) + origin
         block = matrix[..., 6 * index : 6 * index + 6, :]
-        block[..., 3:, :] += np.cross(block[..., :3, :], point[..., :, None], axis=-2)
+        block[..., 3:, :] += _moments(block[..., :3, :], point)
     return matrix
 
 
@@ -123,7 +136,7 @@ def _system(record: MechanismRecord, values: FloatArray, poses: FloatArray | Non
         rotation, origin = placed[joint.child]
         point = (rotation @ joint.child_at) + origin
         loop = twists[:, index]
-        derivative[:, index, :3] = loop[:, 3:] + np.cross(loop[:, :3], point[:, :, None], axis=1)
+        derivative[:, index, :3] = loop[:, 3:] + _moments(loop[:, :3], point)
         derivative[:, index, 3:] = length * loop[:, :3]
     count = 6 * len(graph.cut)
     residual, jacobian = gaps.reshape(len(values), count), derivative.reshape(len(values), count, values.shape[-1])
@@ -143,6 +156,7 @@ def assemble(
     poses: FloatArray | None = None,
     tolerance: float = 1e-12,
     max_steps: int = 80,
+    near: bool = False,
 ) -> Assembly:
     """Close the loops from starts (..., n), holding the joint values with indices `held`, or at given poses.
 
@@ -153,6 +167,7 @@ def assemble(
         poses: (..., m), where the platform must be (an inverse problem); anywhere by default.
         tolerance: relative to the characteristic length.
         max_steps: of damped least squares on the whole joint graph, so that redundant loops do no harm.
+        near: whether the starts are known to be near an assembly; the first step is then hardly damped.
     """
     count = start.shape[-1]
     wrong = [index for index in held if index not in range(count)]
@@ -167,7 +182,8 @@ def assemble(
     # a length counts in units of the characteristic length, so that a step mixes it fairly with angles
     scale = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])[free]
 
-    def system(unknowns: FloatArray, rows: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
+    def system(first: int, unknowns: FloatArray, rows: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
+        rows = rows + first
         trial = values[rows]
         trial[:, free] = unknowns * scale
         gaps, derivative = _system(record, trial, None if wanted is None else wanted[rows])
@@ -175,9 +191,18 @@ def assemble(
 
     steps = 0
     if len(free):
-        found = least_squares.minimise(system, values[:, free] / scale, tolerance=tolerance, max_steps=max_steps)
-        values[:, free] = found.x * scale
-        steps = found.steps
+        damping = NEAR_DAMPING if near else least_squares.DAMPING
+        for first in range(0, len(values), BLOCK):
+            block = slice(first, first + BLOCK)
+            found = least_squares.minimise(
+                partial(system, first),
+                values[block, free] / scale,
+                tolerance=tolerance,
+                max_steps=max_steps,
+                damping=damping,
+            )
+            values[block, free] = found.x * scale
+            steps = max(steps, found.steps)
     error = closure_error(record, values)
     if wanted is not None:
         error = np.maximum(error, np.max(np.abs(pose_error(record, frames(record, values), wanted, length)), axis=-1))

@@ -77,44 +77,54 @@ def _difference(first: Mapping[str, int], second: Mapping[str, int]) -> dict[str
     return {name: first.get(name, 0) - second.get(name, 0) for name in names}
 
 
-def motion(joint: Joint, values: FloatArray) -> Frame:
-    """Pose of the child's joint frame in the parent's, for values (..., k): the joint's own displacement."""
+def motion(joint: Joint, values: FloatArray) -> tuple[FloatArray | None, FloatArray | None]:
+    """Rotation (..., 3, 3) and shift (..., 3) of the child's joint frame in the parent's, for values (..., k).
+
+    None stands for no rotation and for no shift.
+    """
     if joint.type is SPHERICAL:
-        return rotations.from_vector(values), np.zeros((*values.shape[:-1], 3))
+        return rotations.from_vector(values), None
     axis = joint.axes[0]
     first = values[..., 0]
     if joint.type is PRISMATIC:
-        return np.broadcast_to(np.eye(3), (*first.shape, 3, 3)), first[..., None] * axis
+        return None, first[..., None] * axis
     if joint.type is REVOLUTE:
-        return rotations.about_axis(axis, first), np.zeros((*first.shape, 3))
+        return rotations.about_axis(axis, first), None
     if joint.type is HELICAL:
         return rotations.about_axis(axis, first), (first * joint.pitch / (2 * np.pi))[..., None] * axis
     if joint.type is CYLINDRICAL:
         return rotations.about_axis(axis, values[..., 1]), first[..., None] * axis
     if joint.type is UNIVERSAL:
         turned = rotations.about_axis(axis, first) @ rotations.about_axis(joint.axes[1], values[..., 1])
-        return turned, np.zeros((*first.shape, 3))
+        return turned, None
     raise AssertionError(f"no motion for joint type {joint.type.name}")
 
 
 def child_frame(joint: Joint, parent: Frame, values: FloatArray) -> Frame:
     """Frame of the child link, given the parent's and the joint's values (..., k)."""
     turn, shift = motion(joint, values)
-    orientation = parent[0] @ (turn @ joint.turn)
-    origin = parent[1] + _apply(parent[0], joint.at + shift) - _apply(orientation, joint.child_at)
-    return orientation, origin
+    orientation = parent[0] if turn is None else parent[0] @ turn
+    if joint.turned:
+        orientation = orientation @ joint.turn
+    origin = parent[1] + _apply(parent[0], joint.at if shift is None else joint.at + shift)
+    return orientation, origin - _apply(orientation, joint.child_at)
 
 
 def parent_frame(joint: Joint, child: Frame, values: FloatArray) -> Frame:
     """Frame of the parent link, given the child's and the joint's values (..., k)."""
     turn, shift = motion(joint, values)
-    orientation = child[0] @ np.swapaxes(turn @ joint.turn, -1, -2)
-    origin = child[1] + _apply(child[0], joint.child_at) - _apply(orientation, joint.at + shift)
-    return orientation, origin
+    orientation = child[0] @ joint.turn.T if joint.turned else child[0]
+    if turn is not None:
+        orientation = orientation @ np.swapaxes(turn, -1, -2)
+    origin = child[1] + _apply(child[0], joint.child_at)
+    return orientation, origin - _apply(orientation, joint.at if shift is None else joint.at + shift)
 
 
 def _apply(rotation: FloatArray, vector: FloatArray) -> FloatArray:
-    product: FloatArray = (rotation @ vector[..., None])[..., 0]
+    """Rotated vectors (..., 3) of one vector (3,), or of one for each rotation; (3,) of zeros stay that."""
+    if vector.ndim == 1 and not vector.any():
+        return vector
+    product: FloatArray = rotation @ vector if vector.ndim == 1 else (rotation @ vector[..., None])[..., 0]
     return product
 
 
@@ -154,7 +164,7 @@ def screws(record: MechanismRecord, placed: Mapping[str, Frame], values: FloatAr
                 twists[..., 3:, where] = angular
             else:
                 twists[..., :3, where] = angular
-                twists[..., 3:, where] = np.cross(point, angular) + linear * angular
+                twists[..., 3:, where] = rotations.cross(point, angular) + linear * angular
     return twists
 
 

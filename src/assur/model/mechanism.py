@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Literal
@@ -76,6 +77,11 @@ class Joint:
     cone: float | None = None
     meaning: str = ""
     cone_axis: FloatArray | None = None
+
+    @cached_property
+    def turned(self) -> bool:
+        """Whether the child's frame is turned against the parent's at value zero."""
+        return not np.array_equal(self.turn, np.eye(3))
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,9 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.intp]
 
+DAMPING = 1e-3
+"""Damping of the first step from any start."""
+
 
 @dataclass(frozen=True)
 class LeastSquaresResult:
@@ -32,12 +35,14 @@ def minimise(
     tolerance: float,
     max_steps: int = 60,
     max_change: float = np.inf,
+    damping: float = DAMPING,
 ) -> LeastSquaresResult:
     """Drive the residuals of a batch of systems to zero, from (N, n) starts.
 
     `system(x, rows)` returns residuals (k, r) and Jacobians (k, r, n) of the k problems with those row
     numbers, at x (k, n). A problem has converged when every residual is at most `tolerance`; one that has
-    not is reported as it stands, never dropped.
+    not is reported as it stands, never dropped. `damping` is that of the first step, as a share of the mean square of
+    the Jacobian's columns: small where the start is known to be near.
 
     Example: the root of x^2 = 2.
 
@@ -47,7 +52,7 @@ def minimise(
     array([[1.414214]])
     """
     x = np.array(start, dtype=float)
-    damping = np.full(len(x), 1e-3)
+    damped = np.full(len(x), damping)
     residual, jacobian = system(x, np.arange(len(x)))
     error = np.einsum("ni,ni->n", residual, residual)
     steps = 0
@@ -56,7 +61,7 @@ def minimise(
         if not len(active):
             break
         steps += 1
-        change = _step(residual[active], jacobian[active], damping[active], max_change)
+        change = _step(residual[active], jacobian[active], damped[active], max_change)
         trial = x[active] + change
         new_residual, new_jacobian = system(trial, active)
         new_error = np.einsum("ni,ni->n", new_residual, new_residual)
@@ -64,19 +69,19 @@ def minimise(
         accepted = active[better]
         x[accepted], residual[accepted] = trial[better], new_residual[better]
         jacobian[accepted], error[accepted] = new_jacobian[better], new_error[better]
-        damping[accepted] = np.maximum(damping[accepted] * 0.02, 1e-15)
-        damping[active[~better]] = np.minimum(damping[active[~better]] * 8.0, 1e8)
-        if np.all(damping[active] >= 1e8):
+        damped[accepted] = np.maximum(damped[accepted] * 0.02, 1e-15)
+        damped[active[~better]] = np.minimum(np.maximum(damped[active[~better]], 1e-9) * 8.0, 1e8)
+        if np.all(damped[active] >= 1e8):
             break
     cost = np.max(np.abs(residual), axis=1, initial=0.0)
     return LeastSquaresResult(x, cost, cost <= tolerance, steps)
 
 
 def _step(residual: FloatArray, jacobian: FloatArray, damping: FloatArray, max_change: float) -> FloatArray:
-    normal = np.einsum("nri,nrj->nij", jacobian, jacobian)
+    normal = np.swapaxes(jacobian, -1, -2) @ jacobian
     scale = np.einsum("nii->n", normal) / normal.shape[-1] + 1e-300
     normal += (damping * scale)[:, None, None] * np.eye(normal.shape[-1])
-    gradient = np.einsum("nri,nr->ni", jacobian, residual)
+    gradient = (residual[:, None, :] @ jacobian)[:, 0]
     change = -np.linalg.solve(normal, gradient[..., None])[..., 0]
     length = np.max(np.abs(change), axis=1, keepdims=True)
     limited: FloatArray = change * np.minimum(1.0, max_change / np.maximum(length, 1e-300))

@@ -8,6 +8,19 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 
 
+def cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Cross product (..., 3) of vectors (..., 3), several times as fast as NumPy's on small batches.
+
+    >>> cross(np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]))
+    array([0., 0., 1.])
+    """
+    product = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    for k in range(3):
+        i, j = (k + 1) % 3, (k + 2) % 3
+        product[..., k] = a[..., i] * b[..., j] - a[..., j] * b[..., i]
+    return product
+
+
 def skew(vector: FloatArray) -> FloatArray:
     """Matrix (..., 3, 3) of the cross product with a vector (..., 3)."""
     matrix = np.zeros((*vector.shape, 3))
