@@ -9,6 +9,7 @@ from assur.kinematics import border
 from assur.kinematics.closure import characteristic_length, closure_error
 from assur.kinematics.modes import mode_text
 from assur.kinematics.pose import pose_of
+from assur.kinematics.search import search
 from assur.kinematics.status import NEAR_SINGULAR, Status, closed_form_of, relative_factors
 from assur.model.closed_form import Eliminant
 from assur.model.joint_graph import frames
@@ -113,13 +114,16 @@ def test_a_polynomial_has_no_more_real_roots_than_its_degree_and_all_its_roots_c
 
 def test_a_search_on_the_joint_graph_finds_every_branch_of_the_closed_form(mechanism, regular, apart):
     _, _, inputs, _ = regular[0]
-    claimed, found = mechanism.direct(inputs), mechanism.direct(inputs, method="search")
-    assert not found.complete
-    length = characteristic_length(mechanism)
-    for pose in claimed.poses[claimed.exists]:
-        assert np.min(apart(found.poses, pose)) < 1e-6 * length
+    if closed_form_of(mechanism).direct is None:
+        return
+    claimed, found = mechanism.direct(inputs), search(mechanism, "direct", inputs)
+    assert len(found.joints)
+    poses, length = pose_of(mechanism, found.joints), characteristic_length(mechanism)
+    if found.settled:
+        for pose in claimed.poses[claimed.exists]:
+            assert np.min(apart(poses, pose)) < 1e-6 * length
     if claimed.complete_for == "joint_graph" and claimed.complete:
-        for pose in found.poses:
+        for pose in poses:
             assert np.min(apart(claimed.poses[claimed.exists], pose)) < 1e-6 * length
 
 
@@ -136,7 +140,7 @@ def test_batch_shapes_agree_with_single_problems(mechanism, regular, shape):
         return
     direct = mechanism.direct(inputs)
     assert direct.poses.shape == (*shape, direct.candidates, len(mechanism.platform.pose))
-    exact = not isinstance(closed_form_of(mechanism).direct, Eliminant)  # a library's eigenvalues depend on the batch
+    exact = callable(closed_form_of(mechanism).direct)  # a library's eigenvalues depend on the batch
     for index in np.ndindex(shape):
         alone = mechanism.direct(inputs[index])
         tolerance = 0.0 if exact else 1e-9 * characteristic_length(mechanism)

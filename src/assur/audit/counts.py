@@ -7,7 +7,7 @@ from typing import Literal
 from assur.audit.reference import Digits
 from assur.audit.rows import Row
 from assur.audit.tables import solve
-from assur.kinematics.modes import all_modes
+from assur.kinematics.position import branch_count
 from assur.model.file.schema import Entry
 from assur.model.mechanism import MechanismRecord
 
@@ -26,7 +26,7 @@ class Count(Entry):
 
 def count_rows(record: MechanismRecord, entry: Count) -> list[Row]:
     """One row: the number of the closed form's branches, or of those that exist."""
-    branches = len(all_modes(record, entry.problem))
+    branches = branch_count(record, entry.problem)
     real = len(solve(record, entry.problem, entry.given))
     computed = {"branches": branches, "real": real, "not_real": branches - real}[entry.of]
     off = entry.printed.value - computed

@@ -74,7 +74,7 @@ def _given(record: Mechanism, data: dict[str, Any], style: Style) -> str:
 def _solutions(record: Mechanism, data: dict[str, Any], style: Style) -> RenderableType:
     kinds = [item.coordinate.kind for item in record.inputs]
     if "inputs" in data:
-        titles = [f"{name} [{style.coordinate_unit(name)}]" for name in data["coordinates"]]
+        titles = [style.coordinate_title(name) for name in data["coordinates"]]
         other = "working_mode"
     else:
         names = zip(data["input_names"], kinds, strict=True)

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from assur.model.mechanism import MechanismRecord
 
+QUATERNION = ("qw", "qx", "qy", "qz")
+
 
 @dataclass(frozen=True)
 class Style:
@@ -29,11 +31,18 @@ class Style:
 
     def coordinate(self, name: str, value: float | None) -> str:
         """A pose coordinate without its unit."""
+        if name in QUATERNION:
+            return fixed(value, 6)
         return self.length(value) if is_length(name) else self.degrees(value)
 
     def coordinate_unit(self, name: str) -> str:
-        """Unit of a pose coordinate."""
-        return self.unit if is_length(name) else self.angle
+        """Unit of a pose coordinate; none for a part of a quaternion."""
+        return "" if name in QUATERNION else self.unit if is_length(name) else self.angle
+
+    def coordinate_title(self, name: str) -> str:
+        """A pose coordinate over a column: x [mm]."""
+        unit = self.coordinate_unit(name)
+        return f"{name} [{unit}]" if unit else name
 
     def kind(self, kind: str, value: float | None) -> str:
         """An "angle" or a "length" without its unit."""
@@ -56,7 +65,8 @@ def style_of(record: MechanismRecord) -> Style:
 def pose_text(style: Style, names: Sequence[str], pose: Sequence[float]) -> str:
     """A pose with names and units: x = 1.0000 mm, y = .."""
     pairs = zip(names, pose, strict=True)
-    return ", ".join(f"{name} = {style.coordinate(name, value)} {style.coordinate_unit(name)}" for name, value in pairs)
+    parts = (f"{name} = {style.coordinate(name, value)} {style.coordinate_unit(name)}" for name, value in pairs)
+    return ", ".join(part.rstrip() for part in parts)
 
 
 def point_text(style: Style, names: Sequence[str], pose: Sequence[float]) -> str:
@@ -66,7 +76,7 @@ def point_text(style: Style, names: Sequence[str], pose: Sequence[float]) -> str
 
 def point_title(style: Style, names: Sequence[str]) -> str:
     """What stands over such poses: (x, y) [mm]."""
-    units = [style.coordinate_unit(name) for name in names]
+    units = [style.coordinate_unit(name) or "1" for name in names]
     return f"({', '.join(names)}) [{units[0] if len(set(units)) == 1 else ', '.join(units)}]"
 
 

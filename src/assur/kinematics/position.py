@@ -20,7 +20,8 @@ from assur.kinematics.roots import roots_of
 from assur.kinematics.search import search
 from assur.kinematics.solutions import SolutionSet
 from assur.kinematics.status import branch_kernel, closed_form_of
-from assur.model.closed_form import Eliminant
+from assur.kinematics.systems import solutions_of
+from assur.model.closed_form import Eliminant, PolynomialSystem
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
 
@@ -88,6 +89,19 @@ def inverse(
     return _answer(record, "inverse", border.checked_poses(record, poses), mode, method, crossed)
 
 
+def branch_count(record: MechanismRecord, problem: Problem) -> int:
+    """How many branches, real or not, the closed form of a problem has.
+
+    >>> from assur.model.registry import load_record
+    >>> branch_count(load_record("zeng2019"), "inverse"), branch_count(load_record("planar_3rpr"), "direct")
+    (32, 6)
+    """
+    kernel = closed_form_of(record).direct
+    if problem == "direct" and kernel is not None and not callable(kernel):
+        return kernel.degree
+    return len(all_modes(record, problem))
+
+
 def _answer(
     record: MechanismRecord, problem: Problem, given: FloatArray, mode: str | None, method: Method, crossed: bool
 ) -> SolutionSet:
@@ -103,6 +117,8 @@ def _answer(
         return _on_joint_graph(record, problem, given, _numbered_mode(record, problem, mode), method, crossed)
     if isinstance(kernel, Eliminant):
         return roots_of(record, kernel, given, _numbered_mode(record, problem, mode))
+    if isinstance(kernel, PolynomialSystem):
+        return solutions_of(record, kernel, given, _numbered_mode(record, problem, mode))
     return _branches(record, problem, given, mode)
 
 

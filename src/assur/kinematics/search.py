@@ -17,7 +17,8 @@ from assur.model.mechanism import MechanismRecord
 FloatArray = NDArray[np.float64]
 STARTS = 192
 MOST = 8 * STARTS
-"""A search goes on, STARTS at a time, until two thirds of its starts found nothing new, or until so many starts."""
+AGAIN = 8
+"""A search ends when so many assemblies in a row, for each that is known, were known already; or after MOST starts."""
 
 SAME = 1e-5
 """Assemblies whose joints are all nearer than this share of the characteristic length are one."""
@@ -28,19 +29,22 @@ class Search:
     """Assemblies (K, coordinates) that were found from `starts` starts, in the order of their first finding.
 
     `last_new` is the number of the start that found the last new one: far below `starts`, more are unlikely.
-    `nearest` is the smallest gap that any start came to, in length units.
+    `nearest` is the smallest gap that any start came to, in length units; `settled` says whether the search ended
+    because it met nothing new any more.
     """
 
     joints: FloatArray
     starts: int
     last_new: int
     nearest: float
+    settled: bool
 
 
 def search(record: MechanismRecord, problem: Problem, given: FloatArray, seed: int = 0) -> Search:
     """Assemblies at printed inputs (n,) or at a pose (m,), from home and from starts by chance.
 
-    Angles start anywhere on the circle, lengths within twice the characteristic length of home.
+    Angles start anywhere on the circle, lengths within twice the characteristic length of home. The search ends when
+    it has met what it knows `AGAIN` times as often as it has met anything new, or after `MOST` starts.
 
     >>> from assur.model.registry import load_record
     >>> len(search(load_record("fivebar"), "direct", np.radians([127.0, 53.0])).joints)
@@ -48,16 +52,18 @@ def search(record: MechanismRecord, problem: Problem, given: FloatArray, seed: i
     """
     rng = np.random.default_rng(seed)
     known = np.empty((0, len(record.coordinates)))
-    starts, last, nearest = 0, 0, np.inf
-    while starts < MOST and starts <= 3 * last:
+    starts, last, nearest, again = 0, 0, np.inf, 0
+    while starts < MOST and again < AGAIN * max(len(known), 1):
         found = _assembled(record, problem, given, _starts(record, STARTS, rng, with_home=starts == 0))
         closed = np.flatnonzero(found.closed)
         joints = np.concatenate([known, in_one_turn(record, found.values[closed])])
         kept = distinct(record, joints)
+        again += len(closed)
         if len(kept) > len(known):
-            last = starts + int(closed[kept[-1] - len(known)]) + 1
+            newest = int(kept[-1]) - len(known)
+            last, again = starts + int(closed[newest]) + 1, len(closed) - newest - 1
         known, nearest, starts = joints[kept], min(nearest, float(np.min(found.residual))), starts + STARTS
-    return Search(known, starts, last, nearest)
+    return Search(known, starts, last, nearest, again >= AGAIN * max(len(known), 1))
 
 
 def _assembled(record: MechanismRecord, problem: Problem, given: FloatArray, start: FloatArray) -> Assembly:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.model.closed_form import Branch, ClosedForm, Eliminant
+from assur.model.closed_form import Branch, ClosedForm, Eliminant, PolynomialSystem
 from assur.model.formula import parse
 from assur.model.mechanism import MechanismRecord
 
@@ -114,7 +114,7 @@ def closed_form_of(record: MechanismRecord) -> ClosedForm:
 def branch_kernel(record: MechanismRecord) -> Callable[..., Branch]:
     """The kernel of the direct problem by branches of signs, or a clear refusal where the mechanism has none."""
     kernel = closed_form_of(record).direct
-    if kernel is None or isinstance(kernel, Eliminant):
+    if kernel is None or isinstance(kernel, Eliminant | PolynomialSystem):
         has = "one polynomial" if kernel else "none"
         raise UsageError(f"{record.name} has no closed direct solution by signs (it has {has})")
     return kernel

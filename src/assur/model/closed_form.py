@@ -145,13 +145,42 @@ class Eliminant:
 
 
 @dataclass(frozen=True)
+class PolynomialSystem:
+    """A direct problem that is a system of polynomials with a known number of solutions: the third kind of closed form.
+
+    All solutions are followed from those of a start mechanism, the same one with generic complex dimensions and inputs
+    (coefficient-parameter homotopy); as many distinct regular ends as `degree` are all solutions there are. Dimensions
+    and inputs are lengths or numbers, no angles.
+
+    Attributes:
+        unknowns: names of the homogeneous unknowns, one more than equations.
+        units: power of the length unit of each unknown; it is solved with lengths over the characteristic length.
+        degree: how many solutions generic dimensions have, over complex numbers.
+        because: who proved that.
+        equations: (ns, p, inputs, unknowns) -> homogeneous polynomials; + - * only, in p and inputs too.
+        finite: (unknowns) -> a number that is zero at a solution at infinity, to which no pose belongs.
+        lift: (ns, p, pose) -> the unknowns at a pose, up to a factor.
+        back: (ns, p, inputs, unknowns) -> Branch, at a real solution.
+    """
+
+    unknowns: tuple[str, ...]
+    units: tuple[int, ...]
+    degree: int
+    because: str
+    equations: Callable[..., Sequence[Number]]
+    finite: Callable[..., Number]
+    lift: Callable[..., Sequence[Number]]
+    back: Callable[..., Branch]
+
+
+@dataclass(frozen=True)
 class ClosedForm:
     """The closed form of a mechanism: a claim about its joint graph, made of kernels and their names.
 
     Attributes:
         complete_for: for which model the branches are all there are: "joint_graph", or "reduced" (the
             source's model, which leaves assemblies of the joint graph out; `reduced_because` says which).
-        direct: (ns, p, inputs, sign) -> Branch; or an `Eliminant`; or None, where only a search is known.
+        direct: (ns, p, inputs, sign) -> Branch; or an `Eliminant`; or a `PolynomialSystem`; or None: only a search.
         inverse: (ns, p, pose, sign) -> Branch.
         joints: (ns, p, core) -> {joint: value}, a pair (cosine, sine) for a revolute; a joint with several
             components has one entry for each ("leg1.U.first"), but a spherical joint one entry, the rotation of
@@ -174,7 +203,7 @@ class ClosedForm:
     """
 
     complete_for: Literal["joint_graph", "reduced"]
-    direct: Callable[..., Branch] | Eliminant | None
+    direct: Callable[..., Branch] | Eliminant | PolynomialSystem | None
     inverse: Callable[..., Branch]
     joints: Callable[..., Mapping[str, Any]]
     factors: Callable[..., Mapping[str, Number]]
