@@ -38,6 +38,7 @@ report: $(VENV)/installed ## the one-file report into out/report.html
 bench: $(VENV)/installed ## poses per second beside a hand-written C loop (needs gcc), and the topology of a mechanism
 	$(BIN)/python bench/bench.py
 	$(BIN)/python bench/topology.py
+	$(BIN)/python bench/kinematics.py
 
 format: $(VENV)/installed-dev ## put the code into the form that `check` asks for
 	$(BIN)/ruff check --fix .

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import assur
 from assur import errors
-from assur.kinematics import closure, status
+from assur.kinematics import closure, motions, status
 from assur.topology import directions
 from assur.topology.linkages import edges, twists
 
@@ -32,8 +32,8 @@ def test_it_lists_the_statuses_in_order():
 
 def test_it_prints_the_tolerances():
     printed = {cells[0].strip("`"): cells[1] for cells in rows("Status") if len(cells) == 3}
-    code = {**vars(status), **vars(closure)}
-    assert len(printed) == 5
+    code = {**vars(motions), **vars(status), **vars(closure)}
+    assert len(printed) == 6
     assert {name: float(value) for name, value in printed.items()} == {name: code[name] for name in printed}
 
 
