@@ -19,8 +19,8 @@ help: ## list the targets
 demo: $(VENV)/installed ## set up, then the main job: the paper's mechanism, checked row by row
 	$(BIN)/assur demo
 
-test: $(VENV)/installed-dev ## set up, then every test
-	$(BIN)/python -m pytest -n 2 $(ARGS)
+test: $(VENV)/installed-$(if $(SIM),sim,dev) ## set up, then every test; SIM=yes installs MuJoCo for those that need it
+	$(if $(SIM),ASSUR_SIM=required )$(BIN)/python -m pytest -n 2 $(ARGS)
 
 check: $(VENV)/installed-dev ## ruff, mypy strict and the direction of the imports
 	$(BIN)/ruff check .
@@ -46,7 +46,7 @@ format: $(VENV)/installed-dev ## put the code into the form that `check` asks fo
 
 constraints: ## pin every package anew, each at its newest version that pyproject.toml allows
 	rm -rf build/pins && $(PYTHON) -m venv build/pins
-	build/pins/bin/python -m pip install --quiet --editable '.[dev]' hatchling editables
+	build/pins/bin/python -m pip install --quiet --editable '.[dev,sim]' hatchling editables
 	sed -n '/^#/p' constraints.txt > build/constraints.txt
 	build/pins/bin/python -m pip list --format=freeze --exclude pip --exclude setuptools --exclude assur \
 	    >> build/constraints.txt
@@ -72,3 +72,7 @@ $(VENV)/installed: pyproject.toml constraints.txt | $(VENV)/made
 $(VENV)/installed-dev: pyproject.toml constraints.txt | $(VENV)/made
 	$(INSTALL) '.[dev]'
 	@touch $(VENV)/installed $@
+
+$(VENV)/installed-sim: pyproject.toml constraints.txt | $(VENV)/made
+	$(INSTALL) '.[dev,sim]'
+	@touch $(VENV)/installed $(VENV)/installed-dev $@

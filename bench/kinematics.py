@@ -14,6 +14,7 @@ import argparse
 import sys
 import time
 from collections.abc import Callable
+from importlib.util import find_spec
 from statistics import median
 
 import numpy as np
@@ -62,6 +63,35 @@ def closure(rows: Table, poses: int, repeats: int) -> bool:
     return right
 
 
+def mujoco(rows: Table, repeats: int) -> None:
+    """The same closure by Newton steps on MuJoCo's model, one pose after another, where MuJoCo is installed."""
+    if find_spec("mujoco") is None:
+        rows.add_row("closure by MuJoCo", "not installed", "", "", "pip install 'assur[sim]'")
+        return
+    from assur.crosscheck.engine import engine, put, settle
+
+    mechanism = assur.load("zeng2019")
+    poses = RNG.uniform([-60, -100, 400], [40, 100, 450], size=(60, 3))
+    found = mechanism.inverse(poses, MODE)
+    model = engine(mechanism)
+    starts = found.joints[found.exists[:, 0], 0]
+    push = RNG.normal(size=model.model.nv)
+    push *= 3e-3 / np.linalg.norm(push)
+
+    def all_of_them() -> bool:
+        ends = []
+        for joints in starts:
+            put(model, joints)
+            ends.append(settle(model, push))
+        return all(ends)
+
+    settled = all_of_them()
+    took = timed(all_of_them, repeats) / len(starts)
+    rows.add_row(
+        f"closure by MuJoCo {model.version}", f"{1e6 * took:.0f} µs a pose", "", "", "all" if settled else "some"
+    )
+
+
 def postures(rows: Table, repeats: int) -> bool:
     """Every posture of Dietmaier's platform; whether there are forty."""
     mechanism = assur.load("gough_stewart")
@@ -84,6 +114,7 @@ def main() -> int:
     asked = parser.parse_args()
     rows = Table("what", "ours", "yardstick", "ratio", "found", box=None)
     right = closure(rows, asked.poses, asked.repeats)
+    mujoco(rows, asked.repeats)
     right &= postures(rows, asked.repeats)
     Console(width=140).print(rows)
     return 0 if right else 1

@@ -7,7 +7,7 @@ from assur.cli.main import application
 
 COMMANDS = (
     *("list", "show", "check", "topology", "direct", "inverse", "follow", "singularity", "workspace", "audit"),
-    *("figures", "report", "synthesize", "demo", "doctor"),
+    *("figures", "report", "new", "schema", "export", "crosscheck", "indices", "synthesize", "demo", "doctor"),
 )
 
 

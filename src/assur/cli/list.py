@@ -78,7 +78,7 @@ def _shown(found: dict[str, Rows]) -> Iterable[RenderableType]:
                 item["name"],
                 " ".join(item["inputs"]),
                 " ".join(item["coordinates"]),
-                f"{item['title']}\n{item['source']}",
+                item["title"],
             )
             for item in found["mechanisms"]
         ],

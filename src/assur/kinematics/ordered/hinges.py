@@ -69,7 +69,8 @@ def turns_of_joints(record: MechanismRecord, locked: Mapping[int, float]) -> Ite
         if joint.type is PRISMATIC:
             yield Stiff(joint.parent, joint.child, joint.turn)
         elif np.all(np.isfinite(values)):
-            yield Stiff(joint.parent, joint.child, motion(joint, values)[0] @ joint.turn)
+            own, _ = motion(joint, values)
+            yield Stiff(joint.parent, joint.child, joint.turn if own is None else own @ joint.turn)
         elif joint.type in (REVOLUTE, CYLINDRICAL):
             yield Turn(joint.parent, joint.child, joint.turn, joint.axes[0])
         elif joint.type is UNIVERSAL:

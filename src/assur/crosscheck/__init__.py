@@ -1,0 +1,1 @@
+"""Cross-check: our numbers against those of another engine."""

@@ -1,0 +1,211 @@
+"""Our kinematics against an engine's: poses, loops, inputs, freedoms, Jacobians, and its own way to an assembly.
+
+Lengths are compared as shares of the characteristic length, turns in rad, Jacobians relative to their largest entry
+where that is over 1.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.crosscheck import engine as engines
+from assur.crosscheck.engine import Engine
+from assur.crosscheck.samples import Configuration, configurations
+from assur.kinematics.closure import characteristic_length, mobility
+from assur.kinematics.status import Status
+from assur.kinematics.velocity import velocity_map, velocity_map_at
+from assur.model.joint_graph import Frame, frames
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import LENGTHS, rate_names
+
+FloatArray = NDArray[np.float64]
+EngineName = Literal["mujoco"]
+
+PUSHES = (1e-3, 1e-4, 1e-5)
+"""How far the engine's own search for an assembly starts from ours, in rad and characteristic lengths.
+
+The nearer ones are for where another assembly lies next to ours; a false one of ours would not be found from there.
+"""
+
+LEAST_MOTION = 1e-3
+"""Of the platform where inputs are locked and we say that it moves: its rate for a unit rate of the joints."""
+
+TOLERANCES = {
+    "frames of links": 1e-10,
+    "loops": 1e-9,
+    "inputs": 1e-10,
+    "freedoms": 0.0,
+    "self-motions": 0.0,
+    "Jacobian, joint graph": 1e-6,
+    "Jacobian, closed form": 1e-6,
+    "assembly by the engine": 1e-8,
+}
+"""The largest difference of each kind that is taken for rounding; counts must be equal."""
+
+MEANINGS = {
+    "frames of links": "every link, the engine set to our joint values",
+    "loops": "rows of the engine's constraints at our solutions",
+    "inputs": "controls at which the servos rest, against our inputs",
+    "freedoms": "nullity of the engine's constraints, against ours",
+    "self-motions": "the platform moves with inputs locked where we say so; 1: it does not",
+    "Jacobian, joint graph": "rates of the pose per input rate, by screws",
+    "Jacobian, closed form": "the same by the closed form",
+    "assembly by the engine": "the platform where its Newton ends, inputs locked",
+}
+
+
+@dataclass(frozen=True)
+class Difference:
+    """The largest difference of one kind, how often it was measured, and in which mode it occurs."""
+
+    kind: str
+    largest: float
+    tolerance: float
+    count: int
+    mode: str
+
+    @property
+    def holds(self) -> bool:
+        """Whether it is within its tolerance."""
+        return bool(self.largest <= self.tolerance)
+
+
+@dataclass(frozen=True, eq=False)
+class CrossCheck:
+    """What was compared with the engine; `modes`: problem -> mode -> number of solutions."""
+
+    record: MechanismRecord
+    engine: str
+    version: str
+    samples: int
+    seed: int
+    modes: dict[str, dict[str, int]]
+    differences: tuple[Difference, ...]
+
+    @property
+    def holds(self) -> bool:
+        """Whether something was compared, and every difference is within its tolerance."""
+        return bool(self.differences) and all(item.holds for item in self.differences)
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return {
+            "mechanism": self.record.name,
+            "engine": self.engine,
+            "version": self.version,
+            "samples": self.samples,
+            "seed": self.seed,
+            "holds": self.holds,
+            "modes": self.modes,
+            "differences": [
+                {**vars(item), "meaning": MEANINGS[item.kind], "holds": item.holds} for item in self.differences
+            ],
+        }
+
+
+def crosscheck(
+    record: MechanismRecord, name: EngineName = "mujoco", *, samples: int = 20, seed: int = 0, text: str | None = None
+) -> CrossCheck:
+    """Compare our solutions at random poses and inputs with an engine that reads the exported file.
+
+    Args:
+        record: the mechanism.
+        name: the engine; MuJoCo is the only one.
+        samples: random poses; each mode's solutions at them, and those at inputs that reach one of them.
+        seed: of the random generator.
+        text: an MJCF file to be loaded in place of the exported one.
+
+    Errors:
+        UsageError: the engine is not installed. Whatever the direct and the inverse problem raise.
+    """
+    rng = np.random.default_rng(seed)
+    there = engines.engine(record, text)
+    found = configurations(record, samples, rng)
+    largest: dict[str, tuple[float, str]] = {}
+    count: Counter[str] = Counter()
+    for item in found:
+        for kind, size in _compared(there, item, rng).items():
+            count[kind] += 1
+            size = np.inf if np.isnan(size) else size
+            if size > largest.get(kind, (-1.0, ""))[0]:
+                largest[kind] = (size, f"{item.problem} {item.mode}".strip())
+    differences = tuple(
+        Difference(kind, largest[kind][0], limit, count[kind], largest[kind][1])
+        for kind, limit in TOLERANCES.items()
+        if kind in largest
+    )
+    modes = {
+        problem: dict(sorted(Counter(item.mode for item in found if item.problem == problem).items()))
+        for problem in ("direct", "inverse")
+    }
+    return CrossCheck(record, name, there.version, samples, seed, modes, differences)
+
+
+def _compared(engine: Engine, item: Configuration, rng: np.random.Generator) -> dict[str, float]:
+    """Every difference at one configuration, by kind."""
+    record = engine.record
+    engines.put(engine, item.joints)
+    ours, theirs = frames(record, item.joints), engines.link_frames(engine)
+    residual, _ = engines.constraints(engine)
+    found = {
+        "frames of links": max(_apart(engine, ours[link], theirs[link]) for link in record.links),
+        "loops": float(np.max(np.abs(residual), initial=0.0)),
+        "inputs": _inputs_apart(engine, item),
+    }
+    if item.status == Status.self_motion:
+        _, _, open_ = engines.platform_jacobian(engine)
+        return found | {"self-motions": float(open_ < LEAST_MOTION)}
+    if item.status != Status.regular:
+        return found
+    found["freedoms"] = float(abs(engines.freedoms(engine) - int(mobility(record, item.joints).freedoms)))
+    jacobian, missed, open_ = engines.platform_jacobian(engine)
+    for kind, ours_ in _jacobians(record, item).items():
+        scale = max(1.0, float(np.max(np.abs(ours_))))
+        found[kind] = max(missed, open_, float(np.max(np.abs(jacobian - ours_)))) / scale
+    found["assembly by the engine"] = _settled(engine, item, ours[record.platform.link], rng)
+    return found
+
+
+def _settled(engine: Engine, item: Configuration, ours: Frame, rng: np.random.Generator) -> float:
+    """How far the platform is from ours where the engine's Newton ends, from the farthest start that comes back."""
+    apart = np.inf
+    for push in PUSHES:
+        engines.put(engine, item.joints)
+        if engines.settle(engine, push * rng.uniform(-1, 1, size=engine.model.nv)):
+            apart = min(apart, _apart(engine, ours, engines.link_frames(engine)[engine.record.platform.link]))
+        if apart <= TOLERANCES["assembly by the engine"]:
+            break
+    return apart
+
+
+def _apart(engine: Engine, ours: Frame, theirs: Frame) -> float:
+    """Distance of two frames: entries of orientations, and origins as shares of the characteristic length."""
+    metre, size = engine.bodies.metre, engine.bodies.size
+    away = np.max(np.abs(metre * ours[1] - theirs[1])) / size
+    return float(max(away, np.max(np.abs(ours[0] - theirs[0]))))
+
+
+def _inputs_apart(engine: Engine, item: Configuration) -> float:
+    """Largest difference of the printed inputs; angles that differ by whole turns are the same."""
+    metre, size = engine.bodies.metre, engine.bodies.size
+    angular = np.array([one.coordinate.kind == "angle" for one in engine.record.inputs])
+    gap = engines.printed_inputs(engine) - np.where(angular, 1.0, metre) * item.inputs
+    turned = (gap + np.pi) % (2 * np.pi) - np.pi
+    return float(np.max(np.abs(np.where(angular, turned, gap / size)), initial=0.0))
+
+
+def _jacobians(record: MechanismRecord, item: Configuration) -> dict[str, FloatArray]:
+    """Our rates (k, n) of the pose per input rate, lengths in units of the characteristic length, by each route."""
+    length = characteristic_length(record)
+    rows = np.array([length if name in LENGTHS else 1.0 for name in rate_names(record.platform.pose)])
+    columns = np.array([length if one.coordinate.kind == "length" else 1.0 for one in record.inputs])
+    found = {"Jacobian, joint graph": velocity_map_at(record, item.joints).matrix}
+    if record.closed_form is not None and re.fullmatch(r"[+-]*", item.working_mode):
+        found["Jacobian, closed form"] = velocity_map(record, item.pose, item.working_mode).matrix
+    return {kind: matrix * columns / rows[:, None] for kind, matrix in found.items()}

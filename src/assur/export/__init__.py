@@ -1,0 +1,1 @@
+"""Export: a mechanism as a file that a simulator reads."""

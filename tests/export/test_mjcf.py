@@ -1,0 +1,158 @@
+"""The MJCF file, read back by a reader of its own: nested bodies, joints in their order, sites and constraints."""
+
+from __future__ import annotations
+
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from assur.export.mjcf import mjcf
+from assur.model.joint_graph import frames
+from assur.model.points import point
+
+
+def floats(text):
+    return np.array([float(word) for word in text.split()])
+
+
+def read(text, values):
+    """Frames of bodies, and sites, at joint values by name (a ball's is a rotation): MuJoCo's rules."""
+    bodies, sites = {}, {}
+
+    def enter(element, turn, place):
+        place = place + turn @ floats(element.get("pos"))
+        w, x, y, z = floats(element.get("quat"))
+        turn = turn @ Rotation.from_quat([x, y, z, w]).as_matrix()
+        for joint in element.findall("joint"):
+            value = values[joint.get("name")]
+            if joint.get("type") == "slide":
+                place = place + turn @ floats(joint.get("axis")) * (value - float(joint.get("ref")))
+                continue
+            anchor = place + turn @ floats(joint.get("pos"))
+            if joint.get("type") == "ball":
+                turn = turn @ value
+            else:
+                angle = value - float(joint.get("ref"))
+                turn = turn @ Rotation.from_rotvec(angle * floats(joint.get("axis"))).as_matrix()
+            place = anchor - turn @ floats(joint.get("pos"))
+        bodies[element.get("name")] = (turn, place)
+        for site in element.findall("site"):
+            sites[site.get("name")] = (turn, place + turn @ floats(site.get("pos")))
+        for inner in element.findall("body"):
+            enter(inner, turn, place)
+
+    (root,) = ElementTree.fromstring(text).find("worldbody").findall("body")
+    enter(root, np.eye(3), np.zeros(3))
+    return bodies, sites
+
+
+def nesting(text):
+    """Which body each body hangs on."""
+    root = ElementTree.fromstring(text).find("worldbody")
+    return {inner.get("name"): outer.get("name") for outer in root.iter("body") for inner in outer.findall("body")}
+
+
+def body(link):
+    """MuJoCo has a body `world` of its own."""
+    return "world.link" if link == "world" else link
+
+
+def named_values(record, joint_values, home, parents, metre):
+    """Our joint values as those of the file: SI units, an advance for each screw, a ball away from home."""
+    found = {}
+    for name, joint in record.joints.items():
+        for item in record.joint_coordinates(name):
+            value = joint_values[item.index]
+            found[record.coordinate_label(item)] = metre * value if item.kind == "length" else value
+        start = record.joint_coordinates(name)[0].index
+        if joint.type.letter == "H":
+            found[f"{name}.advance"] = metre * joint.pitch * joint_values[start] / (2 * np.pi)
+        if joint.type.letter == "S":
+            there = Rotation.from_rotvec(joint_values[start : start + 3]).as_matrix() @ joint.turn
+            rest = Rotation.from_rotvec(home[start : start + 3]).as_matrix() @ joint.turn
+            forward = parents.get(body(joint.child)) == body(joint.parent)
+            found[name] = rest.T @ there if forward else rest @ there.T
+    return found
+
+
+def at(record, joint_values, home, metre, text):
+    """What the file says at our joint values."""
+    return read(text, named_values(record, joint_values, home, nesting(text), metre))
+
+
+@pytest.fixture
+def text(record):
+    return mjcf(record)
+
+
+def test_links_are_where_the_joint_graph_says_at_any_joint_values(record, text, anywhere, home, metre):
+    bodies, sites = at(record, anywhere, home, metre, text)
+    for link, (rotation, origin) in frames(record, anywhere).items():
+        np.testing.assert_allclose(bodies[body(link)][0], rotation, atol=1e-9)
+        np.testing.assert_allclose(bodies[body(link)][1], metre * origin, atol=1e-9)
+    for letter in record.points:
+        np.testing.assert_allclose(sites[letter][1], metre * point(record, letter, anywhere), atol=1e-9)
+
+
+def gaps(text, sites):
+    """Distances of what the constraints want together, and angles where a weld does."""
+    found = []
+    for item in ElementTree.fromstring(text).find("equality"):
+        if item.tag != "joint":
+            first, second = sites[item.get("site1")], sites[item.get("site2")]
+            found.append(np.linalg.norm(first[1] - second[1]))
+            if item.tag == "weld":
+                found.append(np.max(np.abs(first[0] - second[0])))
+    return found
+
+
+def test_constraints_hold_where_the_loops_close_and_only_there(record, text, anywhere, elsewhere, home, metre):
+    _, sites = at(record, elsewhere, home, metre, text)
+    assert max(gaps(text, sites)) < 1e-9
+    _, sites = at(record, anywhere, home, metre, text)
+    assert max(gaps(text, sites)) > 1e-4
+
+
+def test_the_home_key_is_the_reference_of_every_joint_in_the_order_of_the_bodies(record, text):
+    root = ElementTree.fromstring(text)
+    wanted = []
+    for joint in root.find("worldbody").iter("joint"):
+        wanted += [1.0, 0.0, 0.0, 0.0] if joint.get("type") == "ball" else [float(joint.get("ref"))]
+    key = root.find("keyframe/key")
+    assert key.get("name") == "home"
+    np.testing.assert_array_equal(floats(key.get("qpos")), wanted)
+
+
+def test_a_servo_for_each_input_rests_at_the_printed_input(record, text, home, metre):
+    root = ElementTree.fromstring(text)
+    servos = root.findall("actuator/general")
+    assert [servo.get("name") for servo in servos] == [item.name for item in record.inputs]
+    controls = floats(root.find("keyframe/key").get("ctrl"))
+    for servo, item, control in zip(servos, record.inputs, controls, strict=True):
+        unit = metre if item.coordinate.kind == "length" else 1.0
+        joint_value = unit * home[item.coordinate.index]
+        constant, slope, _ = floats(servo.get("biasprm"))
+        force = float(servo.get("gainprm")) * control + constant + slope * float(servo.get("gear")) * joint_value
+        assert force == pytest.approx(0.0, abs=1e-6 * float(servo.get("gainprm")))
+        assert control == pytest.approx(item.sign * joint_value + unit * item.offset, abs=1e-9)
+        assert servo.get("joint") == record.coordinate_label(item.coordinate)
+
+
+def test_a_screw_is_tied_to_its_turn(record, text, metre):
+    tied = ElementTree.fromstring(text).findall("equality/joint")
+    screws = [joint for joint in record.joints.values() if joint.type.letter == "H"]
+    assert [item.get("joint2") for item in tied] == [joint.name for joint in screws]
+    for item, joint in zip(tied, screws, strict=True):
+        assert floats(item.get("polycoef"))[1] == pytest.approx(metre * joint.pitch / (2 * np.pi))
+
+
+def test_limits_are_ranges_of_the_joints(record, text, metre):
+    ranges = {item.get("name"): item.get("range") for item in ElementTree.fromstring(text).iter("joint")}
+    for joint in record.joints.values():
+        for item, limit in zip(record.joint_coordinates(joint.name), joint.limits, strict=False):
+            label = record.coordinate_label(item)
+            if limit is not None and label in ranges:
+                unit = metre if item.kind == "length" else 1.0
+                np.testing.assert_allclose(floats(ranges[label]), unit * np.array(limit))
