@@ -20,7 +20,7 @@ demo: $(VENV)/installed ## set up, then the main job: the paper's mechanism, che
 	$(BIN)/assur demo
 
 test: $(VENV)/installed-$(if $(SIM),sim,dev) ## set up, then every test; SIM=yes installs MuJoCo for those that need it
-	$(if $(SIM),ASSUR_SIM=required )$(BIN)/python -m pytest -n 2 $(ARGS)
+	OPENBLAS_NUM_THREADS=1 $(if $(SIM),ASSUR_SIM=required )$(BIN)/python -m pytest -n 2 $(ARGS)
 
 check: $(VENV)/installed-dev ## ruff, mypy strict and the direction of the imports
 	$(BIN)/ruff check .

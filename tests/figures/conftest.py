@@ -1,8 +1,8 @@
-"""Every registered mechanism with one context for all its figures, and every figure drawn once."""
+"""Every registered mechanism with one context for its cheap figures; a few with all figures, each drawn once."""
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cache, lru_cache
 
 import pytest
 
@@ -12,6 +12,14 @@ from assur.figures.catalogue import ENTRIES
 from assur.workspace.region import workspace
 
 COARSE = 24
+WHOLE = ("fivebar", "planar_3rrr", "zeng2019")
+"""Those of which every figure is drawn: a plane workspace, one with an angle, one in space with a source to follow."""
+
+
+@cache
+def bare(name):
+    """The context of a mechanism without a workspace, for figures that need none."""
+    return figures.Context(assur.load(name))
 
 
 @lru_cache(maxsize=8)
@@ -20,40 +28,39 @@ def shared(name):
     return figures.Context(record, workspace(record, resolution=COARSE))
 
 
-@lru_cache(maxsize=64)
-def drawn(name, figure):
-    context = shared(name)
-    return figures.drawing(context.record, figure, context)
-
-
-@pytest.fixture(params=assur.names())
+@pytest.fixture(params=WHOLE)
 def context(request):
     return shared(request.param)
 
 
+@pytest.fixture(params=assur.names())
+def every(request):
+    """Of every mechanism; give it to figures that are drawn within a second."""
+    return bare(request.param)
+
+
+def made(context, figure):
+    """A drawing; skips the mechanisms that do not have it."""
+    entry = next(item for item in ENTRIES if item.name == figure)
+    why = entry.missing(context)
+    if why:
+        pytest.skip(why)
+    return figures.drawing(context.record, figure, context)
+
+
 @pytest.fixture
 def data(context):
-    """Numbers of a figure by its name; skips the mechanisms that do not have it."""
-
-    def of(figure):
-        entry = next(item for item in ENTRIES if item.name == figure)
-        why = entry.missing(context)
-        if why:
-            pytest.skip(why)
-        return drawn(context.record.name, figure).data
-
-    return of
+    """Numbers of a figure by its name."""
+    return lambda figure: made(context, figure).data
 
 
 @pytest.fixture
-def page(context):
-    """A drawn figure by its name; skips the mechanisms that do not have it."""
+def data_of_every(every):
+    """Numbers of a figure by its name, of every mechanism."""
+    return lambda figure: made(every, figure).data
 
-    def of(figure):
-        entry = next(item for item in ENTRIES if item.name == figure)
-        why = entry.missing(context)
-        if why:
-            pytest.skip(why)
-        return drawn(context.record.name, figure).figure
 
-    return of
+@pytest.fixture
+def page_of_every(every):
+    """A drawn figure by its name, of every mechanism."""
+    return lambda figure: made(every, figure).figure

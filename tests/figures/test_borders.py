@@ -5,6 +5,7 @@ import pytest
 
 from assur.figures.borders import kinds, on_margin, vanishing
 from assur.kinematics.status import scale
+from assur.model.pose import is_angle
 from assur.workspace.fields import at_points
 
 
@@ -30,7 +31,8 @@ def test_a_border_is_that_of_the_box_or_of_a_margin(context, border):
         on_box = np.min(np.minimum(pose - low, high - pose) / (high - low)) < 1e-6
         if name:
             value = at_points(context.workspace.margins[name], len(pose), pose[None])[0]
-            assert abs(value) < 1e-2 * scales.get(name, 1.0)
+            coarse = any(map(is_angle, context.workspace.box.names))  # cells of 15 degrees
+            assert abs(value) < (0.1 if coarse else 0.01) * scales.get(name, 1.0)
         else:
             assert on_box
 

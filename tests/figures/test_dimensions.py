@@ -5,14 +5,15 @@ import numpy as np
 from assur.figures.dimensions import arcs
 
 
-def test_an_arc_turns_by_its_angle_about_the_joint_from_where_the_value_is_zero(context):
-    skeleton = context.skeleton
+def test_an_arc_turns_by_its_angle_about_the_joint_from_where_the_value_is_zero(every):
+    skeleton = every.skeleton
     found = arcs(skeleton, 0.1 * skeleton.size)
-    assert found
+    turning = [item for item in every.record.inputs if item.coordinate.kind == "angle"]
+    assert found or not (turning or every.record.angles)
     marks = {mark.joint.name: mark for mark in skeleton.marks}
     for arc in found:
-        coordinate = context.record.angles.get(arc.name) or next(
-            item.coordinate for item in context.record.inputs if item.name == arc.name
+        coordinate = every.record.angles.get(arc.name) or next(
+            item.coordinate for item in every.record.inputs if item.name == arc.name
         )
         axis = marks[coordinate.joint].axes[0]
         zero, now = arc.sides
@@ -24,16 +25,16 @@ def test_an_arc_turns_by_its_angle_about_the_joint_from_where_the_value_is_zero(
         np.testing.assert_allclose((arc.points[0] - arc.corner) / radius[0], zero, atol=1e-9)
 
 
-def test_the_zero_direction_stands_still_when_only_that_joint_moves(context):
+def test_the_zero_direction_stands_still_when_only_that_joint_moves(every):
     from assur.figures.skeleton import skeleton as skeleton_at
 
-    for arc in arcs(context.skeleton, 10.0):
-        coordinate = context.record.angles.get(arc.name) or next(
-            item.coordinate for item in context.record.inputs if item.name == arc.name
+    for arc in arcs(every.skeleton, 10.0):
+        coordinate = every.record.angles.get(arc.name) or next(
+            item.coordinate for item in every.record.inputs if item.name == arc.name
         )
-        values = context.home.copy()
+        values = every.home.copy()
         values[coordinate.index] += 0.3
-        moved = skeleton_at(context.record, context.companion, values)
+        moved = skeleton_at(every.record, every.companion, values)
         other = next(item for item in arcs(moved, 10.0) if item.name == arc.name)
         np.testing.assert_allclose(other.sides[0], arc.sides[0], atol=1e-9)
         assert np.linalg.norm(other.sides[1] - arc.sides[1]) > 0.1

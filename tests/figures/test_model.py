@@ -6,31 +6,31 @@ from assur.kinematics.closure import closure_error
 from assur.model.points import point
 
 
-def test_points_are_those_of_the_joint_graph(context, data):
-    skeleton = context.schematic
-    found = data("model")["points"]
-    assert set(context.record.points) <= set(found)
+def test_points_are_those_of_the_joint_graph(every, data_of_every):
+    skeleton = every.schematic
+    found = data_of_every("model")["points"]
+    assert set(every.record.points) <= set(found)
     for name, at in found.items():
         np.testing.assert_allclose(at, point(skeleton.record, name, skeleton.values), atol=1e-9)
 
 
-def test_the_drawn_configuration_is_an_assembly(context):
-    for skeleton in (context.schematic, context.skeleton):
+def test_the_drawn_configuration_is_an_assembly(every):
+    for skeleton in (every.schematic, every.skeleton):
         assert closure_error(skeleton.record, skeleton.values) < 1e-6 * skeleton.size
 
 
-def test_the_schematic_is_the_one_that_the_companion_asks_for(context, data):
-    plan = context.companion.schematic
-    values = data("model")["parameters"]
+def test_the_schematic_is_the_one_that_the_companion_asks_for(every, data_of_every):
+    plan = every.companion.schematic
+    values = data_of_every("model")["parameters"]
     assert {name: values[name] for name in plan.parameters} == plan.parameters
     if plan.pose:
-        pose = dict(zip("xyz", data("model")["platform"], strict=True))
-        np.testing.assert_allclose([pose[name] for name in context.record.platform.pose], plan.pose, atol=1e-6)
+        pose = dict(zip("xyz", data_of_every("model")["platform"], strict=True))
+        np.testing.assert_allclose([pose[name] for name in every.record.platform.pose], plan.pose, atol=1e-6)
 
 
-def test_angles_are_joint_values(context, data):
-    for name, value in data("model")["angles_rad"].items():
-        coordinate = context.record.angles.get(name) or next(
-            item.coordinate for item in context.record.inputs if item.name == name
+def test_angles_are_joint_values(every, data_of_every):
+    for name, value in data_of_every("model")["angles_rad"].items():
+        coordinate = every.record.angles.get(name) or next(
+            item.coordinate for item in every.record.inputs if item.name == name
         )
-        assert value == context.schematic.values[coordinate.index]
+        assert value == every.schematic.values[coordinate.index]

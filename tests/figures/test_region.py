@@ -2,11 +2,19 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from matplotlib.text import Text
 
+import assur
 from assur import figures
+from assur.figures.catalogue import ENTRIES
+from assur.figures.coordinates import axis_title, symbol
+from assur.figures.plots import no_workspace
 from assur.kinematics.modes import all_modes
+from assur.kinematics.status import scale
+from assur.model.pose import is_angle
 from assur.workspace.fields import at_points, factor_fields
 from assur.workspace.region import workspace
+from assur.workspace.slices import coordinates
 
 
 def test_the_numbers_are_those_of_the_workspace(context, data):
@@ -32,7 +40,30 @@ def test_the_loci_are_zeros_of_their_factors(context, data):
     for item in data("workspace")["loci"]:
         if len(item["vertices"]):
             values = at_points(fields[item["factor"]], len(context.record.platform.pose), item["vertices"])
-            assert np.max(np.abs(values)) < 0.5
+            factor = next(one for one in context.record.closed_form.factor_list if one.name == item["factor"])
+            size = scale(context.record, factor.scale)
+            if any(map(is_angle, context.workspace.box.names)):  # whose cells are 15 degrees here
+                size = 40 * np.ptp(context.workspace.region.factor_inside(item["factor"]))
+            assert np.max(np.abs(values)) < 2e-3 * size
+
+
+@pytest.mark.parametrize("name", assur.names())
+def test_the_workspace_of_every_mechanism_is_drawn_and_says_what_is_held(name):
+    record = assur.load(name)
+    why = no_workspace(figures.Context(record))
+    if why:
+        pytest.skip(why)
+    found = workspace(record, resolution=8)
+    given = figures.Context(record, found)
+    drawn = figures.drawing(record, "workspace", given)
+    assert tuple(drawn.data["coordinates"]) == found.box.names
+    texts = " ".join(text.get_text() for axes in drawn.figure.axes for text in axes.findobj(Text))
+    for coordinate in found.box.names:
+        assert axis_title(given, coordinate) in texts
+    caption = next(entry for entry in ENTRIES if entry.name == "workspace").caption(given)
+    assert ("held" in caption) == (len(found.box.names) < len(coordinates(record)))
+    for held in found.slice.held:
+        assert symbol(held) in caption
 
 
 def test_a_mode_without_any_pose_and_one_that_is_singular_everywhere_are_drawn(context):

@@ -214,9 +214,11 @@ def test_the_joint_graph_alone_is_enough():
     assert (without.kind, without.share, without.factor, without.size) == (with_it.kind, with_it.share, "", None)
 
 
-def test_delta_with_ball_joints_follows_a_square_and_returns():
-    """Rods that spin freely do no harm; its ball joints are outside their cones at home, and the path says so."""
-    mechanism = assur.load(DELTA)
+def test_delta_with_ball_joints_follows_a_square_and_returns(tmp_path):
+    """Rods that spin freely do no harm; ball joints that are outside their cones at home stop the path."""
+    tight = tmp_path / "tight.toml"
+    tight.write_text(DELTA.read_text().replace("angle = 75", "angle = 40"))
+    mechanism = assur.load(tight)
     start = mechanism.home_values
     here = pose_of(mechanism, start)
     stop = follow(mechanism, start, poses=here + np.array([5.0, 0.0, 0.0])).stopped

@@ -26,7 +26,7 @@ def test_a_cone_is_the_angle_between_the_axis_in_both_links():
     seen = [placed[link][0] @ joint.cone_axis for link in (joint.parent, joint.child)]
     tilt = np.arccos(seen[0] @ seen[1])
     assert float(cone.value(joints)) == pytest.approx(tilt)
-    assert float(cone.margin(joints)) == pytest.approx(np.radians(40) - tilt)
+    assert float(cone.margin(joints)) == pytest.approx(np.radians(75) - tilt)
 
 
 def test_strokes_are_of_the_printed_input_and_in_its_file_s_order():

@@ -103,6 +103,45 @@ def test_the_size_of_the_unknown_counts():
         assert found / size == pytest.approx([-3, 1, 1], abs=1e-6)
 
 
+@pytest.mark.parametrize("place", [0.0, 0.7, -30.0, 1e6, np.inf])
+@pytest.mark.parametrize("gap", [0.0, 1e-9, 1e-4])
+def test_nearness_tells_a_double_root_from_two(place, gap):
+    """Two roots at twice the arctangent of a place, real or complex, gap apart, beside simple ones of both kinds."""
+    angle = 2 * np.arctan(place)
+    others = np.polynomial.polynomial.polymul([1.0, 0.3, 1.1], [-2.0, 1.0])
+    for sense in (1, -1):
+        # cos^2 of half the distance to the angle is 0 there; less or more by gap^2 makes two roots or none
+        pair = py.half_angle({(0, 0): 1 - sense * gap**2 / 2, (1, 0): -np.cos(angle), (0, 1): -np.sin(angle)}, 1)
+        coefficients = np.array(py.multiply(pair, others))
+        real, count = py.nearness(coefficients, py.roots(coefficients), np.full(len(coefficients), 1e-14))
+        doubtful = gap < 1e-6
+        assert np.sum(real & (count > 1)) == (2 if doubtful else 0)
+        assert np.sum(real & (count == 1)) == 1 + (0 if doubtful or sense < 0 else 2)
+
+
+def test_nearness_counts_the_roots_that_lie_together():
+    for many in (1, 2, 3, 4):
+        coefficients = np.polynomial.polynomial.polyfromroots([0.4] * many + [3.0, -2.0, 1j, -1j]).real
+        real, count = py.nearness(coefficients, py.roots(coefficients), 1e-13 * np.abs(coefficients))
+        assert np.sum(real) == many + 2
+        assert sorted(count[real].tolist()) == sorted([1, 1] + [many] * many)
+
+
+def test_a_real_root_below_a_complex_pair_is_simple():
+    """p is zero at the real point below the pair, but not because of the pair."""
+    coefficients = np.array([0.0, 1.0, 0.0, 1.0])  # t (t^2 + 1)
+    real, count = py.nearness(coefficients, py.roots(coefficients), 1e-14 * np.abs(coefficients) + 1e-14)
+    assert np.sum(real) == 1
+    assert count[real].tolist() == [1]
+
+
+def test_nearness_of_degenerate_polynomials_is_nothing():
+    coefficients = np.array([[0.0, 0.0, 0.0], [np.nan, 1.0, 1.0]])
+    real, count = py.nearness(coefficients, py.roots(coefficients), np.zeros((2, 3)))
+    assert not np.any(real)
+    assert count.tolist() == [[1, 1], [1, 1]]
+
+
 def test_ten_thousand_of_degree_eight_in_about_a_second():
     coefficients = RANDOM.normal(size=(10_000, 9))
     started = time.perf_counter()

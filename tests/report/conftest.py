@@ -38,6 +38,12 @@ def fourbar():
     return assur.load(Path(__file__).parents[1] / "model" / "fourbar.toml")
 
 
+@pytest.fixture(scope="session")
+def delta():
+    """A mechanism in space without closed form and without reference data."""
+    return assur.load(Path(__file__).parents[1] / "model" / "file" / "delta.toml")
+
+
 class Document(HTMLParser):
     """Tags that are closed in order, with their attributes, and the text of table cells by row."""
 

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 import assur
 from assur import figures
 from assur.errors import OutputError
+from assur.kinematics.border import inputs_of
 from assur.report import report_html, write_report
 from assur.report.findings import Findings
 from assur.report.render import page_html
@@ -141,9 +142,42 @@ def test_the_volume_is_that_of_the_workspace(findings, html):
 
 def test_without_closed_form_and_reference_data(bare, read):
     assert read(bare).faults == []
-    assert "fourbar has no closed form" in bare
+    assert "only 1 of 2 can be chosen" in bare  # its pose has one coordinate too many, which a search does not answer
     assert "has no reference data to audit" in bare
     assert re.findall(r"<h2>(.*?)<a", bare) == [title for title, _ in SECTIONS]
+
+
+@pytest.mark.slow
+def test_a_file_without_closed_form_has_its_solutions_by_search(delta, read):
+    page = read(report_html(delta, figures=False))
+    assert page.faults == []
+    text = " ".join(page.words["p"].split())
+    assert "found on the joint graph itself" in text
+    right = next(iter(re.findall(r"Direct problem: (not proved: a search[^.]*)\.", text)))
+    assert "starts" in right
+    answer = delta.direct(inputs_of(delta, delta.home_values))
+    rows = page.tables["Solutions of the direct problem"][1:]
+    assert len(rows) == len(answer) > 1
+    for (_, cells), item in zip(rows, answer, strict=True):
+        assert np.allclose([float(cell.replace("−", "-")) for cell in cells[1:4]], item.pose, atol=1e-3)
+    assert "The verdict" in page.words["h4"] or "The verdict" in page.words["h3"]
+    refused = re.findall(r"This section does not apply: ([^.]*)\.", text)
+    assert 1 <= len(refused) <= 4
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", assur.names())
+def test_every_mechanism_has_its_report(name, read):
+    found = report_html(assur.load(name), figures=False, resolution=8)
+    page = read(found)
+    assert page.faults == []
+    assert re.findall(r"<h2>(.*?)<a", found) == [title for title, _ in SECTIONS]
+    assert not re.search(r"<mtext>\\\\|\bnan\b|\bNone\b|Infinity", found)
+    text = " ".join(page.words["p"].split())
+    assert "Direct problem: " in text
+    assert "has no closed form" not in text
+    assert len(page.tables["Solutions of the inverse problem"]) > 1
+    assert len(page.tables["Factors and their geometric meaning"]) > 1
 
 
 def test_with_other_dimensions(read):

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
-from assur.cli.output import heading
+from assur.cli.output import Verbatim, heading
 from assur.cli.quantities import count
 
 if TYPE_CHECKING:
@@ -64,11 +64,9 @@ def _outcome(name: str, problems: Iterable[Any], notes: Iterable[Any], facts: di
 
 
 def _shown(data: dict[str, Any], problems: list[Any], notes: list[Any]) -> Iterable[RenderableType]:
-    from rich.text import Text
-
     if problems:
         yield heading(f"{data['mechanism']}: {count(len(problems), 'fault')}")
-        yield from (Text(str(problem)) for problem in problems)
+        yield from (Verbatim(problem) for problem in problems)
         return
     facts = data["facts"]
     yield heading(f"{data['mechanism']}: sound")
@@ -79,4 +77,4 @@ def _shown(data: dict[str, Any], problems: list[Any], notes: list[Any]) -> Itera
     yield (
         "a closed form stands beside it" if facts["closed_form"] else "no closed form: it is solved on its joint graph"
     )
-    yield from (Text(f"note: {note}") for note in notes)
+    yield from (Verbatim(f"note: {note}") for note in notes)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
@@ -27,8 +29,13 @@ def draw_box(page: Canvas, view: View, low: FloatArray, high: FloatArray) -> Non
             page.line(ends, 0.4, PALE if behind else GREY, 1.0 if behind else 1.2)
 
 
-def draw_axes(page: Canvas, view: View, low: FloatArray, high: FloatArray, names: tuple[str, ...], unit: str) -> None:
-    """Ticks and titles of three coordinates on edges of the box between `low` and `high` (3,)."""
+def draw_axes(
+    page: Canvas, view: View, low: FloatArray, high: FloatArray, titles: Sequence[str], per: Sequence[float]
+) -> None:
+    """Ticks and titles of three coordinates on edges of the box between `low` and `high` (3,).
+
+    A tick says what it is times `per` (3,): the number that stands there for one unit of what is drawn.
+    """
     middle = view((low + high) / 2)
     for axis in range(3):
         base = _edge(view, low, high, axis)
@@ -37,14 +44,15 @@ def draw_axes(page: Canvas, view: View, low: FloatArray, high: FloatArray, names
         flat = view(ends)
         away = _outwards(flat, middle)
         page.line(flat, 0.7, INK, 3)
-        for tick in MaxNLocator(5, steps=[1, 2, 5, 10]).tick_values(low[axis], high[axis]):
-            if low[axis] - 1e-9 <= tick <= high[axis] + 1e-9:
+        first, last = low[axis] * per[axis], high[axis] * per[axis]
+        for tick in MaxNLocator(5, steps=[1, 2, 3, 5, 10]).tick_values(first, last):
+            if first - 1e-9 <= tick <= last + 1e-9:
                 at = base.copy()
-                at[axis] = tick
+                at[axis] = tick / per[axis]
                 foot = view(at)
                 page.line(np.array([foot, foot + 3 * away]), 0.5, INK, 3)
                 page.text(foot + 8.5 * away, f"{tick:g}".replace("-", "−"), fontsize=SMALL)
-        page.text(flat.mean(axis=0) + 20 * away, f"${names[axis]}$ ({unit})", fontsize=TEXT)
+        page.text(flat.mean(axis=0) + 23 * away, titles[axis], fontsize=TEXT)
 
 
 def _edge(view: View, low: FloatArray, high: FloatArray, axis: int) -> FloatArray:

@@ -39,7 +39,9 @@ def vanishing(context: Context, margin: str, pose: FloatArray) -> list[str]:
         return []
     there = on_margin(context, margin, pose)
     with np.errstate(divide="ignore", invalid="ignore"):
-        _, branch = branch_at(context.record, there[None], context.workspace.mode, Floats())
+        _, branch = branch_at(
+            context.record, context.workspace.slice.poses(there[None]), context.workspace.mode, Floats()
+        )
         factors = form.factors(Floats(), context.record.values, branch.core)
         sizes = relative_factors(context.record, {name: np.ravel(value) for name, value in factors.items()})
     return [

@@ -17,6 +17,7 @@ from assur.figures.companion import Companion, companion
 from assur.figures.near import near_solid
 from assur.figures.skeleton import Skeleton, skeleton
 from assur.kinematics.home import home_values
+from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.solutions import SolutionSet
 from assur.model.mechanism import MechanismRecord
@@ -53,16 +54,26 @@ class Context:
         """Joint values (n,) of the configuration that is drawn: at the companion's inputs, else home."""
         if self.companion.inputs and self.record.closed_form:
             found = direct(self.record, self._inside(self.companion.inputs), self.record.modes.default_assembly or None)
-            if found.exists[0]:
-                return np.asarray(found.joints[0])
+            if np.any(found.exists):
+                near = skeleton(self.record, self.companion, home_values(self.record))
+                return np.asarray(min(found.joints[found.exists], key=lambda values: self._gap(near, values)))
         return home_values(self.record)
 
     @cached_property
     def pose(self) -> FloatArray:
         """Pose (m,) of the platform in that configuration, in the file's coordinates."""
-        found = self.assemblies
-        gaps = np.where(found.exists[:, None], np.abs(found.joints - self.home), np.inf)
-        return np.asarray(found.poses[int(np.argmin(gaps.max(axis=1)))])
+        return pose_of(self.record, self.home)
+
+    def apart(self, values: FloatArray) -> float:
+        """How far joints and points are at joint values (n,) from where they are in that configuration.
+
+        A rod that spins about its ball joints is not apart from itself.
+        """
+        return self._gap(self.skeleton, values)
+
+    def _gap(self, here: Skeleton, values: FloatArray) -> float:
+        there = skeleton(self.record, self.companion, values).points
+        return float(sum(np.linalg.norm(there[name] - at) for name, at in here.points.items()))
 
     @cached_property
     def skeleton(self) -> Skeleton:

@@ -15,7 +15,8 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from assur.figures.context import Context
-from assur.figures.plots import axis_title, mode_words, no_workspace, outline
+from assur.figures.coordinates import drawn_span, dress, plane_words, symbol, value_words
+from assur.figures.plots import mode_words, no_workspace, outline
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import GREY, INK, PAGE, TEXT, new_figure
 from assur.performance.dexterity import Dexterity, dexterity
@@ -86,9 +87,8 @@ def _factor_caption(measure: Measure, which: str, end: str) -> Callable[[Context
 
 
 def _draw(context: Context, measure: Measure) -> Drawing:
-    box = context.workspace.box
     found = planes(context)
-    spans = [tuple(float(np.ptp(box.intervals[box.axis(name)])) for name in plane[:2]) for plane in found]
+    spans = [tuple(drawn_span(context, name) for name in plane[:2]) for plane in found]
     left, gap, bottom, right = 14.0, 18.0, 17.0, 22.0
     room = PAGE - left - right - gap * (len(found) - 1)
     scale = min(90.0 / max(tall for _, tall in spans), room / sum(wide for wide, _ in spans))
@@ -102,8 +102,8 @@ def _draw(context: Context, measure: Measure) -> Drawing:
     for k, (plane, (wide, tall), (xs, ys, values)) in enumerate(zip(found, spans, maps, strict=True)):
         axes = figure.add_axes((start / width, bottom / height, scale * wide / width, scale * tall / height))
         image = _map(context, axes, plane, xs, ys, values, top)
-        place = f", ${plane[2]}$ = {plane[3]:g} {context.record.unit}" if plane[2] else ""
-        label = f"({chr(97 + k)}) {plane[0].upper()}O{plane[1].upper()}{place}"
+        place = f", {symbol(plane[2])} = {value_words(context, plane[2], plane[3])}" if plane[2] else ""
+        label = f"({chr(97 + k)}) {plane_words(*plane[:2])}{place}"
         figure.text((start + scale * wide / 2) / width, 1.5 / height, label, ha="center", fontsize=TEXT)
         start += scale * wide + gap
         data.append(
@@ -137,7 +137,9 @@ def _values(
     grid[..., box.axis(plane[1])] = ys[:, None]
     if plane[2]:
         grid[..., box.axis(plane[2])] = plane[3]
-    return xs, ys, measure.of(dexterity(context.record, grid, context.workspace.mode))
+    poses = context.workspace.slice.poses(grid.reshape(-1, len(box.names)))
+    values = measure.of(dexterity(context.record, poses, context.workspace.mode))
+    return xs, ys, values.reshape(NODES, NODES)
 
 
 def _map(
@@ -170,8 +172,7 @@ def _map(
         axes.add_patch(border)
         image.set_clip_path(border)
         lines.set_clip_path(border)
-    axes.set_xlabel(axis_title(context, plane[0]))
-    axes.set_ylabel(axis_title(context, plane[1]))
+    dress(context, axes, plane[:2])
     axes.tick_params(color=GREY)
     return image
 

@@ -155,10 +155,16 @@ def draw_measures(page: Canvas, view: View, skeleton: Skeleton, letters: Letters
 
 
 def formula_text(formula: str) -> str:
-    """A product of parameters as mathematics.
+    r"""A product of parameters as mathematics.
 
-    >>> formula_text("2*d"), formula_text("l4")
-    ('$2d$', '$l_{4}$')
+    >>> formula_text("2*d"), formula_text("l4"), formula_text("sqrt(3)*r"), formula_text("uP")
+    ('$2d$', '$l_{4}$', '$\\sqrt{3}\\,r$', '$u_P$')
     """
-    named = re.sub(r"[A-Za-z]\w*", lambda found: mathematics(found[0]) or found[0], formula)
-    return f"${named.replace('*', '')}$"
+    named = re.sub(r"[A-Za-z]\w*", lambda found: mathematics(found[0]) or _indexed(found[0]), formula)
+    rooted = re.sub(r"sqrt\(([^()]*)\)", r"\\sqrt{\1}", named)
+    return f"${rooted.replace('}*', '}' + chr(92) + ',').replace('*', '')}$"
+
+
+def _indexed(name: str) -> str:
+    """A name of two letters as one with an index."""
+    return f"{name[0]}_{name[1]}" if len(name) == 2 else name

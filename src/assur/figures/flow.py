@@ -88,7 +88,9 @@ def _missing(context: Context) -> str:
 def _caption(context: Context) -> str:
     found = boxes(context).values()
     signs = [box.sign for box in found if box.sign]
-    count = f" {len(signs)} choices of sign give {2 ** len(signs)} branches." if signs else ""
+    number = len(signs)
+    choices = "One choice of sign gives" if number == 1 else f"{number} choices of sign give"
+    count = f" {choices} {2**number} branches." if signs else ""
     conditions = ", ".join(f"Eq. {box.equation}" for box in found if box.kind == "condition")
     rest = f" Dashed boxes are geometric constraints ({conditions})." if conditions else ""
     return f"Flow of the direct solution: from the inputs (top) to the pose (bottom).{count}{rest}"

@@ -11,13 +11,16 @@ GREEK = frozenset(
 PRIME = "\N{PRIME}"
 _LETTER = re.compile(r"([A-Z]|[a-z])(\d*)([a-z]?)('*)")
 _WORD = re.compile(r"([A-Za-z]+?)(\d+)([a-z]?)")
+_OF_LIMB = re.compile(r"[A-Za-z_]+(\d+)\.(\w+)")
 
 
 def letter(name: str) -> str:
     r"""A name as it is printed: a letter with its index in italics, a Greek letter, or the words themselves.
 
-    >>> letter("B3a"), letter("O'"), letter("gamma"), letter("slider1")
-    ('$B_{3a}$', '$O$′', '$\\gamma$', 'slider 1')
+    Of a part of a repeated limb the limb's number comes first in the index.
+
+    >>> letter("B3a"), letter("O'"), letter("gamma"), letter("slider1"), letter("leg2.A"), letter("leg2.B1")
+    ('$B_{3a}$', '$O$′', '$\\gamma$', 'slider 1', '$A_{2}$', '$B_{2,1}$')
     """
     plain = name.rstrip("'")
     primes = PRIME * (len(name) - len(plain))  # the font sets a mathematical prime too far off
@@ -30,6 +33,12 @@ def mathematics(name: str) -> str:
     >>> mathematics("l2"), mathematics("platform")
     ('l_{2}', '')
     """
+    of_limb = _OF_LIMB.fullmatch(name)
+    if of_limb:
+        limb, part = of_limb.groups()
+        own = _LETTER.fullmatch(part)
+        index = f"{limb},{own[2]}{own[3]}".removesuffix(",") if own else ""
+        return f"{own[1]}{own[4]}_{{{index}}}" if own else ""
     found = _LETTER.fullmatch(name)
     if found:
         sign, number, suffix, primes = found.groups()
@@ -42,10 +51,13 @@ def mathematics(name: str) -> str:
 
 
 def words(name: str) -> str:
-    """A name of words with its number apart.
+    """A name of words with its number apart; of a limb's part the limb's number.
 
-    >>> words("link4a")
-    'link 4a'
+    >>> words("link4a"), words("leg2.crank")
+    ('link 4a', 'crank 2')
     """
+    of_limb = _OF_LIMB.fullmatch(name)
+    if of_limb:
+        return f"{words(of_limb[2])}{',' if of_limb[2][-1].isdigit() else ' '}{of_limb[1]}"
     found = _WORD.fullmatch(name)
     return f"{found[1]} {found[2]}{found[3]}" if found else name.replace("_", " ")

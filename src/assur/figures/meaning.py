@@ -12,7 +12,7 @@ from assur.figures.letters import letter
 from assur.figures.skeleton import Skeleton
 
 FloatArray = NDArray[np.float64]
-_WORD = re.compile(r"[A-Za-z0-9']+")
+_WORD = re.compile(r"[A-Za-z0-9'.]+")
 _NUMBERED = re.compile(r"\blinks? ((?:\w+)(?:(?:, | and )\d+)*)")
 
 

@@ -114,6 +114,25 @@ def ball(centre: FloatArray, radius: float, colour: str) -> Mesh:
     return Mesh(centre + radius * ways, ways, shape, np.tile(rgb(colour), (len(ways), 1)))
 
 
+def slab(outline: FloatArray, along: FloatArray, colour: str) -> Mesh:
+    """A convex plane outline (k, 3), counter-clockwise seen against `along` (3,), extruded along that vector.
+
+    >>> triangle = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
+    >>> len(slab(triangle, np.array([0.0, 0, 0.2]), "#ffffff").corners)
+    8
+    """
+    count = len(outline)
+    low = np.arange(count)
+    after = np.roll(low, -1)
+    fan = np.column_stack([np.zeros(count - 2, dtype=int), low[1:-1], low[2:]])
+    sides = np.concatenate(
+        [np.column_stack([low, after, after + count]), np.column_stack([low, after + count, low + count])]
+    )
+    return surface(
+        np.concatenate([outline, outline + along]), np.concatenate([fan[:, ::-1], fan + count, sides]), colour
+    )
+
+
 def surface(vertices: FloatArray, faces: NDArray[np.int64], colour: str, crease: float = 25.0) -> Mesh:
     """A triangle mesh (n, 3), (f, 3), smooth except where two faces meet at more than `crease` degrees.
 

@@ -13,14 +13,15 @@ from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 from numpy.typing import NDArray
 
+from assur.errors import UsageError
 from assur.figures.context import Context
-from assur.figures.letters import mathematics
+from assur.figures.coordinates import held_words
 from assur.figures.singular import condition
 from assur.figures.style import BLUE, GREEN, ORANGE, PINK, RED
 from assur.model.closed_form import Factor
-from assur.model.pose import is_angle
 from assur.singularity.loci import Locus
 from assur.workspace.region import Workspace
+from assur.workspace.slices import slice_at
 
 FloatArray = NDArray[np.float64]
 FREE = "#8fd3bd"
@@ -33,17 +34,27 @@ def no_workspace(context: Context) -> str:
     """Why a mechanism has no workspace figures; empty where it has."""
     if context.record.closed_form is None:
         return "the mechanism has no closed form"
-    missing = [name for name in context.record.platform.pose if name not in context.record.box]
+    try:
+        free = free_coordinates(context)
+    except UsageError as error:
+        return error.message
+    missing = [name for name in free if name not in context.record.box]
     if missing:
         return f"the mechanism's file gives no interval for {', '.join(missing)}"
-    return "" if len(context.record.platform.pose) in (2, 3) else "a workspace is drawn in two or three coordinates"
+    return "" if len(free) in (2, 3) else "a workspace is drawn in two or three coordinates"
 
 
 def no_solid_workspace(context: Context) -> str:
     """Why there are no sections or projections; empty where there are."""
     if no_workspace(context):
         return no_workspace(context)
-    return "" if len(context.record.platform.pose) == 3 else "the workspace is plane; its figure shows all of it"
+    return "" if len(free_coordinates(context)) == 3 else "the workspace is plane; its figure shows all of it"
+
+
+def free_coordinates(context: Context) -> tuple[str, ...]:
+    """The coordinates of the pose that vary in the workspace; the others are held."""
+    given = context.given_workspace
+    return given.box.names if given else slice_at(context.record).free
 
 
 def outline(polygons: Sequence[FloatArray]) -> Path | None:
@@ -144,8 +155,9 @@ def present(found: Workspace) -> list[Locus]:
 def legend_of(context: Context, *, near: bool = True, loci: bool = True) -> list[Patch | Line2D]:
     """Handles for the areas and the curves of a workspace figure."""
     found = context.workspace
-    handles: list[Patch | Line2D] = [Patch(facecolor=FREE, label="non-singular")]
-    if near and (present(found) or any(locus.everywhere for locus in found.loci)):
+    words = "non-singular" if nearness(context) or not present(found) else "workspace"
+    handles: list[Patch | Line2D] = [Patch(facecolor=FREE, label=words)]
+    if near and nearness(context):
         handles.append(Patch(facecolor=CLOSE, label=near_words(context)))
     if loci:
         handles += [
@@ -161,6 +173,12 @@ def legend_of(context: Context, *, near: bool = True, loci: bool = True) -> list
     return handles
 
 
+def nearness(context: Context) -> bool:
+    """Whether something is near a parallel singularity and can be told: not where lengths and angles mix."""
+    found = context.workspace
+    return found.share is not None and bool(present(found) or any(locus.everywhere for locus in found.loci))
+
+
 def near_words(context: Context) -> str:
     """E.g. "within 10 mm of a parallel singularity"."""
     return f"within {context.workspace.near:g} {context.record.unit} of a parallel singularity"
@@ -168,7 +186,8 @@ def near_words(context: Context) -> str:
 
 def mode_words(context: Context) -> str:
     """The working mode for a caption."""
-    return "working mode " + context.workspace.mode.replace("-", "−")
+    mode = context.workspace.mode.replace("-", "−")
+    return (f"working mode {mode}" if mode else "every mode") + held_words(context)
 
 
 def locus_words(context: Context) -> str:
@@ -177,8 +196,3 @@ def locus_words(context: Context) -> str:
     if not items:
         return "No parallel-singular surface lies inside."
     return "Parallel-singular surfaces inside: " + "; ".join(items) + "."
-
-
-def axis_title(context: Context, name: str) -> str:
-    """A pose coordinate with its unit."""
-    return f"${mathematics(name) or name}$ ({'rad' if is_angle(name) else context.record.unit})"

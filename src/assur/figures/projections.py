@@ -8,15 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.figures.context import Context
+from assur.figures.coordinates import drawn_span, dress, plane_words
 from assur.figures.plots import (
     CLOSE,
     FREE,
-    axis_title,
     curves,
     fill,
     legend_of,
     mode_words,
     near_words,
+    nearness,
     no_solid_workspace,
     present,
     rim,
@@ -34,18 +35,17 @@ def _planes(context: Context) -> list[tuple[str, str]]:
 
 
 def _caption(context: Context) -> str:
-    names = " and ".join(f"{a.upper()}O{b.upper()}" for a, b in _planes(context))
-    return (
-        f"Projections of the workspace ({mode_words(context)}) on {names}. Coloured as singular is what has a pose"
-        f" {near_words(context)} on its line of sight; lines are the rims of the singular surfaces."
-    )
+    names = "; ".join(plane_words(a, b) for a, b in _planes(context))
+    near = f"Coloured as singular is what has a pose {near_words(context)} on its line of sight; "
+    lines = "lines are the rims of the singular surfaces."
+    rest = near + lines if nearness(context) else lines.capitalize() if present(context.workspace) else ""
+    return f"Projections of the workspace ({mode_words(context)}) on the planes {names}. {rest}".strip()
 
 
 def _draw(context: Context) -> Drawing:
     found = context.workspace
     planes = _planes(context)
-    box = dict(zip(found.box.names, found.box.intervals, strict=True))
-    spans = [(box[a][1] - box[a][0], box[b][1] - box[b][0]) for a, b in planes]
+    spans = [(drawn_span(context, a), drawn_span(context, b)) for a, b in planes]
     left, gap, bottom, top = 14.0, 18.0, 17.0, 9.0
     scale = min(70.0 / max(tall for _, tall in spans), (PAGE - left - gap - 4.0) / sum(wide for wide, _ in spans))
     width = left + gap + 4.0 + scale * sum(wide for wide, _ in spans)
@@ -69,12 +69,9 @@ def _draw(context: Context) -> Drawing:
         keep = [found.box.axis(a), found.box.axis(b)]
         for j, locus in enumerate(present(found)):
             curves(axes, rim(locus)[:, :, keep], j)
-        axes.set_xlim(*box[a])
-        axes.set_ylim(*box[b])
-        axes.set_xlabel(axis_title(context, a))
-        axes.set_ylabel(axis_title(context, b))
+        dress(context, axes, (a, b))
         middle = (start + scale * wide / 2) / width
-        figure.text(middle, 1.5 / height, f"({chr(97 + k)}) {a.upper()}O{b.upper()}", ha="center", fontsize=TEXT)
+        figure.text(middle, 1.5 / height, f"({chr(97 + k)}) {plane_words(a, b)}", ha="center", fontsize=TEXT)
         start += scale * wide + gap
         data["projections"].append(
             {

@@ -6,20 +6,18 @@ from typing import Any
 
 import numpy as np
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from assur.figures.axes3d import draw_axes, draw_box
 from assur.figures.camera import orthographic
 from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
 from assur.figures.context import Context
-from assur.figures.letters import mathematics
+from assur.figures.coordinates import axis_title, drawn_span, dress, shown, stretch
 from assur.figures.mesh import Mesh, creases, joined, surface
 from assur.figures.plots import (
     CLOSE,
     FREE,
     LOCI,
-    axis_title,
     curves,
     factor_of,
     fill,
@@ -34,6 +32,7 @@ from assur.figures.raster import picture
 from assur.figures.singular import condition
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import DOTS_PER_INCH, GREY, PAGE, SMALL, TEXT, mm, new_figure
+from assur.model.pose import is_angle
 from assur.workspace.projections import shadow
 from assur.workspace.region import Workspace
 from assur.workspace.solids import mesh as mesh_of
@@ -45,7 +44,8 @@ FLATTER = 2e-4
 
 def _caption(context: Context) -> str:
     found = context.workspace
-    what = "Area" if len(found.box.names) == 2 else "Volume"
+    mixed = any(map(is_angle, found.box.names))
+    what = "Extent" if mixed else "Area" if len(found.box.names) == 2 else "Volume"
     share = "" if found.share is None else f", {100 * found.share:.1f} % of it {near_words(context)}"
     return (
         f"Workspace in {mode_words(context)} inside the box of the mechanism's file. {what} {size_words(found)}{share}."
@@ -83,20 +83,16 @@ def _draw(context: Context) -> Drawing:
 def _plane(context: Context) -> Any:
     """A plane region as an area."""
     found = context.workspace
-    (left, right), (low, high) = found.box.intervals
+    across, upward = (drawn_span(context, name) for name in found.box.names)
     width = 110.0
-    height = 18.0 + (width - 20.0) * (high - low) / (right - left)
+    height = 18.0 + (width - 20.0) * upward / across
     figure = new_figure(width, height)
     axes = figure.add_axes((16.0 / width, 11.0 / height, (width - 20.0) / width, (height - 18.0) / height))
     fill(axes, found.projection(*found.box.names).polygons, FREE, GREY)
     fill(axes, shadow(context.near, 2)[1], CLOSE)
     for k, locus in enumerate(present(found)):
         curves(axes, locus.vertices[locus.faces], k)
-    axes.set_xlim(left, right)
-    axes.set_ylim(low, high)
-    axes.set_aspect("equal")
-    axes.set_xlabel(axis_title(context, found.box.names[0]))
-    axes.set_ylabel(axis_title(context, found.box.names[1]))
+    dress(context, axes, found.box.names)
     figure.legend(handles=legend_of(context), loc="upper center", ncols=2)
     return figure
 
@@ -104,7 +100,10 @@ def _plane(context: Context) -> Any:
 def _space(context: Context) -> Any:
     """Left the region from outside, right the singular surfaces in it."""
     found = context.workspace
-    low, high = np.array(found.box.low), np.array(found.box.high)
+    drawn = stretch(context)
+    low, high = drawn * found.box.low, drawn * found.box.high
+    titles = [axis_title(context, name) for name in found.box.names]
+    per = [shown(context, name, 1.0) / float(size) for name, size in zip(found.box.names, drawn, strict=True)]
     camera = context.companion.camera("workspace", orthographic(-60, 24))
     corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
     span = np.ptp(camera.project(corners), axis=0)
@@ -114,22 +113,18 @@ def _space(context: Context) -> Any:
     views = [inside(camera, corners, (14.0 + k * (panel + 14.0), 15.0, panel, height)) for k in (0, 1)]
     for view in views:
         draw_box(page, view, low, high)
-        draw_axes(
-            page,
-            view,
-            low,
-            high,
-            tuple(mathematics(name) or name for name in found.box.names),
-            context.record.unit,
-        )
+        draw_axes(page, view, low, high, titles, per)
     if len(found.faces):
-        fine = FLATTER * float(np.max(high - low))
+        fine = FLATTER * float(np.min(np.subtract(found.box.high, found.box.low)))
         parts = [(found.region.solid - context.near, FREE), (context.near, CLOSE)]
-        solids = [surface(*mesh_of(part.simplify(fine)), colour) for part, colour in parts if not part.is_empty()]
+        meshes = [(mesh_of(part.simplify(fine)), colour) for part, colour in parts if not part.is_empty()]
+        solids = [surface(drawn * vertices, faces, colour) for (vertices, faces), colour in meshes]
         _paste(page, views[0], joined(solids), solid=True)
-        for edge in creases(found.vertices, found.faces):
+        for edge in creases(drawn * found.vertices, found.faces):
             page.line(views[1](edge), 0.35, GREY, 5)
-    surfaces = [surface(item.vertices, item.faces, LOCI[k % len(LOCI)]) for k, item in enumerate(present(found))]
+    surfaces = [
+        surface(drawn * item.vertices, item.faces, LOCI[k % len(LOCI)]) for k, item in enumerate(present(found))
+    ]
     if surfaces:
         _paste(page, views[1], joined(surfaces), solid=False)
     _captions(context, page, panel)
@@ -147,7 +142,7 @@ def _paste(page: Canvas, view: View, mesh: Mesh, *, solid: bool) -> None:
 
 def _captions(context: Context, page: Canvas, panel: float) -> None:
     found = context.workspace
-    areas = [Patch(facecolor=FREE, label="non-singular"), Patch(facecolor=CLOSE, label=near_words(context))]
+    areas = legend_of(context, loci=False)
     lines = [
         Line2D([], [], color=LOCI[k % len(LOCI)], linewidth=4, label=condition(factor_of(context, item.factor)))
         for k, item in enumerate(present(found))

@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 
 from assur.figures.borders import border_words, kinds
 from assur.figures.context import Context
+from assur.figures.coordinates import drawn_span, dress, symbol, value_words
 from assur.figures.plots import (
     CLOSE,
     FREE,
-    axis_title,
     curves,
     fill,
+    free_coordinates,
     in_plane,
     legend_of,
     mode_words,
@@ -25,6 +26,7 @@ from assur.figures.plots import (
 )
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import BLUE, GREEN, GREY, INK, PAGE, PINK, SMALL, TEXT, mm, new_figure
+from assur.model.pose import is_angle
 from assur.workspace.sections import Section, cut
 
 FloatArray = NDArray[np.float64]
@@ -36,15 +38,16 @@ def _missing(context: Context) -> str:
         return no_solid_workspace(context)
     if context.given_workspace is not None:
         return "" if context.given_workspace.sections else "the workspace was computed without a section in its box"
-    low, high = context.record.box[context.record.platform.pose[-1]]
+    low, high = context.record.box[free_coordinates(context)[-1]]
     inside = [value for value in context.record.sections if low <= value <= high]
     return "" if inside else "the mechanism's file names no section in its box"
 
 
 def _caption(context: Context) -> str:
     found = context.workspace
-    areas = ", ".join(f"{item.area:.0f}" for item in found.sections)
-    values = ", ".join(f"{item.value:g}" for item in found.sections)
+    areas = ", ".join(_area(item.area) for item in found.sections)
+    name = found.box.names[-1]
+    values = ", ".join(value_words(context, name, item.value) for item in found.sections)
     curved = any(
         len(in_plane(locus, len(found.box.names) - 1, item.value))
         for locus in present(found)
@@ -52,9 +55,8 @@ def _caption(context: Context) -> str:
     )
     rest = "" if curved else " No parallel-singular surface of this working mode meets them."
     return (
-        f"Sections of the workspace ({mode_words(context)}) at ${found.box.names[-1]}$ = {values}"
-        f" {context.record.unit};"
-        f" areas {areas} {mm(context.record.unit + '^2')}."
+        f"Sections of the workspace ({mode_words(context)}) at {symbol(name)} = {values};"
+        f" areas {areas} {_unit(context)}."
         " Borders are named by the margin that is zero there, with the factors that vanish with it in brackets."
         f"{rest}"
     )
@@ -63,13 +65,13 @@ def _caption(context: Context) -> str:
 def _draw(context: Context) -> Drawing:
     found = context.workspace
     names = found.sections[0].plane
-    (x0, x1), (y0, y1) = (found.box.intervals[found.box.axis(name)] for name in names)
+    across, upward = (drawn_span(context, name) for name in names)
     left, bottom, top, gap = 13.0, 21.0, 13.0, 4.5
     count = len(found.sections)
     columns = min(4, count)
     rows = -(-count // columns)
     wide = (PAGE - left - 3.0 - gap * (columns - 1)) / columns
-    tall = wide * (y1 - y0) / (x1 - x0)
+    tall = wide * upward / across
     height = top + rows * (tall + bottom)
     figure = new_figure(PAGE, height)
     used: dict[str, Line2D] = {}
@@ -78,17 +80,14 @@ def _draw(context: Context) -> Drawing:
         low = (rows - 1 - k // columns) * (tall + bottom) + bottom
         axes = figure.add_axes((start / PAGE, low / height, wide / PAGE, tall / height))
         _panel(context, axes, item, used)
-        axes.set_xlim(x0, x1)
-        axes.set_ylim(y0, y1)
-        axes.set_xlabel(axis_title(context, names[0]))
-        if k % columns == 0:
-            axes.set_ylabel(axis_title(context, names[1]))
-        else:
+        dress(context, axes, names)
+        if k % columns:
+            axes.set_ylabel("")
             axes.set_yticklabels([])
         middle = (start + wide / 2) / PAGE
-        title = f"({chr(97 + k)}) ${item.coordinate}$ = {item.value:g} {context.record.unit}"
+        title = f"({chr(97 + k)}) {symbol(item.coordinate)} = {value_words(context, item.coordinate, item.value)}"
         figure.text(middle, (low - 14.0) / height, title, ha="center", fontsize=TEXT)
-        area = f"area {_thousands(item.area)} {mm(context.record.unit + '^2')}"
+        area = f"area {_area(item.area)} {_unit(context)}"
         figure.text(middle, (low - 18.0) / height, area, ha="center", fontsize=SMALL)
     borders = sorted(used, key=lambda name: name == "")
     figure.legend(handles=[*_areas(context), *(used[name] for name in borders)], loc="upper center", ncols=4)
@@ -150,13 +149,19 @@ def _close(context: Context, item: Section) -> tuple[float, tuple[FloatArray, ..
     return cut(context.near, axis, item.value, (box.low[axis], box.high[axis]))
 
 
-def _thousands(value: float) -> str:
-    """A whole number in groups of three, by spaces.
+def _area(value: float) -> str:
+    """A large number whole and in groups of three, by spaces; a small one to four digits.
 
-    >>> _thousands(95000.2)
-    '95 000'
+    >>> _area(95000.2), _area(0.123456)
+    ('95 000', '0.1235')
     """
-    return f"{value:,.0f}".replace(",", " ")
+    return f"{value:,.0f}".replace(",", " ") if value >= 1000 or value == 0 else f"{value:.4g}"
+
+
+def _unit(context: Context) -> str:
+    """Unit of the area of a section."""
+    angles = sum(map(is_angle, context.workspace.sections[0].plane))
+    return (mm(f"{context.record.unit}^2"), f"{context.record.unit} rad", mm("rad^2"))[angles]
 
 
 def _data(context: Context) -> dict[str, Any]:

@@ -26,7 +26,7 @@ from assur.figures.style import LETTER, PAGE, PAPER, RED, SMALL, TEXT
 from assur.kinematics.position import inverse
 from assur.kinematics.status import FACTOR_TOLERANCE, Status, relative_factors
 from assur.model.closed_form import Factor
-from assur.model.pose import is_angle
+from assur.model.pose import LENGTHS, is_angle
 from assur.singularity.examples import SingularExample
 
 FloatArray = NDArray[np.float64]
@@ -96,15 +96,19 @@ def _where(context: Context, example: SingularExample) -> str:
     pose = ", ".join(
         _value(context, name, value) for name, value in zip(context.record.platform.pose, example.pose, strict=True)
     )
-    unit = f" {context.record.unit}" if not any(map(is_angle, context.record.platform.pose)) else ""
+    unit = f" {context.record.unit}" if all(name in LENGTHS for name in context.record.platform.pose) else ""
     status = example.status.name.replace("_", "-")
-    return f"Working mode {signs(example.mode)}, pose ({pose}){unit}; status {status}."
+    mode = f"Working mode {signs(example.mode)}, pose" if example.mode else "Pose"
+    return f"{mode} ({pose}){unit}; status {status}."
 
 
 def _value(context: Context, name: str, value: float) -> str:
     degrees = is_angle(name) and context.record.angle == "deg"
     shown = np.degrees(value) if degrees else value
-    return f"{round(shown, 2) + 0.0:.2f}".replace("-", "−") + ("°" if degrees else "")
+    mixed = name in LENGTHS and not all(other in LENGTHS for other in context.record.platform.pose)
+    unit = "°" if degrees else f" {context.record.unit}" if mixed else ""
+    digits = 2 if degrees or context.skeleton.size > 20 else 4
+    return f"{round(shown, digits) + 0.0:.{digits}f}".replace("-", "−") + unit
 
 
 def signs(mode: str) -> str:
@@ -151,7 +155,8 @@ def _small(page: Canvas, scene: _Scene, label: str, cell: tuple[float, float, fl
     _panel(page, scene, (left + 2, bottom + TEXT_HEIGHT, width - 4, height - TEXT_HEIGHT - 2), TEXT)
     factor = scene.example.factor
     meaning = [typeset(line, scene.body) for line in textwrap.wrap(factor.meaning, 46)[:2]]
-    note = f"mode {signs(scene.example.mode)}, status {scene.example.status.name.replace('_', '-')}"
+    mode = f"mode {signs(scene.example.mode)}, " if scene.example.mode else ""
+    note = f"{mode}status {scene.example.status.name.replace('_', '-')}"
     note += "" if scene.example.in_box else ", outside the box"
     at = np.array([left + width / 2, bottom + TEXT_HEIGHT - 3.5])
     page.text(at * POINTS, f"{label} {condition(factor)} ({factor.kind})", fontsize=TEXT)

@@ -66,6 +66,16 @@ class Mark:
         """Whether the joint lets its links slide along one another."""
         return self.joint.type in (PRISMATIC, CYLINDRICAL)
 
+    @property
+    def shown(self) -> FloatArray:
+        """Where its symbol stands (3,): of a leg that grows longer, in the middle of it."""
+        return (self.at + self.rail) / 2 if self.telescopes else self.at
+
+    @property
+    def telescopes(self) -> bool:
+        """Whether it makes a leg longer that does not slide on the base."""
+        return self.joint.type is PRISMATIC and not self.grounded
+
 
 @dataclass(frozen=True, eq=False)
 class Skeleton:
@@ -97,8 +107,16 @@ class Skeleton:
         """Longest side of the box about all points."""
         return float(np.max(np.ptp(self.cloud, axis=0)))
 
+    @property
+    def chains(self) -> tuple[str, ...]:
+        """Names of the chains: those of the file, else its repeated limbs."""
+        limbs = dict.fromkeys(link.partition(".")[0] for link in self.record.links if "." in link)
+        return tuple(self.record.chains) or tuple(limbs)
+
     def chain_of(self) -> dict[str, str]:
         """Link -> the one chain that it belongs to; the base and the platform belong to none."""
+        if not self.record.chains:
+            return {link: link.partition(".")[0] for link in self.record.links if "." in link}
         found: dict[str, set[str]] = {}
         for chain in self.record.chains.values():
             for name in _joints_of(self.record, (*chain.serial, *chain.loop, *chain.tail)):

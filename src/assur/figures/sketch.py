@@ -16,7 +16,8 @@ from assur.figures.style import BLUE, GREEN, INK, PAPER, PINK, RED, SKY
 from assur.figures.symbols import ground_pivot, ground_rail, joint_symbol
 
 FloatArray = NDArray[np.float64]
-CHAINS = (BLUE, GREEN, RED, PINK, SKY)
+BROWN = "#8c564b"
+CHAINS = (BLUE, GREEN, RED, PINK, SKY, BROWN)
 DOWN = np.array([0.0, 0.0, -1.0])
 
 
@@ -40,7 +41,7 @@ class Pen:
 
 def chain_colours(skeleton: Skeleton) -> dict[str, str]:
     """Link -> colour of the chain that it belongs to."""
-    order = {name: CHAINS[k % len(CHAINS)] for k, name in enumerate(skeleton.record.chains)}
+    order = {name: CHAINS[k % len(CHAINS)] for k, name in enumerate(skeleton.chains)}
     return {link: order[chain] for link, chain in skeleton.chain_of().items()}
 
 
@@ -69,6 +70,9 @@ def draw_bodies(page: Canvas, view: View, skeleton: Skeleton, letters: Letters, 
         page.line(ends, pen.width, pen.colour(rod.link), place[rod.link])
         letters.avoid(ends)
     for mark in skeleton.marks:
+        if mark.telescopes:  # what the two parts of the leg leave open
+            both = view(np.array([mark.rail, mark.at]))
+            page.line(both, 0.6 * pen.width, pen.colour(mark.joint.child), order(mark.shown) - 0.002)
         own = [place[link] for link in (mark.joint.parent, mark.joint.child) if link in place]
         reach = joint_symbol(page, view, mark, max([order(mark.at), *own]) + 0.001, pen.symbol)
         letters.avoid_box(reach)

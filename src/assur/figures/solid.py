@@ -21,11 +21,15 @@ FloatArray = NDArray[np.float64]
 
 
 def _caption(context: Context) -> str:
+    unit = context.record.unit
     values = ", ".join(
-        f"{name} = {item.value:g}" for name, item in context.record.parameters.items() if not item.drawn_only
+        f"{name} = {item.value:g}{'' if item.unit in (unit, '1') else f' {item.unit}'}"
+        for name, item in context.record.parameters.items()
+        if not item.drawn_only
     )
+    dimensions = f" with {values} (lengths in {unit})" if values else ""
     return (
-        f"Model view of the mechanism with {values} ({context.record.unit}). Lengths and axes are those of the joint"
+        f"Model view of the mechanism{dimensions}. Lengths and axes are those of the joint"
         " graph; thicknesses, rails and base plate are drawn only."
     )
 

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.figures.companion import Companion
-from assur.figures.mesh import Mesh, ball, bar, box, cylinder, joined
+from assur.figures.mesh import Mesh, ball, bar, box, cylinder, joined, slab
 from assur.figures.skeleton import Mark, Rod, Skeleton
-from assur.figures.sketch import rails
+from assur.figures.sketch import hull, rails
 from assur.topology.joints import SPHERICAL
 
 FloatArray = NDArray[np.float64]
@@ -23,8 +23,14 @@ DARK = "#5d656c"
 PLATE = "#d5d8da"
 DRIVE = "#e0a020"
 STAGE = "#e6cf6a"
-LINKS = ("#5b9bc8", "#4fb591", "#d98a5f", "#c98bb0", "#8cc3e6")
+LINKS = ("#5b9bc8", "#4fb591", "#d98a5f", "#c98bb0", "#8cc3e6", "#b59a7d")
 PLAIN = "#b4bac0"
+FLAT = 0.1
+"""A platform whose outline has less than this share of the square of its length is drawn as a bar."""
+
+DEEP = 0.2
+"""A platform that is thicker than this share of its length is drawn by its bars alone."""
+
 LAYERS = ((0.0,), (-0.95, 0.95), (-1.8, 1.8))
 THICK = (1.0, 0.7, 0.7)
 """Middles of the plates of a tongue, a fork and a wider fork, and their thickness, in units of `unit`."""
@@ -70,7 +76,7 @@ def link_layers(skeleton: Skeleton) -> dict[str, int]:
 
 
 def _chain_colours(skeleton: Skeleton) -> dict[str, str]:
-    order = {name: LINKS[k % len(LINKS)] for k, name in enumerate(skeleton.record.chains)}
+    order = {name: LINKS[k % len(LINKS)] for k, name in enumerate(skeleton.chains)}
     colours = {link: order[chain] for link, chain in skeleton.chain_of().items()}
     return {**colours, skeleton.record.platform.link: STAGE}
 
@@ -111,11 +117,13 @@ def _joint(skeleton: Skeleton, mark: Mark, layers: Mapping[str, int]) -> list[Me
     if mark.joint.type is SPHERICAL:
         return [ball(mark.at, 1.4 * size, DARK)]
     parts = []
+    if mark.telescopes:
+        parts.append(cylinder(mark.rail, mark.at, 0.5 * size, STEEL))
     if mark.slides:
         axis = mark.axes[0]
         across, up = _across(axis)
         sides = size * np.array([2.6 * axis, 1.9 * across, 1.15 * up])
-        parts.append(box(mark.at + 0.1 * size * up, sides, DRIVE if mark.driven else PLAIN))
+        parts.append(box(mark.shown + 0.1 * size * up, sides, DRIVE if mark.driven else PLAIN))
     else:
         reach = max(max(LAYERS[layers[link]]) for link in (mark.joint.parent, mark.joint.child)) + 0.75
         colour = DRIVE if mark.driven else DARK
@@ -144,7 +152,7 @@ def _across(axis: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _stage(skeleton: Skeleton, colour: str) -> list[Mesh]:
-    """A plate on a platform of three or more joints."""
+    """A plate on a platform of three or more joints that lie almost in a plane across its Z axis."""
     link = skeleton.record.platform.link
     rotation, origin = skeleton.frames[link]
     points = [rod.points for rod in skeleton.rods if rod.link == link] + [
@@ -155,12 +163,30 @@ def _stage(skeleton: Skeleton, colour: str) -> list[Mesh]:
         return []
     size = unit(skeleton)
     local = (np.concatenate(points) - origin) @ rotation
+    if np.ptp(local[:, 2]) > DEEP * np.max(np.ptp(local, axis=0)):
+        return []
+    level = float(local[:, 2].max()) + 1.3 * size
+    corners = _outline(local[:, :2], 2.4 * size)
+    if len(corners):
+        raised = np.column_stack([corners, np.full(len(corners), level)])
+        return [slab(origin + raised @ rotation.T, 0.8 * size * rotation[:, 2], colour)]
     low, high = (
         local.min(axis=0) - np.array([1.2 * size, 3.4 * size, 0.0]),
         local.max(axis=0) + np.array([1.2 * size, 3.4 * size, 0.0]),
     )
-    low[2], high[2] = high[2] + 1.3 * size, high[2] + 2.1 * size
+    low[2], high[2] = level, level + 0.8 * size
     return [box(origin + rotation @ ((low + high) / 2), np.diag((high - low) / 2) @ rotation.T, colour)]
+
+
+def _outline(points: FloatArray, margin: float) -> FloatArray:
+    """Convex hull (k, 2) of points, moved out by a margin; empty (0, 2) where they lie almost on a line."""
+    corners = hull(points)
+    along, across = np.roll(corners, -1, axis=0), np.ptp(points, axis=0)
+    area = 0.5 * abs(float(np.sum(corners[:, 0] * along[:, 1] - corners[:, 1] * along[:, 0])))
+    if len(corners) < 3 or area < FLAT * float(np.max(across)) ** 2:
+        return np.zeros((0, 2))
+    outwards = corners - corners.mean(axis=0)
+    return np.asarray(corners + margin * outwards / np.linalg.norm(outwards, axis=1, keepdims=True))
 
 
 def _base(skeleton: Skeleton, companion: Companion) -> list[Mesh]:

@@ -18,12 +18,15 @@ from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import BLUE, GREEN, INK, ORANGE, PAGE, PINK, RED, SKY, SMALL, TEXT
 from assur.kinematics.solution import Solution
-from assur.model.pose import is_angle
+from assur.model.pose import QUATERNION, is_angle
 
 FloatArray = NDArray[np.float64]
 TALLEST = 105.0
 GAP = 12.0
 """Of the drawings, in mm."""
+
+MOST = 8
+"""More than these on one another cannot be read."""
 
 GHOSTS = (RED, BLUE, GREEN, PINK, SKY, ORANGE, "#7f7f7f")
 
@@ -42,11 +45,9 @@ class Ghost:
 def ghosts(context: Context) -> list[Ghost]:
     """Every listed direct solution at the inputs of the configuration that is drawn; that one comes first."""
     record = context.record
-    values = [np.array(list(item.joints.values())) for item in context.assemblies]
-    order = np.argsort(
-        [float(np.linalg.norm(_wrapped(context, joints - context.home))) for joints in values], kind="stable"
-    )
     listed = list(context.assemblies)
+    values = [np.array(list(item.joints.values())) for item in listed]
+    order = np.argsort([context.apart(joints) for joints in values], kind="stable")
     found = []
     for number, k in enumerate(order):
         body = skeleton(record, context.companion, values[k])
@@ -54,12 +55,6 @@ def ghosts(context: Context) -> list[Ghost]:
         colour = INK if number == 0 else GHOSTS[(number - 1) % len(GHOSTS)]
         found.append(Ghost(number + 1, listed[k], body, colour, rotation @ record.platform.point + origin))
     return found
-
-
-def _wrapped(context: Context, gap: FloatArray) -> FloatArray:
-    """Differences of joint values, angles of which count up to whole turns."""
-    angles = np.array([item.kind == "angle" for item in context.record.coordinates])
-    return np.where(angles, np.arctan2(np.sin(gap), np.cos(gap)), gap)
 
 
 def _missing(context: Context) -> str:
@@ -72,7 +67,11 @@ def _caption(context: Context) -> str:
         f"${item.latex or mathematics(item.name)}$ = {_printed(context, value, item.coordinate.kind)}"
         for item, value in zip(context.record.inputs, found.given, strict=True)
     )
-    return f"All {len(found)} real direct solutions at {names}, with the coordinates of O' and the assembly mode."
+    what = f"All {len(found)} real direct solutions" if found.complete else f"{len(found)} direct solutions"
+    rest = "" if found.complete else f" They are {found.right}."
+    if len(found) > MOST:
+        rest = f" Drawn are the {MOST} that are nearest to the first.{rest}"
+    return f"{what} at {names}, with the coordinates of O' and the assembly mode.{rest}"
 
 
 def _printed(context: Context, value: float, kind: str) -> str:
@@ -87,7 +86,8 @@ def _draw(context: Context) -> Drawing:
     cameras = [context.camera("solutions", oblique("y", "z", 211, 0.85))]
     if not context.planar:
         cameras.append(plane("x", "z"))
-    cloud = np.concatenate([cloud_of(item.skeleton, context.companion) for item in found])
+    drawn = found[:MOST]
+    cloud = np.concatenate([cloud_of(item.skeleton, context.companion) for item in drawn])
     spans = np.array([np.ptp(camera.project(cloud), axis=0) for camera in cameras])  # (panels, 2)
     scale = min(TALLEST / spans[:, 1].max(), (PAGE - GAP * (len(cameras) + 1)) / spans[:, 0].sum())
     rooms = scale * spans
@@ -96,7 +96,7 @@ def _draw(context: Context) -> Drawing:
     page = canvas(width, height + table + 12.0)
     left = (width - float(rooms[:, 0].sum()) - GAP * (len(cameras) - 1)) / 2
     for k, (camera, room) in enumerate(zip(cameras, rooms, strict=True)):
-        _panel(context, page, inside(camera, cloud, (left, table + 6.0, float(room[0]), height)), found)
+        _panel(context, page, inside(camera, cloud, (left, table + 6.0, float(room[0]), height)), drawn)
         if len(cameras) > 1:
             middle = (left + float(room[0]) / 2) * POINTS
             page.text((middle, (table + 2.5) * POINTS), ("(a)", "(b) XOZ plane")[k], fontsize=TEXT)
@@ -127,7 +127,7 @@ def _panel(context: Context, page: Canvas, view: View, found: list[Ghost]) -> No
 def _table(context: Context, page: Canvas, found: list[Ghost], width: float, height: float) -> None:
     """Coordinates of every solution, in its colour."""
     record = context.record
-    heads = ["", *(f"${name}$ ({_unit(context, name)})" for name in record.platform.pose), "mode"]
+    heads = ["", *(_head(context, name) for name in record.platform.pose), "mode"]
     step = min(34.0, (width - 24.0) / len(heads))
     left = (width - step * (len(heads) - 1)) / 2
     top = height - 3.0
@@ -149,8 +149,10 @@ def _cells(context: Context, ghost: Ghost) -> list[str]:
     return [f"{round(value, 4) + 0.0:.4f}".replace("-", "−") for value in shown]
 
 
-def _unit(context: Context, name: str) -> str:
-    return context.record.angle if is_angle(name) else context.record.unit
+def _head(context: Context, name: str) -> str:
+    """Title of the column of a coordinate, with its unit; the components of a quaternion have none."""
+    unit = "" if name in QUATERNION else f" ({context.record.angle if is_angle(name) else context.record.unit})"
+    return f"${mathematics(name) or name}$$\\,${unit}" if unit else f"${mathematics(name) or name}$"
 
 
 def _data(context: Context, found: list[Ghost]) -> dict[str, Any]:

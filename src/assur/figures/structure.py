@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from assur.figures.camera import oblique
 from assur.figures.canvas import Canvas, View, fitted
 from assur.figures.context import Context
-from assur.figures.letters import letter, words
+from assur.figures.letters import letter, mathematics, words
 from assur.figures.placing import Letters
-from assur.figures.skeleton import Skeleton
+from assur.figures.skeleton import Rod, Skeleton
 from assur.figures.sketch import CHAINS, Pen, chain_colours, cloud_of, draw_bodies, draw_ground, rails
 from assur.figures.spec import Drawing, Entry, always
 from assur.figures.style import GREY, INK, SMALL, TEXT
@@ -26,8 +26,15 @@ def _caption(context: Context) -> str:
     return (
         "Kinematic diagram in a parallel projection: circles are revolute joints seen along their axes, sleeves those"
         " seen sideways, boxes on hatched guides are prismatic joints; actuated joints are filled. Numbers in squares"
-        f" are links.{context.schematic_note}"
+        f" are links.{_limbs(context)}{context.schematic_note}"
     )
+
+
+def _limbs(context: Context) -> str:
+    """How the parts of repeated limbs are numbered, e.g. " $A_{1}$ is A of leg1."."""
+    first = next((name for name in context.record.joints if "." in name and mathematics(name)), "")
+    limb, _, own = first.partition(".")
+    return f" ${mathematics(first)}$ is {own} of {limb}, and so on." if first else ""
 
 
 def _draw(context: Context) -> Drawing:
@@ -49,23 +56,30 @@ def _draw(context: Context) -> Drawing:
 def _name_joints(view: View, skeleton: Skeleton, letters: Letters) -> None:
     for mark in skeleton.marks:
         name = mark.joint.alias or mark.joint.name
-        letters.add(view(mark.at), letter(name), clear=8.0 if mark.slides else 5.0, fontsize=TEXT)
+        letters.add(view(mark.shown), letter(name), clear=8.0 if mark.slides else 5.0, fontsize=TEXT)
 
 
 def _name_links(context: Context, view: View, skeleton: Skeleton, letters: Letters) -> None:
     square = {"boxstyle": "square,pad=0.18", "facecolor": "white", "edgecolor": GREY, "linewidth": 0.4}
     style: dict[str, Any] = {"fontsize": SMALL, "bbox": square}
-    for rod in skeleton.rods:
-        if rod.size > 0:
-            letters.add_along(view(rod.points), rod.label or words(rod.link), **style)
+    for rod in _one_for_each(skeleton):
+        letters.add_along(view(rod.points), rod.label or words(rod.link), **style)
     for plate in skeleton.plates:
         letters.add(view(plate.points.mean(axis=0)), plate.label or words(plate.link), clear=0.0, **style)
     base = context.companion.links.get(skeleton.record.base, words(skeleton.record.base))
-    for _, end in rails(skeleton, context.companion):
-        letters.add(view(end), base, clear=7.0, **style)
-    for mark in skeleton.marks:
-        if mark.grounded and not mark.slides:
-            letters.add(view(mark.at) - [0.0, 11.0], base, clear=6.0, **style)
+    feet = [(view(end), 7.0) for _, end in rails(skeleton, context.companion)]
+    feet += [(view(mark.at) - [0.0, 11.0], 6.0) for mark in skeleton.marks if mark.grounded and not mark.slides]
+    for foot, clear in feet[: None if base.isdigit() else 1]:  # a word would fill the page
+        letters.add(foot, base, clear=clear, **style)
+
+
+def _one_for_each(skeleton: Skeleton) -> list[Rod]:
+    """The longest rod of each link and label, which bears its name."""
+    found: dict[tuple[str, str], Rod] = {}
+    for rod in sorted(skeleton.rods, key=lambda rod: -rod.size):
+        if rod.size > 0:
+            found.setdefault((rod.link, rod.label), rod)
+    return list(found.values())
 
 
 def _drives(page: Canvas, view: View, skeleton: Skeleton, letters: Letters) -> None:
@@ -73,7 +87,7 @@ def _drives(page: Canvas, view: View, skeleton: Skeleton, letters: Letters) -> N
     for mark in skeleton.marks:
         if not mark.driven:
             continue
-        at = view(mark.at)
+        at = view(mark.shown)
         along = direction(view, mark.axes[0])
         if mark.slides:
             low = at - np.array([0.0, 10.5])
@@ -95,8 +109,8 @@ def _number_loops(context: Context, page: Canvas, view: View, skeleton: Skeleton
 
 
 def _legend(context: Context, page: Canvas) -> None:
-    names = context.companion.chains or {name: words(name) for name in context.record.chains}
-    order = list(context.record.chains)
+    order = list(context.schematic.chains)
+    names = context.companion.chains or {name: words(name) for name in order}
     lines = [Line2D([], [], color=CHAINS[order.index(name) % len(CHAINS)], linewidth=2) for name in names]
     if lines:
         page.axes.legend(lines, list(names.values()), loc="upper right", fontsize=SMALL)

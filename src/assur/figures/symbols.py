@@ -22,7 +22,7 @@ ROUND = np.array([[-1.0, -1.0], [1.0, 1.0]])
 
 def joint_symbol(page: Canvas, view: View, mark: Mark, order: float, size: float = 1.0) -> FloatArray:
     """The symbol of one joint; a driven one is filled. Returns points (k, 2) about it."""
-    at = view(mark.at)
+    at = view(mark.shown)
     fill = ORANGE if mark.driven else PAPER
     if mark.joint.type is SPHERICAL:
         page.disc(at, 1.2 * size * RADIUS, fill, order=order)

@@ -7,23 +7,29 @@ from functools import lru_cache
 import numpy as np
 
 from assur.errors import MechanismFileError, Problem
-from assur.kinematics.border import inputs_of
+from assur.kinematics.claims import Claims, axis_name, claims
 from assur.kinematics.closure import characteristic_length
+from assur.kinematics.freedoms import freedom_problems, pose_problems
+from assur.kinematics.gaps import gap_problems
 from assur.kinematics.home import home_values
-from assur.kinematics.instantaneous import instantaneous
-from assur.kinematics.motions import Ranks, general
-from assur.model.file.faults import path_text
+from assur.kinematics.limits import Limit, limits
+from assur.model.file.place import input_place, place, problem, table_place
 from assur.model.file.toml_source import KeyPath
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import rate_names
 
 SMALLEST, LARGEST = 1e-3, 50.0
 """A mechanism smaller or larger than this, in metres, has probably its lengths in another unit."""
 
 METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
+TINY = 1 / 500
+"""A length below this share of the longest may be in another unit."""
+
 TURNS = 1e-6
 """A platform whose angular velocity, of a motion of size one, stays below this keeps its orientation."""
+
+ROUND = 1e-7
+"""Home may stand on a bound: beyond it by this (rad, or share of the characteristic length) is not outside."""
 
 
 @lru_cache(maxsize=64)
@@ -31,110 +37,139 @@ def faults(record: MechanismRecord) -> tuple[Problem, ...]:
     """Faults of a mechanism whose file reads well: loops that do not close, no freedom, too few or too many inputs,
     inputs or a pose that say the same twice, a constant orientation that turns, a home beyond its limits.
 
+    All that do not follow from one another, in the order of the file.
+
     >>> from assur.model.registry import load_record
     >>> faults(load_record("zeng2019"))
     ()
     """
-    try:
-        home_values(record)
-    except MechanismFileError as error:
-        return error.problems
-    usual = general(record)
-    return tuple(_freedoms(record, usual) or (*_pose(record, usual), *_orientation(record), *_limits(record)))
+    if not joint_graph(record).cut:
+        what = "no loop: nothing but serial chains"
+        hint = "its joint values are its position; assur is for closed loops"
+        return (problem(record, table_place(record, "joints"), what, "at least one closed loop", hint),)
+    gaps = () if record.overrides else gap_problems(record)
+    if gaps:
+        return _ordered(gaps)
+    here = claims(record)
+    found = freedom_problems(record, here)
+    if here.moving:
+        found += [*pose_problems(record, here), *_orientation(record, here)]
+    return _ordered([*found, *_limits(record)])
+
+
+def _ordered(problems: list[Problem] | tuple[Problem, ...]) -> tuple[Problem, ...]:
+    return tuple(sorted(problems, key=lambda item: item.line or 0))
 
 
 def check(record: MechanismRecord) -> None:
-    """Raise `MechanismFileError` with every fault, if there is one."""
+    """Raise `MechanismFileError` with every fault, if there is one.
+
+    >>> from assur.model.registry import load_record
+    >>> check(load_record("fivebar"))
+    """
     found = faults(record)
     if found:
         raise MechanismFileError(found)
 
 
 def doubts(record: MechanismRecord) -> tuple[Problem, ...]:
-    """What is no fault but probably not meant: a mechanism of the size of a pin or of a house, spinning links.
+    """What is no fault but probably not meant: a mechanism of the size of a pin or of a house, a length that is tiny
+    against the others, a home of many turns.
 
     >>> from assur.model.registry import load_record
     >>> doubts(load_record("zeng2019"))
     ()
     """
-    size = characteristic_length(record) * METRES[record.unit]
+    return _ordered([*_size(record), *_tiny(record), *_turns(record)])
+
+
+def _size(record: MechanismRecord) -> list[Problem]:
+    length = characteristic_length(record)
+    size = length * METRES[record.unit]
     if SMALLEST <= size <= LARGEST:
-        return ()
+        return []
     hint = f"is it {'m' if size < SMALLEST else 'mm'} that is meant?"
-    found = f"the longest link measures {characteristic_length(record):.3g} {record.unit}, that is {size:.3g} m"
-    return (_problem(record, ("unit",), found, "that may be, but it is unusual", hint),)
+    found = f"the longest link measures {length:.3g} {record.unit}, that is {size:.3g} m"
+    return [problem(record, ("unit",), found, f"it is unusual, but may be: {SMALLEST:g} m to {LARGEST:g} m", hint)]
 
 
-def _freedoms(record: MechanismRecord, usual: Ranks) -> list[Problem]:
-    """Freedoms against inputs, by the rank of the whole joint graph."""
-    count, internal = int(usual.freedoms), int(usual.internal)
-    moving, driven = count - internal, len(record.inputs)
-    names = ", ".join(item.name for item in record.inputs)
-    path: KeyPath = ("inputs",)
-    if moving == 0:
-        found = f"a structure that cannot move: {len(record.coordinates)} joint freedoms, rank {int(usual.closure)}"
-        return [_problem(record, ("joints",), found, "at least one freedom", "are axes parallel that should be?")]
-    freedoms = f"the mechanism has {moving} freedom{'s' if moving > 1 else ''}"
-    if driven < moving:
-        found = f"{driven} input{'s' if driven > 1 else ''} ({names}); {freedoms}"
-        return [_problem(record, path, found, "one input for each freedom", "name further inputs, or fix joints")]
-    if driven > moving:
-        found = f"{driven} inputs ({names}); {freedoms}"
-        return [_problem(record, path, found, "one input for each freedom", "it is over-actuated: leave inputs out")]
-    if int(usual.inputs) < driven:
-        found = f"inputs ({names}) that depend on one another: rank {int(usual.inputs)} of {driven}"
-        return [_problem(record, path, found, "inputs that determine the mechanism", "drive other joints")]
-    return []
+def _tiny(record: MechanismRecord) -> list[Problem]:
+    length = characteristic_length(record)
+    return [
+        problem(
+            record,
+            ("parameters", name, "value"),
+            f"{item.value:.4g} {item.unit}, where the longest link measures {length:.4g} {record.unit}",
+            "it is unusual, but may be",
+            f"is it in another unit than {item.unit}?",
+        )
+        for name, item in record.parameters.items()
+        if item.unit == record.unit and 0 < abs(item.value) < TINY * length
+    ]
 
 
-def _pose(record: MechanismRecord, usual: Ranks) -> list[Problem]:
-    """Whether the coordinates of the pose can be chosen freely, and say all that moves."""
-    names = rate_names(record.platform.pose)
-    path: KeyPath = ("platform", "pose")
-    listed = ", ".join(record.platform.pose)
-    if int(usual.pose) < len(names):
-        found = f"{listed}: {len(names)} coordinates of which only {int(usual.pose)} are independent"
-        return [_problem(record, path, found, "coordinates that the platform can choose", "leave one out")]
-    if int(usual.pose) < len(record.inputs):
-        found = f"{listed}: {len(names)} coordinates for {len(record.inputs)} freedoms"
-        return [_problem(record, path, found, "as many as there are freedoms", "which way does the platform turn?")]
-    return []
+def _turns(record: MechanismRecord) -> list[Problem]:
+    found: list[Problem] = []
+    for item in record.coordinates:
+        if item.kind == "angle" and abs(record.home[item.index]) > 4 * np.pi:
+            turns = record.home[item.index] / (2 * np.pi)
+            hint = "are the angles in deg?" if record.angle == "rad" else ""
+            text = f"{record.coordinate_label(item)} begins at {turns:.3g} turns"
+            found.append(problem(record, place(record, "home", item.joint), text, "it is unusual, but may be", hint))
+    return _one_each(found)
 
 
-def _orientation(record: MechanismRecord) -> list[Problem]:
-    if record.platform.orientation != "constant":
+def _orientation(record: MechanismRecord, here: Claims) -> list[Problem]:
+    turning = here.motion.twists[..., :3, :]
+    if record.platform.orientation != "constant" or float(np.max(np.abs(turning), initial=0.0)) <= TURNS:
         return []
-    home = home_values(record)
-    motion = instantaneous(record, home).motion
-    turning = float(np.max(np.abs(motion.twists[..., :3, :]), initial=0.0))
-    if turning <= TURNS:
-        return []
-    found = '"constant", but the platform turns when it moves'
-    return [_problem(record, ("platform", "orientation"), found, '"constant" only where it keeps its orientation')]
+    found = f'"constant", but the platform turns as it moves, about {axis_name(turning)}'
+    hint = "leave it out; or which axes should be parallel, which rods equally long?"
+    path: KeyPath = ("platform", "orientation")
+    return [problem(record, path, found, '"constant" only where it keeps its orientation', hint)]
 
 
 def _limits(record: MechanismRecord) -> list[Problem]:
-    """Home against the limits of joints and the strokes of inputs."""
+    """Home against limits and cones of joints and strokes of inputs; of repeated limbs the first that is out."""
     home = home_values(record)
-    problems = []
-    slices = joint_graph(record).slices
-    for name, joint in record.joints.items():
-        for value, limit, component in zip(
-            home[slices[name]], joint.limits or (None,) * joint.type.freedoms, joint.type.components, strict=True
-        ):
-            if limit is not None and not limit[0] <= value <= limit[1]:
-                found = f"home has {component} = {value:.6g}, outside [{limit[0]:.6g}, {limit[1]:.6g}]"
-                problems.append(_problem(record, ("joints", name, "limits"), found, "limits that home keeps"))
-    for item, printed in zip(record.inputs, inputs_of(record, home), strict=True):
-        if item.stroke is not None and not item.stroke[0] <= printed <= item.stroke[1]:
-            found = f"home has {item.name} = {printed:.6g}, outside [{item.stroke[0]:.6g}, {item.stroke[1]:.6g}]"
-            problems.append(_problem(record, ("inputs", item.coordinate.joint, "stroke"), found, "a stroke with home"))
-    return problems
+    length = characteristic_length(record)
+    written = [float(limit.value(record.home)) for limit in limits(record, record.home)]
+    return _one_each(
+        [
+            _outside(record, limit, float(limit.value(home)), before)
+            for limit, before in zip(limits(record, home), written, strict=True)
+            if float(limit.margin(home)) < -ROUND * (1.0 if limit.angular else length)
+        ]
+    )
 
 
-def _problem(record: MechanismRecord, path: KeyPath, found: str, allowed: str, hint: str = "") -> Problem:
-    """A problem with the line at which its path, or the nearest part of it, stands in the file."""
-    line = None
-    if record.description is not None:
-        line = record.description.source.line(path)
-    return Problem(str(record.file), line, path_text(path), found, f"allowed: {allowed}", hint)
+def _outside(record: MechanismRecord, limit: Limit, value: float, written: float) -> Problem:
+    kind, _, name = limit.name.partition(" of ")
+    joint = record.coordinates[limit.index].joint
+    own, low, high = (_shown(record, limit, item) for item in (value, limit.low, limit.high))
+    inside = limit.low <= written <= limit.high
+    hint = (
+        f"the file's home has {_shown(record, limit, written)}; from there the loops close at {own}" if inside else ""
+    )
+    if kind == "cone":
+        path = (*place(record, "joints", joint), "cone")
+        found = f"home tilts {joint} by {own}, out of its cone of {high}"
+        hint = hint or "the cone's axis has the same components in both frames: is it the middle of the motion?"
+        return problem(record, path, found, "a home inside", hint)
+    if kind == "stroke":
+        path = (*input_place(record, record.coordinates[limit.index]), "stroke")
+    else:
+        path = (*place(record, "joints", joint), "limits")
+    found = f"home has {name} = {own}, outside {low} to {high}"
+    return problem(record, path, found, "a home inside", hint)
+
+
+def _shown(record: MechanismRecord, limit: Limit, value: float) -> str:
+    if not limit.angular:
+        return f"{value:.6g} {record.unit}"
+    return f"{np.degrees(value):.6g} deg" if record.angle == "deg" else f"{value:.6g} rad"
+
+
+def _one_each(problems: list[Problem]) -> list[Problem]:
+    """Of several problems at one place, as the limbs of a template have, the first."""
+    return list({item.path: item for item in reversed(problems)}.values())[::-1]

@@ -128,13 +128,16 @@ class Eliminant:
     """A direct problem reduced to one polynomial: the second kind of closed form, its branches are the roots.
 
     The root finder stands outside the kernels. All complex roots are found, so the real ones are all there are.
+    With `signs` there is a polynomial for every choice of them, and both kernels take the signs as a last argument.
+    Choose an unknown in which poses that a symmetry exchanges differ: where they share a root, it is a multiple one.
 
     Attributes:
         unknown: the name of what is found, a quantity of the mechanism ("phi").
         kind: "angle", where the polynomial is in the tangent of half of it, or "plain".
-        degree: of the polynomial: how many poses there are at most.
-        coefficients: (ns, p, inputs) -> degree + 1 numbers, the constant term first.
-        back: (ns, p, inputs, root) -> Branch; the root is a pair (cosine, sine) where it is an angle.
+        degree: how many poses there are at most: the degree of the polynomial, or the sum of the degrees of all.
+        coefficients: (ns, p, inputs[, sign]) -> the coefficients of one polynomial, the constant term first.
+        back: (ns, p, inputs, root[, sign]) -> Branch; the root is a pair (cosine, sine) where it is an angle.
+        signs: names of the signs; a pose and its mirror image may share a root and differ in one that only `back` uses.
     """
 
     unknown: str
@@ -142,6 +145,12 @@ class Eliminant:
     degree: int
     coefficients: Callable[..., Sequence[Number]]
     back: Callable[..., Branch]
+    signs: tuple[str, ...] = ()
+
+    @property
+    def roots(self) -> int:
+        """How many roots one polynomial has."""
+        return int(self.degree // 2 ** len(self.signs))
 
 
 @dataclass(frozen=True)

@@ -178,7 +178,7 @@ def real_angles(coefficients: ArrayLike, tolerance: float = NEARLY_REAL) -> Floa
     >>> (real_angles([1.0, -2.0, 1.0]) / np.pi).round(12)
     array([0.5, 0.5])
     """
-    angles = _angle_of(roots(coefficients))
+    angles = angle_of(roots(coefficients))
     return np.asarray(np.sort(np.where(np.abs(angles.imag) <= tolerance, angles.real, np.nan), axis=-1))
 
 
@@ -197,7 +197,7 @@ def real_roots(coefficients: ArrayLike, size: float = 1.0, tolerance: float = NE
     return np.asarray(np.sort(np.where(real, finite.real, np.nan), axis=-1))
 
 
-def _angle_of(found: ComplexArray) -> ComplexArray:
+def angle_of(found: ComplexArray) -> ComplexArray:
     """Twice the arctangent, with real part in (-pi, pi]; pi at infinity, no real angle at +-i."""
     infinite = np.isinf(found)
     finite = np.where(infinite, 0, found)
@@ -205,3 +205,58 @@ def _angle_of(found: ComplexArray) -> ComplexArray:
     angle = 2 * np.arctan(np.where(poles, 0, finite))
     angle = np.where(infinite | (angle.real <= -np.pi), np.pi + 1j * angle.imag, angle)
     return np.asarray(np.where(poles, np.inf * 1j, angle))
+
+
+def nearness(
+    coefficients: ArrayLike, found: ComplexArray, rounding: ArrayLike
+) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+    """Whether roots (..., d) of polynomials (..., d + 1) may be real, and how many roots lie where each may lie.
+
+    Nobody can tell polynomials apart whose coefficients differ by less than `rounding` (..., d + 1). From the real
+    point x below a root, m roots are at most s away; if
+
+        |a_d| prod_k max(|x - t_k|, s) <= sum_j rounding_j |x|^j,
+
+    one of these polynomials has about x a root m times. So a root whose own distance is such an s may be real; the
+    number is the largest such m, at least 1. Distances are chords of the circle of which the real line is an image, so
+    that infinity is a point as any other. Where the polynomial vanishes or is not finite nothing is real.
+
+    Returns:
+        may_be_real (..., d), count (..., d): a root that may be real and is alone is a simple real one.
+
+    Example: a double root, split by rounding, a simple one and a complex pair.
+
+    >>> coefficients = np.polynomial.polynomial.polyfromroots([2, 2, -1, 1j, -1j]).real
+    >>> real, count = nearness(coefficients, roots(coefficients), 1e-14 * np.abs(coefficients))
+    >>> sorted(count[real].tolist()), int(real.sum())
+    ([1, 2, 2], 3)
+    """
+    given = np.asarray(coefficients, dtype=float)
+    degree = given.shape[-1] - 1
+    flat, all_roots = given.reshape(-1, degree + 1), found.reshape(-1, degree)
+    change = np.broadcast_to(np.asarray(rounding, dtype=float), given.shape).reshape(flat.shape)
+    with np.errstate(all="ignore"):
+        largest = np.max(np.abs(flat), axis=-1, keepdims=True, initial=0.0)
+        flat, change = flat / largest, change / largest
+        far = np.isinf(all_roots)
+        finite = np.where(far, 0, all_roots)
+        length = np.where(far, 1, np.sqrt(1 + np.abs(finite) ** 2))
+        # points (1, t) / sqrt(1 + |t|^2), and below each root a real one, (cosine, sine)
+        one, other = np.where(far, 0, 1 / length), np.where(far, 1, finite / length)
+        beyond = np.abs(all_roots) > 1
+        nearer = np.where(far, 0, np.where(beyond, 1 / np.where(finite == 0, 1, finite), finite))
+        angle = np.arctan2(2 * nearer.real, 1 - np.abs(nearer) ** 2)[:, :, None] / 2
+        turned = beyond[:, :, None]
+        cosine = np.where(turned, np.sin(angle), np.cos(angle))
+        sine = np.where(turned, np.cos(angle), np.sin(angle))
+        chords = np.abs(cosine * other[:, None] - sine * one[:, None])  # (N, root, from each root)
+        last = np.take_along_axis(np.abs(flat), (degree - np.sum(far, axis=-1))[:, None], axis=-1)
+        size = last * np.prod(length, axis=-1, keepdims=True)
+        powers = np.arange(degree + 1)
+        bound = np.sum(change[:, None] * np.abs(cosine ** (degree - powers) * sine**powers), axis=-1)
+        levels = np.sort(chords, axis=-1)
+        reached = np.prod(np.maximum(levels[:, :, None], levels[..., None]), axis=-1) * size[..., None]
+        own = np.prod(np.maximum(chords, np.diagonal(chords, axis1=1, axis2=2)[..., None]), axis=-1) * size
+        real = own <= bound
+        count = np.maximum(np.sum(reached <= bound[..., None], axis=-1), 1)
+    return real.reshape(found.shape), count.reshape(found.shape)

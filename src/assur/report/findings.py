@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import cast
@@ -13,28 +14,42 @@ from assur.audit import audit as auditing
 from assur.audit.reference import Reference, read_reference
 from assur.audit.rows import Audit, Row
 from assur.audit.tables import Table
-from assur.errors import UsageError
+from assur.errors import AssurError, MechanismFileError, UsageError
 from assur.figures import Context
 from assur.kinematics.answers import inputs_from_border, pose_from_border
+from assur.kinematics.closure import characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.solution import Solution
 from assur.kinematics.solutions import SolutionSet
 from assur.kinematics.status import closed_form_of
-from assur.kinematics.velocity import VelocityMap, velocity_map
-from assur.model.closed_form import ClosedForm
+from assur.kinematics.velocity import VelocityMap, velocity_map, velocity_map_at
+from assur.model.closed_form import Branch, ClosedForm, Eliminant, PolynomialSystem
+from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
+from assur.model.points import point
 from assur.performance.dexterity import GlobalIndex, global_condition_index
 from assur.report.formulas.reading import Reading, reading
 from assur.report.numbers import Style, style_of
 from assur.report.pictures import pictures
 from assur.results.kinds import Picture
 from assur.singularity.examples import SingularExample
+from assur.singularity.verdict import Verdict, verdict_at
 from assur.topology.facts import Topology
 from assur.workspace.region import RESOLUTION, Workspace, workspace
 
 FloatArray = NDArray[np.float64]
+REFUSED = (UsageError, MechanismFileError)
+"""What says that an analysis does not apply to a mechanism, or not to its file as it is."""
+
+
+def reason(error: AssurError) -> str:
+    """Why an analysis was refused, in one line, without a path of this machine."""
+    if isinstance(error, MechanismFileError):
+        first = error.problems[0]
+        return f"{first.path}: {first.found}"
+    return error.message
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,6 +135,11 @@ class Findings:
 
     # ---- position ----------------------------------------------------------------------------------------------
 
+    def kernel(self, problem: Problem) -> Callable[..., Branch] | Eliminant | PolynomialSystem | None:
+        """What answers a problem: a kernel by signs, one polynomial, a system of them, or nothing but a search."""
+        form = self.record.closed_form
+        return None if form is None else form.direct if problem == "direct" else form.inverse
+
     def formulas(self, problem: Problem) -> Reading:
         """The closed form, written down."""
         return self._direct_formulas if problem == "direct" else self._inverse_formulas
@@ -153,16 +173,23 @@ class Findings:
         found = list(self.direct)
         if not found:
             raise UsageError(f"{self.record.name} has no real solution at the inputs that the report is about")
-        chosen = [item for item in found if item.assembly_mode == self.record.modes.default_assembly]
-        if self.table("direct") and chosen:
-            return chosen[0]
-        return min(found, key=self._from_home)
+        of_mode = [item for item in found if item.assembly_mode == self.record.modes.default_assembly]
+        chosen = (
+            of_mode[0] if self.table("direct") and of_mode else min(found, key=lambda it: self._apart(it, self.home))
+        )
+        if self.record.closed_form is None or self.kernel("direct") is not None:
+            return chosen
+        joints = np.array(list(chosen.joints.values()))  # of a search, which knows no factors
+        return min(inverse(self.record, chosen.pose), key=lambda item: self._apart(item, joints), default=chosen)
 
-    def _from_home(self, solution: Solution) -> float:
-        gap = np.array(list(solution.joints.values())) - self.home
-        angular = np.array([item.kind == "angle" for item in self.record.coordinates])
-        turned = np.where(angular, np.angle(np.exp(1j * np.where(angular, gap, 0.0))), gap)
-        return float(np.linalg.norm(turned))
+    def _apart(self, solution: Solution, joints: FloatArray) -> float:
+        """How far joints and platform of a solution are from where they are at joint values (n,); rods may spin."""
+        values = np.array([list(solution.joints.values()), joints])
+        placed = frames(self.record, values)
+        names = (*self.record.joints, *self.record.points)
+        places = np.stack([point(self.record, name, values) for name in names], axis=-2)
+        turned = placed[self.record.platform.link][0] * characteristic_length(self.record)
+        return float(np.linalg.norm(places[0] - places[1]) + np.linalg.norm(turned[0] - turned[1]))
 
     @cached_property
     def pose(self) -> FloatArray:
@@ -177,10 +204,22 @@ class Findings:
         """All inputs at this pose."""
         return inverse(self.record, self.pose)
 
+    @property
+    def joints(self) -> FloatArray:
+        """Joint values (n,) of the configuration that the report is about."""
+        return np.array(list(self.solution.joints.values()))
+
     @cached_property
     def velocity(self) -> VelocityMap:
-        """Jp and Jq in the configuration that the report is about."""
+        """Jp and Jq in the configuration that the report is about: of the closed form, else of the joint graph."""
+        if self.record.closed_form is None:
+            return velocity_map_at(self.record, self.joints)
         return velocity_map(self.record, self.solution.pose, self.solution.working_mode)
+
+    @cached_property
+    def verdict(self) -> Verdict:
+        """The verdict of the joint graph on the configuration that the report is about."""
+        return verdict_at(self.record, self.joints)
 
     # ---- regions -----------------------------------------------------------------------------------------------
 
@@ -208,7 +247,7 @@ class Findings:
         """What the figures share, with the workspace where there is one."""
         try:
             return Context(self.record, self.workspace)
-        except UsageError:
+        except REFUSED:
             return Context(self.record)
 
     def picture(self, *names: str) -> tuple[Picture, ...]:

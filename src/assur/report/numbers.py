@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from assur.kinematics.closure import characteristic_length
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import is_angle
+from assur.model.pose import QUATERNION, is_angle
 
 NOTHING = "–"
 SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
@@ -27,7 +28,9 @@ class Style:
         return fixed(value, (4 if self.angle == "deg" else 6) if angle else self.decimals)
 
     def title(self, name: str, *, angle: bool) -> str:
-        """A column's title with its unit."""
+        """A column's title with its unit; the components of a quaternion have none."""
+        if name in QUATERNION:
+            return name
         return f"{name} [{shown_unit(self.angle if angle else self.unit)}]"
 
 
@@ -45,6 +48,24 @@ def pose_angles(record: MechanismRecord) -> tuple[bool, ...]:
 def input_angles(record: MechanismRecord) -> tuple[bool, ...]:
     """For every input, whether it is an angle."""
     return tuple(item.coordinate.kind == "angle" for item in record.inputs)
+
+
+def pose_words(record: MechanismRecord, style: Style, pose: Sequence[float]) -> str:
+    """A pose at the border, in words: "x = 1.0000, phi = 30.0000"."""
+    parts = zip(record.platform.pose, pose, pose_angles(record), strict=True)
+    return ", ".join(f"{name} = {style.written(float(value), angle=angle)}" for name, value, angle in parts)
+
+
+def extent_unit(record: MechanismRecord, names: Sequence[str]) -> str:
+    """Unit of a length, an area or a volume in these coordinates of the pose.
+
+    >>> from assur.model.registry import load_record
+    >>> extent_unit(load_record("zeng2019"), ("x", "z")), extent_unit(load_record("zeng2019"), ("x", "phi"))
+    ('mm²', 'mm rad')
+    """
+    angles = sum(map(is_angle, names))
+    powers = ((record.unit, len(names) - angles), ("rad", angles))
+    return " ".join(shown_unit(f"{unit}^{power}" if power > 1 else unit) for unit, power in powers if power)
 
 
 def fixed(value: float | None, decimals: int) -> str:

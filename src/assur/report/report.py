@@ -8,9 +8,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import assur
-from assur.errors import UsageError
 from assur.model.mechanism import MechanismRecord
-from assur.report.findings import Findings
+from assur.report.findings import REFUSED, Findings, reason
 from assur.report.render import Page, page_html
 from assur.report.sections.auditing import auditing
 from assur.report.sections.basis import basis
@@ -78,7 +77,7 @@ def report_page(findings: Findings, progress: Progress | None = None) -> Page:
     """The report as sections of results, before it is rendered."""
     tick = _ticker(len(ANALYSES) + len(SECTIONS), progress)
     for analysis in ANALYSES:
-        with contextlib.suppress(UsageError):  # the sections that need it say why
+        with contextlib.suppress(*REFUSED):  # the sections that need it say why
             getattr(findings, analysis)
         tick()
     sections = []
@@ -106,5 +105,5 @@ def _section(title: str, make: Callable[[Findings], Section], findings: Findings
     """A section, or the reason why it does not apply to this mechanism."""
     try:
         return make(findings)
-    except UsageError as error:
-        return Section(title, absent=f"This section does not apply: {error.message}.")
+    except REFUSED as error:
+        return Section(title, absent=f"This section does not apply: {reason(error)}.")

@@ -46,6 +46,13 @@ CASES: list[tuple[str, str, list[str]]] = [
      ["6: platform.pose: half a quaternion; allowed: qw, qx, qy, qz together, without angles"]),
     ('"y"] }', '"y", "phi"], orientation = "constant" }',
      ["6: platform.pose: a coordinate that turns; allowed with constant orientation: x, y, z"]),
+    ('base = "ground"', 'base = ["ground", "rocker"]',
+     ["5: base: a list of 2; allowed: the name of one link",
+      "? one link stands still; all joints on the ground have it as their parent or child"]),
+    ('unit = "mm"', 'unit = 1', ["3: unit: 1; allowed: mm, cm, m, in or ft"]),
+    ('"coupler", point', '"cuopler", point',
+     [f"6: platform.link: unknown link 'cuopler'; {LINKS}", "? did you mean 'coupler'?"]),
+    ('platform = { link = "coupler", ', "platform = { ", ["6: platform.link: missing; this key must be there"]),
     # parameters
     ("value = 40", 'value = "4o"',
      ['9: parameters.l1.value: "4o" has \'o\' at character 2; expected an operator or the end',
@@ -159,6 +166,10 @@ CASES: list[tuple[str, str, list[str]]] = [
      ['22: joints.A.cone.angle: "181"; allowed: above 0, up to half a turn',
       "28: inputs.A: 'A' has 3 components; allowed: A.rx or A.ry or A.rz",
       "45: home.A: 1 values; allowed: 3 (rx, ry, rz)"]),
+    ('"l1", 0, 0', '"1e12*l1", 0, 0', ['23: joints.B.at[0]: "1e12*l1" is 4e+13; allowed: numbers up to 1e+12']),
+    ("B = -50", "B = 1e13", ['46: home.B: "10000000000000.0" is 1e+13; allowed: numbers up to 1e+12']),
+    ("value = 40", f"value = 0x{'f' * 3000}",
+     [" a whole number of thousands of digits; numbers within the range of floats"]),
     # names
     ('axis = "z"', 'axis = "z", alias = "R 1"',
      [f'22: joints.A.alias: "R 1" is no name; {NAME}', "? the reader adds the dots in names such as leg1.B"]),
@@ -293,6 +304,69 @@ def test_a_type_that_is_none_is_told(fourbar: str, faults: Faults, tag: str) -> 
     assert found[0].startswith("f.toml:22: joints.A.type: ")
     assert TYPES in found[0]
     assert len([line for line in found if not line.startswith("    ")]) == 1
+
+
+def test_islands_are_told_each_with_all_that_hangs_on_it(fourbar: str, faults: Faults) -> None:
+    text = fourbar.replace("rocker = {}", "rocker = {}\nwall = {}\ndoor = {}\nlost = {}")
+    text = text.replace("[joints]", '[joints]\nH = { type = "revolute", parent = "wall", child = "door", axis = "z" }')
+    assert faults(text + "H = 0\n") == [
+        "f.toml:20: links.wall: 'wall' is not connected to the base, nor is what hangs on it (door); "
+        "allowed: one connected graph",
+        "    hint: a second base? All links that stand still are one link, the base",
+        "f.toml:22: links.lost: 'lost' is not connected to the base; allowed: one connected graph",
+    ]
+
+
+def test_points_that_nearly_coincide_are_no_mechanism(faults: Faults) -> None:
+    text = """
+format = 1
+name = "pin"
+unit = "mm"
+angle = "deg"
+base = "base"
+platform = { link = "hand", pose = ["x"] }
+links = { base = {}, hand = {} }
+inputs = { J = { name = "q" } }
+home = { J = 0 }
+[joints]
+J = { type = "revolute", parent = "base", child = "hand", axis = "z", at = [1e-200, 0, 0] }
+"""
+    assert faults(text) == [
+        "f.toml:11: joints: no coordinate of a joint exceeds 1e-200 mm; "
+        "allowed: links of at least 1e-09 mm, or all of no size"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("table", "count", "most", "line"),
+    [("joints", 205, 200, 21), ("links", 405, 400, 15), ("parameters", 4006, 4000, 8), ("points", 402, 400, 33)],
+)
+def test_more_than_any_mechanism_has_is_refused(
+    fourbar: str, faults: Faults, table: str, count: int, most: int, line: int
+) -> None:
+    own = {"joints": 4, "links": 4, "parameters": 5, "points": 1}[table]
+    entry = {
+        "joints": '{ type = "revolute", parent = "ground", child = "crank", axis = "z" }',
+        "links": "{}",
+        "parameters": "{ value = 1 }",
+        "points": '{ link = "crank" }',
+    }[table]
+    entries = "\n".join(f"n{index} = {entry}" for index in range(count - own))
+    text = fourbar.replace(f"[{table}]\n", f"[{table}]\n{entries}\n")
+    assert faults(text) == [f"f.toml:{line}: {table}: {count} entries; allowed: at most {most}"]
+
+
+def test_a_hundred_faults_are_told_and_the_rest_counted(fourbar: str, faults: Faults) -> None:
+    text = fourbar + "\n".join(f"k{index} = 1" for index in range(130))
+    found = [line for line in faults(text) if not line.startswith("    ")]
+    assert len(found) == 101
+    assert found[0] == f"f.toml:49: home.k0: unknown joint 'k0'; {JOINTS}"
+    assert found[-1] == "f.toml: 30 more faults; correct the others first"
+
+
+def test_long_texts_are_cut(fourbar: str, faults: Faults) -> None:
+    (fault,) = faults(fourbar.replace('base = "ground"', f'base = "{"g" * 90_000}"'))
+    assert fault == f"f.toml:5: base: unknown link '{'g' * 57}...'; {LINKS}"
 
 
 @pytest.mark.parametrize("table", ["links", "joints", "home", "inputs", "parameters", "limbs"])

@@ -76,6 +76,7 @@ def test_a_parallelogram_is_one_joint(read: Read, kind: str) -> None:
 
 
 EQUAL = "allowed: opposite sides of equal length"
+ONCE = "allowed: each joint in one chain, once"
 CASES = [
     ("d = { value = 30 }", "d = { value = 31 }",
      [f"23: generalised.Pa: no parallelogram: sides 30 on left and 31 on right; {EQUAL}"]),
@@ -115,6 +116,13 @@ CASES = [
      ["29: chains.only.output: unknown link 'rigth'; there is: ground, left, right, top", "? did you mean 'right'?"]),
     ('serial = ["Pa"]', 'loop = ["A", "B", "C", "D"]\noutput = "right"\ntail = ["D"]',
      ["30: chains.only.tail: ends at 'ground'; allowed: from 'right' to 'top'"]),
+    ('serial = ["Pa"]', 'serial = ["Pa", "Pa", "Pa"]', [f"27: chains.only: '{name}' stands here twice; {ONCE}"
+                                                        for name in "ABCD"]),
+    ('serial = ["Pa"]', 'serial = ["Pa"]\n[chains.other]\nserial = ["A", "B"]',
+     [f"29: chains.other: '{name}' stands here in the chain 'only' as well; {ONCE}" for name in "AB"]),
+    ('serial = ["Pa"]', 'serial = ["A", "B"]',
+     [f"27: chains: no chain has C, D; {ONCE}",
+      "? the chains together are the whole mechanism; without any they are found from the joints"]),
 ]  # fmt: skip
 
 
@@ -129,7 +137,7 @@ def test_a_fault_of_the_graph_is_told(faults: Faults, old: str, new: str, expect
 @pytest.mark.parametrize("order", [["A", "B", "C", "D"], ["B", "A", "D", "C"], ["C", "B", "A", "D"]])
 def test_a_loop_may_be_given_from_any_joint_in_either_sense(read: Read, order: list[str]) -> None:
     loop = ", ".join(f'"{name}"' for name in order)
-    text = four("P(4R)").replace('serial = ["Pa"]', f'loop = [{loop}]\noutput = "right"\ntail = ["C"]')
+    text = four("P(4R)").replace('serial = ["Pa"]', f'loop = [{loop}]\noutput = "top"')
     assert read(text).chains["only"].loop == tuple(order)
 
 

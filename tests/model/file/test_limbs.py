@@ -211,3 +211,13 @@ def test_the_limbs_of_two_templates_may_not_have_one_name(faults: Faults) -> Non
 def test_a_table_of_a_template_that_is_none_ends_the_reading(faults: Faults, table: str) -> None:
     text = f"[limbs.leg]\nrepeat = {{ about = 'z', count = 3 }}\n{table} = 3"
     assert faults(text) == [f"f.toml:3: limbs.leg.{table}: 3; allowed: a table {{ ... }}"]
+
+
+@pytest.mark.parametrize(("old", "new"), [("120", '"turn"'), ("120", "370"), ('"4*pi/3 + turn"', '"2*pi + turn"')])
+def test_two_limbs_at_one_place_are_refused(faults: Faults, old: str, new: str) -> None:
+    (told,) = faults(DELTA.replace(ANGLES, ANGLES.replace(old, new, 1)))
+    which = ("1 and 2", 1) if old == "120" else ("1 and 3", 2)
+    assert told == (
+        f"f.toml:15: limbs.leg.repeat.angles[{which[1]}]: limbs {which[0]} at one place; "
+        "allowed: each limb at its own angle"
+    )

@@ -106,12 +106,26 @@ def test_what_is_not_toml_is_refused_with_its_line(text: str, line: int, row: st
     [
         ("a = " + "[" * 5000 + "]" * 5000, "brackets nested too deeply"),
         ("a = " + "1" * 5000, "not TOML"),
-        ("#" * 1_000_001, "1000001 characters"),
+        ("#" * 200_001, "200001 characters"),
+        ("a = 0x" + "f" * 5000, "a whole number of thousands of digits"),
+        ("a" + ".a" * 20 + " = 1", "brackets nested too deeply; at most 20 levels"),
+        ("a" + ".a" * 50_000 + " = 1", "brackets nested too deeply; at most 20 levels"),
+        ("a = [" + "1," * 5001 + "]", "5001 elements in one list; at most 5000"),
+        ("\n".join(f"a{n} = 1" for n in range(5001)), "5001 keys in one table; at most 5000"),
     ],
 )
 def test_what_is_too_large_is_refused(text: str, found: str) -> None:
     with pytest.raises(MechanismFileError, match=found):
         read_toml(text, "f.toml")
+
+
+def test_depth_is_told_with_its_line_and_is_none_in_a_text_or_a_comment() -> None:
+    deep = "a" + ".a" * 25
+    source = read_toml(f'# {deep}\nx = "{deep}"\ny = """\n{deep}"""\nz = \'{deep}\'\n', "f.toml")
+    assert source.data == dict.fromkeys("xyz", deep)
+    with pytest.raises(MechanismFileError) as caught:
+        read_toml(f"x = 1\n\n[{deep}]", "f.toml")
+    assert caught.value.problems[0].line == 3
 
 
 def test_brackets_as_deep_as_the_toml_reader_goes_are_no_crash() -> None:

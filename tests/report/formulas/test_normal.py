@@ -32,7 +32,7 @@ A, B, C = (
         (1 - A * A, "1 - a^2"),
         (-A * B / 3, "-a b/3"),
         (0.5 * A, "a/2"),
-        (Tracing().sqrt(A * A - B) * A, "a sqrt(a^2 - b)"),
+        (Tracing(BOOK).sqrt(A * A - B) * A, "a sqrt(a^2 - b)"),
         (2 / A, "2/a"),
     ],
 )

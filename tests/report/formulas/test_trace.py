@@ -36,6 +36,7 @@ def test_a_power_of_one_letter_is_written_as_such():
 
 
 def test_values_follow_the_arithmetic():
-    x, y = letters(Book())
-    term = Tracing().sqrt((2 - x) / y + 3 * (-x)) - 1 / y
+    book = Book()
+    x, y = letters(book)
+    term = Tracing(book).sqrt((2 - x) / y + 3 * (-x)) - 1 / y
     assert np.allclose(term.values, np.sqrt((2 - X) / Y - 3 * X) - 1 / Y)

@@ -14,7 +14,7 @@ from assur.model.file.build_letters import build_angles, build_modes, build_poin
 from assur.model.file.description import Description
 from assur.model.file.faults import Faults
 from assur.model.file.graph_checks import check_graph
-from assur.model.file.limbs import expand
+from assur.model.file.limbs import expand, repeated
 from assur.model.file.names import check_names
 from assur.model.file.numbers import Numbers
 from assur.model.file.parameters import evaluate_parameters
@@ -35,6 +35,9 @@ _REQUIRED = {
     "inputs": "a table of the actuated joints",
     "home": "values of all joints near one assembled configuration",
 }
+MOST = {"joints": 200, "limbs": 60, "parameters": 4000}
+"""Sizes far beyond any mechanism, so that no file takes long."""
+_OTHERS = 400
 
 
 def build(description: Description, overrides: Mapping[str, float], faults: Faults) -> MechanismRecord:
@@ -44,6 +47,7 @@ def build(description: Description, overrides: Mapping[str, float], faults: Faul
         MechanismFileError: every fault of the description, those already noted among them.
     """
     file, cut = description.entry, description.cut
+    _check_size(file, faults)
     _check_required(file, cut, faults)
     tables = expand(description, faults)
     check_names(file, tables, faults)
@@ -83,6 +87,17 @@ def build(description: Description, overrides: Mapping[str, float], faults: Faul
         check_graph(record, tables, faults)
     faults.raise_any()
     return record
+
+
+def _check_size(file: schema.FileEntry, faults: Faults) -> None:
+    """Limbs count as often as they repeat."""
+    most = {**dict.fromkeys(("links", "inputs", "generalised", "points", "home"), _OTHERS), **MOST}
+    for table, limit in most.items():
+        count = len(file.inputs.entries if table == "inputs" else getattr(file, table))
+        count += sum(len(getattr(limb, table, ())) * repeated(limb) for limb in file.limbs.values())
+        if count > limit:
+            faults.add((table,), f"{count} entries", f"allowed: at most {limit}")
+            faults.raise_any()
 
 
 def _check_required(file: schema.FileEntry, cut: frozenset[KeyPath], faults: Faults) -> None:

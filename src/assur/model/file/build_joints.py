@@ -41,9 +41,18 @@ class Geometry:
         else:
             count = repeat.count or 1
             angles = [2 * math.pi * index / count for index in range(count)]
+        self._check_apart(angles, (*path, "angles"))
         for index, angle in enumerate(angles):
             turn = rotations.about_axis(axis, np.array(angle))
             self._turns[Instance(limb, index + 1).prefix] = turn
+
+    def _check_apart(self, angles: list[float], path: KeyPath) -> None:
+        """No two limbs at one place."""
+        for index, angle in enumerate(angles):
+            for other in range(index):
+                if abs(math.remainder(angle - angles[other], 2 * math.pi)) < SMALL:
+                    found = f"limbs {other + 1} and {index + 1} at one place"
+                    self.numbers.faults.add((*path, index), found, "allowed: each limb at its own angle")
 
     def vector(self, components: Triple, path: KeyPath, instance: Instance | None = None) -> FloatArray:
         """A point (3,)."""

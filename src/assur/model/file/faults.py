@@ -9,6 +9,10 @@ from assur.errors import MechanismFileError, Problem
 from assur.model.file.toml_source import KeyPath, TomlSource
 
 _SHOWN = 24
+MOST = 100
+"""So many faults are told one by one; who has more has one cause for all of them."""
+_LONG = 400
+_COMPARED = 500
 
 
 class Faults:
@@ -18,23 +22,32 @@ class Faults:
         self.file = file
         self.source = source
         self.problems: list[Problem] = []
+        self.more = 0
 
     def add(self, path: KeyPath, found: str, allowed: str, hint: str = "") -> None:
         """Note what was found at a place and what is allowed there."""
+        if len(self.problems) >= MOST:
+            self.more += 1
+            return
         while path and isinstance(path[-1], int) and path not in self.source.lines:
             path = path[:-1]  # an index into what the file writes as one value
-        problem = Problem(self.file, self.source.line(path), path_text(path), found, allowed, hint)
+        place = (self.file, self.source.line(path), path_text(path))
+        problem = Problem(*place, cut(found, _LONG), cut(allowed, 2 * _LONG), cut(hint, _LONG))
         if problem not in self.problems:
             self.problems.append(problem)
 
     def unknown(self, path: KeyPath, kind: str, name: str, choices: Iterable[str]) -> None:
         """Note a name that does not exist, with those that do, nearest first in the hint."""
-        self.add(path, f"unknown {kind} '{name}'", f"there is: {listed(choices)}", nearest(name, choices))
+        told = len(self.problems) < MOST
+        hint = nearest(name, choices) if told else ""
+        self.add(path, f"unknown {kind} '{cut(name)}'", f"there is: {listed(choices) if told else ''}", hint)
 
     def raise_any(self) -> None:
         """Raise `MechanismFileError` with every problem in the order of the file, if there is one."""
         if self.problems:
-            raise MechanismFileError(sorted(self.problems, key=lambda problem: problem.line or 0))
+            rest = [Problem(self.file, None, "", f"{self.more} more faults", "correct the others first")]
+            ordered = sorted(self.problems, key=lambda problem: problem.line or 0)
+            raise MechanismFileError([*ordered, *(rest if self.more else [])])
 
 
 def path_text(path: KeyPath) -> str:
@@ -49,8 +62,17 @@ def path_text(path: KeyPath) -> str:
             text += f"[{part}]"
         else:
             plain = part.replace("_", "a").replace("-", "a").isalnum() and part.isascii()
-            text += ("." if text else "") + (part if plain else f'"{part}"')
+            text += ("." if text else "") + (cut(part) if plain else f'"{cut(part)}"')
     return text
+
+
+def cut(text: str, length: int = 60) -> str:
+    """A text for a message, cut where it is very long.
+
+    >>> cut("a long name", 9)
+    'a long...'
+    """
+    return text if len(text) <= length else text[: length - 3] + "..."
 
 
 def listed(names: Iterable[str]) -> str:
@@ -61,7 +83,7 @@ def listed(names: Iterable[str]) -> str:
     """
     ordered = sorted(names)
     more = f", and {len(ordered) - _SHOWN} more" if len(ordered) > _SHOWN else ""
-    return ", ".join(ordered[:_SHOWN]) + more if ordered else "none"
+    return ", ".join(map(cut, ordered[:_SHOWN])) + more if ordered else "none"
 
 
 def nearest(name: str, choices: Iterable[str]) -> str:
@@ -70,5 +92,8 @@ def nearest(name: str, choices: Iterable[str]) -> str:
     >>> nearest("axsi", ["axis", "at"])
     "did you mean 'axis'?"
     """
-    near = difflib.get_close_matches(name, sorted(choices), n=2, cutoff=0.5)
+    choices = sorted(choices)
+    if len(choices) > _COMPARED:
+        return ""
+    near = difflib.get_close_matches(cut(name), choices, n=2, cutoff=0.5)
     return f"did you mean {' or '.join(repr(item) for item in near)}?" if near else ""

@@ -128,6 +128,9 @@ def _note(details: ErrorDetails, path: KeyPath, faults: Faults) -> None:
         faults.add(path, value, f"allowed: {context['expected']}".replace("'", ""), hint)
     elif path[0] == "parameters" and len(path) == 2 and isinstance(details["input"], int | float | str):
         faults.add(path, value, _TYPES[kind], f"write {path[1]} = {{ value = {value} }}")
+    elif path == ("base",):
+        hint = "one link stands still; all joints on the ground have it as their parent or child"
+        faults.add(path, value, "allowed: the name of one link", hint)
     else:
         faults.add(path, value, _TYPES.get(kind, f"allowed: {details['msg'].removeprefix('Input should be ')}"))
 

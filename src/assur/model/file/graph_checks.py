@@ -1,17 +1,17 @@
-"""What the joint graph must be: one piece, without dead ends, and as its chains and parallelograms say."""
+"""What the joint graph must be: one piece, without dead ends, and as its parallelograms say."""
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 
 import networkx as nx
 import numpy as np
 
+from assur.model.file.chain_checks import check_chains, is_first
 from assur.model.file.faults import Faults, listed
-from assur.model.file.limbs import Instance, Tables
+from assur.model.file.limbs import Tables
 from assur.model.file.toml_source import KeyPath
-from assur.model.mechanism import Chain, GeneralisedJoint, Joint, MechanismRecord
+from assur.model.mechanism import GeneralisedJoint, Joint, MechanismRecord
 from assur.numerics.rotations import FloatArray
 
 _CORNERS = {
@@ -22,24 +22,19 @@ _CORNERS = {
 }
 """Types of the four joints in turn, from one end of the first rod to that of the second."""
 _EQUAL = 1e-9
+_SMALLEST = 1e-9
 
 
 def check_graph(record: MechanismRecord, tables: Tables, faults: Faults) -> None:
     """Note what is wrong with the graph of a record whose names and numbers are right."""
     _check_connected(record, tables, faults)
+    _check_size(record, faults)
     for name, placed in tables.generalised.items():
-        if _is_first(placed.instance):
+        if is_first(placed.instance):
             _check_parallelogram(record, record.generalised[name], placed.path, faults)
     if faults.problems:
         return
-    for name, place in tables.chains.items():
-        if _is_first(place.instance):
-            _check_chain(record, record.chains[name], place.path, faults)
-
-
-def _is_first(instance: Instance | None) -> bool:
-    """The other limbs of a template are turned copies of the first."""
-    return instance is None or instance.number == 1
+    check_chains(record, tables, faults)
 
 
 def _check_connected(record: MechanismRecord, tables: Tables, faults: Faults) -> None:
@@ -47,13 +42,27 @@ def _check_connected(record: MechanismRecord, tables: Tables, faults: Faults) ->
     graph.add_nodes_from(record.links)
     graph.add_edges_from((joint.parent, joint.child) for joint in record.joints.values())
     reached = nx.node_connected_component(graph, record.base)
+    for island in nx.connected_components(graph):
+        first, *others = [name for name in tables.links if name in island]
+        if first not in reached:
+            placed = tables.links[first]
+            more = f", nor is what hangs on it ({listed(others)})" if others else ""
+            hint = "a second base? All links that stand still are one link, the base" if others else ""
+            found = f"'{placed.local}' is not connected to the base{more}"
+            faults.add(placed.path, found, "allowed: one connected graph", hint)
     for name, placed in tables.links.items():
         joints = graph.degree(name)
-        if name not in reached:
-            faults.add(placed.path, f"'{placed.local}' is not connected to the base", "allowed: one connected graph")
-        elif joints == 1 and name not in (record.base, record.platform.link):
+        if name in reached and joints == 1 and name not in (record.base, record.platform.link):
             hint = "a body that only rides along belongs to the link that carries it, as a point"
             faults.add(placed.path, f"'{placed.local}' dangles: it has one joint only", "allowed: two or more", hint)
+
+
+def _check_size(record: MechanismRecord, faults: Faults) -> None:
+    """Points that all coincide are a spherical mechanism; points that nearly do are no mechanism."""
+    size = max(float(np.max(np.abs([joint.at, joint.child_at]))) for joint in record.joints.values())
+    if 0 < size < _SMALLEST:
+        found = f"no coordinate of a joint exceeds {size:.3g} {record.unit}"
+        faults.add(("joints",), found, f"allowed: links of at least {_SMALLEST:g} {record.unit}, or all of no size")
 
 
 def _check_parallelogram(record: MechanismRecord, item: GeneralisedJoint, path: KeyPath, faults: Faults) -> None:
@@ -110,58 +119,3 @@ def _in_link(joint: Joint, link: str) -> tuple[FloatArray, FloatArray]:
     """Point and first axis of a joint in the frame of one of its links."""
     axis = joint.axes[0] if len(joint.axes) else np.zeros(3)
     return (joint.at, axis) if link == joint.parent else (joint.child_at, joint.turn.T @ axis)
-
-
-def _check_chain(record: MechanismRecord, chain: Chain, path: KeyPath, faults: Faults) -> None:
-    platform = record.platform.link
-    if bool(chain.serial) == bool(chain.loop or chain.output or chain.tail):
-        faults.add(path, "neither serial nor a loop", "allowed: serial, or loop, output and tail")
-        return
-    if chain.serial:
-        _check_walk(record, chain.serial, (record.base, platform), (*path, "serial"), faults)
-        return
-    visited = _loop(record, chain.loop)
-    if visited is None or record.base not in visited:
-        faults.add((*path, "loop"), "no closed loop through the base", "allowed: joints in turn around one")
-    elif chain.output not in visited:
-        faults.add((*path, "output"), f"'{chain.output}' is not on the loop", f"allowed: {listed(visited)}")
-    else:
-        _check_walk(record, chain.tail, (chain.output, platform), (*path, "tail"), faults)
-
-
-def _ends(record: MechanismRecord, name: str) -> tuple[str, str]:
-    item = record.generalised[name] if name in record.generalised else record.joints[name]
-    return item.parent, item.child
-
-
-def _check_walk(
-    record: MechanismRecord, names: Sequence[str], ends: tuple[str, str], path: KeyPath, faults: Faults
-) -> None:
-    """Each joint starts where the one before it ends."""
-    link = ends[0]
-    for place, name in enumerate(names):
-        pair = _ends(record, name)
-        if link not in pair:
-            faults.add((*path, place), f"'{name}' does not meet '{link}'", "allowed: a joint of that link")
-            return
-        link = pair[1] if link == pair[0] else pair[0]
-    if link != ends[1]:
-        faults.add(path, f"ends at '{link}'", f"allowed: from '{ends[0]}' to '{ends[1]}'")
-
-
-def _loop(record: MechanismRecord, names: Sequence[str]) -> set[str] | None:
-    """Links of a closed loop; None where the joints do not form one, in turn."""
-    if len(names) < 2:
-        return None
-    for start in _ends(record, names[0]):
-        link, visited = start, Counter[str]()
-        for name in names:
-            pair = _ends(record, name)
-            visited[link] += 1
-            if link not in pair:
-                break
-            link = pair[1] if link == pair[0] else pair[0]
-        else:
-            if link == start and max(visited.values()) == 1:
-                return set(visited)
-    return None

@@ -102,7 +102,12 @@ def _instances(name: str, limb: schema.LimbEntry, cut: frozenset[KeyPath], fault
     if (repeat.count is None) == (repeat.angles is None):
         found = "count and angles" if repeat.count else "neither count nor angles"
         faults.add(path, found, "allowed: one of the two", "count = 3 means every 120 deg")
-    return tuple(Instance(name, number + 1) for number in range(_count(limb) or 1))
+    return tuple(Instance(name, number + 1) for number in range(repeated(limb)))
+
+
+def repeated(limb: schema.LimbEntry) -> int:
+    """How many limbs a template becomes; 1 where it does not say."""
+    return _count(limb) or 1
 
 
 def _count(limb: schema.LimbEntry) -> int | None:

@@ -26,8 +26,10 @@ Triple = tuple[Formula, Formula, Formula]
 MIXED = "allowed: angles with angles, plain numbers with plain numbers"
 MIXED_HINT = "a unit makes an angle of a number: 90 deg"
 SHORTEST = 1e-12
-# so that products of a few numbers stay within the floats
 LARGEST = 1e100
+"""Of any formula, so that products of a few numbers stay within the floats."""
+FARTHEST = 1e12
+"""Of a length or an angle that is used: beyond it nothing would be left of its digits."""
 _REASONS = {
     ZeroDivisionError: "division by zero",
     ValueError: "square root of a negative number",
@@ -111,7 +113,7 @@ class Numbers:
 
     def evaluate(self, formula: Formula, path: KeyPath) -> tuple[float, Kind]:
         """Value and kind; NaN of kind "either" where a fault stands in the way."""
-        missing = formula.names - self.values.keys()
+        missing = {name for name in formula.names if name not in self.values}
         for name in sorted(missing.difference(self.broken)):
             self.faults.unknown(path, "parameter", name, self.kinds)
         if missing:
@@ -135,11 +137,18 @@ class Numbers:
         value, kind = self.evaluate(formula, path)
         if kind == "angle":
             self.faults.add(path, f'"{formula.text}" is an angle', "allowed: a length")
+        return self._near(value, formula, path)
+
+    def _near(self, value: float, formula: Formula, path: KeyPath) -> float:
+        if abs(value) > FARTHEST:
+            self.faults.add(path, f'"{formula.text}" is {value:.3g}', f"allowed: numbers up to {FARTHEST:g}")
+            return math.nan
         return value
 
     def angle(self, formula: Formula, path: KeyPath) -> float:
         """An angle in rad."""
         value, kind = self.evaluate(formula, path)
+        value = self._near(value, formula, path)
         return math.radians(value) if kind == "plain" and self.angle_unit == "deg" else value
 
     def of(self, kind: Literal["angle", "length"], formula: Formula, path: KeyPath) -> float:

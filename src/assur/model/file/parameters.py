@@ -119,8 +119,9 @@ def _order(formulas: Mapping[str, Formula], faults: Faults) -> tuple[list[str], 
     for name, formula in formulas.items():
         graph.add_edges_from((other, name) for other in sorted(formula.names) if other in formulas)
     cyclic: set[str] = set()
+    place = {name: index for index, name in enumerate(formulas)}
     for group in nx.strongly_connected_components(graph):
-        first = min(group, key=list(formulas).index)
+        first = min(group, key=place.__getitem__)
         if len(group) > 1 or graph.has_edge(first, first):
             edges = nx.find_cycle(graph.subgraph(group).reverse(), first)
             circle = " -> ".join([first, *(edge[1] for edge in edges)])

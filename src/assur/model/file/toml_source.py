@@ -11,7 +11,11 @@ from typing import Any
 from assur.errors import MechanismFileError, Problem
 
 KeyPath = tuple[str | int, ...]
-MAX_CHARACTERS = 1_000_000
+MAX_CHARACTERS = 200_000
+MAX_DEPTH = 20
+MAX_BITS = 10_000
+MAX_ITEMS = 5_000
+"""Limits far beyond any mechanism, so that no text takes long or exhausts the stack."""
 
 _PLACE = re.compile(r"\s*\(at (?:line (\d+), column \d+|end of document)\)$")
 _DECIMAL_COMMA = re.compile(r"=\s*[\[{]?[^#\"']*\d,\d")
@@ -21,6 +25,13 @@ _STRING = re.compile(
     re.DOTALL,
 )
 _SCALAR = re.compile(r"[^,\]}#\n]+")
+_PART = r"""(?:[A-Za-z0-9_-]+|"(?:[^"\\\n]|\\.)*"|'[^'\n]*')"""
+_TOKEN = re.compile(
+    r'#[^\n]*|"""(?:[^\\]|\\.)*?"{3,5}|' + r"'''.*?'{3,5}|"
+    rf"(?P<deep>(?:{_PART}[ \t]*\.[ \t]*){{{MAX_DEPTH}}})|{_PART}",
+    re.DOTALL,
+)
+_TOO_DEEP = ("names or brackets nested too deeply", f"at most {MAX_DEPTH} levels; a few are enough")
 _BLANK = re.compile(r"(?:[ \t\r\n]|#[^\n]*)*")
 
 
@@ -61,14 +72,36 @@ def read_toml(text: str, file: str) -> TomlSource:
     """
     if len(text) > MAX_CHARACTERS:
         raise _fault(file, None, f"{len(text)} characters", f"at most {MAX_CHARACTERS}")
+    for match in _TOKEN.finditer(text):
+        if match["deep"]:  # for which the TOML reader would need the square of the depth
+            raise _fault(file, text.count("\n", 0, match.start()) + 1, *_TOO_DEEP)
     try:
-        return TomlSource(tomllib.loads(text), _Lines(text.replace("\r\n", "\n")).lines())
+        data = tomllib.loads(text)
+        _check_size(data, file)
+        return TomlSource(data, _Lines(text.replace("\r\n", "\n")).lines())
     except tomllib.TOMLDecodeError as error:
         raise _syntax(file, text, str(error)) from None
     except RecursionError:
-        raise _fault(file, None, "brackets nested too deeply", "a few levels are enough") from None
+        raise _fault(file, None, *_TOO_DEEP) from None
     except ValueError as error:  # an integer of thousands of digits
         raise _fault(file, None, f"not TOML: {error}", "numbers within the range of floats") from None
+
+
+def _check_size(data: dict[str, Any], file: str) -> None:
+    """Refuse tables within tables, and whole numbers, that nothing after this could handle."""
+    level: list[Any] = [data]
+    for _ in range(MAX_DEPTH):
+        longest = max(level, key=len)
+        if len(longest) > MAX_ITEMS:
+            what = "keys in one table" if isinstance(longest, dict) else "elements in one list"
+            raise _fault(file, None, f"{len(longest)} {what}", f"at most {MAX_ITEMS}")
+        items = [item for group in level for item in (group.values() if isinstance(group, dict) else group)]
+        if any(isinstance(item, int) and item.bit_length() > MAX_BITS for item in items):
+            raise _fault(file, None, "a whole number of thousands of digits", "numbers within the range of floats")
+        level = [item for item in items if isinstance(item, dict | list)]
+        if not level:
+            return
+    raise _fault(file, None, *_TOO_DEEP)
 
 
 def _fault(file: str, line: int | None, found: str, allowed: str, hint: str = "") -> MechanismFileError:

@@ -1,7 +1,7 @@
 r"""The little LaTeX of mechanism files and closed forms, such as `y_{A_1}` or `l_2^2-B^2/4`, as MathML.
 
 Letters, digits, operators, brackets, `_`, `^`, groups, Greek letters, functions, words in `\text{}` or `\mathrm{}`,
-`\sqrt{}`, `\frac{}{}` and matrices between `\begin{bmatrix}` and `\end{bmatrix}`.
+`\mathbf{}`, `\sqrt{}`, `\frac{}{}` and matrices between `\begin{bmatrix}` and `\end{bmatrix}`.
 What is not understood is shown as it stands.
 """
 
@@ -9,28 +9,34 @@ from __future__ import annotations
 
 import re
 from html import escape
+from string import ascii_lowercase, ascii_uppercase
 
 GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η", "theta": "θ",
     "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ",
-    "tau": "τ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ",
-    "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ", "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω",
+    "tau": "τ", "phi": "φ", "varphi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Gamma": "Γ", "Delta": "Δ",
+    "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ", "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω",
 }  # fmt: skip
 FUNCTIONS = ("sin", "cos", "tan", "cot", "arccos", "arcsin", "arctan", "det", "dim", "sgn")
 OPERATORS = {
     "angle": "∠", "cdot": "·", "pm": "±", "parallel": "∥", "perp": "⊥", "times": "×", "cup": "∪", "cap": "∩",
-    "Diamond": "◇",
+    "Diamond": "◇", "partial": "∂",
 }  # fmt: skip
 LIMITS = {"sum": "<mo>∑</mo>", "bigcup": "<mo>⋃</mo>", "bigcap": "<mo>⋂</mo>", "min": "<mi>min</mi>"}
 """What carries its limits under and over it."""
 
 BRACKETS = "()[]{}|"
 SIGNS = {"-": "−", "'": "′"}
+SPACES = {r"\,": "0.17em", r"\;": "0.28em", r"\ ": "0.33em", r"\quad": "1em"}
 _TOKEN = re.compile(
-    r"\\(?:text|mathrm)\{(?:\\.|[^{}\\])*\}|\\(?:begin|end)\{\w+\}|\\[A-Za-z]+|\\[{}_\\]|\d+(?:\.\d+)?|\s+|.", re.DOTALL
+    r"\\(?:text|mathrm)\{(?:\\.|[^{}\\])*\}|\\(?:begin|end)\{\w+\}|\\[A-Za-z]+|\\[{}_\\,; ]|\d+(?:\.\d+)?|\s+|.",
+    re.DOTALL,
 )
 _WORDS = re.compile(r"\\(?:text|mathrm)\{(.*)\}", re.DOTALL)
 ROW = r"\\"
+BOLD = {ord(letter): 0x1D400 + k for k, letter in enumerate(ascii_uppercase + ascii_lowercase)}
+"""Letters to their bold ones."""
+
 SIZES = (r"\left", r"\right")
 """What only tells the brackets after them how large to be."""
 
@@ -114,11 +120,23 @@ def _item(tokens: list[str]) -> tuple[str, list[str]]:
     if token == r"\sqrt":
         inner, rest = _item(rest)
         return f"<msqrt>{inner}</msqrt>", rest
+    if token == r"\mathbf":
+        inner, rest = _item(rest)
+        return _bold(inner), rest
     if token == r"\frac":
         above, rest = _item(rest)
         below, rest = _item(rest)
         return f"<mfrac>{above}{below}</mfrac>", rest
     return _symbol(token), rest
+
+
+def _bold(mathml: str) -> str:
+    """Letters upright and bold, as those of vectors are.
+
+    >>> _bold("<mi>u</mi>") == "<mi>\U0001d42e</mi>"
+    True
+    """
+    return re.sub(r"<mi>([A-Za-z])</mi>", lambda found: f"<mi>{found[1].translate(BOLD)}</mi>", mathml)
 
 
 def _matrix(tokens: list[str]) -> tuple[str, list[str]]:
@@ -142,12 +160,12 @@ def _symbol(token: str) -> str:
     if said := _WORDS.fullmatch(token):
         words = re.sub(r"\\(.)", r"\1", said[1])
         return f"<mtext>{escape(words)}</mtext>"
+    if token in SPACES:
+        return f'<mspace width="{SPACES[token]}"/>'
     word = token.lstrip("\\")
     if token[0] == "\\":
         if word in BRACKETS and word:
             return bracket(word)
-        if word == "quad":
-            return '<mspace width="1em"/>'
         if word in LIMITS:
             return LIMITS[word]
         if word in GREEK or word in FUNCTIONS:

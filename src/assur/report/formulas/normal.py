@@ -87,6 +87,7 @@ def _split_sum(term: Traced, sign: int) -> list[tuple[int, Traced]]:
 def _product(term: Traced, sign: int) -> Product:
     coefficient = Fraction(sign)
     sides: tuple[list[Traced], list[Traced]] = ([], [])
+    roots: tuple[dict[str, Traced], dict[str, Traced]] = ({}, {})
     pending = [(term, 0)]
     while pending:
         part, side = pending.pop(0)
@@ -100,9 +101,15 @@ def _product(term: Traced, sign: int) -> Product:
         elif part.operator == "number":
             value = Fraction(float(part.values[0].real)).limit_denominator(10**6)
             coefficient = coefficient / value if side else coefficient * value
+        elif part.operator == "sqrt" and key(part) in roots[side]:
+            del roots[side][key(part)]
+            pending.insert(0, (part.parts[0], side))  # the square of a root
+        elif part.operator == "sqrt":
+            roots[side][key(part)] = part
         else:
             sides[side].append(part)
-    return Product(coefficient, _powers(sides[0]), _powers(sides[1]))
+    above, below = (_powers([*side, *left.values()]) for side, left in zip(sides, roots, strict=True))
+    return Product(coefficient, above, below)
 
 
 def _powers(factors: Sequence[Traced]) -> tuple[Power, ...]:

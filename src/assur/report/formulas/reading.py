@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -20,20 +20,29 @@ from assur.kinematics.status import branch_kernel, closed_form_of
 from assur.model.closed_form import Branch
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
-from assur.report.formulas.latex import latex_mathml, name_mathml
+from assur.report.formulas.latex import name_mathml
+from assur.report.formulas.letters import (
+    Named,
+    Number,
+    core_letters,
+    is_rotation,
+    letters_of,
+    margin_letter,
+    parts_of,
+    varies,
+)
+from assur.report.formulas.shorthand import shorthand
 from assur.report.formulas.trace import (
     POINTS,
     Book,
     Letter,
     Traced,
-    TracedPair,
     Tracing,
     Values,
     leaf,
     number,
 )
 
-Number = Traced | TracedPair
 SEED = 17
 
 
@@ -52,8 +61,9 @@ class Reading:
     """A closed form as it was read for one problem.
 
     Attributes:
-        lines: the formulas from the given numbers to the results and to every joint's value, in the order
-            in which the kernel meets them.
+        lines: the formulas from the given numbers to the results, to every joint's value and to the entries of jp and
+            jq, in the order in which the kernel meets them; rotations of spherical joints are left out. A letter that
+            only serves to keep other lines short (`assur.report.formulas.shorthand`) stands before what needs it.
         named: quantities that the source names besides.
         margins: margin -> its formula.
         jp, jq: rows of recorded formulas with Jp v = Jq qdot.
@@ -82,7 +92,7 @@ def reading(record: MechanismRecord, problem: Problem) -> Reading:
     everything = reader.run(Book(known=reader.known(first, first.branch.margins)))
     used = _uses(everything.book.met.values())
     # a radicand that is needed once is written where it is needed
-    shared = [name for name in first.branch.margins if used[_margin_letter(name)] > 1]
+    shared = [name for name in first.branch.margins if used[margin_letter(name)] > 1]
     return reader.written(reader.run(Book(known=reader.known(first, shared))))
 
 
@@ -105,7 +115,7 @@ class _Reader:
 
     def run(self, book: Book) -> _Run:
         """Run every kernel of the problem with the letters of a book."""
-        form, ns = closed_form_of(self.record), Tracing()
+        form, ns = closed_form_of(self.record), Tracing(book)
         p = SimpleNamespace(
             **{name: leaf(book, Letter(name, name_mathml(name)), self._at(name)) for name in self.record.parameters}
         )
@@ -121,44 +131,54 @@ class _Reader:
         """Letters with their values: results, quantities of the source, core, margins, in this order."""
         results = run.branch.pose if self.problem == "direct" else run.branch.inputs
         other: Problem = "inverse" if self.problem == "direct" else "direct"
-        pairs: list[tuple[tuple[Letter, ...], Number]] = list(zip(self._coordinates(other), results, strict=True))
-        form = closed_form_of(self.record)
-        pairs += [
-            (
-                _letters(item.name, item.latex, isinstance(run.quantities[item.name], tuple)),
-                run.quantities[item.name],
-            )
-            for item in form.quantity_list
-        ]
-        pairs += [(_core_letters(name, value), value) for name, value in vars(run.branch.core).items()]
-        pairs += [((_margin_letter(name),), run.branch.margins[name]) for name in margins]
-        return [
-            (letter, part.values)
-            for letters, value in pairs
-            for letter, part in zip(letters, _parts(value), strict=True)
-        ]
+        named: list[Named] = []
+        for letters, value in zip(self._coordinates(other), results, strict=True):
+            named += zip(letters, value if len(letters) > 1 else (value,), strict=True)
+        for item in closed_form_of(self.record).quantity_list:
+            value = run.quantities[item.name]
+            named += zip(letters_of(item.name, item.latex, isinstance(value, tuple)), parts_of(value), strict=True)
+        named += core_letters("", (), run.branch.core)
+        named += [(margin_letter(name), run.branch.margins[name]) for name in margins]
+        found: dict[str, tuple[Letter, Values]] = {}
+        for letter, part in named:
+            if varies(part):
+                found.setdefault(f"{letter.function} {letter.mathml}", (letter, part.values))
+        return list(found.values())
 
     def written(self, run: _Run) -> Reading:
         """The lines of a run."""
         met = run.book.met
         results = run.branch.pose if self.problem == "direct" else run.branch.inputs
-        actuated = {item.coordinate.joint for item in self.record.inputs}
-        passive = [value for name, value in run.joints.items() if name.partition(".")[0] not in actuated]
-        needed = _needed(met, [*results, *passive])
-        return Reading(
-            lines=tuple(self._line(letter, met[letter]) for letter in met if letter in needed),
-            named=tuple(self._named(run, needed)),
-            margins={name: _formula(met, name, value) for name, value in run.branch.margins.items()},
-            jp=_rows(run.book, run.jacobians[0]),
-            jq=_rows(run.book, run.jacobians[1]),
-        )
+        actuated = {self.record.coordinate_label(item.coordinate) for item in self.record.inputs}
+        passive = [value for name, value in run.joints.items() if name not in actuated and not is_rotation(value)]
+        jp, jq = (_rows(run.book, rows) for rows in run.jacobians)
+        needed = _needed(met, [*results, *passive, *jp, *jq])
+        named = list(self._named(run, needed))
+        entries = [entry for row in (*jp, *jq) for entry in row]
+        terms = [met[letter] for letter in met if letter in needed] + [line.term for line in named] + entries
+        brief = shorthand(terms, [*self.points, *sign_names(self.record, self.problem), *(key.name for key in met)])
+        lines: list[Line] = []
+
+        def short(term: Traced) -> Traced:
+            written = brief.short(term)
+            lines.extend(Line(letter, definition) for letter, definition in brief.taken())
+            return written
+
+        for letter in met:
+            if letter in needed:
+                term = short(met[letter])
+                lines.append(self._line(letter, term))
+        margins = {name: short(_formula(met, name, value)) for name, value in run.branch.margins.items()}
+        named = [replace(line, term=short(line.term)) for line in named]
+        jp, jq = (tuple(tuple(map(short, row)) for row in rows) for rows in (jp, jq))
+        return Reading(tuple(lines), tuple(named), margins, jp, jq)
 
     def _named(self, run: _Run, written: set[Letter]) -> Iterable[Line]:
         """Quantities of the source that no line has yet."""
         for item in closed_form_of(self.record).quantity_list:
             value = run.quantities[item.name]
-            letters = _letters(item.name, item.latex, isinstance(value, tuple))
-            for letter, part in zip(letters, _parts(value), strict=True):
+            letters = letters_of(item.name, item.latex, isinstance(value, tuple))
+            for letter, part in zip(letters, parts_of(value), strict=True):
                 if letter not in written:
                     yield self._line(letter, run.book.met.get(letter, part))
 
@@ -176,15 +196,15 @@ class _Reader:
             return "result"
         form = closed_form_of(self.record)
         for margin in form.direct_margins if self.problem == "direct" else form.inverse_margins:
-            if _margin_letter(margin.name) == letter:
+            if margin_letter(margin.name) == letter:
                 return margin.meaning if margin.zero == "degenerate" else f"negative: {margin.meaning}"
         return ""
 
     def _coordinates(self, problem: Problem) -> list[tuple[Letter, ...]]:
         """Letters of what a problem is given: of inputs, or of the coordinates of the pose."""
         if problem == "direct":
-            return [_letters(item.name, item.latex, item.coordinate.kind == "angle") for item in self.record.inputs]
-        return [_letters(name, "", is_angle(name)) for name in self.record.platform.pose]
+            return [letters_of(item.name, item.latex, item.coordinate.kind == "angle") for item in self.record.inputs]
+        return [letters_of(name, "", is_angle(name)) for name in self.record.platform.pose]
 
     def _given(self, book: Book, letters: tuple[Letter, ...]) -> Number:
         values = self._at(letters[0].name)
@@ -210,27 +230,9 @@ class _Reader:
         return self.points[name]
 
 
-def _letters(name: str, latex: str, angle: bool) -> tuple[Letter, ...]:
-    """The letter of a length, or cosine and sine of that of an angle."""
-    mathml = latex_mathml(latex) if latex else name_mathml(name)
-    return (Letter(name, mathml, "cos"), Letter(name, mathml, "sin")) if angle else (Letter(name, mathml),)
-
-
-def _core_letters(name: str, value: Number) -> tuple[Letter, ...]:
-    return _letters(name, "", isinstance(value, tuple))
-
-
-def _margin_letter(name: str) -> Letter:
-    return Letter(name, name_mathml(name))
-
-
 def _formula(met: Mapping[Letter, Traced], name: str, value: Traced) -> Traced:
     """Of a margin: what its letter stands for, or the formula itself where it has none."""
-    return met.get(_margin_letter(name), value)
-
-
-def _parts(value: Number) -> tuple[Traced, ...]:
-    return value if isinstance(value, tuple) else (value,)
+    return met.get(margin_letter(name), value)
 
 
 def _rows(book: Book, rows: Any) -> tuple[tuple[Traced, ...], ...]:
@@ -251,7 +253,7 @@ def _uses(terms: Iterable[Traced]) -> Counter[Letter]:
 
 def _needed(met: Mapping[Letter, Traced], wanted: Iterable[Number]) -> set[Letter]:
     """The letters that lead to what is wanted."""
-    pending = [term for value in wanted for term in _parts(value)]
+    pending = [term for value in wanted for term in parts_of(value)]
     found: set[Letter] = set()
     while pending:
         for letter in _leaves(pending.pop()):

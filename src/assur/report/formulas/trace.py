@@ -8,8 +8,10 @@ are the same quantity (a false agreement has probability zero).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -45,10 +47,16 @@ class Book:
 
     def letter_of(self, values: Values) -> Letter | None:
         """The letter with these values, if there is one."""
-        for letter, known in self.known:
-            if np.allclose(values, known, rtol=CLOSE, atol=0.0):
-                return letter
-        return None
+        if not self.known:
+            return None
+        with np.errstate(invalid="ignore"):
+            same = np.all(np.abs(self._table - values) <= CLOSE * np.abs(self._table), axis=1)
+        return self.known[int(np.argmax(same))][0] if np.any(same) else None
+
+    @cached_property
+    def _table(self) -> Values:
+        """The values of all known letters (k, POINTS)."""
+        return np.array([values for _, values in self.known])
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,12 +115,18 @@ class Traced:
 TracedPair: TypeAlias = tuple[Traced, Traced]
 
 
+@dataclass(frozen=True)
 class Tracing:
     """The namespace of a kernel that is read over recorded numbers."""
 
-    def sqrt(self, radicand: Traced, /) -> Traced:
-        """Square root: any of the two complex ones, the sign of a branch standing before it."""
-        return made(radicand.book, "sqrt", radicand)
+    book: Book
+
+    def sqrt(self, radicand: Traced | float, /) -> Traced | float:
+        """Square root: any of the two complex ones, the sign of a branch standing before it; of 4 the number 2."""
+        if isinstance(radicand, Traced):
+            return made(self.book, "sqrt", radicand)
+        root = math.sqrt(radicand)
+        return root if root.is_integer() else made(self.book, "sqrt", number(self.book, radicand))
 
 
 _RULES: dict[str, Callable[..., Values]] = {
@@ -142,11 +156,21 @@ def made(book: Book, operator: Operator, *parts: Traced) -> Traced:
     result = Traced(book, operator, parts, values)
     if not np.any(values):
         return number(book, 0.0)
+    if len(parts) == 2 and (same := _unchanged(operator, *parts)):
+        return same
     letter = None if _is_power(result) else book.letter_of(values)
     if letter is None:
         return result
     book.met.setdefault(letter, result)
     return leaf(book, letter, values)
+
+
+def _unchanged(operator: Operator, first: Traced, second: Traced) -> Traced | None:
+    """The part that is the whole: of x + 0, x - 0, 1 x, x 1, x/1."""
+    neutral = {"+": 0.0, "-": 0.0, "*": 1.0, "/": 1.0}[operator]
+    if second.operator == "number" and second.values[0] == neutral:
+        return first
+    return second if operator in "+*" and first.operator == "number" and first.values[0] == neutral else None
 
 
 def _is_power(term: Traced) -> bool:

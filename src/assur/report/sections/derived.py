@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from assur.report.findings import Findings
 from assur.report.formulas.latex import latex_mathml
 from assur.report.formulas.mathml import display, inline
@@ -13,6 +15,7 @@ from assur.topology.latex import Equation, equations, step_latex
 from assur.topology.rules.derivation import Derivation
 
 KNOWN = {"both": "rules and twists", "twists": "twists alone"}
+_DECIMALS = re.compile(r"-?\d+\.\d{5,}")
 COLLAPSED = "parallelograms as one joint"
 
 
@@ -57,14 +60,24 @@ def _equations(topology: Topology) -> Formulas:
 
 
 def _meaning(item: Equation) -> str:
-    return item.meaning if item.dim is None else f"dim {item.dim}; {item.meaning}"
+    meaning = rounded(item.meaning)
+    return meaning if item.dim is None else f"dim {item.dim}; {meaning}"
+
+
+def rounded(text: str) -> str:
+    """A text with its long decimals to four significant digits.
+
+    >>> rounded("R[-0.49999999999999994,0.8660254037844387,0] P(4S)")
+    'R[-0.5,0.866,0] P(4S)'
+    """
+    return _DECIMALS.sub(lambda found: f"{float(found[0]):.4g}", text)
 
 
 def _limbs(topology: Topology) -> Table:
     rows = tuple(
         (
             str(number),
-            limb.text,
+            rounded(limb.text),
             limb.symbolic,
             str(limb.poc),
             str(limb.poc.dim),
@@ -74,7 +87,9 @@ def _limbs(topology: Topology) -> Table:
         for number, limb in enumerate(topology.limbs, 1)
     )
     columns = ("limb", "plain form", "as the literature writes it", "POC set", "dim", "dependent", "known by")
-    reasons = " ".join(f"{item['of']}: the rules refuse, because {item['reason']}." for item in refusals(topology))
+    reasons = " ".join(
+        f"{rounded(item['of'])}: the rules refuse, because {item['reason']}." for item in refusals(topology)
+    )
     return Table("Limbs", columns, rows, reasons)
 
 
@@ -150,5 +165,5 @@ def _steps(derivation: Derivation) -> list[tuple[Cell, ...]]:
     rows = [row for part in derivation.parts for row in _steps(part)]
     for step in derivation.steps:
         formula = Formula(inline(latex_mathml(step_latex(step)), step.text()))
-        rows.append((derivation.of, formula, f"{step.rule}: {step.reason}"))
-    return [*rows, (derivation.of, derivation.conclusion, f"O' {derivation.origin}")]
+        rows.append((rounded(derivation.of), formula, f"{step.rule}: {step.reason}"))
+    return [*rows, (rounded(derivation.of), derivation.conclusion, f"O' {derivation.origin}")]

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from assur.kinematics.status import closed_form_of
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import LENGTHS
 from assur.performance.dexterity import dexterity
 from assur.report.findings import Findings
-from assur.report.numbers import input_angles, pose_angles, short
+from assur.report.numbers import short
 from assur.results.kinds import Scalar, Section, Table
 
 COUNT = 4096
@@ -17,6 +20,7 @@ SHARES = (0, 10, 25, 50, 75, 90, 100)
 def performance(found: Findings) -> Section:
     """Local condition index, its mean over the workspace, velocity factors."""
     record, solution = found.record, found.solution
+    closed_form_of(record)  # nothing is mapped without one
     here = dexterity(record, solution.pose, solution.working_mode)
     index = found.global_index
     said = (
@@ -24,7 +28,7 @@ def performance(found: Findings) -> Section:
         "(isotropic); the velocity factors are the singular values of J: by how much the inputs’ speed is multiplied "
         "in the fastest and in the slowest direction. The global index is the mean over the workspace."
     )
-    if any(pose_angles(record)) or len({*pose_angles(record), *input_angles(record)}) > 1:
+    if mixed_units(record):
         said += " Lengths and angles are mixed here, so these numbers depend on the unit of length."
     factors = here.velocity_factors
     left_out = f"; {index.singular} left out as singular" if index.singular else ""
@@ -42,6 +46,12 @@ def performance(found: Findings) -> Section:
     ]
     pictures = [item for name in ("dexterity", "fastest", "slowest") for item in found.picture(name)]
     return Section("Dexterity", said, [*scalars, *pictures, *_spread(found)])
+
+
+def mixed_units(record: MechanismRecord) -> bool:
+    """Whether rates of lengths and of angles stand beside one another in the pose or among the inputs."""
+    inputs = {item.coordinate.kind for item in record.inputs}
+    return len(inputs) > 1 or len({name in LENGTHS for name in record.platform.pose}) > 1
 
 
 def _spread(found: Findings) -> list[Table]:

@@ -9,49 +9,59 @@ from assur.kinematics.modes import Problem
 from assur.kinematics.solution import Solution
 from assur.kinematics.solutions import SolutionSet
 from assur.kinematics.status import Status
-from assur.model.closed_form import Margin, SelfMotion
+from assur.model.closed_form import Eliminant, Margin, PolynomialSystem, SelfMotion
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
 from assur.report.formulas.latex import GREEK, latex_mathml, name_mathml
 from assur.report.formulas.mathml import equation, inline, letter_mathml, term_mathml
 from assur.report.formulas.normal import text
 from assur.report.formulas.reading import Line
-from assur.report.numbers import Style, count, input_angles, pose_angles, short, shown_unit
+from assur.report.numbers import Style, count, input_angles, pose_angles, pose_words, short, shown_unit
+from assur.report.sections.polynomial import polynomial, polynomial_words, system_words
 from assur.report.sections.printed import solutions_beside
 from assur.results.kinds import Formula, Formulas, Result, Section, Table
+
+READ = (
+    "The formulas below are not written down by hand: they are what the closed form of this mechanism computes, "
+    "read over symbols line by line, in the letters of the source. The same lines, read over floating-point "
+    "numbers, give every solution and Jacobian in this report. Numbers in brackets are the source's equations; "
+    "letters that only a number tells apart are shorthand for what would be too long to read."
+)
+SEARCHED = (
+    "This mechanism has no closed form. Its assemblies are found on the joint graph itself, by Newton's method from "
+    "many starts; how far such a list can be trusted stands under Completeness."
+)
 
 
 def position(found: Findings) -> Section:
     """Modes, the direct problem, the inverse problem, and what makes the answers complete."""
-    form = found.form
-    introduction = (
-        "The formulas below are not written down by hand: they are what the closed form of this mechanism computes, "
-        "read over symbols line by line, in the letters of the source. The same lines, read over floating-point "
-        "numbers, give every solution and Jacobian in this report. Numbers in brackets are the source's equations."
-    )
-    parts: list[Result | Section] = [*found.picture("model", "planes"), _modes(found.record)]
+    form = found.record.closed_form
+    parts: list[Result | Section] = [*found.picture("model", "planes"), *_modes(found.record)]
     parts += [_direct(found), _inverse(found)]
-    if form.self_motion is not None:
+    if form is not None and form.self_motion is not None:
         parts.append(_self_motion(found, form.self_motion))
     parts.append(Section("Completeness", completeness(found)))
-    return Section("Position", introduction, parts)
+    return Section("Position", READ if form else SEARCHED, parts)
 
 
 def completeness(found: Findings) -> str:
     """For which model the answers are complete, and by what right."""
-    form = found.form
+    form = found.record.closed_form
     worst = max(_residual(found.direct), _residual(found.inverse))
     closes = (
         f"Each solution closes every loop of the joint graph; the largest gap among those listed here is "
         f"{short(worst, 2)} {found.record.unit}."
     )
+    rights = f"Direct problem: {found.direct.right}. Inverse problem: {found.inverse.right}."
+    if form is None:
+        return f"{rights} {closes}"
     if form.complete_for == "joint_graph":
-        return f"The lists are complete for the joint graph itself, by right of the closed form. {closes}"
+        whole = "What is complete is complete for the joint graph itself."
+        return f"{rights} {whole} {closes}"
     because = f" ({form.reduced_because})" if form.reduced_because else ""
     return (
-        f"The lists are complete for the reduced model of the source, by right of the closed form: each branch is one "
-        f"choice of signs, and there are no others. The joint graph has further assemblies{because}; these are not "
-        f"listed. {closes}"
+        f"{rights} What is complete is complete for the reduced model of the source. The joint graph has further "
+        f"assemblies{because}; these are not listed. {closes}"
     )
 
 
@@ -59,7 +69,7 @@ def _residual(answer: SolutionSet) -> float:
     return max((item.residual for item in answer), default=0.0)
 
 
-def _modes(record: MechanismRecord) -> Table:
+def _modes(record: MechanismRecord) -> list[Table]:
     defaults = record.modes.default_working, record.modes.default_assembly
     rows = []
     for what, signs, default in zip(
@@ -67,11 +77,13 @@ def _modes(record: MechanismRecord) -> Table:
     ):
         for place, (name, formula) in enumerate(signs.items()):
             rows.append((what, _symbol(name), formula.text, default[place : place + 1] or None))
+    if not rows:
+        return []
     caption = (
         "A branch is named by the signs of these quantities of the joint graph, in this order: working modes are those "
         "of the inverse problem, assembly modes those of the direct problem."
     )
-    return Table("Names of modes", ("mode", "sign", "of the quantity", "default"), tuple(rows), caption)
+    return [Table("Names of modes", ("mode", "sign", "of the quantity", "default"), tuple(rows), caption)]
 
 
 def _direct(found: Findings) -> Section:
@@ -84,28 +96,42 @@ def _direct(found: Findings) -> Section:
     )
     table = found.table("direct")
     origin = f"those of {table.source}" if table else "those of the assembled home configuration"
-    said = (
-        f"Poses from inputs. At the inputs {given} ({origin}) there are {count(len(found.direct), 'real solution')} "
-        f"among {count(found.direct.candidates, 'branch')}."
-    )
-    results: list[Result] = [*found.picture("flow"), *_formulas(found, "direct"), _solutions(found, "direct")]
+    said = f"Poses from inputs. At the inputs {given} ({origin}) {among(found, 'direct')}."
+    kernel = found.kernel("direct")
+    results: list[Result] = list(found.picture("flow"))
+    if isinstance(kernel, Eliminant):
+        said += f"\n\n{polynomial_words(found, kernel)}"
+        results += polynomial(found, kernel)
+    elif isinstance(kernel, PolynomialSystem):
+        said += f"\n\n{system_words(found, kernel)}"
+    elif kernel is not None:
+        results += _formulas(found, "direct")
+    results.append(_solutions(found, "direct"))
     return Section("Direct problem", said, [*results, *_beside(found, "direct"), *found.picture("solutions")])
 
 
 def _inverse(found: Findings) -> Section:
-    style, record = found.style, found.record
-    given = ", ".join(
-        f"{name} = {style.written(value, angle=angle)}"
-        for name, value, angle in zip(
-            record.platform.pose, pose_at_border(record, found.pose), pose_angles(record), strict=True
-        )
-    )
-    said = (
-        f"Inputs from a pose. At the pose {given} there are {count(len(found.inverse), 'real solution')} among "
-        f"{count(found.inverse.candidates, 'branch')}."
-    )
-    results = [*_formulas(found, "inverse"), _solutions(found, "inverse")]
+    given = pose_words(found.record, found.style, pose_at_border(found.record, found.pose).tolist())
+    said = f"Inputs from a pose. At the pose {given} {among(found, 'inverse')}."
+    results = [*(_formulas(found, "inverse") if found.kernel("inverse") else ()), _solutions(found, "inverse")]
     return Section("Inverse problem", said, [*results, *_beside(found, "inverse")])
+
+
+def among(found: Findings, problem: Problem) -> str:
+    """How many solutions there are, and of what."""
+    answer, kernel = (found.direct if problem == "direct" else found.inverse), found.kernel(problem)
+    if kernel is None:
+        return f"a search found {count(len(answer), 'solution')}"
+    candidates = count(answer.candidates, noun(kernel))
+    verb = "is" if len(answer) == 1 else "are"
+    return f"there {verb} {count(len(answer), 'real solution')} among {candidates}"
+
+
+def noun(kernel: object) -> str:
+    """What candidates for solutions are called."""
+    if isinstance(kernel, Eliminant):
+        return "root"
+    return "complex solution" if isinstance(kernel, PolynomialSystem) else "branch"
 
 
 def _self_motion(found: Findings, motion: SelfMotion) -> Section:
@@ -129,7 +155,10 @@ def _formulas(found: Findings, problem: Problem) -> list[Result]:
         lines.append(Formula(written, line.equation if new else "", line.meaning if new else ""))
         said.add(line.letter.name)
     title = f"Closed form of the {problem} problem"
-    caption = "From the given numbers to the results and to every joint’s value, in the order of computation."
+    caption = (
+        "From the given numbers to the results, to every joint’s value and to the entries of the Jacobians, in the "
+        "order of computation; rotations of spherical joints are left out."
+    )
     found_formulas: list[Result] = [Formulas(title, tuple(lines), caption)]
     if read.named:
         found_formulas.append(_named(found, problem, read.named))
@@ -205,9 +234,13 @@ def _solutions(found: Findings, problem: Problem) -> Table:
     )
     titles = tuple(style.title(name, angle=angle) for name, angle in zip(names, angles, strict=True))
     columns = ("mode", *titles, other, "status", style.title("gap", angle=False))
+    listed = "All real solutions." if answer.complete else "What was found; it is not proved to be all."
+    numbered = any("/" in item.mode for item in answer)
+    told = " A number tells solutions of the same signs apart." if numbered else ""
     caption = (
-        "All real solutions. The gap is the largest that remains over the cut joints of the whole joint graph, or to "
-        "what was asked, orientation errors times its characteristic length included. A sign written 0 has merged."
+        f"{listed} The gap is the largest that remains over the cut joints of the whole joint graph, or to what was "
+        "asked, orientation errors times its characteristic length included. A sign written 0 has merged."
+        f"{told}"
     )
     marks = tuple("" if item.status <= Status.near_singular else "singular" for item in answer)
     return Table(f"Solutions of the {problem} problem", columns, rows, caption, marks)

@@ -9,7 +9,7 @@ from assur.report.findings import Findings
 from assur.report.formulas.latex import latex_mathml, name_mathml
 from assur.report.formulas.mathml import inline
 from assur.report.numbers import input_angles, pose_angles, short, shown_unit
-from assur.results.kinds import Cell, Formula, Result, Section, Table
+from assur.results.kinds import Cell, Facts, Formula, Result, Scalar, Section, Table
 from assur.singularity.verdict import generic_rank
 
 KINDS = {
@@ -19,8 +19,25 @@ KINDS = {
 }
 
 
+MEASURES = {
+    "output": "smallest singular value of Jp: 0 where the platform moves with every input locked",
+    "input": "smallest singular value of Jq: 0 where the platform loses a freedom",
+    "closure": "smallest singular value of the closure that counts in general, as a share of that around home",
+}
+TYPES = {
+    "RI": "redundant input",
+    "RO": "redundant output",
+    "IO": "impossible output",
+    "II": "impossible input",
+    "IIM": "increased instantaneous mobility",
+    "RPM": "redundant passive motion",
+}
+
+
 def singularities(found: Findings) -> Section:
     """The table of factors, the groups that matter together, and example configurations."""
+    if found.record.closed_form is None:
+        return _judged(found)
     said = (
         "A configuration is singular where a factor of a determinant vanishes: serial where det Jq = 0 (the platform "
         "loses a freedom), parallel where det Jp = 0 (it gains one while the inputs are locked), comprehensive where "
@@ -34,6 +51,23 @@ def singularities(found: Findings) -> Section:
         _examples(found),
     ]
     return Section("Singularities", said, parts)
+
+
+def _judged(found: Findings) -> Section:
+    """The verdict of the joint graph on one configuration, where no closed form names factors."""
+    here = found.verdict
+    said = (
+        "Without a closed form there are no factors. The joint graph itself is judged in the configuration of this "
+        "report, by the ranks of its closure and of Jp and Jq; lengths count in units of the characteristic length, so "
+        "each measure is 0 where singular and at most 1."
+    )
+    types = ", ".join(f"{TYPES[name]} ({name})" for name in here.types) or "none"
+    gains = "yes" if here.platform_gains else "no"
+    items = [("kind", here.kind), ("near a singularity", "yes" if here.near else "no"), ("types of Zlatanov", types)]
+    items += [("platform gains a freedom", gains), ("rank of the closure", f"{here.rank} of {here.generic_rank}")]
+    items += [("degrees of freedom", str(here.freedoms))]
+    measures = [Scalar(name, value, "", MEASURES[name]) for name, value in here.relative.items()]
+    return Section("Singularities", said, [Facts("The verdict", tuple(items)), *measures])
 
 
 def _factors(found: Findings) -> Table:

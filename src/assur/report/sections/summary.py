@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from assur.errors import UsageError
 from assur.kinematics.closure import mobility
+from assur.kinematics.instantaneous import instantaneous
 from assur.kinematics.modes import Problem
 from assur.kinematics.solutions import SolutionSet
-from assur.report.findings import Findings
-from assur.report.numbers import count, shown_unit
+from assur.report.findings import REFUSED, Findings
+from assur.report.numbers import count, extent_unit
+from assur.report.sections.performance import mixed_units
+from assur.report.sections.position import noun
+from assur.report.sections.reach import held_words, size_name
 from assur.results.kinds import Scalar, Section
 
 
@@ -17,51 +20,54 @@ def summary(found: Findings) -> Section:
     for part in (_mobility, _solutions, _workspace, _dexterity, _audit):
         try:
             scalars += part(found)
-        except UsageError:  # its own section says why
+        except REFUSED:  # its own section says why
             continue
     return Section("In brief", results=scalars)
 
 
 def _mobility(found: Findings) -> list[Scalar]:
     free = mobility(found.record, found.home)
+    internal = int(instantaneous(found.record, found.home).ranks.internal)
     known = f"rank {int(free.rank)} of the closure of all loops"
-    return [Scalar("degrees of freedom", float(free.freedoms), "", known)]
+    rest = f"and {internal} internal" if internal else ""
+    return [Scalar("degrees of freedom", float(free.freedoms) - internal, rest, known)]
 
 
 def _solutions(found: Findings) -> list[Scalar]:
-    model = "joint graph" if found.form.complete_for == "joint_graph" else "reduced model"
     problems: tuple[tuple[Problem, str, SolutionSet], ...] = (
         ("direct", "inputs", found.direct),
         ("inverse", "pose", found.inverse),
     )
     scalars = []
     for problem, given, answer in problems:
-        table = found.table(problem)
+        table, kernel = found.table(problem), found.kernel(problem)
+        model = "joint graph" if answer.complete_for == "joint_graph" else "reduced model"
         where = f"at the {given} of {table.source if table else 'home'}"
-        branches = f"of {count(answer.candidates, 'branch')}"
-        known = f"{where}; complete for the {model}"
-        scalars.append(Scalar(f"real {problem} solutions", float(len(answer)), branches, known))
+        candidates = f"of {count(answer.candidates, noun(kernel))}" if kernel else "found by search"
+        known = f"complete for the {model}" if answer.complete else "not proved to be all"
+        name = f"real {problem} solutions"
+        scalars.append(Scalar(name, float(len(answer)), candidates, f"{where}; {known}"))
     return scalars
 
 
 def _workspace(found: Findings) -> list[Scalar]:
-    region = found.workspace
-    what = "workspace volume" if len(region.box.names) == 3 else "workspace area"
-    near = f"within {region.near:g} {found.record.unit} of a parallel singularity"
-    share = None if region.share is None else round(100 * region.share, 1)
-    return [
-        Scalar(
-            what,
-            region.volume,
-            shown_unit(region.unit),
-            f"mode {region.mode}, file's box",
-            region.volume_error,
-        ),
-        Scalar("share near a singularity", share, "%", near),
-    ]
+    region, record = found.workspace, found.record
+    extent = Scalar(
+        f"workspace {size_name(region)}",
+        region.volume,
+        extent_unit(record, region.box.names),
+        f"mode {region.mode}, file's box{held_words(region, record)}",
+        region.volume_error,
+    )
+    if region.share is None:
+        return [extent]
+    near = f"within {region.near:g} {record.unit} of a parallel singularity"
+    return [extent, Scalar("share near a singularity", round(100 * region.share, 1), "%", near)]
 
 
 def _dexterity(found: Findings) -> list[Scalar]:
+    if mixed_units(found.record):
+        return []  # a number that depends on the unit of length is nobody's first question
     index = found.global_index
     return [Scalar("global condition index", index.value, "", "mean of 1/cond over the workspace", index.error)]
 

@@ -7,6 +7,7 @@ from typing import cast
 from assur.audit.rows import Row
 from assur.audit.topology import Decomposition
 from assur.kinematics.closure import mobility
+from assur.kinematics.instantaneous import instantaneous
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
@@ -75,10 +76,12 @@ def _mobility(found: Findings) -> Section:
         "Mobility of the whole joint graph, no joints collapsed: the rank of the Jacobian of all loop closures at the "
         "assembled home configuration, by singular values."
     )
+    internal = int(instantaneous(record, found.home).ranks.internal)
+    spins = f"; {internal} of them internal, which move neither platform nor inputs" if internal else ""
     scalars = [
         Scalar("loop equations", float(6 * loops), "", f"6 for each of {count(loops, 'loop')}"),
         Scalar("rank", float(free.rank), "", gap),
-        Scalar("degrees of freedom", float(free.freedoms), "", "joint coordinates − rank"),
+        Scalar("degrees of freedom", float(free.freedoms), "", f"joint coordinates − rank{spins}"),
         Scalar("redundant constraints", float(free.redundant), "", "loop equations − rank"),
     ]
     return Section("Mobility by rank", text, scalars)

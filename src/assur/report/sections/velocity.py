@@ -7,19 +7,30 @@ import re
 
 from assur.kinematics.answers import pose_at_border
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import rate_names
 from assur.report.findings import Findings
 from assur.report.formulas.latex import bracket, latex_mathml, name_mathml
 from assur.report.formulas.mathml import APPLY, THIN, TIMES, display, equation, matrix_mathml
-from assur.report.numbers import pose_angles, short
+from assur.report.numbers import pose_words, short
 from assur.results.kinds import Formula, Formulas, Matrix, Result, Scalar, Section
 
 JP, JQ = "<msub><mi>J</mi><mi>p</mi></msub>", "<msub><mi>J</mi><mi>q</mi></msub>"
+RATE = {"wx": "ωx", "wy": "ωy", "wz": "ωz"}
 RATES = "<mi>\U0001d45e\u0307</mi>"
 """q with a dot, as one letter: fonts place the dot of an accent anywhere."""
 
 
+NULL_SPACE = (
+    "Without a closed form Jp v = Jq q̇ is what the joint rates that keep every loop closed, the null space of the "
+    "closure’s Jacobian, say of the rates v of the pose and the rates q̇ of the inputs. Its rows are known up to a "
+    "common orthogonal factor, so only their singular values and the sign of det Jp det Jq mean anything."
+)
+
+
 def velocity(found: Findings) -> Section:
     """The velocity map, its determinants, and its numbers in the configuration of this report."""
+    if found.record.closed_form is None:
+        return Section("Velocity", NULL_SPACE, [_here(found, found.record)])
     read = found.formulas("inverse")
     form, record = found.form, found.record
     lines = [
@@ -64,27 +75,28 @@ def _is_sum(mathml: str) -> bool:
 
 
 def _here(found: Findings, record: MechanismRecord) -> Section:
-    here, solution, style = found.velocity, found.solution, found.style
-    pose = ", ".join(
-        f"{name} = {style.written(float(value), angle=angle)}"
-        for name, value, angle in zip(
-            record.platform.pose, pose_at_border(record, solution.pose), pose_angles(record), strict=True
-        )
-    )
-    said = f"In the configuration of this report, {pose}, working mode {solution.working_mode}:"
-    rates = tuple(f"d{name}/dt" for name in record.platform.pose)
+    here, solution = found.velocity, found.solution
+    pose = pose_words(record, found.style, pose_at_border(record, solution.pose).tolist())
+    mode = f", working mode {solution.working_mode}" if solution.working_mode else ""
+    said = f"In the configuration of this report, {pose}{mode}:"
+    rates = tuple(RATE.get(name, f"d{name}/dt") for name in rate_names(record.platform.pose))
     inputs = tuple(f"d{item.name}/dt" for item in record.inputs)
-    products = {
-        kind: math.prod(solution.factors[item.name] for item in found.form.factor_list if item.kind == kind)
-        for kind in ("parallel", "serial")
-    }
     matrices = [Matrix("Jp", here.jp, (), rates), Matrix("Jq", here.jq, (), inputs)]
     if not here.singular_output:
         matrices.append(Matrix("J = Jp⁻¹ Jq", here.matrix, rates, inputs))
     condition = float(here.condition)
     scalars = [
-        Scalar("det Jp", float(here.det_jp), "", f"product of its factors: {short(products['parallel'])}"),
-        Scalar("det Jq", float(here.det_jq), "", f"product of its factors: {short(products['serial'])}"),
+        Scalar("det Jp", float(here.det_jp), "", _product(found, "parallel")),
+        Scalar("det Jq", float(here.det_jq), "", _product(found, "serial")),
         Scalar("condition number", condition if math.isfinite(condition) else None, "", "2-norm of Jp⁻¹ Jq"),
     ]
     return Section("In numbers", said, [*matrices, *scalars])
+
+
+def _product(found: Findings, kind: str) -> str:
+    """The second route to a determinant."""
+    form = found.record.closed_form
+    if form is None:
+        return "up to the factor of both"
+    factors = (found.solution.factors[item.name] for item in form.factor_list if item.kind == kind)
+    return f"product of its factors: {short(math.prod(factors))}"

@@ -1,0 +1,101 @@
+"""The coordinates of a workspace as figures show them: symbols, units, ticks, and by how much an angle is stretched."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
+from numpy.typing import NDArray
+
+from assur.figures.context import Context
+from assur.figures.letters import mathematics
+from assur.model.pose import LENGTHS, is_angle
+
+FloatArray = NDArray[np.float64]
+
+
+def held_words(context: Context) -> str:
+    """What is held in the workspace, for a caption; empty where everything varies."""
+    held = ", ".join(f"{symbol(name)} = {value_words(context, name, value)}" for name, value in _held(context))
+    return f" with {held} held" if held else ""
+
+
+def _held(context: Context) -> list[tuple[str, float]]:
+    return list(context.workspace.slice.held.items())
+
+
+def symbol(name: str) -> str:
+    """A coordinate as mathematics."""
+    return f"${mathematics(name) or name}$"
+
+
+def value_words(context: Context, name: str, value: float) -> str:
+    """A value of a coordinate with its unit, e.g. "300 mm" or "−30°"."""
+    number = f"{shown(context, name, value):.6g}".replace("-", "−")
+    if not is_angle(name):
+        return f"{number} {context.record.unit}"
+    return f"{number}°" if context.record.angle == "deg" else f"{number} rad"
+
+
+def shown(context: Context, name: str, value: float) -> float:
+    """A value of a coordinate as axes show it: angles in the mechanism's angle unit."""
+    degrees = is_angle(name) and context.record.angle == "deg"
+    return float(np.round(np.degrees(value), 9)) if degrees else float(value)
+
+
+def stretch(context: Context) -> FloatArray:
+    """By how much each coordinate (m,) is drawn larger: an angle as if its interval were as long as one of lengths.
+
+    Where there are only lengths, or only angles, all by 1.
+    """
+    box = context.workspace.box
+    spans = np.subtract(box.high, box.low)
+    angles = np.array([is_angle(name) for name in box.names])
+    if np.all(angles) or not np.any(angles):
+        return np.ones(len(spans))
+    return np.where(angles, float(np.mean(spans[~angles])) / spans, 1.0)
+
+
+def drawn_span(context: Context, name: str) -> float:
+    """Length of the interval of a coordinate as it is drawn."""
+    box = context.workspace.box
+    k = box.axis(name)
+    return float(stretch(context)[k] * (box.high[k] - box.low[k]))
+
+
+def plane_words(first: str, second: str) -> str:
+    """A coordinate plane, e.g. "XOZ"; with an angle the two coordinates."""
+    if first in LENGTHS and second in LENGTHS:
+        return f"{first.upper()}O{second.upper()}"
+    return f"{symbol(first)} and {symbol(second)}"
+
+
+def dress(context: Context, axes: Axes, names: Sequence[str]) -> None:
+    """Limits, titles and ticks of a plot of two coordinates over the box of the workspace."""
+    box = context.workspace.box
+    for name, axis in zip(names, (axes.xaxis, axes.yaxis), strict=True):
+        low, high = box.intervals[box.axis(name)]
+        axis.set_view_interval(low, high, ignore=True)
+        axis.set_label_text(axis_title(context, name))
+        if is_angle(name) and context.record.angle == "deg":
+            axis.set_major_locator(FixedLocator([float(np.radians(tick)) for tick in angle_ticks(low, high)]))
+            axis.set_major_formatter(FuncFormatter(lambda value, _: f"{np.degrees(value):.0f}".replace("-", "−")))
+
+
+def angle_ticks(low: float, high: float) -> list[float]:
+    """Round degrees inside an interval in rad.
+
+    >>> angle_ticks(-1.0, 1.0)
+    [-50.0, -25.0, 0.0, 25.0, 50.0]
+    """
+    first, last = np.degrees([low, high])
+    ticks = MaxNLocator(5, steps=[1, 1.5, 2, 2.5, 3, 4.5, 5, 6, 9, 10]).tick_values(first, last)
+    return [float(tick) for tick in ticks if first - 1e-9 <= tick <= last + 1e-9]
+
+
+def axis_title(context: Context, name: str) -> str:
+    """A pose coordinate with its unit."""
+    unit = context.record.unit if not is_angle(name) else "°" if context.record.angle == "deg" else "rad"
+    return f"{symbol(name)} ({unit})"

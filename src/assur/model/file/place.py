@@ -1,0 +1,72 @@
+"""Where in its file a part of a record stands: names such as leg1.B lead back to the template of their limb."""
+
+from __future__ import annotations
+
+from assur.errors import Problem
+from assur.model.file.description import Description
+from assur.model.file.faults import cut, path_text
+from assur.model.file.schema import FileEntry
+from assur.model.file.toml_source import KeyPath
+from assur.model.mechanism import Coordinate, MechanismRecord
+
+_LONG = 600
+
+
+def problem(record: MechanismRecord, path: KeyPath, found: str, allowed: str, hint: str = "") -> Problem:
+    """A problem with the line at which its path, or the nearest part of it, stands in the record's file."""
+    source = record.description.source if isinstance(record.description, Description) else None
+    line = source.line(path) if source else None
+    return Problem(str(record.file), line, path_text(path), cut(found, _LONG), f"allowed: {allowed}", cut(hint, _LONG))
+
+
+def table_place(record: MechanismRecord, table: str) -> KeyPath:
+    """A table of the file; that of a template where the file itself has none.
+
+    >>> from assur.model.registry import load_record
+    >>> table_place(load_record("fivebar"), "home"), table_place(load_record("orthoglide"), "home")
+    (('home',), ('limbs', 'leg', 'home'))
+    """
+    file = _file(record)
+    limbs = [name for name, limb in file.limbs.items() if getattr(limb, table, None)] if file else []
+    own = file is None or (file.inputs.entries if table == "inputs" else getattr(file, table))
+    return (table,) if own or not limbs else ("limbs", limbs[0], table)
+
+
+def place(record: MechanismRecord, table: str, name: str) -> KeyPath:
+    """The entry of a link, joint or another named part.
+
+    >>> from assur.model.registry import load_record
+    >>> place(load_record("orthoglide"), "joints", "leg2.A")
+    ('limbs', 'leg', 'joints', 'A')
+    """
+    file, (head, _, local) = _file(record), name.partition(".")
+    for limb in file.limbs if file and local else ():
+        if head.startswith(limb) and head[len(limb) :].isdigit():
+            return ("limbs", limb, table, local)
+    return (table, name)
+
+
+def input_place(record: MechanismRecord, coordinate: Coordinate) -> KeyPath:
+    """The entry of an input, which may stand under its joint's alias or with its component.
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("zeng2019")
+    >>> input_place(record, record.inputs[0].coordinate)
+    ('inputs', 'P1')
+    """
+    *table, local = place(record, "inputs", coordinate.joint)
+    alias = record.joints[coordinate.joint].alias.rpartition(".")[2]
+    file = _file(record)
+    if file is None:
+        return (*table, local)
+    entries = file.limbs[str(table[1])].inputs if table[0] == "limbs" else file.inputs.entries
+    names = [str(local), *([alias] if alias else [])]
+    written = [text for name in names for text in (name, f"{name}.{coordinate.component}") if text in entries]
+    if not written and table[0] == "limbs":  # outside its template
+        full = (coordinate.joint, f"{coordinate.joint}.{coordinate.component}")
+        return ("inputs", next((text for text in full if text in file.inputs.entries), coordinate.joint))
+    return (*table, written[0] if written else local)
+
+
+def _file(record: MechanismRecord) -> FileEntry | None:
+    return record.description.entry if isinstance(record.description, Description) else None

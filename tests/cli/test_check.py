@@ -1,0 +1,132 @@
+"""`assur check`: the text's faults first and all at once, then the joint graph's; a note is no fault."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).parent
+FOURBAR = (HERE.parent / "model" / "fourbar.toml").read_text(encoding="utf-8").replace('["x", "y"]', '["x"]')
+FOURBAR = FOURBAR.replace(", y = [0, 120]", "")
+DELTA = (HERE.parent / "model" / "file" / "delta.toml").read_text(encoding="utf-8")
+
+
+@pytest.fixture
+def check(assur_cli, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+    def run(text: str, *words: str):
+        (tmp_path / "m.toml").write_text(text, encoding="utf-8")
+        return assur_cli("check", "m.toml", *words)
+
+    return run
+
+
+def test_a_sound_file(check) -> None:
+    found = check(FOURBAR)
+    assert (found.code, found.err) == (0, "")
+    assert found.out.splitlines() == [
+        "fourbar: sound",
+        "4 links, 4 joints; 1 freedom",
+        "no closed form: it is solved on its joint graph",
+    ]
+
+
+def test_internal_freedoms_are_counted(assur_cli) -> None:
+    assert assur_cli("check", "delta_4s").out.splitlines()[1:] == [
+        "11 links, 15 joints; 3 freedoms and 6 internal freedoms",
+        "a closed form stands beside it",
+    ]
+
+
+def test_faults_of_the_text_come_all_at_once(check) -> None:
+    text = FOURBAR.replace("value = 80", "value = -80").replace('child = "crank"', 'child = "cranc"')
+    found = check(text.replace('working = "-"', 'working = "-+"'))
+    assert (found.code, found.err) == (3, "")
+    assert found.out.splitlines() == [
+        "m.toml: 3 faults",
+        "m.toml:11: parameters.l3.value: l3 = -80 mm; allowed: a positive number",
+        '    hint: sign = "any" allows negative values',
+        "m.toml:22: joints.A.child: unknown link 'cranc'; there is: coupler, crank, ground, rocker",
+        "    hint: did you mean 'crank'?",
+        'm.toml:38: modes.default.working: "-+"; allowed: + or - for each of s',
+    ]
+
+
+def test_faults_of_the_joint_graph_come_all_at_once(check) -> None:
+    found = check(DELTA.replace("angle = 75", "angle = 40").replace("[-60, 60]", "[50, 60]"))
+    assert found.code == 3
+    rows = [line.split(": ")[:2] for line in found.out.splitlines() if line.startswith("m.toml")]
+    assert rows == [["m.toml:24", "limbs.leg.joints.C1.cone"], ["m.toml:27", "limbs.leg.inputs.M.stroke"]]
+
+
+def test_a_line_is_never_broken(check) -> None:
+    """A fault is one line, however long, so that an editor can jump to it."""
+    found = check(FOURBAR.replace("value = 100", "value = 300"))
+    assert found.out.splitlines() == [
+        "fourbar: 1 fault",
+        "m.toml:16: links.ground: spans 300 mm between A and D, the rest of its loop only 240 mm; "
+        "allowed: no side longer than the others together",
+        "    hint: whatever the angles, the loop through A, B, C, D cannot close",
+    ]
+
+
+def test_a_note_is_no_fault(check) -> None:
+    found = check(FOURBAR.replace('"mm"', '"m"'))
+    assert found.code == 0
+    assert found.out.splitlines()[0] == "fourbar: sound"
+    assert found.out.splitlines()[3:] == [
+        "note: m.toml:3: unit: the longest link measures 120 m, that is 120 m; "
+        "allowed: it is unusual, but may be: 0.001 m to 50 m",
+        "    hint: is it mm that is meant?",
+    ]
+
+
+def test_the_same_as_json(check) -> None:
+    found = check(FOURBAR.replace("value = 100", "value = 300"), "--json")
+    assert found.code == 3
+    assert (found.json["sound"], found.json["notes"], found.json["facts"]) == (False, [], None)
+    assert found.json["faults"] == [
+        {
+            "file": "m.toml",
+            "line": 16,
+            "path": "links.ground",
+            "found": "spans 300 mm between A and D, the rest of its loop only 240 mm",
+            "allowed": "allowed: no side longer than the others together",
+            "hint": "whatever the angles, the loop through A, B, C, D cannot close",
+        }
+    ]
+    sound = check(FOURBAR, "--json").json
+    facts = {"links": 4, "joints": 4, "freedoms": 1, "internal_freedoms": 0, "closed_form": False}
+    assert (sound["sound"], sound["faults"], sound["facts"]) == (True, [], facts)
+
+
+@pytest.mark.parametrize(
+    ("name", "code", "told"),
+    [
+        ("none.toml", 2, "cannot read 'none.toml': No such file or directory"),
+        (".", 2, ""),
+        ("zneg2019", 2, "zeng2019"),
+    ],
+)
+def test_what_is_no_file_is_a_usage_error(assur_cli, tmp_path, monkeypatch, name: str, code: int, told: str) -> None:
+    monkeypatch.chdir(tmp_path)
+    found = assur_cli("check", name)
+    assert (found.code, found.out) == (code, "")
+    assert found.err.startswith("error: ")
+    assert told in found.err
+
+
+def test_a_topology_is_told_where_it_belongs(check) -> None:
+    found = check('format = 1\nkind = "topology"\nname = "t"\nchains = ["R[z] R[z]"]')
+    assert (found.code, found.out) == (2, "")
+    assert found.err == "error: m.toml is a topology without dimensions\nhint: assur topology m.toml\n"
+
+
+def test_what_is_not_utf_8_is_told_with_its_line(assur_cli, tmp_path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "m.toml").write_bytes(b'format = 1\nname = "\xff"')
+    found = assur_cli("check", "m.toml")
+    assert found.code == 3
+    assert found.out.splitlines() == ["m.toml: 1 fault", "m.toml:2: byte 0xff; allowed: UTF-8 text"]
