@@ -35,7 +35,10 @@ from assur.topology.linkages.recognition import recognised
 from assur.topology.notation import parse_chains
 
 if TYPE_CHECKING:
+    from assur.kinematics.path import Path as Way
     from assur.performance.dexterity import Dexterity
+    from assur.performance.indices import Indices
+    from assur.performance.scaling import Length
     from assur.workspace.region import Workspace
 
 FloatArray = NDArray[np.float64]
@@ -101,6 +104,18 @@ class Mechanism(MechanismRecord):
         from assur.performance.dexterity import dexterity
 
         return dexterity(self, poses, mode)
+
+    def indices(self, poses: ArrayLike, mode: str | None = None, characteristic_length: Length = None) -> Indices:
+        """Condition, manipulability, transmission at poses (..., m): see `assur.performance.indices.indices`."""
+        from assur.performance.indices import indices
+
+        return indices(self, poses, mode, characteristic_length)
+
+    def follow(self, joint_values: ArrayLike, **options: Any) -> Way:
+        """The way from an assembly to inputs or to a pose, the mode kept: see `assur.kinematics.following.follow`."""
+        from assur.kinematics.following import follow
+
+        return follow(self, joint_values, **options)
 
     def topology(self, actuate: Sequence[str] | None = None, mode: Mode | None = None) -> Topology:
         """POC sets, DOF, coupling degree and what follows from them: see `assur.topology`."""

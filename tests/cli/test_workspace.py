@@ -8,7 +8,7 @@ import pytest
 import assur
 from assur.workspace.region import workspace
 
-SHAPE = {"volume", "volume_error", "unit", "mode", "coordinates", "box", "held", "parallel_singular", "sections"}
+SHAPE = {"volume", "volume_error", "unit", "mode", "coordinates", "box", "held", "parallel_singular", "sections", "how"}
 COARSE = ("--resolution", "12")
 
 

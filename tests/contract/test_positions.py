@@ -177,8 +177,10 @@ def test_near_singular_configurations_close_and_are_labelled(mechanism, singular
                 continue
             assert found.residuals[0] < 1e-7 * characteristic_length(mechanism)
             sizes = relative_factors(mechanism, found.factors)
-            kinds = {item.name: item.kind for item in closed_form_of(mechanism).factor_list}
-            least = min(abs(float(size[0])) for name, size in sizes.items() if kinds[name] != "other")
+            form = closed_form_of(mechanism)
+            watched = {item.name for item in form.factor_list if item.kind != "other"}
+            watched |= {group[0] for group in form.constraint_singular if len(group) == 1}
+            least = min(abs(float(sizes[name][0])) for name in watched)
             assert (found.status[0] == Status.regular) == (least > NEAR_SINGULAR)
 
 

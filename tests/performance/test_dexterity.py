@@ -9,6 +9,8 @@ import pytest
 
 import assur
 from assur.errors import UsageError
+from assur.kinematics.closure import characteristic_length
+from assur.kinematics.motions import pose_units
 from assur.kinematics.status import Status
 from assur.performance.dexterity import dexterity, global_condition_index
 from assur.workspace.region import workspace
@@ -17,28 +19,25 @@ MECHANISM = assur.load("zeng2019")
 ROW_3 = [-15.4714, 9.6849, 456.3315]
 
 
-def regular_poses(mechanism, mode, count=300):
-    box = np.array([mechanism.box[name] for name in mechanism.platform.pose])
-    poses = np.random.default_rng(8).uniform(box[:, 0], box[:, 1], size=(count, len(box)))
-    return poses[mechanism.inverse(poses, mode=mode).status[:, 0] == Status.regular]
-
-
 @pytest.mark.parametrize("name", assur.names())
-def test_the_factors_are_singular_values_of_the_differentiated_inverse(name):
+def test_the_factors_are_singular_values_of_the_differentiated_inverse(name, regular_poses, slopes):
     mechanism = assur.load(name)
     mode = mechanism.modes.default_working
     poses = regular_poses(mechanism, mode)
-    assert len(poses) > 100
-    h = 1e-4
-    steps = h * np.eye(poses.shape[-1])
-    ahead, behind = (mechanism.inverse(poses[:, None] + sign * steps, mode=mode).inputs[..., 0, :] for sign in (1, -1))
-    slopes = np.swapaxes(ahead - behind, -1, -2) / (2 * h)  # dq/dx (N, n, m)
-    ok = np.all(np.isfinite(slopes), axis=(-1, -2)) & (np.linalg.cond(np.where(np.isfinite(slopes), slopes, 1.0)) < 1e3)
-    assert np.sum(ok) > 100
-    exact = np.sort(1 / np.linalg.svd(slopes[ok], compute_uv=False), axis=-1)[:, ::-1]
+    assert len(poses) == 100
+    differences = slopes(mechanism, poses, mode)
+    known = np.all(np.isfinite(differences), axis=(-1, -2))
+    ok = known & (np.linalg.cond(np.where(known[:, None, None], differences, 1.0)) < 1e3 * spread(mechanism))
+    assert np.sum(ok) > 80
+    exact = np.sort(1 / np.linalg.svd(differences[ok], compute_uv=False), axis=-1)[:, ::-1]
     found = dexterity(mechanism, poses[ok], mode)
-    np.testing.assert_allclose(found.velocity_factors, exact, rtol=1e-4)
-    np.testing.assert_allclose(found.condition_index, 1 / np.linalg.cond(slopes[ok]), rtol=1e-4)
+    np.testing.assert_allclose(found.velocity_factors, exact, rtol=1e-3)
+    np.testing.assert_allclose(found.condition_index, 1 / np.linalg.cond(differences[ok]), rtol=1e-3)
+
+
+def spread(mechanism):
+    """A condition number that comes from mixing units alone."""
+    return characteristic_length(mechanism) if np.ptp(pose_units(mechanism)) else 1.0
 
 
 @pytest.mark.parametrize("batch", [(), (1,), (3, 1, 2), (0,)])
@@ -53,7 +52,7 @@ def test_any_batch_shape(batch):
     )
 
 
-def test_many_poses_give_what_single_ones_give(monkeypatch):
+def test_many_poses_give_what_single_ones_give(monkeypatch, regular_poses):
     poses = regular_poses(MECHANISM, "++-++", 50)
     whole = dexterity(MECHANISM, poses)
     monkeypatch.setattr("assur.performance.dexterity.BLOCK", 7)

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.status import FACTOR_TOLERANCE
+from assur.kinematics.closure import mobility
+from assur.kinematics.status import FACTOR_TOLERANCE, Status, scale
 from assur.singularity.examples import singular_examples
 
 
@@ -37,6 +38,41 @@ def test_an_example_shows_as_few_other_zeros_as_it_can():
     w3 = next(example for example in singular_examples(paper) if example.factor.name == "u3")
     others = paper.singularity(w3.pose, w3.mode).relative
     assert [name for name, value in others.items() if abs(value) <= FACTOR_TOLERANCE] == ["u3"]
+
+
+@pytest.mark.parametrize(("name", "factor"), [("delta_4s", "couples"), ("three_upu", "cylinder")])
+def test_a_factor_that_alone_makes_a_constraint_singularity_has_an_example(name, factor):
+    mechanism = assur.load(name)
+    found = {example.factor.name: example for example in singular_examples(mechanism)}
+    assert found[factor].factor.kind == "other"
+    assert found[factor].status == Status.constraint
+    ranks = [int(mobility(mechanism, joints, threshold=1e-5).rank) for joints in (found[factor].joints, _home(name))]
+    assert ranks[0] < ranks[1]
+
+
+def _home(name):
+    return assur.load(name).home_values
+
+
+def test_other_factors_that_need_company_have_no_example():
+    mechanism = assur.load("delta_4s")
+    alone = {group[0] for group in mechanism.closed_form.constraint_singular if len(group) == 1}
+    others = {example.factor.name for example in singular_examples(mechanism) if example.factor.kind == "other"}
+    assert others <= alone
+    assert len(alone) < sum(item.kind == "other" for item in mechanism.closed_form.factor_list)
+
+
+def test_without_a_closed_form_examples_are_met_on_paths_from_home():
+    mechanism = dataclasses.replace(assur.load("planar_3rrr"), closed_form=None)
+    found = {example.factor.kind: example for example in singular_examples(mechanism, seed=0)}
+    assert set(found) == {"serial", "parallel"}
+    known = assur.load("planar_3rrr")
+    for kind, example in found.items():
+        assert example.status.name in (kind, "self_motion")
+        relative = known.inverse(example.pose, "+++").factors
+        names = [item.name for item in known.closed_form.factor_list if item.kind == kind]
+        scales = {item.name: scale(known, item.scale) for item in known.closed_form.factor_list}
+        assert min(abs(float(relative[name][0])) / scales[name] for name in names) < 1e-5
 
 
 def test_a_file_without_a_box_is_refused():

@@ -236,6 +236,7 @@ def test_the_json_has_its_stated_shape(built):
         "volume_error",
         "unit",
         "mode",
+        "how",
         "coordinates",
         "box",
         "held",
@@ -246,6 +247,7 @@ def test_the_json_has_its_stated_shape(built):
     assert [list(item) for item in found["sections"]] == [["z", "area"]] * 4
     assert list(found["parallel_singular"]) == ["factors", "near", "share"]
     assert found["parallel_singular"]["near"] == 10.0
+    assert found["how"] == "closed form"
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from assur.cli.options import Outcome, Plain
 from assur.cli.output import heading, table
@@ -153,6 +153,7 @@ def _agreement(record: Mechanism) -> Check:
     import numpy as np
 
     from assur.kinematics.closure import characteristic_length
+    from assur.kinematics.search import places
 
     home, length = record.home_values, characteristic_length(record)
     inputs = [item.sign * home[item.coordinate.index] + item.offset for item in record.inputs]
@@ -161,23 +162,8 @@ def _agreement(record: Mechanism) -> Check:
     if not np.any(found.exists):
         return Check(what, "fault", "finds no solution at home's inputs")
     worst = float(np.max(found.residuals[found.exists]))
-    apart = float(np.min([_distance(record, row, home) for row in found.joints[found.exists]]))
+    there = places(record, np.vstack([home, *found.joints[found.exists]]))
+    apart = float(np.min(np.max(np.abs(there[1:] - there[0]), axis=-1)))
     agrees = worst <= AGREE * length and apart <= AGREE
     text = f"home is one of {count(len(found), 'solution')}, to {apart:.1e}; largest gap {worst:.1e} {record.unit}"
     return Check(what, "ok" if agrees else "fault", text)
-
-
-def _distance(record: Mechanism, joints: Any, home: Any) -> float:
-    """Largest difference of two rows of joint values: rad, and lengths as shares of the characteristic length."""
-    import numpy as np
-
-    from assur.kinematics.closure import characteristic_length
-
-    length = characteristic_length(record)
-    gaps = [
-        np.angle(np.exp(1j * (joints[item.index] - home[item.index])))
-        if item.kind == "angle"
-        else (joints[item.index] - home[item.index]) / length
-        for item in record.coordinates
-    ]
-    return float(np.max(np.abs(gaps)))

@@ -32,11 +32,14 @@ def application() -> App:
     """The application with every command."""
     from assur.cli.audit import audit
     from assur.cli.check import check
+    from assur.cli.crosscheck import crosscheck
     from assur.cli.demo import demo
     from assur.cli.direct import direct
     from assur.cli.doctor import doctor
+    from assur.cli.export import export
     from assur.cli.figures import figures
     from assur.cli.follow import follow
+    from assur.cli.indices import indices
     from assur.cli.inverse import inverse
     from assur.cli.list import list_
     from assur.cli.new import new
@@ -57,8 +60,22 @@ def application() -> App:
         default_parameter=Parameter(negative="", show_default=False),
     )
     app.command(list_, name="list")
-    mechanism = (show, check, topology, direct, inverse, follow, singularity, workspace, audit, figures, report)
-    for command in (*mechanism, synthesize, new, schema, demo, doctor):
+    mechanism = (
+        show,
+        check,
+        topology,
+        direct,
+        inverse,
+        follow,
+        singularity,
+        workspace,
+        indices,
+        audit,
+        figures,
+        report,
+        export,
+    )
+    for command in (*mechanism, crosscheck, synthesize, new, schema, demo, doctor):
         app.command(command)
     return app
 

@@ -33,7 +33,7 @@ class Question:
     mode: str
     box: dict[str, Interval]
     strokes: dict[str, Interval]
-    resolution: int
+    resolution: int | None
     sections: tuple[float, ...] | None
     near: float | None
     held: dict[str, float] | None
@@ -44,7 +44,7 @@ def question(
     mode: str | None,
     box: Sequence[str],
     stroke: Sequence[str],
-    resolution: str,
+    resolution: str | None,
     section: Sequence[str],
     near: str | None,
     at: Sequence[str] = (),
@@ -62,7 +62,7 @@ def question(
         mode=mode or record.modes.default_working,
         box=_box(record, box),
         strokes=_strokes(record, stroke),
-        resolution=whole_number(resolution, "--resolution"),
+        resolution=None if resolution is None else whole_number(resolution, "--resolution"),
         sections=cuts or None,
         near=distance,
         held=held,
@@ -99,6 +99,8 @@ def outcome(record: Mechanism, asked: Question, written: Path | None, shared: Sh
 
 def _data(record: Mechanism, asked: Question, found: Workspace) -> dict[str, Any]:
     """The answer as plain data; angles in the mechanism's angle unit."""
+    from assur.workspace.region import default_resolution
+
     names = found.box.names
     lengths = {item.name: item.coordinate.kind == "length" for item in record.inputs}
     data = found.to_json()
@@ -110,7 +112,7 @@ def _data(record: Mechanism, asked: Question, found: Workspace) -> dict[str, Any
         "held": {name: value / _factor(record, is_length(name)) for name, value in data["held"].items()},
         "box": box,
         "sections": [{**item, last: item[last] / factor} for item in data["sections"]],
-        "resolution": asked.resolution,
+        "resolution": asked.resolution or default_resolution(record, found.slice),
         "strokes": {name: _outside(record, pair, lengths[name]) for name, pair in asked.strokes.items()},
     }
 
@@ -185,6 +187,7 @@ def _shown(record: Mechanism, data: dict[str, Any], written: Path | None) -> Ite
 
     dimension = len(data["coordinates"])
     yield heading(f"{data['mechanism']}, workspace of working mode {data['mode']}")
+    yield f"how: {data['how']}"
     yield f"box: {_intervals(record, dict(zip(data['coordinates'], data['box'], strict=True)))}"
     if data["held"]:
         yield f"held: {', '.join(_value(record, name, value) for name, value in data['held'].items())}"

@@ -38,6 +38,7 @@ def description(record: Mechanism) -> dict[str, Any]:
 
     home = record.home_values
     free = record.mobility(home)
+    internal = int(record.instantaneous(home).ranks.internal)
     form = record.closed_form
     at_home = [
         float(angle_at_border(record, home[item.index]) if item.kind == "angle" else home[item.index])
@@ -89,11 +90,21 @@ def description(record: Mechanism) -> dict[str, Any]:
             "platform_point": _platform_point(record, home),
             "residual": float(closure_error(record, home)),
         },
-        "mobility": {"freedoms": int(free.freedoms), "rank": int(free.rank), "redundant": int(free.redundant)},
+        "mobility": {
+            "freedoms": int(free.freedoms) - internal,
+            "internal": internal,
+            "rank": int(free.rank),
+            "redundant": int(free.redundant),
+        },
         "closed_form": None
         if form is None
         else {"complete_for": form.complete_for, "reduced_because": form.reduced_because},
     }
+
+
+def _spins(internal: int) -> str:
+    """Freedoms that move neither inputs nor platform."""
+    return f", and {count(internal, 'internal freedom')}" if internal else ""
 
 
 def _platform_point(record: Mechanism, home: Any) -> list[float]:
@@ -110,7 +121,8 @@ def _shown(data: dict[str, Any], style: Style) -> Iterable[RenderableType]:
     yield f"pose     {', '.join(data['coordinates'])} of link '{data['platform']}', orientation {data['orientation']}"
     yield f"inputs   {', '.join(item['name'] + ' (' + item['joint'] + ')' for item in data['inputs'])}"
     yield (
-        f"mobility F = {free['freedoms']}: {count(len(data['joints']), 'joint')}, {count(len(data['links']), 'link')}, "
+        f"mobility F = {free['freedoms']}{_spins(free['internal'])}: "
+        f"{count(len(data['joints']), 'joint')}, {count(len(data['links']), 'link')}, "
         f"rank {free['rank']} of the closure of the whole joint graph, "
         f"{count(free['redundant'], 'redundant constraint')}"
     )

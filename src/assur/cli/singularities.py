@@ -26,7 +26,7 @@ def outcome(record: Mechanism, mode: str, shared: Shared) -> Outcome:
     from assur.workspace.region import workspace
 
     with progress("loci in the workspace", shared) as step:
-        region = workspace(record, mode, resolution=RESOLUTION, progress=step)
+        region = workspace(record, mode, resolution=RESOLUTION if record.closed_form else None, progress=step)
     with progress("example configurations", shared):
         examples = [_example(record, item) for item in singular_examples(record)]
     data = {
@@ -47,21 +47,27 @@ def _factors(record: Mechanism) -> list[dict[str, Any]]:
     from assur.kinematics.answers import power
     from assur.kinematics.status import closed_form_of, scale
 
-    return [
-        {
-            "name": item.name,
-            "kind": item.kind,
-            "meaning": item.meaning,
-            "unit": power(record.unit, item.unit),
-            "scale": scale(record, item.scale),
-        }
-        for item in closed_form_of(record).factor_list
-    ]
+    return (
+        [
+            {
+                "name": item.name,
+                "kind": item.kind,
+                "meaning": item.meaning,
+                "unit": power(record.unit, item.unit),
+                "scale": scale(record, item.scale),
+            }
+            for item in closed_form_of(record).factor_list
+        ]
+        if record.closed_form
+        else []
+    )
 
 
 def _groups(record: Mechanism) -> dict[str, list[list[str]]]:
     from assur.kinematics.status import closed_form_of
 
+    if record.closed_form is None:
+        return {"constraint": [], "self_motion": []}
     form = closed_form_of(record)
     return {
         "constraint": [list(group) for group in form.constraint_singular],

@@ -24,7 +24,10 @@ def workspace(
         tuple[str, ...],
         Parameter(metavar="[NAME=]LOW:HIGH", help="Limits of one input, or of all inputs if no name is given."),
     ] = (),
-    resolution: Annotated[str, Parameter(metavar="CELLS", help="Cells along each coordinate, 64 if left out.")] = "64",
+    resolution: Annotated[
+        str | None,
+        Parameter(metavar="CELLS", help="Cells along each coordinate; 64, or 20 if followed in space."),
+    ] = None,
     at: Annotated[
         tuple[str, ...],
         Parameter(metavar="NAME=VALUE", help="Hold one coordinate; of a pose with more than three, angles as at home."),

@@ -203,5 +203,5 @@ def _rank(singular: FloatArray, zero: FloatArray) -> tuple[IntArray, FloatArray]
     least = np.min(np.where(kept, singular, np.inf), axis=-1, initial=np.inf)
     dropped = np.max(np.where(kept, 0.0, singular), axis=-1, initial=0.0)
     smallest = np.where(np.isfinite(least), least, zero)
-    with np.errstate(divide="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
         return np.sum(kept, axis=-1), np.where(dropped > 0.0, smallest / dropped, np.inf)

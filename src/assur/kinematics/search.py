@@ -78,10 +78,10 @@ def distinct(record: MechanismRecord, joints: FloatArray) -> NDArray[np.intp]:
     Configurations are told apart by where the joints and the platform are, and by their inputs; a rod that spins about
     its ball joints does not make another one.
     """
-    places = _places(record, joints)
+    where = places(record, joints)
     kept: list[int] = []
-    for k, place in enumerate(places):
-        if not kept or np.min(np.max(np.abs(places[kept] - place), axis=-1)) > SAME:
+    for k, place in enumerate(where):
+        if not kept or np.min(np.max(np.abs(where[kept] - place), axis=-1)) > SAME:
             kept.append(k)
     return np.array(kept, dtype=np.intp)
 
@@ -96,7 +96,7 @@ def in_one_turn(record: MechanismRecord, joints: FloatArray) -> FloatArray:
     return answer
 
 
-def _places(record: MechanismRecord, joints: FloatArray) -> FloatArray:
+def places(record: MechanismRecord, joints: FloatArray) -> FloatArray:
     """Places (N, k) of all joints in units of the characteristic length, the platform's orientation, the inputs."""
     placed, length = frames(record, joints), characteristic_length(record)
     columns = []

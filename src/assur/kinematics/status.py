@@ -74,7 +74,9 @@ def classify(record: MechanismRecord, factors: Mapping[str, FloatArray]) -> NDAr
     zero = {name: value <= FACTOR_TOLERANCE for name, value in size.items()}
     of_kind = {kind: [item.name for item in form.factor_list if item.kind == kind] for kind in ("serial", "parallel")}
     serial, parallel = (_any([zero[name] for name in names], zero) for names in of_kind.values())
-    near = _any([size[name] <= NEAR_SINGULAR for names in of_kind.values() for name in names], zero)
+    alone = [group[0] for group in form.constraint_singular if len(group) == 1]
+    watched = [*of_kind["serial"], *of_kind["parallel"], *alone]
+    near = _any([size[name] <= NEAR_SINGULAR for name in watched], zero)
     levels = (
         (Status.near_singular, near),
         (Status.serial, serial),

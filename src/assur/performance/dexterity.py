@@ -2,7 +2,8 @@
 
 The local condition index is 1 / cond2(J), between 0 (singular) and 1 (isotropic); its mean over a region
 is the global one, eta = int (1 / cond2(J)) dW / int dW (Gosselin and Angeles 1991). Where inputs or pose
-coordinates mix lengths and angles the singular values mix units, and only their zeros mean anything.
+coordinates mix lengths and angles the singular values mix units, and only their zeros mean anything:
+`assur.performance.indices` divides lengths by a characteristic length there.
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ from assur.report.sections.topology import topology
 from assur.report.sections.velocity import velocity
 from assur.results.files import write_whole
 from assur.results.kinds import Section
-from assur.workspace.region import RESOLUTION
+from assur.workspace.region import default_resolution
 
 Progress = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
@@ -54,7 +54,7 @@ def report_html(
     *,
     progress: Progress | None = None,
     figures: bool = True,
-    resolution: int = RESOLUTION,
+    resolution: int | None = None,
 ) -> str:
     """The report as one HTML page without any outside resource, the same bytes for the same mechanism.
 
@@ -62,7 +62,7 @@ def report_html(
         record: the mechanism; one without closed form or reference data is told so where they are missing.
         progress: called with (steps done, steps in all).
         figures: whether figures are drawn into it.
-        resolution: cells of the workspace along each coordinate.
+        resolution: cells of the workspace along each coordinate; by default 64, fewer without closed form.
 
     Example:
         >>> from assur.model.registry import load_record
@@ -70,7 +70,8 @@ def report_html(
         >>> text.startswith("<!DOCTYPE html>"), "http://" in text
         (True, False)
     """
-    return page_html(report_page(Findings(record, resolution, figures), progress))
+    cells = default_resolution(record) if resolution is None else resolution
+    return page_html(report_page(Findings(record, cells, figures), progress))
 
 
 def report_page(findings: Findings, progress: Progress | None = None) -> Page:

@@ -1,7 +1,8 @@
 """Example configurations, one for each factor of the determinants, found and not written down.
 
 A factor that changes sign in a working mode is followed to its zero between two poses; one that is the
-root of a margin is met where that margin ends the mode.
+root of a margin is met where that margin ends the mode. So are factors that divide neither determinant where they
+alone make a constraint singularity. Without a closed form paths from home are followed until they stop.
 """
 
 from __future__ import annotations
@@ -14,13 +15,17 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.kinematics.existence import exists
+from assur.kinematics.finite_motion import classify_at
+from assur.kinematics.following import follow
+from assur.kinematics.home import home_values
 from assur.kinematics.modes import all_modes
 from assur.kinematics.position import inverse
 from assur.kinematics.status import FACTOR_TOLERANCE, Status, closed_form_of, relative_factors
 from assur.kinematics.velocity import branch_at
-from assur.model.closed_form import Factor
+from assur.model.closed_form import ClosedForm, Factor
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
+from assur.singularity.loci import OUTPUT
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -28,6 +33,16 @@ SAMPLES = 400
 SEGMENTS = 60
 BISECTIONS = 70
 GROWTH = 3.0
+PATHS = 8
+"""Paths that are followed from home, as many in the box as in the wider one."""
+
+STOPPED = 1e-12
+"""Share of a path within which it stops before a singularity, which is then within what counts as one."""
+
+INPUT = Factor("input", "serial", "1", "the platform stands and an input can move", unit=0)
+CLOSURE = Factor("closure", "other", "1", "the loops lose a constraint", unit=0)
+MET = {"serial": INPUT, "parallel": OUTPUT, "constraint": CLOSURE}
+"""What a path that stops has met."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +79,8 @@ def singular_examples(record: MechanismRecord, seed: int = 0) -> tuple[SingularE
     """One example per factor: the pose at its zero at which the fewest others vanish, the default mode first.
 
     Poses are drawn from the workspace box of the file, and where a factor never vanishes there, from a box
-    three times as wide. A factor that vanishes in neither has no example.
+    three times as wide. A factor that vanishes in neither has no example. Without a closed form there is one example
+    per kind that is met (input, output, closure) on straight paths from home to such poses.
 
     >>> from assur.model.registry import load_record
     >>> [example.factor.name for example in singular_examples(load_record("zeng2019"))][:4]
@@ -78,9 +94,11 @@ def singular_examples(record: MechanismRecord, seed: int = 0) -> tuple[SingularE
         )
     low, high = np.array([record.box[name] for name in record.platform.pose]).T
     rng = np.random.default_rng(seed)
+    if record.closed_form is None:
+        return _met_on_paths(record, low, high, rng)
     middle, half = (low + high) / 2, (high - low) / 2
     boxes = [rng.uniform(middle - grown * half, middle + grown * half, (SAMPLES, len(low))) for grown in (1, GROWTH)]
-    factors = [factor for factor in closed_form_of(record).factor_list if factor.kind != "other"]
+    factors = _sought(record.closed_form)
     modes = list(dict.fromkeys([record.modes.default_working, *all_modes(record, "inverse")]))
     best: dict[str, _Candidate] = {}
     for poses in boxes:
@@ -91,6 +109,35 @@ def singular_examples(record: MechanismRecord, seed: int = 0) -> tuple[SingularE
                 if candidate.name not in best or candidate.others < best[candidate.name].others:
                     best[candidate.name] = candidate
     return tuple(_example(record, factor, best[factor.name], low, high) for factor in factors if factor.name in best)
+
+
+def _sought(form: ClosedForm) -> list[Factor]:
+    """The factors of the determinants, and those that alone make a constraint singularity."""
+    alone = {group[0] for group in form.constraint_singular if len(group) == 1}
+    return [item for item in form.factor_list if item.kind != "other" or item.name in alone]
+
+
+def _met_on_paths(
+    record: MechanismRecord, low: FloatArray, high: FloatArray, rng: np.random.Generator
+) -> tuple[SingularExample, ...]:
+    """The first configuration of each kind before which a path from home to a pose by chance stops."""
+    home = home_values(record)
+    middle, half = (low + high) / 2, (high - low) / 2
+    best: dict[str, SingularExample] = {}
+    for k in range(2 * PATHS):
+        grown = 1 if k < PATHS else GROWTH
+        target = rng.uniform(middle - grown * half, middle + grown * half)
+        stop = follow(record, home, poses=target, use_limits=False, tolerance=STOPPED).stopped
+        if stop is None or stop.kind not in MET or stop.kind in best:
+            continue
+        status = Status(int(classify_at(record, stop.joints)))
+        if status not in (Status.regular, Status.near_singular):
+            in_box = bool(np.all((stop.pose >= low) & (stop.pose <= high)))
+            mode = record.modes.default_working
+            best[stop.kind] = SingularExample(MET[stop.kind], mode, stop.pose, stop.inputs, stop.joints, status, in_box)
+        if len(best) == len(MET):
+            break
+    return tuple(best[kind] for kind in MET if kind in best)
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,8 +187,7 @@ def _evaluate(record: MechanismRecord, mode: str, poses: FloatArray) -> _Samples
         factors = relative_factors(record, form.factors(Floats(), record.values, branch.core))
     shape = (len(poses),)
     real = np.broadcast_to(exists(record, form.inverse_margins, branch.margins), shape)
-    divide = [item.name for item in form.factor_list if item.kind != "other"]
-    return _Samples(poses, real, {name: np.broadcast_to(factors[name], shape) for name in divide})
+    return _Samples(poses, real, {item.name: np.broadcast_to(factors[item.name], shape) for item in _sought(form)})
 
 
 def _border_poses(record: MechanismRecord, mode: str, samples: _Samples) -> FloatArray:

@@ -13,12 +13,16 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of, scale
+from assur.kinematics.status import FACTOR_TOLERANCE, scale
 from assur.model.closed_form import Factor
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import rate_names
 
 FloatArray = NDArray[np.float64]
 Faces = NDArray[np.int64]
+
+OUTPUT = Factor("output", "parallel", "1", "the inputs stand and the platform can move", r"\det J_p", unit=0)
+"""The one parallel factor of a mechanism without closed form: with orthonormal rows of (Jp, -Jq), at most 1."""
 
 
 class Region(Protocol):
@@ -62,8 +66,18 @@ def parallel_loci(record: MechanismRecord, region: Region) -> tuple[Locus, ...]:
     >>> [locus.factor for locus in workspace(load_record("zeng2019"), resolution=24).loci if locus.area > 0]
     ['w', 'v']
     """
-    factors = [item for item in closed_form_of(record).factor_list if item.kind == "parallel"]
-    return tuple(_locus(record, region, item) for item in factors)
+    return tuple(_locus(record, region, item) for item in parallel_factors(record))
+
+
+def parallel_factors(record: MechanismRecord) -> tuple[Factor, ...]:
+    """The parallel factors of the closed form; without one the determinant of Jp on the joint graph.
+
+    There is no determinant where a mechanism has more or fewer inputs than rates of its pose.
+    """
+    if record.closed_form is not None:
+        return tuple(item for item in record.closed_form.factor_list if item.kind == "parallel")
+    square = len(record.inputs) == len(rate_names(record.platform.pose))
+    return (OUTPUT,) if square else ()
 
 
 def _locus(record: MechanismRecord, region: Region, factor: Factor) -> Locus:

@@ -7,27 +7,24 @@ pose anyway.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from functools import partial
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.modes import mode_signs, sign_names
 from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import Branch
-from assur.model.mechanism import Input, MechanismRecord
+from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Extended
+from assur.workspace.bounds import Bound, Stroke, Values, bounds
 from assur.workspace.grid import UniformGrid
 from assur.workspace.slices import Columns, Slice, slice_at
 
 FloatArray = NDArray[np.float64]
 Field = Callable[[Columns], FloatArray]
-Stroke = tuple[float, float]
 
 
 def margin_fields(
@@ -36,7 +33,7 @@ def margin_fields(
     strokes: Mapping[str, Stroke | None] | None = None,
     slice_: Slice | None = None,
 ) -> dict[str, Field]:
-    """Every margin of a working mode as a function of the free coordinates of a slice, those of strokes included.
+    """Every margin of a working mode over the free coordinates of a slice, those of strokes and limits included.
 
     Margins at whose zero the formulas merely degenerate forbid no open set of poses and are left out.
 
@@ -52,9 +49,8 @@ def margin_fields(
     fields: dict[str, Field] = {
         margin.name: partial(_margin, branch, margin.name) for margin in form.inverse_margins if margin.zero == "merge"
     }
-    for index, (item, stroke) in enumerate(_strokes(record, strokes)):
-        if stroke is not None:
-            fields |= _stroke_fields(branch, index, item, stroke)
+    for name, bound in bounds(record, strokes).items():
+        fields[name] = partial(_bound, record, branch, bound)
     return fields
 
 
@@ -102,51 +98,8 @@ def _factor(record: MechanismRecord, branch: Callable[[Columns], Branch], name: 
     return np.asarray(factors[name], dtype=float)
 
 
-def _strokes(record: MechanismRecord, strokes: Mapping[str, Stroke | None] | None) -> list[tuple[Input, Stroke | None]]:
-    """Each input with its stroke: the user's, else the file's, else none."""
-    given = dict(strokes or {})
-    names = [item.name for item in record.inputs]
-    for name, stroke in given.items():
-        if name not in names:
-            raise UnknownNameError(f"input of {record.name}", name, names)
-        if stroke is not None:
-            given[name] = _checked(name, stroke)
-    return [(item, given.get(item.name, item.stroke)) for item in record.inputs]
-
-
-def _checked(name: str, stroke: Any) -> Stroke:
-    try:
-        low, high = (float(value) for value in stroke)
-    except (TypeError, ValueError) as error:
-        raise UsageError(f"stroke of {name}: {stroke!r} is not (low, high)") from error
-    if not low < high:  # a NaN ends here too
-        raise UsageError(f"stroke of {name}: [{low:g}, {high:g}] is turned round or empty", hint="give low < high")
-    return low, high
-
-
-def _stroke_fields(branch: Callable[[Columns], Branch], index: int, item: Input, stroke: Stroke) -> dict[str, Field]:
-    """Both ends of a printed length, q - low and high - q; of an angle, cos(q - middle) - cos(half stroke)."""
-    low, high = stroke
-    if item.coordinate.kind == "angle":
-        if high - low >= 2 * math.pi:
-            return {}
-        return {f"{low:g} <= {item.name} <= {high:g}": partial(_angle_stroke, branch, index, item, stroke)}
-    fields: dict[str, Field] = {}
-    if math.isfinite(low):
-        fields[f"{item.name} >= {low:g}"] = lambda columns: _length(branch, index, item, columns) - low
-    if math.isfinite(high):
-        fields[f"{item.name} <= {high:g}"] = lambda columns: high - _length(branch, index, item, columns)
-    return fields
-
-
-def _length(branch: Callable[[Columns], Branch], index: int, item: Input, columns: Columns) -> FloatArray:
-    return item.sign * np.asarray(branch(columns).inputs[index], dtype=float) + item.offset
-
-
-def _angle_stroke(
-    branch: Callable[[Columns], Branch], index: int, item: Input, stroke: Stroke, columns: Columns
-) -> FloatArray:
-    cosine, sine = branch(columns).inputs[index]
-    middle = item.sign * (sum(stroke) / 2 - item.offset)
-    half = (stroke[1] - stroke[0]) / 2
-    return np.asarray(cosine * math.cos(middle) + sine * math.sin(middle) - math.cos(half), dtype=float)
+def _bound(record: MechanismRecord, branch: Callable[[Columns], Branch], bound: Bound, columns: Columns) -> FloatArray:
+    with np.errstate(divide="ignore", invalid="ignore"):
+        found = branch(columns)
+        joints: Values = closed_form_of(record).joints(Extended(), record.values, found.core)
+        return bound(joints)

@@ -11,7 +11,9 @@ import numpy as np
 from manifold3d import Manifold
 from numpy.typing import NDArray
 
+from assur.workspace.crossings import halving
 from assur.workspace.fields import Field, at_points, sample
+from assur.workspace.followed import FollowedField
 from assur.workspace.grid import UniformGrid
 from assur.workspace.solids import Faces, area_of, cuboid, intersection, mesh, solid_where, surface_in
 
@@ -48,8 +50,7 @@ class Reach:
     def zero_surface(self, name: str) -> tuple[FloatArray, Faces, float]:
         """Zero set of a factor inside the region: vertices (n, m), faces (k, 3) or segments (k, 2), area or length."""
         field = self.factors[name]
-        at = partial(at_points, field, self.grid.dimension)
-        vertices, faces = surface_in(self.solid, solid_where(sample(field, self.grid), self.grid, at))
+        vertices, faces = surface_in(self.solid, _solid(field, sample(field, self.grid), self.grid))
         size = area_of(vertices, faces) / self.grid.thickness
         return *in_pose_coordinates(self.grid, vertices, faces), size
 
@@ -80,10 +81,18 @@ def reach(
         inside &= values >= 0
         digest = hashlib.blake2b(values.tobytes()).digest()
         if digest not in seen and np.min(values) < 0:
-            solids.append(solid_where(values, grid, partial(at_points, field, grid.dimension)))
+            solids.append(_solid(field, values, grid))
         seen.add(digest)
         tick()
     return Reach(grid, factors, intersection(solids), inside)
+
+
+def _solid(field: Field, values: NDArray[np.float32], grid: UniformGrid) -> Manifold:
+    """Where a field is not negative, from its values at the nodes; one that was followed finds its own crossings."""
+    if isinstance(field, FollowedField):
+        # a measure may be so small beside its other end that interpolation would put the vertex at the node
+        return solid_where(np.where(values >= 0, np.float32(1.0), np.float32(-1.0)), grid, field.crossing)
+    return solid_where(values, grid, halving(partial(at_points, field, grid.dimension)))
 
 
 def in_pose_coordinates(grid: UniformGrid, vertices: FloatArray, faces: Faces) -> tuple[FloatArray, Faces]:

@@ -1,7 +1,9 @@
 """The workspace of a mechanism in one working mode: one call, one frozen result.
 
-The region is the set of poses of a box that the mode reaches (every margin of its inverse problem is at
-least zero) with every input inside its stroke, where strokes are given.
+The region is the set of poses of a box that the mode reaches with every input inside its stroke and every joint
+inside its limits, where there are any. With a closed form the mode reaches a pose where every margin of its inverse
+problem is at least zero. Without one it is followed over the box from home (`assur.kinematics.continuation`), and the
+region is the part of the mode that hangs together with home inside the box.
 """
 
 from __future__ import annotations
@@ -19,13 +21,16 @@ from assur.kinematics.closure import characteristic_length
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.singularity.loci import Locus, parallel_loci
+from assur.workspace.bounds import Stroke, bounds
 from assur.workspace.domain import Box, box_of
-from assur.workspace.fields import Field, Stroke, at_points, factor_fields, margin_fields
+from assur.workspace.fields import Field, at_points, factor_fields, margin_fields
+from assur.workspace.followed import FollowedField, followed_factors, followed_margins, over_grid
+from assur.workspace.grid import UniformGrid, grid_over
 from assur.workspace.nearness import near_volume, triangles_of
 from assur.workspace.projections import Projection, projection
 from assur.workspace.reach import Reach
 from assur.workspace.sections import Section, section
-from assur.workspace.slices import Slice, slice_at
+from assur.workspace.slices import MOST, Slice, slice_at
 from assur.workspace.volume import region_and_error
 
 FloatArray = NDArray[np.float64]
@@ -33,6 +38,12 @@ Progress = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
 
 RESOLUTION = 64
+FOLLOWED = 20
+"""Cells along each coordinate by default; fewer in space where the mechanism has no closed form and is followed."""
+
+FOLLOWING, LAST = 40, 3
+"""Steps of progress: of following a mode, and of what comes after the margins."""
+
 NEAR = 0.035
 """How near to a parallel singularity is near, as a share of the characteristic length, rounded to one digit."""
 
@@ -53,6 +64,7 @@ class Workspace:
             where there is no volume, where a pose coordinate is an angle, or where `near` is too small to resolve.
         vertices, faces: (n, 3) and (k, 3), the surface of the region, or the triangulated region in a plane.
         margins, region: the fields and the solid behind it all.
+        how: "closed form", or from where the mode was followed: "followed from home".
     """
 
     mechanism: str
@@ -70,6 +82,7 @@ class Workspace:
     faces: NDArray[np.int64] = field(repr=False)
     margins: Mapping[str, Field] = field(repr=False)
     region: Reach = field(repr=False)
+    how: str = "closed form"
 
     @property
     def parallel_singular(self) -> dict[str, Any]:
@@ -101,6 +114,19 @@ class Workspace:
             inside &= at_points(margin, len(self.box.names), points) >= 0
         return self.slice.poses(points[inside])
 
+    def joints(self, points: FloatArray) -> FloatArray:
+        """Joint values (N, n) of the mode at points (N, free coordinates); NaN where it was not followed to.
+
+        Only of a mode that was followed; where there is a closed form, the inverse problem gives them.
+        """
+        followed = next((item for item in self.margins.values() if isinstance(item, FollowedField)), None)
+        if followed is None:
+            raise UsageError(
+                f"{self.mechanism} has a closed form", hint="take the joint values of .inverse(poses, mode)"
+            )
+        found = followed.over.at(np.asarray(points, dtype=float))
+        return np.where(found.reached[:, None], found.joints, np.nan)
+
     def to_json(self) -> dict[str, Any]:
         """The result as plain numbers, lists and None."""
         key = self.box.names[-1]
@@ -109,6 +135,7 @@ class Workspace:
             "volume_error": self.volume_error,
             "unit": self.unit,
             "mode": self.mode,
+            "how": self.how,
             "coordinates": list(self.box.names),
             "box": self.box.intervals,
             "held": dict(self.slice.held),
@@ -117,12 +144,23 @@ class Workspace:
         }
 
 
+def default_resolution(record: MechanismRecord, poses: Slice | None = None) -> int:
+    """Cells along each coordinate where nobody says how many.
+
+    >>> from assur.model.registry import load_record
+    >>> default_resolution(load_record("zeng2019"))
+    64
+    """
+    free = (poses or slice_at(record)).free
+    return RESOLUTION if record.closed_form or len(free) < MOST else FOLLOWED
+
+
 def workspace(
     record: MechanismRecord,
     mode: str | None = None,
     box: Mapping[str, Sequence[float]] | ArrayLike | None = None,
     strokes: Mapping[str, Stroke | None] | None = None,
-    resolution: int = RESOLUTION,
+    resolution: int | None = None,
     sections: Sequence[float] | None = None,
     near: float | None = None,
     held: Mapping[str, float] | None = None,
@@ -131,13 +169,15 @@ def workspace(
     """The workspace of a working mode inside a box, by solids (see `assur.workspace.solids`).
 
     Args:
-        record: the mechanism; it must have a closed form.
+        record: the mechanism. Without a closed form it is followed, which takes a minute where the other takes a
+            second: a quarter of the resolution will often do.
         mode: signs of the working mode; the file's default where none is given.
         box: (low, high) per coordinate that varies, in order or by name, in length units and rad; the file's box
             for what is left out.
         strokes: input name -> (low, high) as printed, in length units and rad, or None for no limit; the
             file's for what is left out.
-        resolution: cells along each coordinate, 4 to 400. What is thinner than a cell may be missed.
+        resolution: cells along each coordinate, 4 to 400; by default 64, or 20 in space where there is no closed
+            form. What is thinner than a cell may be missed.
         sections: values of the last pose coordinate; by default those of the file that lie in the box.
         near: distance from a parallel-singular surface, in length units; by default 3.5 % of the characteristic
             length, rounded to one digit.
@@ -163,17 +203,17 @@ def workspace(
     mode = mode or record.modes.default_working
     poses = slice_at(record, held)
     domain = box_of(record, box, poses.free)
+    resolution = default_resolution(record, poses) if resolution is None else resolution
     if near is None:
         near = float(f"{NEAR * characteristic_length(record):.1g}")
     if not (isinstance(near, (int, float, np.number)) and np.isfinite(near) and near > 0):
         raise UsageError(f"near: {near!r} is not a positive distance")
-    margins = margin_fields(record, mode, strokes, poses)
-    tick = _ticker(2 * len(margins) + 3, progress)
-    region, error = region_and_error(margins, factor_fields(record, mode, poses), domain, resolution, tick)
+    fields = _fields(record, mode, strokes, poses, grid_over(domain, resolution), progress)
+    region, error = region_and_error(fields.margins, fields.factors, domain, resolution, fields.tick)
     loci = parallel_loci(record, region)
-    tick()
+    fields.tick()
     share = _share(region, loci, near)
-    tick()
+    fields.tick()
     values = _default_sections(record, domain) if sections is None else sections
     vertices, faces = region.mesh()
     found = Workspace(
@@ -190,11 +230,48 @@ def workspace(
         share=share,
         vertices=vertices,
         faces=faces,
-        margins=margins,
+        margins=fields.margins,
         region=region,
+        how=fields.how,
     )
-    tick()
+    fields.tick()
     return found
+
+
+@dataclass(frozen=True, eq=False)
+class _Fields:
+    """The fields of a mode, where they come from, and a function that reports one more step done."""
+
+    margins: Mapping[str, Field]
+    factors: Mapping[str, Field]
+    how: str
+    tick: Callable[[], None]
+
+
+def _fields(
+    record: MechanismRecord,
+    mode: str,
+    strokes: Mapping[str, Stroke | None] | None,
+    poses: Slice,
+    grid: UniformGrid,
+    progress: Progress | None,
+) -> _Fields:
+    if record.closed_form is not None:
+        margins = margin_fields(record, mode, strokes, poses)
+        factors = factor_fields(record, mode, poses)
+        return _Fields(margins, factors, "closed form", _ticker(2 * len(margins) + LAST, progress))
+    tick = _ticker(FOLLOWING + 2 * (1 + len(bounds(record, strokes))) + LAST, progress)
+    done = 0
+
+    def following(share: float) -> None:
+        nonlocal done
+        while done < int(share * FOLLOWING):
+            done += 1
+            tick()
+
+    over, how = over_grid(record, mode, poses, grid, following)
+    following(1.0)
+    return _Fields(followed_margins(over, strokes), followed_factors(over), how, tick)
 
 
 def _default_sections(record: MechanismRecord, box: Box) -> tuple[float, ...]:

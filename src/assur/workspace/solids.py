@@ -6,7 +6,7 @@ region is never meshed, so edges where two surfaces meet stay sharp.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from manifold3d import Error, Manifold, Mesh64, OpType
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from skimage.measure import marching_cubes
 
 from assur.errors import AssurError
-from assur.workspace.crossings import on_surface
+from assur.workspace.crossings import Crossing, on_surface
 from assur.workspace.grid import UniformGrid
 
 FloatArray = NDArray[np.float64]
@@ -22,13 +22,12 @@ Faces = NDArray[np.int64]
 TINY = 1e-6
 
 
-def solid_where(
-    values: NDArray[np.float32], grid: UniformGrid, at: Callable[[FloatArray], FloatArray] | None = None
-) -> Manifold:
+def solid_where(values: NDArray[np.float32], grid: UniformGrid, crossing: Crossing | None = None) -> Manifold:
     """Solid where a field >= 0, from its values at the nodes of a grid.
 
-    `at` gives the field (n,) at points (n, 3); with it every vertex lies on the surface to 2^-26 of a
-    step, without it vertices are interpolated. The solid is closed outside the box; intersect it with `cuboid`.
+    `crossing` says where the field is zero on an edge of the grid; with it every vertex lies on the surface as
+    exactly as it does, without it vertices are interpolated. The solid is closed outside the box; intersect it with
+    `cuboid`.
 
     Example: half the ball of radius 1, to 1 % with 8 cells across.
 
@@ -49,8 +48,8 @@ def solid_where(
     scaled = np.pad(np.where(values == 0, np.float32(TINY), values / size), 1, constant_values=-1.0)
     vertices, faces, _, _ = marching_cubes(scaled, 0.0, gradient_direction="ascent", allow_degenerate=True)
     index = vertices.astype(float) - 1.0
-    if at is not None:
-        index = on_surface(index, at, grid)
+    if crossing is not None:
+        index = on_surface(index, crossing, grid)
     solid = Manifold(Mesh64(np.ascontiguousarray(grid.position(index)), np.ascontiguousarray(faces, dtype=np.uint64)))
     if solid.status() != Error.NoError:
         raise AssurError(f"marching cubes gave a mesh that is no solid: {solid.status()}")

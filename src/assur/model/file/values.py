@@ -7,7 +7,7 @@ import math
 import re
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, BeforeValidator, PlainValidator
+from pydantic import AfterValidator, BeforeValidator, PlainValidator, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
 from assur.model.formula import RESERVED, Formula, FormulaError, parse
@@ -18,6 +18,11 @@ AXES = {
     "x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1),
     "-x": (-1, 0, 0), "-y": (0, -1, 0), "-z": (0, 0, -1),
 }  # fmt: skip
+PLAIN_PATTERN = rf"^(?!(?:{'|'.join(RESERVED)})$)[A-Za-z_][A-Za-z0-9_]*$"
+NAME_PATTERN = PLAIN_PATTERN.removesuffix("$") + "'*$"
+DEFINITION = "definition"
+"""Key by which a JSON Schema names one of its definitions until it is written."""
+
 COMMA = "write decimals with a point: 0.5, not 0,5"
 
 
@@ -118,15 +123,20 @@ def _sense(value: object) -> object:
     return value
 
 
-Value = Annotated[Formula, PlainValidator(_value)]
-Vector = Annotated[tuple[Value, Value, Value], _listed(3, "a list of three components")]
-Range = Annotated[tuple[Value, Value], _listed(2, "a list [low, high]")]
-Axis = Annotated[Vector, BeforeValidator(_axis)]
-TwoAxes = Annotated[tuple[Axis, Axis], _listed(2, "a list of two axes")]
-Name = Annotated[str, AfterValidator(_name)]
-PlainName = Annotated[str, AfterValidator(_plain_name)]
-HomeValue = Annotated[tuple[Value, ...], BeforeValidator(_components)]
-Sense = Annotated[int, PlainValidator(_sense)]
+def _described(name: str) -> WithJsonSchema:
+    """What stands here, for editors: a definition of `assur.model.file.json_schema`."""
+    return WithJsonSchema({DEFINITION: name})
+
+
+Value = Annotated[Formula, PlainValidator(_value), _described("value")]
+Vector = Annotated[tuple[Value, Value, Value], _listed(3, "a list of three components"), _described("vector")]
+Range = Annotated[tuple[Value, Value], _listed(2, "a list [low, high]"), _described("range")]
+Axis = Annotated[Vector, BeforeValidator(_axis), _described("axis")]
+TwoAxes = Annotated[tuple[Axis, Axis], _listed(2, "a list of two axes"), _described("two_axes")]
+Name = Annotated[str, AfterValidator(_name), WithJsonSchema({"type": "string", "pattern": NAME_PATTERN})]
+PlainName = Annotated[str, AfterValidator(_plain_name), WithJsonSchema({"type": "string", "pattern": PLAIN_PATTERN})]
+HomeValue = Annotated[tuple[Value, ...], BeforeValidator(_components), _described("home_value")]
+Sense = Annotated[int, PlainValidator(_sense), _described("sense")]
 ZERO = (parse("0"), parse("0"), parse("0"))
-MechanismName = Annotated[str, AfterValidator(_mechanism_name)]
-Format = Annotated[Any, PlainValidator(_format)]
+MechanismName = Annotated[str, AfterValidator(_mechanism_name), _described("mechanism_name")]
+Format = Annotated[Any, PlainValidator(_format), _described("format")]

@@ -1,0 +1,172 @@
+"""Performance indices as data and as a person reads them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, Literal
+
+from assur.cli.numbers import number, whole_number
+from assur.cli.options import Outcome, Shared
+from assur.cli.output import heading, table
+from assur.cli.positions import EXIT_CODES, failures
+from assur.cli.progress import progress
+from assur.cli.quantities import point_text, point_title, pose_text, short, style_of
+from assur.cli.regions import Question, with_error
+from assur.errors import UsageError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from rich.console import RenderableType
+
+    from assur.mechanism import Mechanism
+    from assur.performance.overall import OverallIndices
+
+Length = float | Literal["isotropic"] | None
+
+
+def length_asked(text: str | None) -> Length:
+    """The characteristic length that was asked for.
+
+    >>> length_asked("isotropic"), length_asked("120"), length_asked(None)
+    ('isotropic', 120.0, None)
+    """
+    if text is None:
+        return None
+    if text.strip() == "isotropic":
+        return "isotropic"
+    value = number(text, "--length")
+    if value <= 0:
+        raise UsageError(f"--length: {text.strip()} is not a positive length", hint="or --length isotropic")
+    return value
+
+
+def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) -> Outcome:
+    """Every index at one pose (m,) in a working mode."""
+    from assur.kinematics.answers import answer, pose_at_border
+    from assur.performance.indices import indices
+    from assur.results.json_text import plain
+
+    lost = answer(record.inverse(pose, mode))["failures"]
+    found = indices(record, pose, mode, None if lost and length == "isotropic" else length)
+    data = {
+        "mechanism": record.name,
+        "unit": record.unit,
+        "angle": record.angle,
+        "coordinates": list(record.platform.pose),
+        "pose": plain(pose_at_border(record, pose)),
+        "mode": mode,
+        "input_names": [item.name for item in record.inputs],
+        **found.to_json(),
+        "failures": lost,
+    }
+    units = _units(found)
+    return Outcome(data, lambda: _pose_shown(record, data, units), EXIT_CODES.get(data["status"], 0))
+
+
+def over_workspace(record: Mechanism, asked: Question, points: str, length: Length, shared: Shared) -> Outcome:
+    """Means and extremes of every index over the workspace of a working mode."""
+    from assur.kinematics.answers import angle_at_border, pose_at_border
+    from assur.performance.overall import overall
+    from assur.results.json_text import plain
+    from assur.workspace.region import workspace
+
+    count = whole_number(points, "--points")
+    with progress("workspace", shared) as step:
+        region = workspace(
+            record, asked.mode, asked.box, asked.strokes, asked.resolution, (), held=asked.held, progress=step
+        )
+    with progress("indices", shared):
+        found = overall(record, region, count, length)
+    data = {
+        "mechanism": record.name,
+        "unit": record.unit,
+        "angle": record.angle,
+        "coordinates": list(record.platform.pose),
+        **found.to_json(),
+        "held": {
+            name: plain(value if name in ("x", "y", "z") else angle_at_border(record, value))
+            for name, value in region.slice.held.items()
+        },
+        "volume": region.volume,
+        "volume_error": region.volume_error,
+        "volume_unit": region.unit,
+    }
+    for item in data["indices"].values():
+        for key in ("least_at", "most_at"):
+            item[key] = plain(pose_at_border(record, item[key]))
+    return Outcome(data, lambda: _overall_shown(record, data, found))
+
+
+def _units(found: Any) -> dict[str, str]:
+    from assur.performance.indices import INDICES
+
+    return {name: index.unit(found) for name, index in INDICES.items()}
+
+
+def _pose_shown(record: Mechanism, data: dict[str, Any], units: dict[str, str]) -> Iterable[RenderableType]:
+    from assur.performance.indices import INDICES
+
+    yield heading(f"{data['mechanism']}, indices: {data['status']}")
+    of_mode = f", working mode {data['mode']}" if data["mode"] else ""
+    yield f"at {pose_text(style_of(record), data['coordinates'], data['pose'])}{of_mode}"
+    yield ""
+    if data["failures"]:
+        yield failures(data["failures"])
+        return
+    rows = [(name, f"{short(data[name])} {units[name]}".strip(), index.meaning) for name, index in INDICES.items()]
+    yield table(("index", "value", "what it is"), rows, left=("index", "what it is"))
+    yield ""
+    yield heading("transmission, input by input: 0 none, 1 all")
+    parts = (data["input_names"], data["input_transmission_indices"], data["output_transmission_indices"])
+    yield table(
+        ("input", "drives its limb", "drives the platform"),
+        [(name, short(first), short(second)) for name, first, second in zip(*parts, strict=True)],
+        left=("input",),
+    )
+    factors = ", ".join(map(short, data["velocity_factors"]))
+    yield f"velocity factors of J = Jp^-1 Jq: {factors} {data['velocity_factor_unit']}".rstrip()
+    yield _length_words(record, data["characteristic_length"])
+
+
+def _overall_shown(record: Mechanism, data: dict[str, Any], found: OverallIndices) -> Iterable[RenderableType]:
+    style = style_of(record)
+    of_mode = f" of working mode {data['mode']}" if data["mode"] else ""
+    yield heading(f"{data['mechanism']}, indices over the workspace{of_mode}")
+    if data["held"]:
+        yield f"held: {', '.join(f'{name} = {value:g}' for name, value in data['held'].items())}"
+    volume = with_error(data["volume"], data["volume_error"])
+    yield f"workspace: {volume} {data['volume_unit']}, seen at {data['points']} points"
+    if not found.values or found.good is None:
+        yield "nothing is reached"
+        return
+    yield ""
+    rows = [
+        (name, with_error(item.mean, item.mean_error), short(item.least), short(item.most))
+        for name, item in found.values.items()
+    ]
+    yield table(("index", "mean", "least", "most"), rows, left=("index",))
+    unit = data["velocity_factor_unit"]
+    if unit:
+        yield f"largest and smallest are velocity factors in {unit}; manipulability is their product"
+    yield _length_words(record, found.length)
+    yield ""
+    good = found.good
+    size = f"{with_error(good.volume, good.volume_error)} {good.unit}"
+    share = f"{100 * good.share:.1f} ± {100 * good.share_error:.1f} %"
+    yield f"good transmission (local index at least {data['good_from']}): {share}, {size}"
+    worst = data["indices"]["transmission"]
+    where = point_text(style, data["coordinates"], worst["least_at"])
+    title = point_title(style, data["coordinates"])
+    yield f"worst transmission seen: {short(worst['least'])} at {title} = {where}"
+    if data["singular"]:
+        yield f"{data['singular']} points are singular and left out of the means of J's indices"
+
+
+def _length_words(record: Mechanism, length: float | None) -> str:
+    from assur.performance.scaling import is_mixed
+
+    if length is not None:
+        return f"lengths are divided by the characteristic length {length:.6g} {record.unit}"
+    if is_mixed(record):
+        return "no characteristic length was found"
+    return "units do not mix, so that the condition indices depend on no characteristic length"

@@ -1,0 +1,191 @@
+"""`assur new`: a mechanism's file to begin with, from the catalogue or from chains in notation."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Parameter
+
+from assur.cli.numbers import whole_number
+from assur.cli.options import PLAIN, Outcome, Plain
+from assur.cli.output import heading
+from assur.cli.quantities import count as plural
+from assur.errors import OutputError, UnknownNameError, UsageError
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from assur.synthesis.drafting.copying import Copied
+    from assur.topology.analysis import Mode
+    from assur.topology.chains import Chain
+
+CLOSED_FORM = "closed_form.py"
+MODES: dict[str, Mode] = {"home": "home", "translation": "translation"}
+LIMBS = "3"
+
+
+def new(
+    file: Annotated[str, Parameter(name="FILE", help="The .toml file to write; its name is the mechanism's.")],
+    /,
+    *,
+    from_: Annotated[
+        str, Parameter(name="--from", metavar="NAME", help="Copy a mechanism of the catalogue (see `assur list`).")
+    ] = "",
+    chain: Annotated[
+        tuple[str, ...],
+        Parameter(name="--chain", metavar="TEXT", help="One limb from base to platform, in quotes. May be repeated."),
+    ] = (),
+    limb: Annotated[
+        str, Parameter(metavar="TEXT", allow_leading_hyphen=True, help="One limb, in quotes, repeated evenly about z.")
+    ] = "",
+    count: Annotated[str, Parameter(metavar="N", help="How often --limb is there; 3 if left out.")] = "",
+    actuate: Annotated[
+        str, Parameter(metavar="LIMB.JOINT,..", help="What is actuated, as 1.1,2.1,3.1, counted from the base.")
+    ] = "",
+    mode: Annotated[
+        str, Parameter(help="translation: the platform keeps its orientation. home: as the chains stand.")
+    ] = "",
+    force: Annotated[bool, Parameter(help="Replace the file if it is there.")] = False,
+    with_closed_form: Annotated[bool, Parameter(help="With --from: copy its closed form, a Python file, too.")] = False,
+    shared: Plain = PLAIN,  # noqa: ARG001  # read by main
+) -> Outcome:
+    r"""Write a mechanism's file to begin with: a copy, or a draft of chains.
+
+    A draft needs no dimensions. Joints get default places, each a parameter;
+    limbs that are turns of one another about z become one template. The file
+    is sound, its loops close at home whatever its parameters are, and it has
+    the topology of the chains: where that cannot be had, it says so and writes
+    nothing. For the notation of chains see `assur topology --help`.
+
+    For example:
+        assur new my.toml --from delta_4s
+        assur new my.toml --limb "R[z] R[z] R[z]" --count 3
+        assur new my.toml --limb "U P S" --count 6
+        assur new my.toml --chain "R[z] R[z] R[z]" --chain "R[z] R[z]"
+        assur new my.toml --chain "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]" \
+            --chain "P[y] P(4R)[y] P(4R)[x]"
+    """
+    path = _target(file, force=force)
+    if from_ and not chain and not limb:
+        _refuse_options(path, {"--count": count, "--actuate": actuate, "--mode": mode})
+        return _from_catalogue(from_, path, force=force, with_closed_form=with_closed_form)
+    chains = _chains(path, from_, chain, limb, count)
+    if with_closed_form:
+        raise UsageError("--with-closed-form goes with --from; a draft has no closed form", hint="leave it out")
+    return _draft(chains, path, actuate, mode)
+
+
+def _from_catalogue(name: str, path: Path, *, force: bool, with_closed_form: bool) -> Outcome:
+    from assur.model.registry import load_topology
+    from assur.synthesis.drafting.copying import copied, has_dimensions, in_catalogue
+
+    model = in_catalogue(name)
+    if has_dimensions(model):
+        return _written_copy(copied(model, path), path, force=force, with_closed_form=with_closed_form)
+    described = load_topology(model)
+    numbers = ",".join(f"{limb}.{joint}" for limb, joint in described.actuate)
+    return _draft(described.chains, path, numbers, described.mode)
+
+
+def _draft(chains: Sequence[Chain], path: Path, actuate: str, mode: str) -> Outcome:
+    from assur.results.files import write_whole
+    from assur.synthesis.drafting.drafting import drafted
+
+    _refuse_neighbour(path, replaced=False)
+    numbers = tuple(part.strip() for part in actuate.split(",")) if actuate.strip() else None
+    if mode and mode not in MODES:
+        raise UnknownNameError("mode", mode, MODES)
+    found = drafted(chains, path, actuate=numbers, mode=MODES[mode or "home"])
+    topology = found.topology
+    freedoms = plural(topology.dof - topology.internal_freedoms, "degree")
+    said = [
+        f"drafted from {plural(len(chains), 'limb')}: {topology.poc}, {freedoms} of freedom, "
+        f"coupling degree {topology.coupling_degree}; checked: it is sound, and this is its topology",
+        *found.notes,
+    ]
+    return _outcome(path, [str(write_whole(path, found.text))], said)
+
+
+def _written_copy(found: Copied, path: Path, *, force: bool, with_closed_form: bool) -> Outcome:
+    from assur.results.files import write_whole
+
+    wanted = with_closed_form and found.closed_form is not None
+    _refuse_neighbour(path, replaced=wanted and force)
+    files = [str(write_whole(path, found.text))]
+    if wanted and found.closed_form is not None:
+        files.append(str(write_whole(path.parent / CLOSED_FORM, found.closed_form.read_bytes())))
+    said = [f"copied from {found.model} of the catalogue"]
+    if found.closed_form is None:
+        said.append(f"{found.model} has no closed form")
+    elif wanted:
+        said.append(f"its closed form stands beside it, in {CLOSED_FORM}; it holds as long as only numbers are changed")
+    else:
+        said.append(
+            "its closed form stays behind, so that the new file is solved on its joint graph; "
+            "--with-closed-form copies it"
+        )
+    return _outcome(path, files, said)
+
+
+def _chains(path: Path, from_: str, chain: Sequence[str], limb: str, count: str) -> Sequence[Chain]:
+    """The chains that were given in exactly one of the ways."""
+    from assur.synthesis.drafting.repeating import repeated
+    from assur.topology.notation import parse_chains
+
+    given = [name for name, value in (("--from", from_), ("--chain", chain), ("--limb", limb)) if value]
+    if len(given) != 1:
+        found = " and ".join(given) if given else "nothing to begin with"
+        hint = f'for example: assur new {path} --from delta_4s, or assur new {path} --limb "R[z] R[z] R[z]" --count 3'
+        raise UsageError(f"{found}; give one of --from, --chain and --limb", hint=hint)
+    if limb:
+        return repeated(limb, whole_number(count or LIMBS, "--count"))
+    _refuse_options(path, {"--count": count}, "--limb")
+    return parse_chains(chain)
+
+
+def _refuse_options(path: Path, given: dict[str, str], which: str = "--chain or --limb") -> None:
+    """Options that say nothing here."""
+    for name, value in given.items():
+        if value:
+            raise UsageError(f"{name} goes with {which}", hint=f"leave it out: assur new {path} ...")
+
+
+def _target(file: str, *, force: bool) -> Path:
+    """The path to write; nothing is changed."""
+    from assur.synthesis.drafting.copying import mechanism_name
+
+    path = Path(file)
+    mechanism_name(path)
+    if path.is_dir():
+        raise OutputError(f"cannot write {path}: it is a folder", hint="give the name of a file")
+    if not path.parent.is_dir():
+        raise OutputError(f"cannot write {path}: the folder {path.parent} does not exist", hint="make it first")
+    if os.path.lexists(path) and not force:
+        raise OutputError(f"{path} is there already", hint="choose another name, or replace it with --force")
+    return path
+
+
+def _refuse_neighbour(path: Path, *, replaced: bool) -> None:
+    """A closed form beside a mechanism's file is taken for its own, so that there must be none of another."""
+    beside = path.parent / CLOSED_FORM
+    if os.path.lexists(beside) and not replaced:
+        raise OutputError(
+            f"{beside} is there already, and would be read as the closed form of {path.name}",
+            hint="choose another folder",
+        )
+
+
+def _outcome(path: Path, files: Sequence[str], said: Sequence[str]) -> Outcome:
+    data: dict[str, Any] = {"mechanism": path.stem, "files": list(files), "notes": list(said)}
+    return Outcome(data, lambda: _shown(path, data))
+
+
+def _shown(path: Path, data: dict[str, Any]) -> Iterable[RenderableType]:
+    from rich.text import Text
+
+    yield heading(f"wrote {' and '.join(data['files'])}")
+    yield from map(Text, data["notes"])
+    yield Text(f"next: assur check {path}")

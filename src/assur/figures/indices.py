@@ -1,0 +1,199 @@
+"""Indices: maps of transmission, condition and manipulability in the middle plane of the workspace, all from 0 to 1.
+
+In the transmission maps the thick line is where an index is 0.7: inside it in the last map is the good-transmission
+workspace (Wang, Wu and Liu 2010).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache, partial
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.patches import PathPatch
+from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt
+
+from assur.figures.context import Context
+from assur.figures.coordinates import drawn_span, dress, plane_words, symbol, value_words
+from assur.figures.dexterity import SHOWN, planes
+from assur.figures.plots import mode_words, no_workspace, outline
+from assur.figures.spec import Drawing, Entry
+from assur.figures.style import GREY, INK, ORANGE, PAGE, TEXT, new_figure
+from assur.model.pose import LENGTHS
+from assur.performance.indices import INDICES, Indices, indices
+from assur.performance.overall import OverallIndices, overall
+from assur.performance.transmission import GOOD
+
+FloatArray = NDArray[np.float64]
+NODES = 48
+POINTS = 2**10
+TALL = 75.0
+COLOURS = "cividis"
+LEVELS = [round(0.1 * k, 1) for k in range(1, 10)]
+TRANSMISSION_MAPS = ("input_transmission", "output_transmission", "transmission")
+JACOBIAN_MAPS = ("condition", "frobenius", "manipulability")
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """Every index at the nodes (rows, columns) of a plane, and the polygons of the workspace in it."""
+
+    plane: tuple[str, str]
+    held: dict[str, float]
+    xs: FloatArray
+    ys: FloatArray
+    found: Indices
+    polygons: list[FloatArray]
+
+    def shares(self, name: str) -> tuple[FloatArray, float]:
+        """An index between 0 and 1, and what it was divided by: 1, or the quantile where a velocity's colours end."""
+        values = self.found[name]
+        known = values[np.isfinite(values)]
+        if INDICES[name].power == 0 or not len(known):
+            return values, 1.0
+        top = float(np.quantile(known, SHOWN)) or 1.0
+        return values / top, top
+
+
+@lru_cache(maxsize=4)
+def field(context: Context) -> Field:
+    """The indices in the middle plane: through the middle of the box, of two lengths where there are two."""
+    found, box = context.workspace, context.workspace.box
+    chosen = planes(context)
+    first, second, third, level = next((p for p in chosen if p[0] in LENGTHS and p[1] in LENGTHS), chosen[0])
+    xs, ys = (np.linspace(box.low[box.axis(name)], box.high[box.axis(name)], NODES) for name in (first, second))
+    grid = np.zeros((NODES, NODES, len(box.names)))
+    grid[..., box.axis(first)], grid[..., box.axis(second)] = xs, ys[:, None]
+    if third:
+        grid[..., box.axis(third)] = level
+    poses = found.slice.poses(grid.reshape(-1, len(box.names))).reshape(NODES, NODES, -1)
+    polygons = found.section(level, third).polygons if third else found.projection(first, second).polygons
+    held = {third: level} if third else {}
+    return Field((first, second), held, xs, ys, indices(context.record, poses, found.mode), list(polygons))
+
+
+@lru_cache(maxsize=4)
+def whole(context: Context) -> OverallIndices:
+    """Means over the workspace."""
+    return overall(context.record, context.workspace, POINTS)
+
+
+def _transmission_caption(context: Context) -> str:
+    found = whole(context)
+    words = (
+        f"Transmission indices ({mode_words(context)}): the least input transmission index, the least output"
+        f" transmission index, and the least of all; 0 is singular, 1 the best. Thick lines: {GOOD:g}."
+    )
+    if found.good is None:
+        return words
+    mean = found.values["transmission"]
+    share = f"{100 * found.good.share:.1f} ± {100 * found.good.share_error:.1f} %"
+    return (
+        f"{words} The local index is at least {GOOD:g} in {share} of the workspace;"
+        f" its mean is {mean.mean:.3f} ± {mean.mean_error:.3f}."
+    )
+
+
+def _jacobian_caption(context: Context) -> str:
+    there = field(context)
+    top, unit = there.shares("manipulability")[1], INDICES["manipulability"].unit(there.found)
+    size = f"{top:.4g} {_powers(unit)}".strip()
+    words = (
+        f"Indices of $J = J_p^{{-1}}J_q$ ({mode_words(context)}): $1/\\kappa$ in the 2-norm and in the Frobenius norm,"
+        f" 0 singular and 1 isotropic, and the manipulability $w = \\sqrt{{\\det JJ^T}}$ divided by {size},"
+        f" its {100 * SHOWN:.0f} % quantile."
+    )
+    if there.found.length is None:
+        return words
+    return f"{words} Lengths are divided by the characteristic length {there.found.length:.4g} {context.record.unit}."
+
+
+def _powers(unit: str) -> str:
+    base, _, power = unit.partition("^")
+    return f"{base}$^{power}$" if power else unit
+
+
+def _draw(context: Context, names: tuple[str, ...], *, good: bool) -> Drawing:
+    there = field(context)
+    wide, tall = (drawn_span(context, name) for name in there.plane)
+    left, gap, bottom, top, right = 14.0, 6.0, 14.0, 5.0, 20.0
+    scale = min(TALL / tall, (PAGE - left - right - gap * (len(names) - 1)) / (len(names) * wide))
+    width = left + right + gap * (len(names) - 1) + len(names) * scale * wide
+    height = bottom + top + scale * tall
+    figure = new_figure(width, height)
+    place = "".join(f", {symbol(name)} = {value_words(context, name, value)}" for name, value in there.held.items())
+    data = {}
+    for k, name in enumerate(names):
+        start = left + k * (scale * wide + gap)
+        axes = figure.add_axes((start / width, bottom / height, scale * wide / width, scale * tall / height))
+        values, divisor = there.shares(name)
+        _map(context, axes, there, values, good=good)
+        if k:
+            axes.set_ylabel("")
+            axes.tick_params(labelleft=False)
+        label = f"({chr(97 + k)}) ${INDICES[name].symbol}$"
+        figure.text((start + scale * wide / 2) / width, 1.5 / height, label, ha="center", fontsize=TEXT)
+        data[name] = {"values": there.found[name], "divided_by": divisor}
+    figure.text(left / width, 1.0 - 3.5 / height, f"{plane_words(*there.plane)}{place}", fontsize=TEXT)
+    bar = figure.add_axes(((width - right + 5.0) / width, bottom / height, 3.5 / width, scale * tall / height))
+    figure.colorbar(ScalarMappable(Normalize(0.0, 1.0), COLOURS), cax=bar).set_ticks([0.0, *LEVELS[1::2], 1.0])
+    return Drawing(
+        figure,
+        {
+            "unit": context.record.unit,
+            "mode": context.workspace.mode,
+            "plane": there.plane,
+            "held": there.held,
+            there.plane[0]: there.xs,
+            there.plane[1]: there.ys,
+            "characteristic_length": there.found.length,
+            "maps": data,
+        },
+    )
+
+
+def _map(context: Context, axes: Axes, there: Field, values: FloatArray, *, good: bool) -> None:
+    """Colours and level lines, cut off at the border of the workspace."""
+    dress(context, axes, there.plane)
+    axes.tick_params(color=GREY)
+    path, known = outline(there.polygons), np.isfinite(values)
+    if path is None or not np.any(known):
+        return
+    border = PathPatch(path, facecolor="none", edgecolor=INK, linewidth=0.8, zorder=5)
+    axes.add_patch(border)
+    shown = _continued(values)
+    colours = axes.pcolormesh(there.xs, there.ys, shown, cmap=COLOURS, vmin=0.0, vmax=1.0, shading="gouraud")
+    colours.set_clip_path(border)
+    colours.set_rasterized(True)
+    if np.ptp(values[known]) < 1e-6:
+        return
+    axes.contour(there.xs, there.ys, shown, levels=LEVELS, colors="white", linewidths=0.5).set_clip_path(border)
+    if good and np.min(values[known]) < GOOD < np.max(values[known]):
+        line = axes.contour(there.xs, there.ys, shown, levels=[GOOD], colors=ORANGE, linewidths=1.4)
+        line.set_clip_path(border)
+
+
+def _continued(values: FloatArray) -> FloatArray:
+    """Values with those of the nearest node where there are none, so that colours reach the border."""
+    nearest = distance_transform_edt(~np.isfinite(values), return_distances=False, return_indices=True)
+    return np.asarray(values[tuple(nearest)])
+
+
+TRANSMISSION = Entry(
+    "transmission",
+    "Motion and force transmission",
+    no_workspace,
+    _transmission_caption,
+    partial(_draw, names=TRANSMISSION_MAPS, good=True),
+)
+MANIPULABILITY = Entry(
+    "manipulability",
+    "Condition and manipulability",
+    no_workspace,
+    _jacobian_caption,
+    partial(_draw, names=JACOBIAN_MAPS, good=False),
+)

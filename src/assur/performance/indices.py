@@ -1,0 +1,265 @@
+"""Indices of a mechanism, pose by pose: what papers print of its Jacobian, and how it transmits motion and force.
+
+All are of J_L, the Jacobian J = Jp^-1 Jq with lengths divided by the characteristic length L where units mix
+(`assur.performance.scaling`), with singular values s1 >= ... >= sk, and of the transmission wrenches
+(`assur.performance.transmission`):
+
+- condition: s_k / s_1 = 1/cond2, 0 singular, 1 isotropic (Salisbury and Craig 1982; Gosselin and Angeles 1991);
+- frobenius: k / (|J|_F |J^-1|_F), as condition with the Frobenius norm;
+- manipulability: sqrt(det(J J^T)) = s_1 s_2 ... s_k (Yoshikawa 1985);
+- largest, smallest: s_1 and s_k, the velocity factors in the fastest and slowest direction;
+- input_transmission, output_transmission, transmission: the least of each kind, and the least of all (Wang, Wu and
+  Liu 2010).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from assur.errors import UnknownNameError
+from assur.kinematics import border
+from assur.kinematics.position import inverse
+from assur.kinematics.solutions import SolutionSet
+from assur.kinematics.status import Status
+from assur.kinematics.velocity import VelocityMap, velocity_map, velocity_map_at
+from assur.model.mechanism import MechanismRecord
+from assur.performance.scaling import Length, chosen_length, factor_unit, scaled
+from assur.performance.transmission import Transmission, transmission_at
+from assur.results.json_text import plain
+
+FloatArray = NDArray[np.float64]
+BLOCK = 2**13
+
+
+@dataclass(frozen=True, eq=False)
+class Indices:
+    """Indices at poses or configurations (...).
+
+    Attributes:
+        mechanism: name of the mechanism.
+        status: (...) `Status` of each; it says why a number is missing.
+        length: the characteristic length that lengths are divided by, in the mechanism's unit; None where none is.
+        unit: of a velocity factor, as "mm/rad"; "" where it is a number.
+        velocity_factors: (..., k) singular values of J_L, largest first; NaN out of reach and where Jp is singular.
+        transmission: transmission indices of each input; NaN out of reach, 0 where Jp or Jq is singular.
+    """
+
+    mechanism: str
+    status: NDArray[np.int8]
+    length: float | None
+    unit: str
+    velocity_factors: FloatArray
+    transmission: Transmission
+
+    def __getitem__(self, name: str) -> FloatArray:
+        """One index (...) by its name in `INDICES`."""
+        return index_named(name).of(self)
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain numbers, with None for what does not exist."""
+        return {
+            "mechanism": self.mechanism,
+            "characteristic_length": self.length,
+            "velocity_factor_unit": self.unit,
+            "status": np.vectorize(lambda code: Status(code).name, otypes=[object])(self.status).tolist(),
+            "velocity_factors": plain(self.velocity_factors),
+            "input_transmission_indices": plain(self.transmission.inputs),
+            "output_transmission_indices": plain(self.transmission.outputs),
+            **{name: plain(self[name]) for name in INDICES},
+        }
+
+
+@dataclass(frozen=True)
+class Index:
+    """A kind of index: its symbol in LaTeX, what it is in words, its values, and how it counts in `Indices.unit`.
+
+    `power` is 1 for a velocity factor, 0 for a number between 0 and 1; the product of all factors has None.
+    """
+
+    symbol: str
+    meaning: str
+    power: int | None
+    of: Callable[[Indices], FloatArray]
+
+    def unit(self, found: Indices) -> str:
+        """Its unit, as "mm/rad" or "(mm/rad)^2"; "" for a number."""
+        power = found.velocity_factors.shape[-1] if self.power is None else self.power
+        if not found.unit or power == 0:
+            return ""
+        return found.unit if power == 1 else f"({found.unit})^{power}"
+
+
+def _condition(found: Indices) -> FloatArray:
+    largest = found.velocity_factors[..., 0]
+    # a J without any motion at all has index 0
+    return np.asarray(found.velocity_factors[..., -1] / np.where(largest == 0.0, 1.0, largest))
+
+
+def _frobenius(found: Indices) -> FloatArray:
+    factors = found.velocity_factors
+    singular = factors[..., -1:] == 0.0
+    safe = np.where(singular, 1.0, factors)
+    sizes = np.linalg.norm(safe, axis=-1) * np.linalg.norm(1.0 / safe, axis=-1)
+    return np.where(singular[..., 0], 0.0, factors.shape[-1] / sizes)
+
+
+INDICES: Mapping[str, Index] = {
+    "condition": Index(r"1/\kappa", "local condition index: 0 singular, 1 isotropic", 0, _condition),
+    "frobenius": Index(r"1/\kappa_F", "the same with the Frobenius norm", 0, _frobenius),
+    "manipulability": Index(
+        "w",
+        "manipulability, the product of the velocity factors",
+        None,
+        lambda found: np.prod(found.velocity_factors, axis=-1),
+    ),
+    "largest": Index(r"\sigma_{\max}", "largest velocity factor", 1, lambda found: found.velocity_factors[..., 0]),
+    "smallest": Index(r"\sigma_{\min}", "smallest velocity factor", 1, lambda found: found.velocity_factors[..., -1]),
+    "input_transmission": Index(
+        r"\mathrm{ITI}",
+        "least input transmission index: how well inputs drive their limbs",
+        0,
+        lambda found: np.min(found.transmission.inputs, axis=-1),
+    ),
+    "output_transmission": Index(
+        r"\mathrm{OTI}",
+        "least output transmission index: how well limbs drive the platform",
+        0,
+        lambda found: np.min(found.transmission.outputs, axis=-1),
+    ),
+    "transmission": Index(
+        r"\mathrm{LTI}", "local transmission index, the least of all", 0, lambda found: found.transmission.local
+    ),
+}
+"""Every index by its name, in the order in which they are printed."""
+
+
+def index_named(name: str) -> Index:
+    """The index of that name, or a clear refusal."""
+    if name not in INDICES:
+        raise UnknownNameError("index", name, INDICES)
+    return INDICES[name]
+
+
+def indices(
+    record: MechanismRecord, poses: ArrayLike, mode: str | None = None, characteristic_length: Length = None
+) -> Indices:
+    """Every index at poses (..., m) in a working mode (the file's default), by the closed form where there is one.
+
+    Args:
+        record: the mechanism. Without a closed form the joint values are searched for, pose by pose: that is slow.
+        poses: (..., m), lengths in the mechanism's unit and rad.
+        mode: signs of the working mode.
+        characteristic_length: a length; "isotropic" for the one that makes J_L most isotropic over these poses; None
+            for the mechanism's own where lengths and angles mix, and for none elsewhere.
+
+    Errors:
+        UsageError: a length that is none, poses of the wrong shape, an unknown mode.
+
+    Example: at the corner Q1 of its cube the Orthoglide's velocity factors are 2, 4/5, 4/5, and its local transmission
+    index is 1/sqrt(1.98).
+
+    >>> from assur.model.registry import load_record
+    >>> here = indices(load_record("orthoglide"), [73.2050807568877] * 3)
+    >>> here.velocity_factors.round(6), round(float(here["condition"]), 6), round(float(here["transmission"]), 6)
+    (array([2. , 0.8, 0.8]), 0.4, 0.710669)
+    """
+    given = border.checked_poses(record, poses)
+    flat = given.reshape(-1, given.shape[-1])
+    mode = mode or record.modes.default_working
+    parts = [_at_poses(record, flat[start : start + BLOCK], mode) for start in range(0, max(1, len(flat)), BLOCK)]
+    return _gathered(record, parts, given.shape[:-1], characteristic_length)
+
+
+def indices_at(record: MechanismRecord, joints: ArrayLike, characteristic_length: Length = None) -> Indices:
+    """Every index at joint values (..., n), from the joint graph alone: see `indices`.
+
+    >>> from assur.kinematics.home import home_values
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("tripteron")
+    >>> float(indices_at(record, home_values(record))["condition"].round(9))
+    1.0
+    """
+    values = np.asarray(joints, dtype=float)
+    batch = values.shape[:-1]
+    flat = values.reshape(-1, values.shape[-1])
+    return _gathered(record, [_at_joints(record, flat)], batch, characteristic_length)
+
+
+def maps(
+    record: MechanismRecord,
+    poses: ArrayLike,
+    names: Iterable[str] = tuple(INDICES),
+    mode: str | None = None,
+    characteristic_length: Length = None,
+) -> dict[str, FloatArray]:
+    """Fields (...) of some indices over poses (..., m), as a grid through a workspace: see `indices`.
+
+    >>> from assur.model.registry import load_record
+    >>> grid = np.stack(np.meshgrid([-50.0, 0.0, 50.0], [180.0, 220.0]), axis=-1)  # (2, 3, 2)
+    >>> {name: field.shape for name, field in maps(load_record("fivebar"), grid, ["condition", "transmission"]).items()}
+    {'condition': (2, 3), 'transmission': (2, 3)}
+    """
+    wanted = {name: index_named(name) for name in names}
+    found = indices(record, poses, mode, characteristic_length)
+    return {name: index.of(found) for name, index in wanted.items()}
+
+
+Part = tuple[NDArray[np.int8], FloatArray, FloatArray, FloatArray]
+"""Status (N,), J (N, k, n), input and output transmission indices (N, F)."""
+
+
+def _at_poses(record: MechanismRecord, poses: FloatArray, mode: str) -> Part:
+    solved = inverse(record, poses, mode)
+    if record.closed_form is None:
+        return _at_joints(record, _first(solved))
+    status = solved.status[:, 0]
+    return _part(record, status, velocity_map(record, poses, mode), solved.joints[:, 0])
+
+
+def _first(solved: SolutionSet) -> FloatArray:
+    """Joint values (N, n) of the first solution that is listed at each pose; NaN where there is none."""
+    joints = np.full((len(solved.exists), solved.joints.shape[-1]), np.nan)
+    for row in np.flatnonzero(np.any(solved.exists, axis=-1)):
+        joints[row] = solved.joints[row, np.argmax(solved.exists[row])]
+    return joints
+
+
+def _at_joints(record: MechanismRecord, joints: FloatArray) -> Part:
+    there = np.all(np.isfinite(joints), axis=-1)
+    here = velocity_map_at(record, np.where(there[:, None], joints, 0.0))
+    exists = here.exists & there
+    kinds = 2 * here.singular_input + 3 * here.singular_output
+    of_kind = np.array([Status.regular, 0, Status.serial, Status.parallel, 0, Status.comprehensive], dtype=np.int8)
+    status = np.where(exists, of_kind[kinds], Status.unreachable).astype(np.int8)
+    return _part(record, status, here, joints)
+
+
+def _part(record: MechanismRecord, status: NDArray[np.int8], here: VelocityMap, joints: FloatArray) -> Part:
+    missing = (status == Status.unreachable) | (status == Status.undecided) | ~np.all(np.isfinite(joints), axis=-1)
+    matrix = np.where((missing | here.singular_output)[:, None, None], np.nan, here.matrix)
+    found = transmission_at(record, np.where(missing[:, None], 0.0, joints))
+    singular = here.singular_output | here.singular_input
+    fields = [np.where(singular[:, None], 0.0, values) for values in (found.inputs, found.outputs)]
+    inputs, outputs = (np.where(missing[:, None], np.nan, values) for values in fields)
+    return status, matrix, inputs, outputs
+
+
+def _gathered(record: MechanismRecord, parts: list[Part], batch: tuple[int, ...], length: Length) -> Indices:
+    status, matrices, inputs, outputs = (np.concatenate(column) for column in zip(*parts, strict=True))
+    unit_length = chosen_length(record, length, matrices)
+    known = np.all(np.isfinite(matrices), axis=(-1, -2))
+    safe = scaled(record, np.where(known[:, None, None], matrices, 0.0), unit_length)
+    factors = np.where(known[:, None], np.linalg.svd(safe, compute_uv=False), np.nan)
+    return Indices(
+        mechanism=record.name,
+        status=status.reshape(batch),
+        length=unit_length,
+        unit=factor_unit(record, unit_length),
+        velocity_factors=factors.reshape(*batch, factors.shape[-1]),
+        transmission=Transmission(inputs.reshape(*batch, inputs.shape[-1]), outputs.reshape(*batch, outputs.shape[-1])),
+    )

@@ -1,0 +1,199 @@
+"""Indices over a whole region: means and extremes, and how much of the region transmits motion and force well.
+
+A mean is int f dW / int dW over the region W, as the global condition index of Gosselin and Angeles (1991). The
+good-transmission workspace is where the local transmission index is at least 0.7 (Wang, Wu and Liu 2010). Points are
+quasi-random, in eight shifts by chance; from the spread of the eight comes every error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import UsageError
+from assur.model.mechanism import MechanismRecord
+from assur.performance.dexterity import SHIFTS, STUDENT, Region
+from assur.performance.indices import INDICES, Indices, indices
+from assur.performance.scaling import Length
+from assur.performance.transmission import GOOD
+from assur.results.json_text import plain
+
+FloatArray = NDArray[np.float64]
+POINTS = 2**12
+
+
+class MeasuredRegion(Region, Protocol):
+    """A region of which the volume is known."""
+
+    @property
+    def volume(self) -> float:
+        """Volume (area in a plane)."""
+
+    @property
+    def volume_error(self) -> float:
+        """Estimate of its error."""
+
+    @property
+    def unit(self) -> str:
+        """Unit of the volume."""
+
+
+@dataclass(frozen=True)
+class Overall:
+    """One index over a region; None where it has no value anywhere.
+
+    Attributes:
+        mean: over the region, singular points left out; `mean_error` is half of its 95 % interval.
+        least, most: at the points that were seen. What is worst lies a little beyond: `least_error`, `most_error` say
+            how far, by the jackknife (7/8 of what the most extreme of the eight shifts is beyond the next).
+        least_at, most_at: the poses there.
+    """
+
+    mean: float
+    mean_error: float
+    least: float
+    least_error: float
+    least_at: tuple[float, ...]
+    most: float
+    most_error: float
+    most_at: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Share:
+    """A part of a region: its share with half of the 95 % interval, and its volume with the error of both."""
+
+    share: float
+    share_error: float
+    volume: float
+    volume_error: float
+    unit: str
+
+
+@dataclass(frozen=True)
+class OverallIndices:
+    """Every index over a region of one working mode.
+
+    Attributes:
+        mode: working mode.
+        points: how many points were seen; 0 in an empty region, of which nothing is known.
+        singular: at how many Jp is singular: the indices of J do not exist there.
+        length, factor_unit: characteristic length and unit of a velocity factor, as in `Indices`.
+        values: `Overall` by the name of the index.
+        good: the good-transmission workspace; None in an empty region.
+    """
+
+    mode: str
+    points: int
+    singular: int
+    length: float | None
+    factor_unit: str
+    values: Mapping[str, Overall]
+    good: Share | None
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain numbers, with None for what does not exist."""
+        return {
+            "mode": self.mode,
+            "points": self.points,
+            "singular": self.singular,
+            "characteristic_length": self.length,
+            "velocity_factor_unit": self.factor_unit,
+            "good_from": GOOD,
+            "good_transmission": plain(self.good),
+            "indices": plain(self.values),
+        }
+
+
+def overall(
+    record: MechanismRecord,
+    region: MeasuredRegion,
+    count: int = POINTS,
+    characteristic_length: Length = None,
+    rng: np.random.Generator | None = None,
+) -> OverallIndices:
+    """Means and extremes of every index over a region, and its good-transmission part.
+
+    Args:
+        record: the mechanism.
+        region: a workspace (`assur.workspace.region.workspace`).
+        count: points spread over the region's box, in all.
+        characteristic_length: as of `assur.performance.indices.indices`; "isotropic" is over the whole region.
+        rng: where the shifts come from; a generator with a fixed seed where none is given.
+
+    Errors:
+        UsageError: too few points, a length that is none.
+
+    Example: the tripteron is isotropic and transmits all, everywhere.
+
+    >>> from assur.model.registry import load_record
+    >>> from assur.workspace.region import workspace
+    >>> record = load_record("tripteron")
+    >>> found = overall(record, workspace(record, resolution=8), 512)
+    >>> round(found.values["condition"].least, 9), found.good.share
+    (1.0, 1.0)
+    """
+    if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 16 * SHIFTS:
+        raise UsageError(f"count: {count!r} is not a whole number of at least {16 * SHIFTS}")
+    rng = rng or np.random.default_rng(20190719)
+    shifts = [region.interior(int(count) // SHIFTS, rng) for _ in range(SHIFTS)]
+    poses = np.concatenate(shifts)
+    if not len(poses):
+        return OverallIndices(region.mode, 0, 0, None, "", {}, None)
+    shift = np.repeat(np.arange(SHIFTS), [len(part) for part in shifts])
+    found = indices(record, poses, region.mode, characteristic_length)
+    values = {name: _overall(found[name], poses, shift) for name in INDICES}
+    return OverallIndices(
+        mode=region.mode,
+        points=len(poses),
+        singular=int(np.sum(~np.isfinite(found["condition"]))),
+        length=found.length,
+        factor_unit=found.unit,
+        values={name: value for name, value in values.items() if value is not None},
+        good=_good(found, shift, region),
+    )
+
+
+def _overall(field: FloatArray, poses: FloatArray, shift: NDArray[np.int_]) -> Overall | None:
+    known = np.isfinite(field)
+    if not np.any(known):
+        return None
+    mean, error = _mean(np.where(known, field, 0.0), known, shift)
+    low, high = (int(np.argmin(np.where(known, sign * field, np.inf))) for sign in (1.0, -1.0))
+    return Overall(
+        mean=mean,
+        mean_error=error,
+        least=float(field[low]),
+        least_error=_beyond(field[known], shift[known]),
+        least_at=tuple(poses[low].tolist()),
+        most=float(field[high]),
+        most_error=_beyond(-field[known], shift[known]),
+        most_at=tuple(poses[high].tolist()),
+    )
+
+
+def _mean(field: FloatArray, counted: NDArray[np.bool_], shift: NDArray[np.int_]) -> tuple[float, float]:
+    """Mean over the counted points, and half of its 95 % interval by the residuals of a ratio of means."""
+    sums = np.bincount(shift, field * counted, SHIFTS)
+    counts = np.bincount(shift, counted, SHIFTS)
+    total = float(np.sum(counts))
+    mean = float(np.sum(sums)) / total
+    spread = float(np.std(sums - mean * counts, ddof=1)) * SHIFTS**0.5 / total
+    return mean, STUDENT * spread
+
+
+def _beyond(field: FloatArray, shift: NDArray[np.int_]) -> float:
+    """How far below the least value that was seen the true one may lie: the jackknife's estimate for an extreme."""
+    least = np.sort([np.min(field[shift == k], initial=np.inf) for k in range(SHIFTS)])
+    return float((SHIFTS - 1) / SHIFTS * (least[1] - least[0])) if np.isfinite(least[1]) else float("nan")
+
+
+def _good(found: Indices, shift: NDArray[np.int_], region: MeasuredRegion) -> Share:
+    good = found.transmission.good.astype(float)
+    share, error = _mean(good, np.ones(len(good), dtype=bool), shift)
+    volume = share * region.volume
+    return Share(share, error, volume, error * region.volume + share * region.volume_error, region.unit)

@@ -1,0 +1,175 @@
+"""One layout of some chains tried: its file, whether that is sound, and whether it has the topology of the chains."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from assur.errors import AssurError
+from assur.kinematics.closure import RANK_GAP
+from assur.kinematics.home import home_values
+from assur.kinematics.motions import motions
+from assur.kinematics.soundness import faults
+from assur.kinematics.structure import linkage
+from assur.model.file.reader import read_text
+from assur.model.mechanism import MechanismRecord
+from assur.model.points import quantity
+from assur.model.pose import ANGLES, LENGTHS, QUATERNION
+from assur.synthesis.drafting.copying import next_steps
+from assur.synthesis.drafting.document import Chosen, Input, document
+from assur.synthesis.drafting.facts import differences
+from assur.synthesis.drafting.homes import away, clearance, home_table
+from assur.synthesis.drafting.knees import knee_formula, turned_round
+from assur.synthesis.drafting.layout import Layout
+from assur.synthesis.drafting.limb import HEIGHT_NAME
+from assur.synthesis.drafting.pose import pose_for
+from assur.synthesis.drafting.tables import Knee
+from assur.synthesis.drafting.templates import Draft, draft
+from assur.topology.analysis import Mode, analyse, counted
+from assur.topology.chains import Chain
+from assur.topology.facts import Topology
+from assur.topology.notation import plain_text
+
+STRAIGHT = 1.0
+"""A knee whose formula is smaller, in mm^2, is stretched."""
+
+ROOM, TILT = 100, 30
+"""Half the sizes of the box: mm, deg."""
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """One layout as a file: what is wrong with it, and how far its home is from singular."""
+
+    text: str
+    record: MechanismRecord | None
+    fault: str = ""
+    clearance: float = 0.0
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a draft must be: the chains, the file, what is driven, and the topology that it must have."""
+
+    chains: Sequence[Chain]
+    path: Path
+    inputs: Sequence[str]
+    wanted: Topology
+    mode: Mode
+
+    def attempt(self, layout: Layout, *, moved: bool) -> Attempt:
+        """A layout as a file; `moved`: its home is not as drawn, but the platform a little away from there."""
+        found = draft(self.chains, layout)
+        driven = _inputs(self.chains, found, self.inputs)
+        first = Chosen(self.path.stem, (), (*LENGTHS, *ANGLES), False, driven, {}, {})
+        still = self.wanted.poc.r == 0
+        try:
+            record = self._read(found, first)
+            values = away(record, still=still) if moved else np.zeros(len(record.coordinates))
+            if values is None:
+                return Attempt("", None, "the platform cannot be moved away from home")
+            pose = pose_for(motions(record, values, RANK_GAP).twists, len(self.inputs), still=still)
+            if pose is None:
+                return Attempt("", None, f"no {len(self.inputs)} coordinates say where the platform is")
+            chosen = dataclasses.replace(
+                first,
+                pose=pose,
+                constant=still,
+                box=_box(pose, found),
+                header=_header(self.chains, self.wanted, self.path, moved=moved),
+                home=home_table(record, values) if moved else {},
+            )
+            chosen = self._with_modes(found, chosen)
+            record = self._read(found, chosen)
+            wrong = faults(record)
+            if wrong:
+                return Attempt("", None, f"{wrong[0].path}: {wrong[0].found}")
+            return Attempt(document(found, chosen), record, clearance=clearance(record))
+        except AssurError as error:
+            return Attempt("", None, error.message)
+
+    def agrees(self, made: Attempt, reasons: dict[str, None]) -> bool:
+        """Whether a sound file has the topology of the chains; if not, why."""
+        if made.record is None:
+            return False
+        try:
+            wrong = differences(self.wanted, analyse(linkage(made.record), mode=self.mode))
+        except AssurError as error:
+            wrong = (error.message,)
+        reasons.update(dict.fromkeys(wrong))
+        return not wrong
+
+    def _read(self, found: Draft, chosen: Chosen) -> MechanismRecord:
+        return read_text(document(found, chosen), self.path)
+
+    def _with_modes(self, found: Draft, chosen: Chosen) -> Chosen:
+        """The same with working modes by the senses of the knees, where every limb has one that is bent."""
+        knees = [template.knee for template in found.templates if template.knee is not None]
+        if len(knees) < len(found.templates):
+            return chosen
+        record = self._read(found, dataclasses.replace(chosen, working=_working(found, knees)))
+        values = home_values(record)
+        sizes = iter([float(quantity(record, formula, values)) for formula in record.modes.working.values()])
+        counted = []
+        for template, knee in zip(found.templates, knees, strict=True):
+            own = [next(sizes) for _ in template.angles]
+            if min(own) < STRAIGHT and max(own) > -STRAIGHT:
+                return chosen
+            counted.append(turned_round(knee) if max(own) < 0 else knee)
+        return dataclasses.replace(chosen, working=_working(found, counted))
+
+
+def _working(found: Draft, knees: Sequence[Knee]) -> dict[str, str]:
+    limbs = [
+        (knee, f"{template.name}{number}", angle)
+        for template, knee in zip(found.templates, knees, strict=True)
+        for number, angle in enumerate(template.angles, 1)
+    ]
+    return {f"k{number}": knee_formula(*limb) for number, limb in enumerate(limbs, 1)}
+
+
+def _inputs(chains: Sequence[Chain], found: Draft, inputs: Sequence[str]) -> tuple[Input, ...]:
+    """The actuated joints of the chains as the file calls them; of a C or U the first component."""
+    places = {
+        joint.name: (number, place) for number, chain in enumerate(chains) for place, joint in enumerate(chain.joints)
+    }
+    kinds = {
+        f"{template.name}{number}.{joint.name}": joint.type
+        for template in found.templates
+        for number, _ in enumerate(template.members, 1)
+        for joint in template.joints
+    }
+    names = [found.joint_of(*places[name]) for name in inputs]
+    return tuple(Input(name, kinds[name].components[0] if kinds[name].freedoms > 1 else "") for name in names)
+
+
+def _box(pose: Sequence[str], found: Draft) -> dict[str, tuple[str, str]]:
+    """Where to look for the workspace: around home."""
+    box = dict.fromkeys(LENGTHS, (f"-{ROOM}", f"{ROOM}"))
+    if not found.flat:
+        box["z"] = (f'"{HEIGHT_NAME} - {ROOM}"', f'"{HEIGHT_NAME} + {ROOM}"')
+    box |= dict.fromkeys(ANGLES, (f"-{TILT}", f"{TILT}"))
+    box |= dict.fromkeys(QUATERNION, ("-0.2", "0.2")) | {"qw": ("0.9", "1")}
+    return {name: box[name] for name in pose}
+
+
+def _header(chains: Sequence[Chain], wanted: Topology, path: Path, *, moved: bool) -> tuple[str, ...]:
+    texts = (" ".join((chain.text or plain_text(chain)).split()) for chain in chains)
+    limbs = [f"    limb {number}: {text}" for number, text in enumerate(texts, 1)]
+    steps = [line.removeprefix("# ") for line in next_steps(path)]
+    home = "Home is a little away from there." if moved else "That is home."
+    return (
+        f"{path.stem}: drafted from chains in notation. All dimensions are defaults, none is from a source.",
+        *limbs,
+        f"Their topology: {wanted.poc}, {counted(wanted.dof - wanted.internal_freedoms, 'degree')} of freedom, "
+        f"coupling degree {wanted.coupling_degree}.",
+        "",
+        "As drawn, all joint values are zero and all link frames are parallel to the base's. The parameters say where",
+        f"joints are there, so that the loops close whatever their values are. {home}",
+        "Next:",
+        *steps,
+    )

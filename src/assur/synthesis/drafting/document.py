@@ -1,0 +1,209 @@
+"""The text of a drafted file: TOML in the look of the catalogue's files, every section with a word on what it is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from assur.synthesis.drafting.limb import BASE_LINK, PLATFORM_LINK, point_text
+from assur.synthesis.drafting.linear import ORIGIN
+from assur.synthesis.drafting.tables import Dimension, DraftGroup, DraftJoint, DraftLink, Template
+from assur.synthesis.drafting.templates import Draft
+
+
+@dataclass(frozen=True)
+class Input:
+    """What is driven: the full name of a joint, and its component where it has several."""
+
+    joint: str
+    component: str = ""
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """What a file says beside what its draft holds.
+
+    Attributes:
+        header: lines of comment at the top.
+        box: coordinate -> low and high, as the file writes them.
+        working: name -> formula, positive at home.
+        home: joint -> values in the file's units where home is not as drawn.
+    """
+
+    name: str
+    header: tuple[str, ...]
+    pose: tuple[str, ...]
+    constant: bool
+    inputs: tuple[Input, ...]
+    box: Mapping[str, tuple[str, str]]
+    working: Mapping[str, str]
+    home: Mapping[str, Sequence[float]] = field(default_factory=dict)
+
+
+def document(draft: Draft, chosen: Chosen) -> str:
+    """The whole file."""
+    sections = [
+        _head(draft, chosen),
+        _parameters(draft),
+        ["[links]", *_aligned([DraftLink(BASE_LINK, "fixed base"), DraftLink(PLATFORM_LINK, "moving platform")])],
+    ]
+    driven = _in_template(draft, chosen.inputs)
+    chained = all(template.chain is not None for template in draft.templates)
+    for template in draft.templates:
+        sections += _limb(template, driven, drawn=not chosen.home, chained=chained)
+    if not driven:
+        sections.append(_inputs(chosen.inputs))
+    if chosen.home:
+        rows = [f'"{name}" = {_values(values)}' for name, values in chosen.home.items()]
+        sections.append(["[home]                               # not as drawn, where the mechanism is singular", *rows])
+    if chosen.working:
+        sections.append(_modes(chosen))
+    ends = [f"{name} = [{low}, {high}]" for name, (low, high) in chosen.box.items()]
+    sections.append(
+        ["[workspace]                          # where to look for the workspace", f"box = {{ {', '.join(ends)} }}"]
+    )
+    return "\n\n".join("\n".join(section) for section in sections) + "\n"
+
+
+def _head(draft: Draft, chosen: Chosen) -> list[str]:
+    constant = ['orientation = "constant"             # a declared fact, which is tested'] if chosen.constant else []
+    return [
+        *(f"# {line}".rstrip() for line in chosen.header),
+        "",
+        "format = 1",
+        f'name   = "{chosen.name}"',
+        f'title  = "{_title(draft)}"',
+        'unit   = "mm"',
+        'angle  = "deg"',
+        "",
+        f'base = "{BASE_LINK}"',
+        "",
+        "[platform]",
+        f'link = "{PLATFORM_LINK}"',
+        f"pose = {_list(chosen.pose)}",
+        *constant,
+    ]
+
+
+def _title(draft: Draft) -> str:
+    texts = [f"{len(template.members)} x {template.text}" for template in draft.templates]
+    return f"Draft of {', '.join(texts)}"
+
+
+def _parameters(draft: Draft) -> list[str]:
+    listed = [*draft.dimensions, *(item for template in draft.templates for item in template.dimensions)]
+    width = max((len(item.name) for item in listed), default=0)
+    return [
+        "[parameters]                         # places at home; change them as you like",
+        *(_dimension(item, width) for item in listed),
+    ]
+
+
+def _dimension(item: Dimension, width: int) -> str:
+    sign = "" if item.sign == "positive" else f', sign = "{item.sign}"'
+    return f'{item.name:{width}} = {{ value = {item.value:g}, meaning = "{item.meaning}"{sign} }}'
+
+
+def _limb(template: Template, driven: Mapping[str, Input], *, drawn: bool, chained: bool) -> Iterator[list[str]]:
+    top = f"limbs.{template.name}"
+    names = ", ".join(f"{template.name}{number}" for number, _ in enumerate(template.members, 1))
+    angles = (
+        f"count = {len(template.angles)}"
+        if template.even
+        else f"angles = [{', '.join(f'{angle:.12g}' for angle in template.angles)}]"
+    )
+    yield [
+        f"[{top}]".ljust(37)
+        + f"# {names}: {template.text}"
+        + (", turned about z" if len(template.members) > 1 else ""),
+        f'repeat = {{ about = "z", {angles} }}',
+    ]
+    yield [f"[{top}.links]", *_aligned(template.links)]
+    yield [f"[{top}.joints]", *_joints(template.joints)]
+    for group in template.groups:
+        yield _group(top, group)
+    if chained and template.chain is not None:
+        said = template.chain
+        loop = [f"loop = {_list(said.loop)}", f'output = "{said.output}"', f"tail = {_list(said.tail)}"]
+        yield [f"[{top}.chain]", *([f"serial = {_list(said.serial)}"] if said.serial else loop)]
+    if template.name in driven:
+        yield [f"[{top}.inputs]", _input_line(driven[template.name], "q")]
+    if drawn:
+        rows = [f"{joint.name} = {_values([0.0] * joint.type.freedoms)}" for joint in template.joints]
+        yield [f"[{top}.home]".ljust(37) + "# all zero: the loops close as drawn", *rows]
+
+
+def _joints(joints: Sequence[DraftJoint]) -> list[str]:
+    names, kinds = max(len(item.name) for item in joints), max(len(item.type.name) for item in joints)
+    return [f"{item.name:{names}} = {{ {' '.join(_parts(item, kinds))} }}".replace(", }", " }") for item in joints]
+
+
+def _parts(item: DraftJoint, width: int) -> Iterator[str]:
+    kind = f'"{item.type.name}"'
+    yield f"type = {kind + ',':{width + 3}}"
+    yield f'parent = "{item.parent}",'
+    yield f'child = "{item.child}",'
+    if item.at != ORIGIN:
+        yield f"at = {point_text(item.at)},"
+    if item.child_at != ORIGIN:
+        yield f"child_at = {point_text(item.child_at)},"
+    if len(item.axes) == 1:
+        yield f"axis = {item.axes[0]},"
+    elif item.axes:
+        yield f"axes = [{', '.join(item.axes)}],"
+    if item.pitch:
+        yield f'pitch = "{item.pitch}",'
+
+
+def _group(top: str, group: DraftGroup) -> list[str]:
+    return [
+        f"[{top}.generalised.{group.name}]",
+        f'kind = "{group.kind}"',
+        f"joints = {_list(group.joints)}",
+        f'stands_for = {{ parent = "{group.parent}", child = "{group.child}" }}',
+    ]
+
+
+def _in_template(draft: Draft, inputs: Sequence[Input]) -> dict[str, Input]:
+    """Inputs as a template has them, where there is one template and each of its limbs has the same single one."""
+    if len(draft.templates) != 1:
+        return {}
+    template = draft.templates[0]
+    locals_ = [(item.joint.split(".", 1)[1], item.component) for item in inputs]
+    limbs = [item.joint.split(".", 1)[0] for item in inputs]
+    every = [f"{template.name}{number}" for number, _ in enumerate(template.members, 1)]
+    if limbs != every or len(set(locals_)) != 1:
+        return {}
+    return {template.name: Input(*locals_[0])}
+
+
+def _inputs(inputs: Sequence[Input]) -> list[str]:
+    return ["[inputs]", *(_input_line(item, f"q{number}") for number, item in enumerate(inputs, 1))]
+
+
+def _input_line(item: Input, name: str) -> str:
+    key = f"{item.joint}.{item.component}" if item.component else item.joint
+    return (f'"{key}"' if "." in key else key) + f' = {{ name = "{name}" }}'
+
+
+def _modes(chosen: Chosen) -> list[str]:
+    return [
+        "[modes]                              # + is the branch that is drawn",
+        *(f'working.{name} = "{formula}"' for name, formula in chosen.working.items()),
+        f'default = {{ working = "{"+" * len(chosen.working)}" }}',
+    ]
+
+
+def _aligned(links: Iterable[DraftLink]) -> list[str]:
+    listed = list(links)
+    width = max((len(item.name) for item in listed), default=0)
+    return [f'{item.name:{width}} = {{ meaning = "{item.meaning}" }}' for item in listed]
+
+
+def _list(texts: Iterable[str]) -> str:
+    return "[" + ", ".join(f'"{text}"' for text in texts) + "]"
+
+
+def _values(values: Sequence[float]) -> str:
+    texts = [f"{value:.6g}" for value in values]
+    return texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]"

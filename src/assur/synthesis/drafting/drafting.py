@@ -1,0 +1,105 @@
+"""From chains in notation to the file of a sound mechanism: layouts are tried until one has the facts of the chains."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from assur.errors import UsageError
+from assur.model.pose import LENGTHS
+from assur.synthesis.drafting.attempts import Asked, Attempt
+from assur.synthesis.drafting.copying import mechanism_name
+from assur.synthesis.drafting.inputs import inputs_for
+from assur.synthesis.drafting.layout import LAYOUTS
+from assur.topology.analysis import Mode
+from assur.topology.chains import Chain, InnerLoop
+from assur.topology.facts import Topology
+
+CLEAR = 0.02
+"""Least measure of singularity (a sine) of a home that is far enough from singular."""
+
+GOOD = 0.3
+"""A home that is so far from singular is taken at once."""
+
+
+@dataclass(frozen=True)
+class Drafted:
+    """A file's text, the topology that it has, and what its reader should know."""
+
+    text: str
+    topology: Topology
+    notes: tuple[str, ...] = ()
+
+
+def drafted(
+    chains: Sequence[Chain], path: Path, *, actuate: Sequence[str] | None = None, mode: Mode = "home"
+) -> Drafted:
+    """The file of a mechanism of some chains, with default dimensions.
+
+    At home all link frames are parallel and all joint values zero. Where the joints are there is given by parameters,
+    in every link by the same ones, so that the loops close whatever these are.
+
+    Args:
+        chains: limbs from base to platform.
+        path: of the file, whose stem is the mechanism's name; nothing is written.
+        actuate: actuated joints as "limb.joint", counted from 1; by default the first of each branch that determine it.
+        mode: "home", or "translation": the platform keeps its orientation.
+
+    Errors:
+        UsageError: an open chain, a structure that does not move, inputs that do not determine it, or no layout that is
+            sound and has the facts of the chains; then it says which differ.
+        RoutesDisagreeError and others of the topology.
+
+    Example:
+        >>> from assur.topology.notation import parse_chains
+        >>> found = drafted(parse_chains(["R[z] R[z] R[z]"] * 3), Path("my.toml"))
+        >>> str(found.topology.poc), 'pose = ["x", "y", "phi"]' in found.text
+        ('t²(⊥R1) r¹(∥R1)', True)
+    """
+    name = mechanism_name(path)
+    if len(chains) == 1 and not any(isinstance(element, InnerLoop) for element in chains[0].elements):
+        raise UsageError(
+            "one open chain closes no loop; a parallel mechanism needs two limbs or more, or an inner loop",
+            hint='give --chain again, or --limb "..." --count 3, or branches in braces: "{P[y] R[x] R[x] | ...}"',
+        )
+    inputs, wanted = inputs_for(chains, actuate, mode)
+    asked = Asked(chains, path, inputs, wanted, mode)
+    reasons: dict[str, None] = {}
+    singular: list[Attempt] = []
+    for moved, layouts in itertools.product((False, True), LAYOUTS):
+        sound: list[Attempt] = []
+        for layout in layouts:
+            made = asked.attempt(layout, moved=moved)
+            if made.fault or made.record is None:
+                reasons[made.fault] = None
+                continue
+            if made.clearance >= GOOD and _lengths(made) == min(len(inputs), wanted.poc.t):
+                if asked.agrees(made, reasons):
+                    return Drafted(made.text, wanted)
+                continue
+            sound.append(made)
+        for made in _best_first(sound):
+            if made.clearance >= CLEAR and asked.agrees(made, reasons):
+                return Drafted(made.text, wanted)
+        singular += [made for made in sound if made.clearance < CLEAR]
+    for made in _best_first(singular):
+        if asked.agrees(made, reasons):
+            note = "home is singular, or nearly so, in every layout that was tried: change the places of joints"
+            return Drafted(made.text, wanted, (note,))
+    listed = "; ".join(list(reasons)[:3])
+    raise UsageError(
+        f"no default dimensions for {name} are sound and have the topology of its chains: {listed}",
+        hint="assur topology --chain ... shows what the chains can do; axes may be special, or a P(4S) may skew",
+    )
+
+
+def _best_first(made: Sequence[Attempt]) -> list[Attempt]:
+    """Attempts, first by the lengths in their pose, then by how far their home is from singular."""
+    return sorted(made, key=lambda item: (-_lengths(item), -item.clearance))
+
+
+def _lengths(made: Attempt) -> int:
+    """How many coordinates of the pose are lengths, which people like better than angles."""
+    return 0 if made.record is None else sum(name in LENGTHS for name in made.record.platform.pose)

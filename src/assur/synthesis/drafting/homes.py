@@ -1,0 +1,60 @@
+"""Home of a drafted mechanism: as drawn, or a little away from there, and how far it is from singular."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.closure import RANK_GAP, assemble
+from assur.kinematics.home import home_values
+from assur.kinematics.instantaneous import instantaneous
+from assur.kinematics.motions import motions
+from assur.kinematics.pose import pose_of
+from assur.model.joint_graph import joint_graph
+from assur.model.mechanism import MechanismRecord
+
+FloatArray = NDArray[np.float64]
+
+AWAY = np.array([30.0, 20.0, 15.0, 0.0, 0.0, 0.0])
+STEP = 0.2
+"""How far a mechanism is moved from where it was drawn, where that is singular: x, y, z in mm; else in rad."""
+
+
+def away(record: MechanismRecord, *, still: bool) -> FloatArray | None:
+    """Joint values (n,) of an assembly a little away from where it was drawn; None where there is none.
+
+    The platform is moved without being turned where it keeps its orientation, else all motions are mixed.
+
+    Args:
+        record: with the pose x, y, z, phi, theta, psi, whatever of it can be chosen.
+        still: whether the platform keeps its orientation.
+    """
+    start = np.zeros(len(record.coordinates))
+    if still:
+        wanted = pose_of(record, start) + AWAY
+        found = assemble(record, start, poses=wanted)
+    else:
+        motion = motions(record, start, RANK_GAP)
+        shares = STEP * np.cos(1.0 + np.arange(len(start)))
+        found = assemble(record, motion.null @ shares * motion.scale)
+    return found.values if bool(found.closed) else None
+
+
+def home_table(record: MechanismRecord, values: FloatArray) -> dict[str, tuple[float, ...]]:
+    """Joint values as a file writes them, in deg and mm."""
+    slices = joint_graph(record).slices
+    return {
+        name: tuple(
+            round(float(np.degrees(value) if kind == "angle" else value), 2) + 0.0
+            for value, kind in zip(values[slices[name]], joint.type.kinds, strict=True)
+        )
+        for name, joint in record.joints.items()
+    }
+
+
+def clearance(record: MechanismRecord) -> float:
+    """How far home is from singular: the least of its measures, 0 where it is singular."""
+    here = instantaneous(record, home_values(record))
+    if any(bool(holds) for holds in here.types.values()):
+        return 0.0
+    return min(float(measure) for measure in here.measures.values())

@@ -1,0 +1,63 @@
+"""What a drafted mechanism is driven by: the joints that were named, or the first ones that determine it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+from assur.errors import UsageError
+from assur.topology.analysis import Mode, analyse
+from assur.topology.chains import Chain
+from assur.topology.counting.inputs import default_inputs, numbered_inputs
+from assur.topology.facts import Topology
+from assur.topology.linkages.placing import place
+
+
+def inputs_for(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mode) -> tuple[tuple[str, ...], Topology]:
+    """Names of actuated joints, as many as there are freedoms, that determine a mechanism; its topology with these.
+
+    By default the first P, R, H or C of each branch from the base; where these do not determine it, the set that does
+    and is spread most evenly over the limbs.
+
+    Errors:
+        UsageError: a mechanism that does not move; named joints that do not determine it, or no set that does.
+
+    >>> from assur.topology.notation import parse_chains
+    >>> inputs_for(parse_chains(["P[x] R[x] R[x] R[x]", "P[y] R[y] R[y] R[y]", "P[z] R[z] R[z] R[z]"]), None, "home")[0]
+    ('P1', 'P2', 'P3')
+    """
+    names = numbered_inputs(chains, actuate) if actuate else default_inputs(chains)
+    found = analyse(place(chains, actuated=names), chains, mode=mode, chosen=bool(actuate))
+    asked = found.actuation
+    if not asked.needed:
+        raise UsageError(
+            f"the chains make a structure that does not move: {found.dof} degrees of freedom",
+            hint="a limb has too few freedoms, or axes that do not go together",
+        )
+    if asked.needed > found.poc.dim:
+        raise UsageError(
+            f"{asked.needed} joints must be driven, but the platform has {found.poc.dim} freedoms, {found.poc}: limbs "
+            "move while the platform stands still, so that no pose tells where the mechanism is",
+            hint="leave joints out of a limb, or add a limb",
+        )
+    if asked.verdict == "valid":
+        return names[: asked.needed], found
+    if actuate:
+        raise UsageError(f"the actuated joints do not determine the mechanism: {asked.verdict}", hint=asked.hint)
+    limb_of = {joint.name: number for number, chain in enumerate(chains) for joint in chain.joints}
+    usable = [item for item in map(_first_components, asked.sets) if item is not None]
+    if not usable:
+        raise UsageError(
+            f"no {asked.needed} joints that a draft could drive determine the mechanism",
+            hint="an S is never driven, of a C only its translation, of a U only its first axis",
+        )
+    chosen = min(usable, key=lambda item: max(Counter(limb_of[name] for name in item).values()))
+    return chosen, analyse(place(chains, actuated=chosen), chains, mode=mode)
+
+
+def _first_components(names: Sequence[str]) -> tuple[str, ...] | None:
+    """The joints of a set of components, None where one is not a joint's first."""
+    pairs = [name.partition(".") for name in names]
+    if any(component not in ("", "1") for _, _, component in pairs):
+        return None
+    return tuple(joint for joint, _, _ in pairs)

@@ -1,0 +1,105 @@
+"""Knees: where the sense of a bend names a branch of a limb, and the formula whose sign it is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TypeGuard
+
+from assur.synthesis.drafting.tables import Knee
+from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
+from assur.topology.directions import Vector, parallel
+from assur.topology.joints import CYLINDRICAL, PRISMATIC, REVOLUTE, SPHERICAL
+
+DUST = 1e-12
+
+
+def knee(chain: Chain, letters: Sequence[str]) -> Knee | None:
+    """The knee of a limb, if something simple tells the two branches for one place of its end apart; else None.
+
+    That is the sense in which it bends about its first axis, which stays where it is, where its first joints (P aside)
+    are two parallel R and an R, C or S, or an R and a P(4S) or P(2US). After P and such a parallelogram alone it is
+    whether the rods lead along the P or against it.
+
+    >>> from assur.topology.notation import parse_chain
+    >>> knee(parse_chain("P[x] R[y] R[y] S"), list("ABCD"))
+    Knee(points=('B', 'C', 'D'), axis=(0.0, 1.0, 0.0))
+    """
+    elements = chain.elements
+    if any(isinstance(element, InnerLoop) for element in elements):
+        return None
+    rest = list(zip(elements, letters, strict=True))
+    if len(rest) == 2 and _is_sliding(elements[0]) and isinstance(elements[1], Parallelogram):
+        rods = f"{letters[1]}a", f"{letters[1]}b"
+        return Knee(rods, elements[0].axes[0]) if elements[1].kind in ("4S", "2US") else None
+    while rest and _is_sliding(rest[0][0]):
+        rest.pop(0)
+    if len(rest) < 2 or not _turns(rest[0][0]):
+        return None
+    first, second = rest[0][0], rest[1][0]
+    axis = first.axes[0] if isinstance(first, ChainJoint) else (0.0, 0.0, 0.0)
+    if isinstance(second, Parallelogram):
+        if second.kind in ("4S", "2US") and parallel(second.axis, axis):
+            return Knee((rest[0][1], f"{rest[1][1]}a", f"{rest[1][1]}b"), axis)
+        return None
+    if len(rest) < 3 or not _turns(second) or not isinstance(second, ChainJoint) or not parallel(second.axes[0], axis):
+        return None
+    third = rest[2][0]
+    if not isinstance(third, ChainJoint) or third.type not in (REVOLUTE, CYLINDRICAL, SPHERICAL):
+        return None
+    labels = [item.point for item in (first, second, third) if isinstance(item, ChainJoint) and item.point]
+    return None if len(set(labels)) < len(labels) else Knee((rest[0][1], rest[1][1], rest[2][1]), axis)
+
+
+def knee_formula(found: Knee, limb: str, angle: float) -> str:
+    """The formula whose sign is the sense of a knee, for a limb at an angle (deg).
+
+    Of three points it is (q - p) x (s - q) along the axis, of two q - p along it.
+
+    >>> knee_formula(Knee(("A", "B", "C"), (0.0, 0.0, 1.0)), "leg1", 0.0)
+    '(leg1.B.x - leg1.A.x)*(leg1.C.y - leg1.B.y) - (leg1.B.y - leg1.A.y)*(leg1.C.x - leg1.B.x)'
+    >>> knee_formula(Knee(("Ba", "Bb"), (0.0, 0.6, -0.8)), "leg1", 0.0)
+    '0.6*(leg1.Bb.y - leg1.Ba.y) - 0.8*(leg1.Bb.z - leg1.Ba.z)'
+    """
+    points = [f"{limb}.{name}" for name in found.points]
+    terms = [
+        (size, _cross(points, one, other) if len(points) > 2 else f"{points[1]}.{own} - {points[0]}.{own}")
+        for size, own, one, other in zip(_turned(found.axis, angle), "xyz", "yzx", "zxy", strict=True)
+        if abs(size) > DUST
+    ]
+    if len(terms) == 1 and abs(terms[0][0] - 1.0) < DUST:
+        return terms[0][1]
+    formula = ""
+    for size, part in terms:
+        share = "" if abs(abs(size) - 1.0) < DUST else f"{round(abs(size), 12):.12g}*"
+        sign = (" - " if size < 0 else " + ") if formula else ("-" if size < 0 else "")
+        formula += f"{sign}{share}({part})"
+    return formula
+
+
+def _cross(points: Sequence[str], one: str, other: str) -> str:
+    p, q, s = points
+    return f"({q}.{one} - {p}.{one})*({s}.{other} - {q}.{other}) - ({q}.{other} - {p}.{other})*({s}.{one} - {q}.{one})"
+
+
+def _is_sliding(element: Element) -> TypeGuard[ChainJoint]:
+    return isinstance(element, ChainJoint) and element.type is PRISMATIC and not element.general
+
+
+def turned_round(found: Knee) -> Knee:
+    """The same knee, its sense counted the other way.
+
+    >>> turned_round(Knee(("A", "B", "C"), (0.0, 0.0, 1.0))).axis
+    (0.0, 0.0, -1.0)
+    """
+    x, y, z = found.axis
+    return Knee(found.points, (0.0 - x, 0.0 - y, 0.0 - z))
+
+
+def _turns(element: object) -> bool:
+    return isinstance(element, ChainJoint) and element.type is REVOLUTE and not element.general
+
+
+def _turned(axis: Vector, angle: float) -> Vector:
+    cosine, sine = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    return (cosine * axis[0] - sine * axis[1], sine * axis[0] + cosine * axis[1], axis[2])

@@ -1,0 +1,195 @@
+"""Default dimensions: where the joints of a limb stand between base and platform, in several layouts to try.
+
+A limb is a row of stations from its place on the base to that on the platform, in its own vertical plane: x outwards,
+y to the side, z up. Its knees stand outwards. What a layout leaves at zero may be special, so others follow it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from assur.topology.chains import ChainJoint, Element, InnerLoop, Parallelogram
+from assur.topology.directions import Vector
+from assur.topology.joints import PRISMATIC
+
+BASE, PLATFORM, HEIGHT = 200.0, 100.0, 300.0
+"""Radii of base and platform and the height between them."""
+
+WIDTH = 60.0
+"""Between the two rods of a parallelogram."""
+
+SPREAD = 150.0
+"""Between the branches of an inner loop at its first link, half of it at its last."""
+
+ROUGH = (0.0, 1.0, -0.6, 0.3, -1.0, 0.7, -0.2, 0.9, -0.4)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """One way to choose default dimensions.
+
+    Attributes:
+        knee: how far the middle of a limb stands outwards of the line between its ends.
+        side: how far it stands to the side.
+        twist: how far its end on the platform stands to the side.
+        rough: how far stations stand away from all this, each in its own way.
+        nice: whether axes that were left general are chosen to look well, else they stay arbitrary.
+        parts: into how many templates a family of limbs is divided.
+    """
+
+    knee: float = 100.0
+    side: float = 0.0
+    twist: float = 0.0
+    rough: float = 0.0
+    nice: bool = True
+    parts: int = 1
+
+
+PLAIN = (
+    Layout(),
+    Layout(twist=60.0),
+    Layout(side=60.0),
+    Layout(side=-70.0, twist=50.0),
+    Layout(side=120.0, twist=100.0),
+    Layout(knee=150.0, side=100.0, twist=-60.0),
+    Layout(knee=130.0, side=60.0, twist=-40.0, rough=20.0),
+)
+DIVIDED = (
+    Layout(twist=80.0, parts=2),
+    Layout(knee=90.0, side=50.0, twist=70.0, rough=25.0, parts=2),
+    Layout(knee=120.0, side=50.0, twist=40.0, rough=35.0, nice=False),
+    Layout(knee=110.0, side=60.0, twist=60.0, rough=40.0, nice=False, parts=99),
+)
+LAYOUTS = (PLAIN, DIVIDED)
+"""Layouts in the order in which they are tried; of the first group the best, and only if none will do the others."""
+
+
+@dataclass(frozen=True)
+class Stand:
+    """Where a limb stands: turned by `angle` (rad) about z, its ends at `base` and `platform` from z.
+
+    `number` tells limbs of different families apart, `flat` limbs have no height.
+    """
+
+    angle: float = 0.0
+    base: float = BASE
+    platform: float = PLATFORM
+    number: int = 0
+    flat: bool = False
+    sense: float = 1.0
+
+    def place(self, layout: Layout, share: float, station: int) -> Vector:
+        """Where a station stands that has passed a share, 0 to 1, of the way from base to platform.
+
+        >>> Stand().place(Layout(), 0.5, 1)
+        (250.0, 0.0, 150.0)
+        """
+        arch = math.sin(math.pi * share)
+        rough = layout.rough
+        out = self.base + (self.platform - self.base) * share + layout.knee * arch + rough * self._own(station)
+        aside = self.sense * (layout.side * arch + layout.twist * share) + rough * self._own(station + 3)
+        up = 0.0 if self.flat else HEIGHT * share + rough * self._own(station + 5)
+        cosine, sine = math.cos(self.angle), math.sin(self.angle)
+        return (cosine * out - sine * aside, sine * out + cosine * aside, up)
+
+    def _own(self, station: int) -> float:
+        return ROUGH[(2 * station + 3 * self.number) % len(ROUGH)]
+
+
+@dataclass(frozen=True)
+class Row:
+    """Stations of elements in series between two shares of the way, and how far aside their branch stands."""
+
+    start: float
+    end: float
+    count: int
+    first: int = 0
+    aside: Vector = (0.0, 0.0, 0.0)
+
+    def share(self, place: float) -> float:
+        """How far along the way a station of the row is."""
+        if self.count < 2:
+            return (self.start + self.end) / 2
+        return self.start + (self.end - self.start) * place / (self.count - 1)
+
+    def at(self, place: float, stand: Stand, layout: Layout) -> Vector:
+        """Where a station of the row stands; branches of a loop come nearer to each other on the way."""
+        inside = place / (self.count - 1) if self.count > 1 else 0.5
+        x, y, z = stand.place(layout, self.share(place), self.first + round(place))
+        near = 1.0 - 0.5 * inside + 0.4 * math.sin(math.pi * inside)
+        return (x + near * self.aside[0], y + near * self.aside[1], z + near * self.aside[2])
+
+    def within(self, place: int, stations: int, count: int, aside: Vector, branch: int) -> Row:
+        """The row of a branch of an inner loop that spans some stations of this row."""
+        moved = (self.aside[0] + aside[0], self.aside[1] + aside[1], self.aside[2] + aside[2])
+        first = self.first + place + 4 * branch
+        return Row(self.share(place), self.share(place + stations - 1), count, first, moved)
+
+
+def own_stations(elements: Sequence[Element]) -> list[int]:
+    """How many stations each element has of its own: a P stands where its neighbour does, unless it is the last.
+
+    >>> from assur.topology.notation import parse_chain
+    >>> own_stations(parse_chain("P[x] R[y] P[z] P(4R)[y] P[x]").elements)
+    [0, 1, 0, 2, 1]
+    """
+    found = []
+    for place, element in enumerate(elements):
+        if isinstance(element, InnerLoop):
+            found.append(max(2, *(stations(branch) for branch in element.branches)))
+        elif isinstance(element, Parallelogram):
+            found.append(2)
+        else:
+            found.append(0 if neighbour(elements, place) is not None else 1)
+    return found
+
+
+def stations(elements: Sequence[Element]) -> int:
+    """How many stations elements in series have."""
+    return sum(own_stations(elements))
+
+
+def neighbour(elements: Sequence[Element], place: int) -> int | None:
+    """The element where a P stands: the one before it, of the first the one behind it; None where it stands alone."""
+    if not slides(elements[place]) or place == len(elements) - 1:
+        return None
+    before = next((other for other in range(place - 1, -1, -1) if not slides(elements[other])), None)
+    behind = next((other for other in range(place + 1, len(elements)) if not slides(elements[other])), None)
+    chosen = behind if before is None else before
+    return None if chosen is None or isinstance(elements[chosen], InnerLoop) else chosen
+
+
+def slides(element: Element) -> bool:
+    """Whether an element is a P."""
+    return isinstance(element, ChainJoint) and element.type is PRISMATIC
+
+
+def across(axis: Vector, rod: Vector) -> Vector:
+    """A direction perpendicular to an axis and far from that of a rod: x, y or z where one is perpendicular.
+
+    >>> across((0.0, 1.0, 0.0), (10.0, 0.0, 300.0))
+    (1.0, 0.0, 0.0)
+    """
+    level = [item for item in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) if abs(_dot(item, axis)) < 1e-9]
+    if level:
+        return min(level, key=lambda item: abs(_dot(item, rod)))
+    x, y, z = _cross(axis, rod)
+    length = math.hypot(x, y, z)
+    if length < 1e-6 * math.hypot(*rod):
+        x, y, z = _cross(axis, (1.0, 0.0, 0.0))
+        length = math.hypot(x, y, z)
+    return (x / length, y / length, z / length)
+
+
+def _dot(first: Vector, second: Vector) -> float:
+    return sum(a * b for a, b in zip(first, second, strict=True))
+
+
+def _cross(first: Vector, second: Vector) -> Vector:
+    return (
+        first[1] * second[2] - first[2] * second[1],
+        first[2] * second[0] - first[0] * second[2],
+        first[0] * second[1] - first[1] * second[0],
+    )

@@ -1,0 +1,52 @@
+"""One limb in notation, repeated about z: the chains of a symmetric mechanism."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+
+from assur.errors import UsageError
+from assur.topology.chains import Chain, Element, InnerLoop, Parallelogram
+from assur.topology.directions import Vector, unit
+from assur.topology.notation import parse_chain, parse_chains, plain_text
+
+LEAST, MOST = 2, 60
+PRIME = "'"
+
+
+def repeated(text: str, count: int) -> tuple[Chain, ...]:
+    """A limb and its turns about z, evenly spaced; a label is a point of each limb's own.
+
+    Errors:
+        NotationError: the text is no chain. UsageError: fewer than 2 limbs, or more than 60.
+
+    >>> [chain.text for chain in repeated("R[y] U[x,y]@A S@A", 2)]
+    ['R[y] U[x,y]@A1 S@A1', 'R[-y] U[-x,-y]@A2 S@A2']
+    """
+    if not LEAST <= count <= MOST:
+        raise UsageError(f"{count} limbs; allowed: {LEAST} to {MOST}", hint="--count says how often a limb is there")
+    limb = parse_chain(text)
+    return parse_chains([plain_text(Chain(_turned(limb.elements, number, count))) for number in range(count)])
+
+
+def _turned(elements: Sequence[Element], number: int, count: int) -> tuple[Element, ...]:
+    angle = 2 * math.pi * number / count
+    found: list[Element] = []
+    for element in elements:
+        if isinstance(element, InnerLoop):
+            branches = tuple(_turned(branch, number, count) for branch in element.branches)
+            found.append(dataclasses.replace(element, branches=branches))
+        elif isinstance(element, Parallelogram):
+            found.append(dataclasses.replace(element, axis=_about_z(element.axis, angle)))
+        else:
+            primes = element.point.count(PRIME)
+            label = f"{element.point.rstrip(PRIME)}{number + 1}{PRIME * primes}" if element.point else ""
+            axes = tuple(_about_z(axis, angle) for axis in element.axes)
+            found.append(dataclasses.replace(element, axes=axes, point=label))
+    return tuple(found)
+
+
+def _about_z(axis: Vector, angle: float) -> Vector:
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return unit((cosine * axis[0] - sine * axis[1], sine * axis[0] + cosine * axis[1], axis[2]))

@@ -1,0 +1,96 @@
+"""What a limb's tables in a file hold: dimensions, links, joints, parallelograms, a chain. Data alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from assur.synthesis.drafting.linear import Point
+from assur.topology.joints import JointType
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """A parameter of the file: its default value, what it means, and what it may be."""
+
+    name: str
+    value: float
+    meaning: str
+    sign: str = "any"
+
+
+@dataclass(frozen=True)
+class DraftLink:
+    """A link and what it is."""
+
+    name: str
+    meaning: str
+
+
+@dataclass(frozen=True)
+class DraftJoint:
+    """A joint; `axes` and `pitch` stand as the file writes them."""
+
+    name: str
+    type: JointType
+    parent: str
+    child: str
+    at: Point
+    child_at: Point
+    axes: tuple[str, ...] = ()
+    pitch: str = ""
+    meaning: str = ""
+
+
+@dataclass(frozen=True)
+class DraftGroup:
+    """A parallelogram between two links."""
+
+    name: str
+    kind: str
+    joints: tuple[str, ...]
+    parent: str
+    child: str
+
+
+@dataclass(frozen=True)
+class DraftChain:
+    """A branch from base to platform: `serial`, or `loop`, `output` and `tail`."""
+
+    serial: tuple[str, ...] = ()
+    loop: tuple[str, ...] = ()
+    output: str = ""
+    tail: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Knee:
+    """What names a branch: three points in turn and the axis about which they bend, or two and a direction."""
+
+    points: tuple[str, ...]
+    axis: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Template:
+    """A limb as a template of a file.
+
+    Attributes:
+        name: of the template; the limbs are called by it and their number.
+        angles: where the limbs stand around z, in degrees.
+        members: places of the limbs among the chains.
+        text: the limb at 0 degrees in notation.
+        order: for each joint of the chain, branches flattened, the joint of the tables that stands for it.
+    """
+
+    name: str
+    angles: tuple[float, ...]
+    even: bool
+    members: tuple[int, ...]
+    text: str
+    dimensions: tuple[Dimension, ...]
+    links: tuple[DraftLink, ...]
+    joints: tuple[DraftJoint, ...]
+    groups: tuple[DraftGroup, ...]
+    chain: DraftChain | None
+    order: tuple[str, ...]
+    knee: Knee | None = None

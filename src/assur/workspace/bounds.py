@@ -1,0 +1,110 @@
+"""Bounds: strokes of inputs, limits of joints and cones as margins, one rule for closed forms and followed modes.
+
+A length gives two margins, value - low and high - value; an angle one, cos(value - middle) - cos(half the interval),
+which knows no turns; a cone one, the cosine of the tilt less that of the largest.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import UnknownNameError, UsageError
+from assur.model.mechanism import Coordinate, Input, Joint, MechanismRecord
+
+FloatArray = NDArray[np.float64]
+Stroke = tuple[float, float]
+Values = Mapping[str, Any]
+"""By joint or joint.component: a length, an angle as (cosine, sine), a spherical joint as three rows of a rotation."""
+
+Bound = Callable[[Values], FloatArray]
+
+
+def bounds(record: MechanismRecord, strokes: Mapping[str, Stroke | None] | None = None) -> dict[str, Bound]:
+    """Every bound as a margin of joint values: strokes (the user's, else the file's), then limits and cones of joints.
+
+    >>> from assur.model.registry import load_record
+    >>> list(bounds(load_record("zeng2019"), {"yA1": (-300, 300), "yA2": (-math.inf, 5)}))
+    ['yA1 >= -300', 'yA1 <= 300', 'yA2 <= 5']
+    """
+    found: dict[str, Bound] = {}
+    for item, stroke in _strokes(record, strokes):
+        if stroke is not None:
+            key = record.coordinate_label(item.coordinate)
+            found |= _interval(item.name, key, item.coordinate.kind, stroke, item.sign, item.offset)
+    for coordinate in record.coordinates:
+        limit = _limit(record, coordinate)
+        if limit is not None:
+            key = record.coordinate_label(coordinate)
+            found |= _interval(key, key, coordinate.kind, limit)
+    for joint in record.joints.values():
+        if joint.cone is not None and joint.cone_axis is not None:
+            found[f"tilt of {joint.name} <= {joint.cone:g}"] = partial(_cone, joint)
+    return found
+
+
+def _limit(record: MechanismRecord, coordinate: Coordinate) -> Stroke | None:
+    joint = record.joints[coordinate.joint]
+    place = coordinate.index - record.joint_coordinates(joint.name)[0].index
+    return joint.limits[place] if joint.limits else None
+
+
+def _strokes(record: MechanismRecord, strokes: Mapping[str, Stroke | None] | None) -> list[tuple[Input, Stroke | None]]:
+    """Each input with its stroke: the user's, else the file's, else none."""
+    given = dict(strokes or {})
+    names = [item.name for item in record.inputs]
+    for name, stroke in given.items():
+        if name not in names:
+            raise UnknownNameError(f"input of {record.name}", name, names)
+        if stroke is not None:
+            given[name] = _checked(name, stroke)
+    return [(item, given.get(item.name, item.stroke)) for item in record.inputs]
+
+
+def _checked(name: str, stroke: Any) -> Stroke:
+    try:
+        low, high = (float(value) for value in stroke)
+    except (TypeError, ValueError) as error:
+        raise UsageError(f"stroke of {name}: {stroke!r} is not (low, high)") from error
+    if not low < high:  # a NaN ends here too
+        raise UsageError(f"stroke of {name}: [{low:g}, {high:g}] is turned round or empty", hint="give low < high")
+    return low, high
+
+
+def _interval(
+    name: str, key: str, kind: str, interval: Stroke, sign: float = 1.0, offset: float = 0.0
+) -> dict[str, Bound]:
+    """Margins of low <= sign * value + offset <= high."""
+    low, high = interval
+    if kind == "angle":
+        if high - low >= 2 * math.pi:
+            return {}
+        middle, half = sign * ((low + high) / 2 - offset), (high - low) / 2
+        return {f"{low:g} <= {name} <= {high:g}": partial(_angle, key, middle, half)}
+    found: dict[str, Bound] = {}
+    if math.isfinite(low):
+        found[f"{name} >= {low:g}"] = partial(_length, key, sign, offset - low)
+    if math.isfinite(high):
+        found[f"{name} <= {high:g}"] = partial(_length, key, -sign, high - offset)
+    return found
+
+
+def _length(key: str, slope: float, start: float, values: Values) -> FloatArray:
+    return slope * np.asarray(values[key], dtype=float) + start
+
+
+def _angle(key: str, middle: float, half: float, values: Values) -> FloatArray:
+    cosine, sine = values[key]
+    return np.asarray(cosine * math.cos(middle) + sine * math.sin(middle) - math.cos(half), dtype=float)
+
+
+def _cone(joint: Joint, values: Values) -> FloatArray:
+    axis: Sequence[float] = np.asarray(joint.cone_axis).tolist()
+    tilted = [sum(entry * part for entry, part in zip(row, axis, strict=True)) for row in values[joint.name]]
+    cosine = sum(entry * part for entry, part in zip(tilted, axis, strict=True))
+    return np.asarray(cosine - math.cos(joint.cone or 0.0), dtype=float)

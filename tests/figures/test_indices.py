@@ -1,0 +1,119 @@
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgba
+
+import assur
+from assur import figures
+from assur.figures import indices as module
+from assur.figures.indices import MANIPULABILITY, TRANSMISSION, field, whole
+from assur.figures.style import ORANGE, styled
+from assur.performance.indices import INDICES, indices
+from assur.workspace.fields import at_points
+from assur.workspace.region import workspace
+
+NAMES = ("fivebar", "orthoglide", "zeng2019", "planar_3rrr", "three_rps", "gough_stewart")
+
+
+@lru_cache(maxsize=8)
+def shared(name):
+    record = assur.load(name)
+    return figures.Context(record, workspace(record, resolution=16))
+
+
+@pytest.fixture(params=NAMES, scope="module")
+def context(request):
+    return shared(request.param)
+
+
+@lru_cache(maxsize=16)
+def drawn(context, entry):
+    assert entry.missing(context) == ""
+    with styled():
+        return entry.draw(context)
+
+
+@pytest.mark.parametrize(("entry", "count"), [(TRANSMISSION, 3), (MANIPULABILITY, 3)], ids=["transmission", "jacobian"])
+def test_the_maps_are_the_indices_at_their_nodes(context, entry, count):
+    data = drawn(context, entry).data
+    first, second = data["plane"]
+    assert len(data["maps"]) == count
+    rng = np.random.default_rng(5)
+    names = context.workspace.box.names
+    seen = 0
+    for _ in range(60):
+        i, j = rng.integers(0, len(data[second])), rng.integers(0, len(data[first]))
+        node = {first: data[first][j], second: data[second][i], **data["held"]}
+        point = np.array([[node[name] for name in names]])
+        margins = [at_points(margin, len(names), point)[0] for margin in context.workspace.margins.values()]
+        pose = context.workspace.slice.poses(point)
+        found = indices(context.record, pose, context.workspace.mode, data["characteristic_length"])
+        for name, item in data["maps"].items():
+            value = item["values"][i][j]
+            if min(margins, default=0.0) < 0:
+                assert np.isnan(value)
+            else:
+                np.testing.assert_allclose(value, found[name][0], rtol=1e-6)
+                seen += 1
+    assert seen > 15
+
+
+def test_the_plane_is_of_two_lengths_where_there_are_two(context):
+    there = field(context)
+    lengths = [name for name in context.workspace.box.names if name in ("x", "y", "z")]
+    assert len(lengths) < 2 or set(there.plane) <= set(lengths)
+    assert set(there.plane) | set(there.held) == set(context.workspace.box.names)
+
+
+def test_shares_lie_between_0_and_1_and_say_what_they_are_divided_by(context):
+    there = field(context)
+    for name, index in INDICES.items():
+        values, divisor = there.shares(name)
+        known = np.isfinite(values)
+        np.testing.assert_allclose(values[known] * divisor, there.found[name][known], rtol=1e-12)
+        if index.power == 0:
+            assert divisor == 1.0
+            assert np.all((values[known] >= 0) & (values[known] <= 1))
+        else:
+            assert np.mean(values[known] <= 1) == pytest.approx(module.SHOWN, abs=0.02)
+
+
+def test_the_thick_line_is_where_transmission_becomes_good(context):
+    figure = drawn(context, TRANSMISSION).figure
+    maps = figure.axes[:3]
+    for axes, name in zip(maps, module.TRANSMISSION_MAPS, strict=True):
+        values = field(context).found[name]
+        known = values[np.isfinite(values)]
+        lines = [
+            item
+            for item in axes.collections
+            if len(item.get_edgecolor()) and np.allclose(item.get_edgecolor()[0], to_rgba(ORANGE))
+        ]
+        assert len(lines) == int(np.min(known) < 0.7 < np.max(known))
+    assert not any(
+        len(item.get_edgecolor()) and np.allclose(item.get_edgecolor()[0], to_rgba(ORANGE))
+        for axes in drawn(context, MANIPULABILITY).figure.axes
+        for item in axes.collections
+    )
+
+
+def test_captions_state_the_length_and_the_share(context):
+    transmission, jacobian = TRANSMISSION.caption(context), MANIPULABILITY.caption(context)
+    found = whole(context)
+    assert f"{100 * found.good.share:.1f} ± " in transmission
+    assert f"{found.values['transmission'].mean:.3f} ± " in transmission
+    mixed = context.record.name in ("planar_3rrr", "three_rps", "gough_stewart")
+    assert ("characteristic length" in jacobian) == mixed
+    if context.record.name == "fivebar":
+        assert "(mm/rad)$^2$" in jacobian
+
+
+def test_colours_past_the_border_are_those_of_the_nearest_node():
+    values = np.full((3, 4), np.nan)
+    values[1, 1], values[1, 3] = 0.25, 0.75
+    filled = module._continued(values)
+    assert filled[1, 1] == filled[1, 0] == filled[0, 1] == 0.25
+    assert filled[1, 3] == filled[2, 3] == 0.75

@@ -1,0 +1,154 @@
+"""Indices against their definitions by other formulas, by differences, and at poses where they do not exist."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import assur
+from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.status import Status
+from assur.performance.dexterity import dexterity
+from assur.performance.indices import INDICES, indices, indices_at, maps
+from assur.performance.scaling import is_mixed, scaled
+
+ROW_3 = [-15.4714, 9.6849, 456.3315]
+UNMIXED = [name for name in assur.names() if not is_mixed(assur.load(name))]
+
+
+def compared(first, second):
+    np.testing.assert_allclose(first, second, rtol=1e-6, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", assur.names())
+def test_each_index_is_what_its_formula_says(name, regular_poses):
+    mechanism = assur.load(name)
+    mode = mechanism.modes.default_working
+    poses = regular_poses(mechanism, mode, 20)
+    found = indices(mechanism, poses, mode, 70.0)
+    assert (found.length, found.unit) == (70.0, "")
+    matrix = scaled(mechanism, mechanism.velocity_map(poses, mode).matrix, 70.0)
+    transposed = np.swapaxes(matrix, -1, -2)
+    inverse = np.linalg.inv(matrix)
+    gram = np.linalg.eigvalsh(matrix @ transposed)
+    count = matrix.shape[-1]
+    compared(found["condition"], 1 / (np.linalg.norm(matrix, 2, (-2, -1)) * np.linalg.norm(inverse, 2, (-2, -1))))
+    compared(found["frobenius"], count / np.linalg.norm(matrix, axis=(-2, -1)) / np.linalg.norm(inverse, axis=(-2, -1)))
+    compared(found["manipulability"], np.abs(np.linalg.det(matrix)))
+    compared(found["largest"], np.sqrt(gram[:, -1]))
+    compared(found["smallest"], 1 / np.linalg.norm(inverse, 2, (-2, -1)))
+    compared(found["transmission"], np.minimum(found["input_transmission"], found["output_transmission"]))
+    assert np.all(found["frobenius"] >= found["condition"] - 1e-12)  # the Frobenius norms' ratio is the milder one
+    assert np.all(found["frobenius"] <= 1 + 1e-12)
+
+
+@pytest.mark.parametrize("name", assur.names())
+def test_with_and_without_the_closed_form(name, regular_poses):
+    mechanism = assur.load(name)
+    mode = mechanism.modes.default_working
+    poses = regular_poses(mechanism, mode, 10)
+    joints = mechanism.inverse(poses, mode=mode).joints[:, 0]
+    first, second = indices(mechanism, poses, mode), indices_at(mechanism, joints)
+    assert first.length == second.length
+    assert set(second.status.tolist()) <= {Status.regular}
+    for index in INDICES:
+        np.testing.assert_allclose(first[index], second[index], rtol=1e-6, atol=1e-9)
+
+
+@pytest.mark.parametrize("name", UNMIXED)
+def test_without_mixed_units_they_are_those_of_dexterity(name, regular_poses):
+    mechanism = assur.load(name)
+    mode = mechanism.modes.default_working
+    poses = regular_poses(mechanism, mode, 20)
+    found, known = indices(mechanism, poses, mode), dexterity(mechanism, poses, mode)
+    assert found.length is None
+    compared(found.velocity_factors, known.velocity_factors)
+    compared(found["condition"], known.condition_index)
+    np.testing.assert_array_equal(found.status, known.status)
+    scaled_too = indices(mechanism, poses, mode, 123.0)
+    compared(scaled_too["condition"], known.condition_index)  # no length changes a ratio
+
+
+def test_missing_numbers_are_labelled_and_singular_ones_zero():
+    mechanism = assur.load("zeng2019")
+    p, x = mechanism.values, ROW_3[0]
+    flat = p.l1 + np.sqrt(p.l6**2 - (x - p.b + p.d) ** 2)
+    found = indices(mechanism, [ROW_3, [x, 0.0, flat], [90.0, 0.0, 300.0]])
+    assert [Status(int(code)).name for code in found.status] == ["regular", "constraint", "unreachable"]
+    assert np.isfinite(found["condition"]).tolist() == [True, False, False]
+    assert found["transmission"][1] == 0.0
+    assert np.isnan(found["transmission"][2])
+    read = json.loads(json.dumps(found.to_json(), allow_nan=False))
+    assert read["status"] == ["regular", "constraint", "unreachable"]
+    assert read["condition"][1:] == [None, None]
+    assert read["transmission"][1:] == [0.0, None]
+    assert read["output_transmission_indices"][2] == [None] * 3
+    assert set(INDICES) <= set(read)
+
+
+def test_a_serial_singularity_has_index_zero():
+    """A crank in line with its rod moves nothing along them."""
+    mechanism = assur.load("fivebar")
+    p = mechanism.values
+    reach = p.l1 + p.l2
+    pose = [-p.g + reach * np.cos(1.2), reach * np.sin(1.2)]
+    found = indices(mechanism, pose)
+    assert found["transmission"] == 0.0
+    assert found["smallest"] == pytest.approx(0.0, abs=1e-6 * float(found["largest"]))
+    near = indices(mechanism, [pose[0] * 1.0 - 1e-9 * np.cos(1.2), pose[1] - 1e-9 * np.sin(1.2)])
+    assert 0 <= near["input_transmission"] < 1e-4
+
+
+@pytest.mark.parametrize("batch", [(), (1,), (3, 1, 2), (0,)])
+def test_any_batch_shape(batch):
+    mechanism = assur.load("fivebar")
+    found = indices(mechanism, np.broadcast_to([10.0, 200.0], (*batch, 2)))
+    assert found.status.shape == batch
+    assert found.velocity_factors.shape == (*batch, 2)
+    fields = maps(mechanism, np.broadcast_to([10.0, 200.0], (*batch, 2)), ["smallest", "transmission"])
+    assert list(fields) == ["smallest", "transmission"]
+    for name, field in fields.items():
+        assert field.shape == batch
+        np.testing.assert_array_equal(field, found[name])
+
+
+def test_many_poses_give_what_single_ones_give(monkeypatch, regular_poses):
+    mechanism = assur.load("planar_3rrr")
+    poses = regular_poses(mechanism, "+++", 20)
+    whole = indices(mechanism, poses)
+    monkeypatch.setattr("assur.performance.indices.BLOCK", 7)
+    for name in INDICES:
+        np.testing.assert_allclose(indices(mechanism, poses)[name], whole[name], rtol=1e-12)
+
+
+def test_a_mechanism_without_closed_form_has_them_too():
+    known = assur.load("fivebar")
+    bare = assur.load("fivebar")
+    object.__setattr__(bare, "closed_form", None)
+    first, second = indices(known, [10.0, 200.0]), indices(bare, [[10.0, 200.0]], "-+")
+    for name in INDICES:
+        np.testing.assert_allclose(second[name][0], first[name], rtol=1e-6)
+    away = indices(bare, [[900.0, 200.0]], "-+")
+    assert Status(int(away.status[0])) == Status.unreachable
+    assert np.isnan(away["transmission"][0])
+
+
+def test_units_of_the_indices():
+    found = indices(assur.load("fivebar"), [10.0, 200.0])
+    assert {name: index.unit(found) for name, index in INDICES.items() if index.unit(found)} == {
+        "manipulability": "(mm/rad)^2",
+        "largest": "mm/rad",
+        "smallest": "mm/rad",
+    }
+
+
+def test_misuse():
+    mechanism = assur.load("fivebar")
+    with pytest.raises(UnknownNameError, match="index"):
+        maps(mechanism, [10.0, 200.0], ["conditon"])
+    with pytest.raises(UsageError, match="pose"):
+        indices(mechanism, [1.0, 2.0, 3.0])
+    with pytest.raises(UsageError, match="mode"):
+        indices(mechanism, [10.0, 200.0], "+++")

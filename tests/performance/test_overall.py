@@ -1,0 +1,134 @@
+"""Means and extremes over a region against quadrature and known bounds; errors that cover."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+import assur
+from assur.errors import UsageError
+from assur.performance.dexterity import STUDENT, global_condition_index
+from assur.performance.indices import INDICES, indices
+from assur.performance.overall import overall
+from assur.workspace.region import workspace
+
+
+@dataclass(frozen=True)
+class Cube:
+    """A region that is a box: volume known."""
+
+    mode: str
+    low: tuple[float, ...]
+    high: tuple[float, ...]
+    unit: str = "mm^3"
+    volume_error: float = 0.0
+
+    @property
+    def volume(self):
+        return float(np.prod(np.subtract(self.high, self.low)))
+
+    def interior(self, count, rng):
+        return rng.uniform(self.low, self.high, size=(count, len(self.low)))
+
+
+def orthoglide_cube():
+    mechanism = assur.load("orthoglide")
+    low, high = -mechanism.values.L / np.sqrt(6), mechanism.values.L / np.sqrt(18)
+    return mechanism, Cube("+++", (low,) * 3, (high,) * 3)
+
+
+def test_the_orthoglide_s_cube_has_the_bounds_of_its_design_within_the_errors():
+    """Velocity factors between 1/2 and 2, both met at a corner, so never at an inner point: the errors say how far."""
+    mechanism, cube = orthoglide_cube()
+    found = overall(mechanism, cube, 2**12)
+    slowest, fastest = found.values["smallest"], found.values["largest"]
+    assert 0.5 < slowest.least < 0.5 + 4 * slowest.least_error + 0.02
+    assert 2.0 - 4 * fastest.most_error - 0.02 < fastest.most < 2.0
+    assert slowest.least_error > 0
+    at = indices(mechanism, slowest.least_at)
+    assert at["smallest"] == pytest.approx(slowest.least, rel=1e-12)
+    assert (found.points, found.singular, found.factor_unit, found.length) == (2**12, 0, "", None)
+
+
+def test_means_and_the_good_part_are_those_of_quadrature_within_their_errors():
+    mechanism, cube = orthoglide_cube()
+    nodes = cube.low[0] + (cube.high[0] - cube.low[0]) * (np.arange(24) + 0.5) / 24
+    grid = np.stack(np.meshgrid(nodes, nodes, nodes, indexing="ij"), axis=-1).reshape(-1, 3)
+    exact = indices(mechanism, grid)
+    found = overall(mechanism, cube, 2**12)
+    for name in INDICES:
+        value = found.values[name]
+        assert abs(value.mean - np.mean(exact[name])) < 2.0 * value.mean_error + 2e-4 * value.mean
+        assert 0 < value.mean_error < 0.02 * value.mean
+    share = np.mean(exact["transmission"] >= 0.7)
+    assert 0.2 < share < 1.0
+    assert abs(found.good.share - share) < 2.0 * found.good.share_error + 2e-3
+    assert found.good.volume == pytest.approx(found.good.share * 200.0**3, rel=1e-9)
+    assert found.good.volume_error == pytest.approx(found.good.share_error * 200.0**3, rel=1e-9)
+    assert found.good.unit == "mm^3"
+
+
+def test_the_mean_of_the_condition_index_is_the_global_condition_index():
+    mechanism = assur.load("zeng2019")
+    region = workspace(mechanism, resolution=8, near=300)
+    known = global_condition_index(mechanism, region, 2**11)
+    found = overall(mechanism, region, 2**11)
+    value = found.values["condition"]
+    assert value.mean == pytest.approx(known.value, rel=1e-9)
+    assert value.mean_error == pytest.approx(known.error, rel=1e-6)
+    assert found.points == known.points + known.singular
+    assert found.mode == region.mode
+
+
+def test_the_errors_of_share_and_mean_cover_what_forty_seeds_find():
+    """95 % intervals, so two of forty miss on average; the truth is from a grid of nodes."""
+    mechanism = assur.load("fivebar")
+    plane = Cube("-+", (-100.0, 100.0), (100.0, 200.0), "mm^2")
+    cells = (np.arange(120) + 0.5) / 120
+    xs, ys = (low + (high - low) * cells for low, high in zip(plane.low, plane.high, strict=True))
+    exact = indices(mechanism, np.stack(np.meshgrid(xs, ys), axis=-1))
+    share, mean = np.mean(exact.transmission.good), np.mean(exact["transmission"])
+    assert 0.2 < share < 0.8
+    found = [overall(mechanism, plane, 512, rng=np.random.default_rng(seed)) for seed in range(40)]
+    assert sum(abs(item.good.share - share) <= item.good.share_error for item in found) >= 33
+    values = [item.values["transmission"] for item in found]
+    assert sum(abs(value.mean - mean) <= value.mean_error for value in values) >= 33
+    spread = np.std([value.mean for value in values])
+    assert np.mean([value.mean_error for value in values]) / STUDENT == pytest.approx(spread, rel=0.35)
+
+
+def test_the_length_is_one_for_the_whole_region():
+    mechanism = assur.load("planar_3rpr")
+    cube = Cube(mechanism.modes.default_working, *(np.array([mechanism.box[n] for n in ("x", "y", "phi")]).T / 4))
+    found = overall(mechanism, cube, 256, "isotropic")
+    poses = cube.interior(200, np.random.default_rng(1))
+    assert found.length == pytest.approx(indices(mechanism, poses, cube.mode, "isotropic").length, rel=0.2)
+    fixed = overall(mechanism, cube, 256, 2 * found.length)
+    assert fixed.length == 2 * found.length
+    assert fixed.values["condition"].mean < found.values["condition"].mean
+    assert fixed.values["transmission"].mean == found.values["transmission"].mean
+
+
+def test_an_empty_region_says_nothing():
+    mechanism = assur.load("zeng2019")
+    found = overall(mechanism, workspace(mechanism, box={"x": (200, 300)}, resolution=8), 256)
+    assert (found.points, found.values, found.good) == (0, {}, None)
+    assert json.loads(json.dumps(found.to_json(), allow_nan=False))["good_transmission"] is None
+
+
+def test_json_has_every_index():
+    mechanism, cube = orthoglide_cube()
+    read = json.loads(json.dumps(overall(mechanism, cube, 256).to_json(), allow_nan=False))
+    assert set(read["indices"]) == set(INDICES)
+    assert read["good_from"] == 0.7
+    assert len(read["indices"]["transmission"]["least_at"]) == 3
+
+
+@pytest.mark.parametrize("count", [0, 100, 1e5, True])
+def test_a_number_of_points_that_is_none_is_refused(count):
+    mechanism, cube = orthoglide_cube()
+    with pytest.raises(UsageError, match="count"):
+        overall(mechanism, cube, count)

@@ -1,0 +1,178 @@
+"""Chains to files: sound, with the topology of the chains, closed at home whatever the dimensions are."""
+
+from __future__ import annotations
+
+import random
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import assur
+from assur.errors import AssurError, UsageError
+from assur.kinematics.closure import closure_error
+from assur.kinematics.finite_motion import classify_at
+from assur.kinematics.home import home_values
+from assur.kinematics.soundness import faults
+from assur.kinematics.status import Status
+from assur.model.file.reader import read_text
+from assur.model.mechanism import MechanismRecord
+from assur.model.registry import load_topology, topology_names, with_parameters
+from assur.synthesis.drafting.drafting import Drafted, drafted
+from assur.synthesis.drafting.facts import facts
+from assur.synthesis.drafting.repeating import repeated
+from assur.topology.notation import parse_chains
+
+PATH = Path("my.toml")
+HYBRID = ["{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", "P[y] P(4R)[y] P(4R)[x]"]
+
+
+def read(found: Drafted) -> MechanismRecord:
+    return read_text(found.text, PATH)
+
+
+def of(*chains: str, **options: object) -> Drafted:
+    return drafted(parse_chains(chains), PATH, **options)
+
+
+@pytest.mark.parametrize("name", topology_names())
+def test_every_topology_of_the_catalogue_becomes_a_sound_file_with_its_declared_facts(name):
+    described = load_topology(name)
+    numbers = [f"{limb}.{joint}" for limb, joint in described.actuate]
+    found = drafted(described.chains, PATH, actuate=numbers or None, mode=described.mode)
+    record = read(found)
+    assert faults(record) == ()
+    topology = assur.topology(record, mode=described.mode)
+    assert described.declared.differences(topology) == ()
+    assert facts(topology) == facts(assur.topology(name))
+    internal = (topology.internal_freedoms, len(topology.internal_joints))
+    assert described.declared.internal_freedoms in (None, internal)
+    assert len(record.inputs) == topology.dof - topology.internal_freedoms
+    assert Status(int(classify_at(record, home_values(record)))) is Status.regular
+
+
+@pytest.mark.parametrize("name", ["delta_4s", "planar_3rrr", "orthoglide", "three_ups_up"])
+def test_as_drawn_the_loops_close_whatever_the_parameters_are(name):
+    record = read(drafted(load_topology(name).chains, PATH))
+    zeros = np.zeros(len(record.coordinates))
+    assert not np.any(record.home)
+    rng = random.Random(1)
+    values = {key: item.value + rng.uniform(5.0, 40.0) for key, item in record.parameters.items()}
+    for changed in (record, with_parameters(record, **values)):
+        assert float(closure_error(changed, zeros)) < 1e-10
+    # not because there is nothing to close: without one of the two places of a joint it does not
+    joint = next(item for item in record.joints.values() if item.child == record.platform.link)
+    assert np.linalg.norm(joint.child_at) > 1.0
+
+
+def test_a_symmetric_mechanism_is_one_template():
+    text = drafted(repeated("R[z] R[z] R[z]", 3), PATH).text
+    assert text.count("[limbs.") == text.count("[limbs.leg")
+    assert 'repeat = { about = "z", count = 3 }' in text
+    assert 'pose = ["x", "y", "phi"]' in text
+    assert [item.name for item in read_text(text, PATH).inputs] == ["q1", "q2", "q3"]
+
+
+def test_chains_that_are_turns_of_one_another_are_seen_to_be():
+    together = drafted(repeated("R[y] P(4S)[y]", 3), PATH).text
+    apart = drafted(load_topology("delta_4s").chains, PATH).text
+    assert together.partition("format = 1")[2] == apart.partition("format = 1")[2]
+
+
+def test_a_hybrid_chain_needs_no_more_than_its_text():
+    found = of(*HYBRID)
+    record = read(found)
+    assert faults(record) == ()
+    assert facts(assur.topology(record)) == facts(assur.topology(HYBRID))
+    assert [item.coordinate.joint for item in record.inputs] == ["a1.A", "a1.D", "b1.I"]
+    assert record.platform.orientation == "constant"
+    assert record.chains["a1"].loop == ("a1.A", "a1.B", "a1.C", "a1.F", "a1.E", "a1.D")
+
+
+def test_its_pose_follows_from_what_it_does():
+    poses = {
+        ("x", "y"): ("R[z] R[z] R[z]", "R[z] R[z]"),
+        ("z", "theta", "psi"): load_topology("three_rps").chains,
+        ("x", "y", "z", "qw", "qx", "qy", "qz"): load_topology("gough_stewart").chains,
+    }
+    for pose, chains in poses.items():
+        chains = parse_chains(chains) if isinstance(chains[0], str) else chains
+        assert read(drafted(chains, PATH)).platform.pose == pose
+
+
+def test_what_is_driven_may_be_named():
+    found = of("R[z] P[x] R[z]", "R[z] R[z]", actuate=["1.2", "2.1"])
+    assert [item.coordinate.joint for item in read(found).inputs] == ["a1.B", "b1.D"]
+
+
+def test_where_the_first_joints_are_too_few_others_are_driven_too():
+    record = read(of("P[x] R[x] R[x] R[x]", "P[y] R[y] R[y] R[y]"))
+    limbs = [item.coordinate.joint.partition(".")[0] for item in record.inputs]
+    assert len(limbs) == 3
+    assert len(set(limbs)) == 2
+    assert faults(record) == ()
+
+
+def test_a_home_that_would_be_singular_is_moved():
+    """The 3-UPU with upright legs can turn as it stands; a little away it keeps its orientation."""
+    described = load_topology("three_upu")
+    found = drafted(described.chains, PATH, mode="translation")
+    record = read(found)
+    assert np.any(record.home)
+    drawn = classify_at(record, np.zeros(len(record.coordinates)))
+    assert Status(int(drawn)) is Status.constraint
+    assert Status(int(classify_at(record, home_values(record)))) is Status.regular
+    assert "away from there" in found.text
+
+
+@pytest.mark.parametrize(
+    ("chains", "options", "message"),
+    [
+        (("R[z] R[z] R[z]",), {}, "one open chain"),
+        (("R[z]", "R[z]"), {}, "a structure that does not move"),
+        (("R[x] R[y] R[z] S", "S S"), {"actuate": ["1.1", "1.2", "1.1"]}, "twice"),
+        (("R[z] R[z] R[z]", "R[z] R[z]"), {"actuate": ["1.1"]}, "do not determine the mechanism: too few"),
+        (("P[x] P[x] P[y] R[z]", "P[y] R[z] R[z]"), {}, "joints must be driven"),
+    ],
+)
+def test_what_cannot_be_is_refused_with_a_reason(chains, options, message):
+    with pytest.raises(UsageError, match=message):
+        of(*chains, **options)
+
+
+AXES = st.sampled_from(["x", "y", "z", "x", "y", "z", "1,1,0", "0.6,0,0.8"])
+JOINTS = st.one_of(
+    st.builds(lambda letter, axis: f"{letter}[{axis}]", st.sampled_from("RRRPCH"), AXES),
+    st.builds(lambda kind, axis: f"P({kind})[{axis}]", st.sampled_from(["4R", "4S", "4U", "2US"]), AXES),
+    st.sampled_from(["S", "S", "R", "P", "U", "U[x,y]", "U[y,z]"]),
+)
+CHAINS = st.lists(JOINTS, min_size=2, max_size=4).map(" ".join)
+LIMBS = st.lists(JOINTS, min_size=2, max_size=3).map(" ".join)
+
+
+@settings(max_examples=15, deadline=None, derandomize=True)
+@given(st.lists(CHAINS, min_size=2, max_size=3))
+def test_random_chains_become_a_sound_file_or_a_clear_refusal(texts):
+    check_or_refuse(lambda: parse_chains(texts))
+
+
+@settings(max_examples=15, deadline=None, derandomize=True)
+@given(LIMBS, st.integers(2, 3))
+def test_random_limbs_become_a_sound_file_or_a_clear_refusal(text, count):
+    check_or_refuse(lambda: repeated(text, count))
+
+
+def check_or_refuse(chains):
+    try:
+        found = drafted(chains(), PATH)
+    except AssurError as error:
+        said = error.message
+        found = None
+    if found is None:
+        assert len(said) > 20
+        return
+    record = read(found)
+    assert faults(record) == ()
+    assert facts(assur.topology(record)) == facts(found.topology)

@@ -1,0 +1,215 @@
+"""Workspaces of mechanisms without closed form, against the closed forms that were taken away, and plain sampling."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+import pytest
+
+import assur
+from assur.errors import UnknownNameError, UsageError
+from assur.workspace.fields import margin_fields, sample
+from assur.workspace.followed import over_grid
+from assur.workspace.grid import grid_over
+from assur.workspace.projections import everywhere
+from assur.workspace.region import workspace
+from assur.workspace.slices import slice_at
+
+PHI = {"phi": 0.2}
+
+
+def stripped(name):
+    return replace(assur.load(name), closed_form=None)
+
+
+@lru_cache
+def both(name, resolution, held=()):
+    """The workspace by the closed form and by following."""
+    options = {"resolution": resolution, "held": dict(held) or None}
+    return workspace(assur.load(name), **options), workspace(stripped(name), **options)
+
+
+# name, cells along each coordinate, what is held
+CASES = [
+    ("fivebar", 24, ()),
+    ("planar_3rrr", 20, (("phi", 0.2),)),
+    ("planar_3rrr", 40, (("x", 10.0), ("y", -5.0))),
+    ("zeng2019", 12, ()),
+    ("delta_4s", 6, ()),
+    ("three_rps", 8, ()),
+    ("three_rps", 20, (("z", 250.0),)),
+]
+
+
+@pytest.mark.parametrize(("name", "resolution", "held"), CASES)
+def test_the_volume_is_that_of_the_closed_form_within_the_stated_errors(name, resolution, held):
+    known, found = both(name, resolution, held)
+    fine = workspace(assur.load(name), resolution=4 * resolution, held=dict(held) or None)
+    assert known.how == "closed form"
+    assert found.how == "followed from home"
+    assert found.unit == known.unit
+    assert found.volume > 0.0
+    # what is not stated is only how exactly a border is found: 1/32 of a step at worst, far better in the mean
+    rounding = 1e-4 * fine.volume
+    assert abs(found.volume - fine.volume) <= found.volume_error + fine.volume_error + rounding
+    assert found.volume_error < 0.2 * found.volume
+
+
+@pytest.mark.parametrize(("name", "resolution"), [("fivebar", 24), ("planar_3rrr", 12), ("zeng2019", 8)])
+def test_exactly_the_nodes_are_reached_at_which_the_closed_form_exists(name, resolution):
+    record, poses = assur.load(name), slice_at(assur.load(name))
+    known, _ = both(name, resolution) if name == "fivebar" else (workspace(record, resolution=8), None)
+    grid = grid_over(known.box, resolution)
+    mode = record.modes.default_working
+    over, how = over_grid(stripped(name), mode, poses, grid)
+    margins = [np.broadcast_to(sample(field, grid), grid.shape) for field in margin_fields(record, mode).values()]
+    least = np.min(margins, axis=0)
+    inside, clear = least >= 0, np.abs(least) > 1e-9 * np.max(np.abs(least))
+    size = grid.dimension
+    inside, clear = (values[(..., *[0] * (3 - size))] for values in (inside, clear))
+    assert how == "followed from home"
+    np.testing.assert_array_equal(over.reached[clear], inside[clear])
+    assert 50 < np.sum(over.reached) < over.reached.size
+
+
+def test_sections_and_outlines_agree():
+    known, found = both("zeng2019", 12)
+    for first, second in zip(known.sections, found.sections, strict=True):
+        assert second.area == pytest.approx(first.area, rel=0.02)
+    assert found.projection("x", "z").area == pytest.approx(known.projection("x", "z").area, rel=0.02)
+
+
+def test_the_locus_of_the_determinant_is_that_of_all_parallel_factors():
+    known, found = both("zeng2019", 12)
+    (locus,) = found.loci
+    assert locus.factor == "output"
+    assert not locus.everywhere
+    assert locus.area == pytest.approx(sum(item.area for item in known.loci), rel=0.02)
+    values = assur.load("zeng2019").inverse(locus.vertices, mode="++-++").factors
+    nearest = np.min(np.abs([values[name][:, 0] / 280.0 for name in ("w", "v")]), axis=0)
+    # the others are where facets are cut by the border
+    assert np.nanquantile(nearest, 0.2) < 1e-6
+
+
+def test_vertices_of_the_border_are_on_it():
+    """The arms of the five-bar are stretched there: P is l1 + l2 away from one of the motors."""
+    _, found = both("fivebar", 24)
+    p = assur.load("fivebar").values
+    low, high = np.array(found.box.intervals).T
+    inner = np.all((found.vertices > low + 1e-6) & (found.vertices < high - 1e-6), axis=1)
+    motors = np.array([[p.g, 0.0], [-p.g, 0.0]])
+    gaps = p.l1 + p.l2 - np.linalg.norm(found.vertices[inner, None] - motors, axis=-1)
+    assert np.sum(inner) > 20
+    off = np.abs(np.min(gaps, axis=1)) / np.max(found.region.grid.step)
+    assert np.quantile(off, 0.7) < 1e-5
+    assert np.max(off) < 0.01  # where the box cuts a facet
+
+
+def test_strokes_and_limits_cut_both_alike():
+    stroke = {"yA1": (-200.0, 150.0)}
+    record = assur.load("zeng2019")
+    known = workspace(record, strokes=stroke, resolution=10)
+    found = workspace(stripped("zeng2019"), strokes=stroke, resolution=10)
+    assert known.volume < 0.9 * both("zeng2019", 12)[0].volume
+    assert abs(found.volume - known.volume) <= found.volume_error + known.volume_error
+
+
+def test_the_limit_of_a_passive_joint_cuts_both_alike():
+    record = assur.load("planar_3rrr")
+    joint = record.joints["leg1.B"]
+    limited = replace(record, joints={**record.joints, "leg1.B": replace(joint, limits=((0.3, 1.5),))})
+    options = {"resolution": 24, "held": PHI}
+    known, found = workspace(limited, **options), workspace(replace(limited, closed_form=None), **options)
+    assert known.volume < 0.9 * workspace(record, **options).volume
+    assert abs(found.volume - known.volume) <= found.volume_error + known.volume_error
+
+
+@pytest.mark.parametrize("held", [{"phi": 0.2}, {"x": 10.0, "y": -5.0}, {"y": 20.0}])
+def test_slices_of_a_plane_platform_agree_with_plain_sampling(held):
+    record = assur.load("planar_3rrr")
+    found = workspace(record, held=held, resolution=96)
+    _agree_with_sampling(record, found)
+
+
+@pytest.mark.parametrize("held", [{"z": 250.0}, {"theta": 0.2, "psi": -0.3}, {}])
+def test_slices_of_a_tilting_platform_agree_with_plain_sampling(held):
+    record = assur.load("three_rps")
+    strokes = {item.name: (200.0, 300.0) for item in record.inputs}
+    found = workspace(record, held=held, strokes=strokes, resolution=48)
+    _agree_with_sampling(record, found, strokes)
+
+
+def _agree_with_sampling(record, found, strokes=None):
+    rng = np.random.default_rng(7)
+    low, high = np.array(found.box.intervals).T
+    points = rng.uniform(low, high, size=(20_000, len(low)))
+    solutions = record.inverse(found.slice.poses(points), mode=found.mode)
+    inside = solutions.exists[:, 0]
+    for k, item in enumerate(record.inputs):
+        if strokes:
+            with np.errstate(invalid="ignore"):
+                value = solutions.inputs[:, 0, k]
+                inside &= (value >= strokes[item.name][0]) & (value <= strokes[item.name][1])
+    size = np.prod(high - low)
+    deviation = max(np.std(inside) / np.sqrt(len(inside)), 1e-4) * size
+    assert 0.02 < np.mean(inside) < 0.999
+    assert abs(np.mean(inside) * size - found.volume) < 4 * deviation + found.volume_error
+
+
+def test_it_follows_another_mode_from_a_solution_that_is_searched_for():
+    record = assur.load("fivebar")
+    known = workspace(record, "++", resolution=16)
+    found = workspace(stripped("fivebar"), "++", resolution=16)
+    assert found.how.startswith("followed from a solution at x = ")
+    assert abs(found.volume - known.volume) <= found.volume_error + 1e-3 * known.volume
+
+
+def test_a_box_that_nothing_reaches_is_empty_and_says_so():
+    found = workspace(stripped("fivebar"), box={"x": (900, 950), "y": (900, 950)}, resolution=8)
+    assert found.volume == 0.0
+    assert found.share is None
+    assert "no pose" in found.how
+    assert json.loads(json.dumps(found.to_json(), allow_nan=False))["how"] == found.how
+
+
+def test_joint_values_inside_close_the_loops_and_are_missing_outside():
+    _, found = both("fivebar", 24)
+    points = np.array([[0.0, 220.0], [0.0, 900.0]])
+    joints = found.joints(points)
+    known = assur.load("fivebar").inverse(points[:1], mode=found.mode)
+    np.testing.assert_allclose(np.cos(joints[0] - known.joints[0, 0]), 1.0, atol=1e-12)
+    assert np.all(np.isnan(joints[1]))
+    with pytest.raises(UsageError, match="has a closed form"):
+        both("fivebar", 24)[0].joints(points)
+
+
+def test_progress_counts_up_to_its_total_and_begins_early():
+    seen = []
+    workspace(stripped("fivebar"), resolution=8, progress=lambda done, total: seen.append((done, total)))
+    assert [done for done, _ in seen] == list(range(1, len(seen) + 1))
+    assert {total for _, total in seen} == {len(seen)}
+
+
+def test_an_unknown_mode_is_refused():
+    with pytest.raises(UnknownNameError, match="working mode of fivebar"):
+        workspace(stripped("fivebar"), "+", resolution=8)
+
+
+def test_total_and_dexterous_workspaces_agree_with_plain_sampling():
+    record = assur.load("planar_3rrr")
+    box = {"x": (-120, 120), "y": (-120, 120), "phi": (-0.3, 0.3)}
+    found = workspace(record, box=box, resolution=40)
+    points = np.random.default_rng(2).uniform(-120, 120, size=(4000, 2))
+    turns = np.linspace(-0.3, 0.3, 31)
+    poses = np.concatenate([np.repeat(points, 31, axis=0), np.tile(turns, 4000)[:, None]], axis=1)
+    there = record.inverse(poses, mode="+++").exists[:, 0].reshape(4000, 31)
+    for flat, inside in (
+        (found.projection("x", "y"), np.any(there, axis=1)),
+        (everywhere(found.region, ("x", "y")), np.all(there, axis=1)),
+    ):
+        share, deviation = np.mean(inside), np.std(inside) / np.sqrt(4000)
+        assert 0.03 < share < 0.97
+        assert abs(flat.area / 240**2 - share) < 4 * deviation + 0.01
