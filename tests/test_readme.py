@@ -7,8 +7,6 @@ import re
 import shlex
 from pathlib import Path
 
-import pytest
-
 import assur
 
 README = Path(__file__).parents[1] / "README.md"
@@ -35,9 +33,11 @@ def test_the_python_of_the_readme_runs():
     assert failures == 0
 
 
-@pytest.mark.parametrize(("command", "shown"), OUTPUT.findall(README.read_text(encoding="utf-8")))
-def test_output_shown_is_the_real_one(command, shown, capsys):
-    assert rounded(printed(command, capsys)) == rounded(shown)
+def test_output_shown_is_the_real_one(capsys, tmp_path, monkeypatch):
+    """One command after the other in one folder, as a reader would: some write a file that others read."""
+    monkeypatch.chdir(tmp_path)
+    for command, shown in OUTPUT.findall(README.read_text(encoding="utf-8")):
+        assert rounded(printed(command, capsys)) == rounded(shown), command
 
 
 def test_there_is_output():

@@ -136,7 +136,7 @@ def _completeness(record: Mechanism, data: dict[str, Any]) -> str:
     if data["complete"]:
         return f"Complete for {model}, by {right}."
     if right.startswith("not proved"):
-        return f"Complete: {right}."
+        return f"Whether these are all is {right}."
     return f"Only this mode was asked for, of {model}, by {right}."
 
 

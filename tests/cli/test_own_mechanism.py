@@ -1,0 +1,38 @@
+"""A mechanism that is in no catalogue, from a line of notation to every answer, without a line of Python."""
+
+from __future__ import annotations
+
+import pytest
+
+CHAINS = ("--chain", "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", "--chain", "R[z] R[z] C[z]")
+POSE = ("10", "20", "320")
+
+
+@pytest.mark.slow
+def test_it_goes_through_everything(assur_cli, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert assur_cli("new", "hybrid.toml", *CHAINS).code == 0
+    assert assur_cli("check", "hybrid.toml", "--json").json["sound"]
+    assert assur_cli("topology", "hybrid.toml", "--json").json["dof"] == 3
+
+    inverse = assur_cli("inverse", "hybrid.toml", *POSE, "--json").json
+    assert len(inverse["solutions"]) == 8
+    inputs = [f"{value:.12g}" for value in inverse["solutions"][0]["inputs"]]
+    direct = assur_cli("direct", "hybrid.toml", *inputs, "--json").json
+    gaps = [max(abs(a - float(b)) for a, b in zip(item["pose"], POSE, strict=True)) for item in direct["solutions"]]
+    assert min(gaps) < 1e-5
+
+    verdict = assur_cli("singularity", "hybrid.toml", "--pose", *POSE, "--mode", "1", "--json")
+    assert verdict.code == 0
+    path = assur_cli("follow", "hybrid.toml", "--to", "20", "20", "330", "--json").json
+    assert path["stopped"] is None
+    region = assur_cli("workspace", "hybrid.toml", "--resolution", "8", "--json").json
+    assert region["how"] == "followed from home"
+    assert 0 < region["volume_error"] < 0.05 * region["volume"]
+    assert assur_cli("indices", "hybrid.toml", "--pose", *POSE).code == 0
+
+    for form, name in (("mjcf", "h.xml"), ("sdf", "h.sdf"), ("urdf", "h.urdf")):
+        assert assur_cli("export", "hybrid.toml", "--format", form, "-o", name).code == 0
+        assert (tmp_path / name).stat().st_size > 1000
+    assert assur_cli("report", "hybrid.toml", "-o", "report.html").code == 0
+    assert "hybrid" in (tmp_path / "report.html").read_text(encoding="utf-8")
