@@ -266,8 +266,9 @@ def test_a_platform_that_nothing_reaches_is_refused(assur_cli, tmp_path, cut, li
     path.write_text(without(*cut))
     run = assur_cli("topology", str(path))
     assert (run.code, run.out) == (3, "")
-    for link in links:
-        assert f"links.{link}: '{link}' is not connected to the base; allowed: one connected graph" in run.err
+    assert "is not connected to the base" in run.err
+    assert "allowed: one connected graph" in run.err
+    assert all(link in run.err for link in links)
 
 
 def test_an_arm_with_a_free_end_has_no_loops(assur_cli, tmp_path):

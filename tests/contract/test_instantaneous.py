@@ -28,7 +28,10 @@ def test_the_status_is_that_of_the_joint_graph(mechanism, regular, singular_exam
     assert set(found.tolist()) <= {Status.regular, Status.near_singular}
     for example in singular_examples:
         status = Status(int(classify_at(mechanism, example.joints)))
-        assert status.name == example.status.name, (example.factor.name, example.mode)
+        claimed = {example.status.name}
+        if mechanism.closed_form.complete_for == "reduced" and example.status == Status.constraint:
+            claimed.add("self_motion")  # in a motion of the joint graph that the reduced model leaves out
+        assert status.name in claimed, (example.factor.name, example.mode)
         here, form = instantaneous(mechanism, example.joints), mechanism.velocity_map(example.pose, example.mode)
         if not here.types["IIM"]:  # else relations are lacking, of which a reduced model may know nothing
             sides = (bool(here.singular_output), bool(here.singular_input))

@@ -15,7 +15,7 @@ from assur.model.closed_form import Eliminant
 from assur.model.joint_graph import frames
 from assur.model.points import quantity
 
-SHAPES = [(), (1,), (3, 1, 2)]
+SHAPES = [(), (1,), (3, 1, 2), (0,)]
 SEARCHED = 4
 """So many direct problems are asked of a mechanism that answers by a search."""
 
@@ -130,8 +130,8 @@ def test_a_search_on_the_joint_graph_finds_every_branch_of_the_closed_form(mecha
 @pytest.mark.parametrize("shape", SHAPES, ids=str)
 def test_batch_shapes_agree_with_single_problems(mechanism, regular, shape):
     count = int(np.prod(shape))
-    poses = np.array([pose for pose, _, _, _ in regular[:count]]).reshape(*shape, -1)
-    inputs = np.array([inputs for _, _, inputs, _ in regular[:count]]).reshape(*shape, -1)
+    poses = np.array([pose for pose, _, _, _ in regular[:count]]).reshape(*shape, len(mechanism.platform.pose))
+    inputs = np.array([inputs for _, _, inputs, _ in regular[:count]]).reshape(*shape, len(mechanism.inputs))
     inverse = mechanism.inverse(poses)
     assert inverse.inputs.shape == (*shape, inverse.candidates, len(mechanism.inputs))
     for index in np.ndindex(shape):
@@ -155,7 +155,8 @@ def test_one_mode_is_the_same_as_its_row_of_all_modes(mechanism, regular):
 
 def test_no_unlabelled_nan(mechanism, poses, regular):
     inputs = np.array([inputs for _, _, inputs, _ in regular])
-    answers = [mechanism.inverse(np.concatenate([poses, poses * 10.0]))]
+    growth = [1.0 if name == "theta" else 10.0 for name in mechanism.platform.pose]  # theta ends at 90 deg
+    answers = [mechanism.inverse(np.concatenate([poses, poses * growth]))]
     answers.append(direct(mechanism, np.concatenate([inputs * 10.0, inputs * 0.1, inputs])))
     for found in answers:
         missing = np.isin(found.status, (Status.unreachable, Status.self_motion, Status.undecided))

@@ -186,7 +186,8 @@ def _shown(record: Mechanism, data: dict[str, Any], written: Path | None) -> Ite
     from assur.kinematics.answers import power
 
     dimension = len(data["coordinates"])
-    yield heading(f"{data['mechanism']}, workspace of working mode {data['mode']}")
+    mode = f"working mode {data['mode']}" if data["mode"] else "the working mode of home"
+    yield heading(f"{data['mechanism']}, workspace of {mode}")
     yield f"how: {data['how']}"
     yield f"box: {_intervals(record, dict(zip(data['coordinates'], data['box'], strict=True)))}"
     if data["held"]:

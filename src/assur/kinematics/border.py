@@ -45,6 +45,10 @@ def checked(values: ArrayLike, names: tuple[str, ...], what: str) -> FloatArray:
 def checked_poses(record: MechanismRecord, values: ArrayLike) -> FloatArray:
     """Poses (..., m) as `checked`; a quaternion is made a unit one."""
     poses = checked(values, record.platform.pose, f"pose of {record.name}")
+    if "theta" in record.platform.pose:
+        theta = poses[..., record.platform.pose.index("theta")]
+        if np.any(np.abs(theta) > np.pi / 2):
+            raise UsageError(f"pose of {record.name}: theta is between -90 and 90 deg", hint="turn phi and psi instead")
     if not has_quaternion(record.platform.pose):
         return poses
     columns = [record.platform.pose.index(name) for name in QUATERNION]

@@ -44,9 +44,10 @@ def direct(
         inputs: as printed.
         mode: an assembly mode; all of them by default.
         method: "closed form"; on the joint graph "loops", one after another as the theory orders them, complete where
-            it says so, or "search" from many starts, never known to be complete. By default the first of the three
-            that has a complete answer.
-        crossed: on the joint graph: whether parallelograms may cross over; a mode says which do ("+++~Pa1").
+            it says so, or "search" from many starts, never known to be complete. By default the
+            closed form where there is one, else the loops where they are complete, else a search.
+        crossed: whether parallelograms may cross over; a mode says which do ("+++~Pa1"). A search lists crossed ones
+            too without being asked.
 
     Errors:
         UsageError: inputs that are not n finite numbers, a closed form that there is not.
@@ -195,7 +196,8 @@ def _numbered_mode(record: MechanismRecord, problem: Problem, mode: str | None) 
     if mode is None:
         return ""
     count = len(sign_names(record, problem))
-    if not re.fullmatch(rf"[+-]{{{count}}}(~\w+)*(/[1-9]\d*)?" if count else r"(~\w+)*/?([1-9]\d*)?", mode):
+    crossed, number = r"(~[\w.]+)*", r"([1-9]\d*)"
+    if not re.fullmatch(rf"[-+0]{{{count}}}{crossed}(/{number})?" if count else rf"{crossed}/?{number}?", mode):
         signs = all_modes(record, problem) if count else ("1", "2")
         kind = "assembly mode" if problem == "direct" else "working mode"
         raise UnknownNameError(f"{kind} of {record.name}", mode, signs, hint="a number may follow, as in +/2")

@@ -162,7 +162,7 @@ def _lost(coefficients: FloatArray) -> BoolArray:
 
 def _by_problem(values: NDArray[Any]) -> NDArray[Any]:
     """Of parts, roots and problems (..., d, N) an array (N, K)."""
-    return np.array(np.moveaxis(values, -1, 0).reshape(values.shape[-1], -1))
+    return np.array(np.moveaxis(values, -1, 0).reshape(values.shape[-1], int(np.prod(values.shape[:-1]))))
 
 
 def _real(coefficients: FloatArray, rounding: FloatArray, kind: str) -> tuple[FloatArray, FloatArray, IntArray]:

@@ -97,13 +97,14 @@ def in_one_turn(record: MechanismRecord, joints: FloatArray) -> FloatArray:
 
 
 def places(record: MechanismRecord, joints: FloatArray) -> FloatArray:
-    """Places (N, k) of all joints in units of the characteristic length, the platform's orientation, the inputs."""
+    """Places (N, k) of all joints and of the platform in units of the characteristic length, and the inputs."""
     placed, length = frames(record, joints), characteristic_length(record)
     columns = []
     for joint in record.joints.values():
         rotation, origin = placed[joint.parent]
         columns.append((rotation @ joint.at + origin) / length)
-    columns.append(placed[record.platform.link][0].reshape(len(joints), 9))
+    rotation, origin = placed[record.platform.link]
+    columns += [(rotation @ record.platform.point + origin) / length, rotation.reshape(len(joints), 9)]
     for item in record.inputs:
         value = joints[:, item.coordinate.index]
         angular = item.coordinate.kind == "angle"

@@ -83,7 +83,8 @@ def solutions_of(
     gap, end, infinite = (np.take_along_axis(item, order, axis=1) for item in (gap, end, infinite))
     real = np.take_along_axis(real, order[..., None], axis=1)
     copy = np.zeros(gap.shape, dtype=bool)
-    near = np.max(np.abs(np.diff(real, axis=1)), axis=-1) < SAME**0.5
+    even = real / characteristic_length(record) ** np.array(system.units)
+    near = np.max(np.abs(np.diff(even, axis=1)), axis=-1) < SAME**0.5
     copy[:, 1:] = near & (end[:, 1:] == End.singular) & (gap[:, 1:] == 0)
     branch = _poses(record, system, flat, real)
     shape = (*given.shape[:-1], system.degree)

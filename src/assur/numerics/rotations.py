@@ -144,7 +144,7 @@ def to_angles(rotation: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]
     Theta is between -90 and 90 deg. Where it is one of these, phi is 0.
 
     >>> turned = about_axis(np.array([0.0, 0.0, 1.0]), np.array(0.5)) @ about_axis(np.eye(3)[0], np.array(0.25))
-    >>> [round(float(angle), 12) for angle in to_angles(turned)]
+    >>> [round(float(angle), 12) + 0.0 for angle in to_angles(turned)]
     [0.5, 0.0, 0.25]
     """
     across = np.hypot(rotation[..., 0, 0], rotation[..., 1, 0])

@@ -156,7 +156,7 @@ def _example(
     here = inverse(record, found.pose, found.mode)
     in_box = bool(np.all((found.pose >= low) & (found.pose <= high)))
     status = Status(int(here.status[0]))
-    return SingularExample(factor, found.mode, found.pose, here.inputs[0], here.joints[0], status, in_box)
+    return SingularExample(factor, found.mode, here.given, here.inputs[0], here.joints[0], status, in_box)
 
 
 def _zeros_in_mode(record: MechanismRecord, mode: str, poses: FloatArray, names: list[str]) -> list[_Candidate]:

@@ -149,7 +149,7 @@ def _start(
     size = grid.dimension
     low, high = grid.low[:size], grid.high[:size]
     spread = grid.box.spread(STARTS, np.random.default_rng(0))
-    if "/" not in mode and np.array_equal(working_signs(record, home_values(record)), signs):
+    if not mode.strip("+-") and np.array_equal(working_signs(record, home_values(record)), signs):
         home = all_coordinates(record, home_values(record))
         own = np.array([home[name] for name in slice_.free])
         for point in (np.clip(own, low, high), 0.5 * (low + high), *spread[: STARTS // 3]):
@@ -160,7 +160,7 @@ def _start(
             if path.stopped is None and np.array_equal(working_signs(record, path.joints[-1]), signs):
                 return (point, path.joints[-1]), "followed from home"
     for point in spread:
-        found = inverse(record, slice_.poses(point[None])[0], mode or None)
+        found = inverse(record, slice_.poses(point[None])[0], mode or None, crossed="~" in mode)
         if np.any(found.exists):
             joints = found.joints[found.exists][0]
             where = ", ".join(

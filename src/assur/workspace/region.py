@@ -275,6 +275,9 @@ def _fields(
 
 
 def _default_sections(record: MechanismRecord, box: Box) -> tuple[float, ...]:
+    """The file's sections, which are values of the last coordinate of the pose, where that one varies."""
+    if box.names[-1] != record.platform.pose[-1]:
+        return ()
     return tuple(value for value in record.sections if box.low[-1] <= value <= box.high[-1])
 
 

@@ -166,7 +166,7 @@ def _at_once(question: _Question, parallel: frozenset[str]) -> LoopSolutions:
         names = _names(equations)
         listed = " and ".join(names[number] for number in error.items)
         nearly = "nearly " if error.error else ""
-        return _nothing(record, False, f"{listed} {nearly}have infinitely many values, real or not")
+        return _nothing(record, False, f"not proved, since {listed} {nearly}have infinitely many values, real or not")
     starts = np.array([joint_values(equations, row, locked) for row in found.unknowns])
     joints = question.closed(starts.reshape(-1, len(record.coordinates)))
     kept = [name for name in record.generalised if name in parallel]
@@ -174,7 +174,7 @@ def _at_once(question: _Question, parallel: frozenset[str]) -> LoopSolutions:
     right = _right(equations, found) + note
     if question.tilt_open:
         return LoopSolutions(
-            joints, False, f"{right}; not proved, since the pose leaves the platform's tilt open", found.looked
+            joints, False, f"not proved, since the pose leaves the platform's tilt open: {right}", found.looked
         )
     return LoopSolutions(joints, True, right, found.looked)
 
@@ -190,7 +190,7 @@ def _with_crossed(question: _Question) -> LoopSolutions:
     more = search(record, question.problem, question.given)
     joints = question.once(np.concatenate([*(part.joints for part in parts), more.joints]))
     proved = [name for name, part in zip(names, parts, strict=True) if part.complete]
-    right = f"found from {more.starts} starts, not proved to be all"
+    right = f"not proved: found from {more.starts} starts"
     if proved:
         alone = " or ".join(proved)
         right += (

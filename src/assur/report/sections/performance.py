@@ -15,6 +15,7 @@ from assur.results.kinds import Scalar, Section, Table
 COUNT = 4096
 SEED = 5
 SHARES = (0, 10, 25, 50, 75, 90, 100)
+PICTURES = ("dexterity", "fastest", "slowest", "transmission", "manipulability")
 
 
 def performance(found: Findings) -> Section:
@@ -44,7 +45,7 @@ def performance(found: Findings) -> Section:
         Scalar("slowest direction", _number(factors[-1]), "", "smallest velocity factor"),
         Scalar("global condition index", index.value, "", known, index.error),
     ]
-    pictures = [item for name in ("dexterity", "fastest", "slowest") for item in found.picture(name)]
+    pictures = [item for name in PICTURES for item in found.picture(name)]
     return Section("Dexterity", said, [*scalars, *pictures, *_spread(found)])
 
 
