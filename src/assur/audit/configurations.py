@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
+from assur.kinematics.border import in_range
 from assur.kinematics.closure import assemble, characteristic_length, loop_twists
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import all_modes
@@ -80,7 +81,7 @@ def random_poses(record: MechanismRecord, count: int, rng: np.random.Generator) 
             columns.append(point["xyz".index(name)] + rng.uniform(-length, length, count))
         else:
             columns.append(rng.uniform(-np.pi, np.pi, count))
-    return np.stack(columns, axis=-1)
+    return in_range(record, np.stack(columns, axis=-1))
 
 
 def joint_scales(record: MechanismRecord) -> FloatArray:

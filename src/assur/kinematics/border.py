@@ -59,6 +59,16 @@ def checked_poses(record: MechanismRecord, values: ArrayLike) -> FloatArray:
     return poses
 
 
+def in_range(record: MechanismRecord, poses: FloatArray) -> FloatArray:
+    """Poses (..., m) with theta cut off at -90 and 90 deg: for poses that are drawn by chance."""
+    if "theta" not in record.platform.pose:
+        return poses
+    column = record.platform.pose.index("theta")
+    answer = np.array(poses)
+    answer[..., column] = np.clip(answer[..., column], -np.pi / 2, np.pi / 2)
+    return answer
+
+
 def input_names(record: MechanismRecord) -> tuple[str, ...]:
     """Printed names of the inputs."""
     return tuple(item.name for item in record.inputs)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
+from assur.kinematics.border import in_range
 from assur.kinematics.existence import exists
 from assur.kinematics.finite_motion import classify_at
 from assur.kinematics.following import follow
@@ -97,7 +98,8 @@ def singular_examples(record: MechanismRecord, seed: int = 0) -> tuple[SingularE
     if record.closed_form is None:
         return _met_on_paths(record, low, high, rng)
     middle, half = (low + high) / 2, (high - low) / 2
-    boxes = [rng.uniform(middle - grown * half, middle + grown * half, (SAMPLES, len(low))) for grown in (1, GROWTH)]
+    spans = [(middle - grown * half, middle + grown * half) for grown in (1, GROWTH)]
+    boxes = [in_range(record, rng.uniform(*span, (SAMPLES, len(low)))) for span in spans]
     factors = _sought(record.closed_form)
     modes = list(dict.fromkeys([record.modes.default_working, *all_modes(record, "inverse")]))
     best: dict[str, _Candidate] = {}
@@ -126,7 +128,7 @@ def _met_on_paths(
     best: dict[str, SingularExample] = {}
     for k in range(2 * PATHS):
         grown = 1 if k < PATHS else GROWTH
-        target = rng.uniform(middle - grown * half, middle + grown * half)
+        target = in_range(record, rng.uniform(middle - grown * half, middle + grown * half))
         stop = follow(record, home, poses=target, use_limits=False, tolerance=STOPPED).stopped
         if stop is None or stop.kind not in MET or stop.kind in best:
             continue
