@@ -28,7 +28,7 @@ from rich.table import Table
 from yardstick import Arrays, Yardstick, compile_library, compiler
 
 import assur
-from assur.kinematics.sweep import (
+from assur.kinematics.closed_form.sweep import (
     direct_all_sweep,
     inverse_all_expanded_sweep,
     inverse_all_sweep,

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from assur.kinematics.existence import tolerance
+from assur.kinematics.closed_form.existence import tolerance
 from assur.kinematics.modes import mode_signs
 from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord

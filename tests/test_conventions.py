@@ -7,7 +7,8 @@ from pathlib import Path
 
 import assur
 from assur import errors
-from assur.kinematics import closure, motions, status
+from assur.kinematics import closure, status
+from assur.kinematics.rates import motions
 from assur.topology import directions
 from assur.topology.linkages import edges, twists
 

@@ -15,11 +15,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UnknownNameError, UsageError
-from assur.kinematics import closure, position, velocity
+from assur.kinematics import closure, position
+from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.home import home_values
-from assur.kinematics.instantaneous import Instant, instantaneous
 from assur.kinematics.position import Method
-from assur.kinematics.solutions import SolutionSet
+from assur.kinematics.rates import velocity
+from assur.kinematics.rates.instantaneous import Instant, instantaneous
 from assur.kinematics.structure import linkage
 from assur.model import registry
 from assur.model.joint_graph import Frame, frames
@@ -35,7 +36,7 @@ from assur.topology.linkages.recognition import recognised
 from assur.topology.notation import parse_chains
 
 if TYPE_CHECKING:
-    from assur.kinematics.path import Path as Way
+    from assur.kinematics.paths.path import Path as Way
     from assur.performance.dexterity import Dexterity
     from assur.performance.indices import Indices
     from assur.performance.scaling import Length
@@ -64,11 +65,11 @@ class Mechanism(MechanismRecord):
         return position.inverse(self, poses, mode, method, crossed=crossed)
 
     def velocity_map(self, poses: ArrayLike, mode: str | None = None) -> velocity.VelocityMap:
-        """Jp and Jq at poses (..., m): see `assur.kinematics.velocity.velocity_map`."""
+        """Jp and Jq at poses (..., m): see `assur.kinematics.rates.velocity.velocity_map`."""
         return velocity.velocity_map(self, poses, mode)
 
     def velocity_map_at(self, joint_values: ArrayLike) -> velocity.VelocityMap:
-        """Jp and Jq from the joint graph at joint values (..., n): see `assur.kinematics.velocity.velocity_map_at`."""
+        """Jp and Jq from the joint graph at joint values (..., n): see `assur.kinematics.rates.velocity`."""
         return velocity.velocity_map_at(self, joint_values)
 
     def acceleration(
@@ -78,7 +79,7 @@ class Mechanism(MechanismRecord):
         input_accelerations: ArrayLike,
         mode: str | None = None,
     ) -> tuple[FloatArray, FloatArray]:
-        """Velocity and acceleration of the pose: see `assur.kinematics.velocity.acceleration`."""
+        """Velocity and acceleration of the pose: see `assur.kinematics.rates.velocity.acceleration`."""
         return velocity.acceleration(self, poses, input_rates, input_accelerations, mode)
 
     def singularity(self, pose: ArrayLike, mode: str | None = None) -> Verdict:
@@ -90,7 +91,7 @@ class Mechanism(MechanismRecord):
         return verdict_at(self, joint_values)
 
     def instantaneous(self, joint_values: ArrayLike) -> Instant:
-        """First-order motion at joint values (..., n): see `assur.kinematics.instantaneous.instantaneous`."""
+        """First-order motion at joint values (..., n): see `assur.kinematics.rates.instantaneous.instantaneous`."""
         return instantaneous(self, joint_values)
 
     def workspace(self, mode: str | None = None, **options: Any) -> Workspace:
@@ -112,8 +113,8 @@ class Mechanism(MechanismRecord):
         return indices(self, poses, mode, characteristic_length)
 
     def follow(self, joint_values: ArrayLike, **options: Any) -> Way:
-        """The way from an assembly to inputs or to a pose, the mode kept: see `assur.kinematics.following.follow`."""
-        from assur.kinematics.following import follow
+        """The way from an assembly to inputs or to a pose, the mode kept: see `assur.kinematics.paths.following`."""
+        from assur.kinematics.paths.following import follow
 
         return follow(self, joint_values, **options)
 

@@ -66,13 +66,13 @@ def test_a_claim_that_fails_exits_1_and_is_named(assur_cli, short, tmp_path, mon
 
 
 def test_a_wrong_jacobian_is_found(assur_cli, short, tmp_path, monkeypatch):
-    from assur.kinematics.velocity import velocity_map
+    from assur.kinematics.rates.velocity import velocity_map
 
     def wrong(record, poses, mode=None):
         here = velocity_map(record, poses, mode)
         return dataclasses.replace(here, jp=here.jp * 1.00001)
 
-    monkeypatch.setattr("assur.kinematics.velocity.velocity_map", wrong)
+    monkeypatch.setattr("assur.kinematics.rates.velocity.velocity_map", wrong)
     run = assur_cli("demo", "-o", str(tmp_path), "--json")
     failed = {claim["claim"] for claim in run.json["claims"] if not claim["holds"]}
     assert run.code == 1
@@ -111,7 +111,9 @@ def test_marks_are_words_where_the_output_has_no_signs(monkeypatch, encoding, ma
 
 
 def test_a_gap_in_a_loop_is_found(assur_cli, short, tmp_path, monkeypatch):
-    monkeypatch.setattr("assur.kinematics.solutions.closure_error", lambda _, values: 1e-3 + 0 * values[:, 0])
+    monkeypatch.setattr(
+        "assur.kinematics.answers.solution_set.closure_error", lambda _, values: 1e-3 + 0 * values[:, 0]
+    )
     run = assur_cli("demo", "-o", str(tmp_path), "--json")
     failed = [claim["claim"] for claim in run.json["claims"] if not claim["holds"]]
     assert (run.code, failed) == (1, ["every solution closes every loop of the joint graph"] * 2)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.answers import answer
+from assur.kinematics.answers.at_border import answer
 
 INPUTS = ["162.6907", "-143.3209", "-24.6776"]
 POSE = ["-15.4714", "9.6849", "456.3315"]

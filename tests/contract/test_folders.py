@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import assur
-from assur.kinematics.soundness import doubts, faults
+from assur.kinematics.soundness.check import doubts, faults
 from assur.model.closed_form import Eliminant
 
 ROOT = Path(__file__).parents[2]

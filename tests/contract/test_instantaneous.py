@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from assur.kinematics.acceleration import acceleration_at
-from assur.kinematics.finite_motion import classify_at
-from assur.kinematics.instantaneous import instantaneous
+from assur.kinematics.rates.acceleration import acceleration_at
+from assur.kinematics.rates.finite_motion import classify_at
+from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.status import Status
 
 

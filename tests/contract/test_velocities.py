@@ -8,8 +8,8 @@ import pytest
 from assur.kinematics.closure import characteristic_length, loop_twists, mobility
 from assur.kinematics.modes import all_modes
 from assur.kinematics.pose import pose_rates
+from assur.kinematics.rates.velocity import printed_velocity_map
 from assur.kinematics.status import closed_form_of
-from assur.kinematics.velocity import printed_velocity_map
 
 
 def _inputs(mechanism, pose, mode):

@@ -8,7 +8,7 @@ import pytest
 from assur.errors import MechanismFileError
 from assur.figures.companion import Companion, companion, length
 from assur.figures.skeleton import skeleton
-from assur.kinematics.answers import inputs_at_border
+from assur.kinematics.answers.at_border import inputs_at_border
 from assur.kinematics.border import inputs_of
 from assur.kinematics.position import inverse
 

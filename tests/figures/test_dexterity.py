@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assur.kinematics.velocity import velocity_map
+from assur.kinematics.rates.velocity import velocity_map
 from assur.workspace.fields import at_points
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.sweep import inverse_sweep
+from assur.kinematics.closed_form.sweep import inverse_sweep
 
 ROW_3 = [-15.4714, 9.6849, 456.3315]
 

@@ -11,8 +11,8 @@ import pytest
 import assur
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.closure import assemble, closure_error
-from assur.kinematics.instantaneous import instantaneous
 from assur.kinematics.pose import pose_of
+from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.search import distinct, search
 from assur.kinematics.status import Status
 

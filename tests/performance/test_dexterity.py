@@ -10,7 +10,7 @@ import pytest
 import assur
 from assur.errors import UsageError
 from assur.kinematics.closure import characteristic_length
-from assur.kinematics.motions import pose_units
+from assur.kinematics.rates.motions import pose_units
 from assur.kinematics.status import Status
 from assur.performance.dexterity import dexterity, global_condition_index
 from assur.workspace.region import workspace

@@ -7,7 +7,7 @@ import pytest
 
 import assur
 from assur.kinematics.closure import characteristic_length
-from assur.kinematics.motions import input_units
+from assur.kinematics.rates.motions import input_units
 from assur.model.joint_graph import frames
 from assur.model.pose import LENGTHS, rate_names
 from assur.performance.statics import is_point, transmitted

@@ -112,8 +112,8 @@ def test_a_mechanism_without_closed_form():
 
 
 def test_constraint_singularity_of_a_3_upu():
-    """On a cylinder of radius 2 |r - R| about z; tests/kinematics/test_instantaneous.py says why."""
-    upu = assur.load(TESTS / "kinematics" / "upu.toml")
+    """On a cylinder of radius 2 |r - R| about z; tests/kinematics/rates/test_instantaneous.py says why."""
+    upu = assur.load(TESTS / "kinematics" / "rates" / "upu.toml")
     kinds = {}
     for radius in (190.0, 200.0, 210.0):
         found = assemble(upu, upu.home_values, poses=np.array([radius, 0.0, 300.0]))

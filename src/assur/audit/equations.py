@@ -11,7 +11,7 @@ from assur.audit.configurations import configurations
 from assur.audit.reference import Components
 from assur.audit.rows import Row
 from assur.errors import UsageError
-from assur.kinematics.answers import power
+from assur.kinematics.answers.at_border import power
 from assur.kinematics.closure import characteristic_length
 from assur.model.file.schema import Entry
 from assur.model.formula import Formula, parse

@@ -14,11 +14,12 @@ from assur.audit.reference import Digits
 from assur.audit.rows import Row
 from assur.audit.tolerance import half_units, tolerances
 from assur.errors import UsageError
-from assur.kinematics import answers, border
+from assur.kinematics import border
+from assur.kinematics.answers import at_border
+from assur.kinematics.answers.solution import Solution
 from assur.kinematics.closure import characteristic_length
 from assur.kinematics.modes import Problem
 from assur.kinematics.position import direct, inverse
-from assur.kinematics.solution import Solution
 from assur.kinematics.status import Status
 from assur.model.file.schema import Entry
 from assur.model.file.values import Value
@@ -81,12 +82,12 @@ class _Border:
 
     def outside(self, values: FloatArray) -> FloatArray:
         direct_problem = self.problem == "direct"
-        to_border = answers.pose_at_border if direct_problem else answers.inputs_at_border
+        to_border = at_border.pose_at_border if direct_problem else at_border.inputs_at_border
         return np.asarray(to_border(self.record, values), dtype=float)
 
     def inside(self, values: FloatArray) -> FloatArray:
         direct_problem = self.problem == "direct"
-        from_border = answers.pose_from_border if direct_problem else answers.inputs_from_border
+        from_border = at_border.pose_from_border if direct_problem else at_border.inputs_from_border
         return from_border(self.record, values)
 
     def aligned(self, values: FloatArray, printed: FloatArray) -> FloatArray:
@@ -116,8 +117,8 @@ def solve(record: MechanismRecord, problem: Problem, given: Sequence[Printed]) -
     """The real solutions of a printed problem."""
     values = np.array([item.value for item in given])
     if problem == "direct":
-        return list(direct(record, answers.inputs_from_border(record, values)))
-    return list(inverse(record, answers.pose_from_border(record, values)))
+        return list(direct(record, at_border.inputs_from_border(record, values)))
+    return list(inverse(record, at_border.pose_from_border(record, values)))
 
 
 def _table_rows(view: _Border, entry: Table) -> list[Row]:
@@ -187,15 +188,15 @@ def _note(view: _Border, entry: Table, line: TableRow, solution: Solution, agree
 
 def _both(record: MechanismRecord, pose: list[Printed], inputs: list[Printed]) -> tuple[FloatArray, FloatArray]:
     return (
-        answers.pose_from_border(record, np.array([item.value for item in pose])),
-        answers.inputs_from_border(record, np.array([item.value for item in inputs])),
+        at_border.pose_from_border(record, np.array([item.value for item in pose])),
+        at_border.inputs_from_border(record, np.array([item.value for item in inputs])),
     )
 
 
 def _halves(record: MechanismRecord, pose: list[Printed], inputs: list[Printed]) -> tuple[FloatArray, FloatArray]:
     return (
-        answers.pose_from_border(record, half_units(pose)),
-        answers.inputs_from_border(record, half_units(inputs)),
+        at_border.pose_from_border(record, half_units(pose)),
+        at_border.inputs_from_border(record, half_units(inputs)),
     )
 
 

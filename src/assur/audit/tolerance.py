@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.audit.printed import Printed
-from assur.kinematics.answers import inputs_from_border, pose_from_border
+from assur.kinematics.answers.at_border import inputs_from_border, pose_from_border
 from assur.kinematics.modes import Problem, all_modes
-from assur.kinematics.velocity import velocity_map
+from assur.kinematics.rates.velocity import velocity_map
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]

@@ -28,7 +28,7 @@ def check(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> O
         assur check my.toml --json
     """
     from assur.errors import MechanismFileError, Problem
-    from assur.kinematics.soundness import doubts, faults
+    from assur.kinematics.soundness.check import doubts, faults
 
     try:
         record = shared.mechanism(mechanism)
@@ -39,7 +39,7 @@ def check(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> O
 
 
 def _summary(record: Any) -> dict[str, Any]:
-    from assur.kinematics.motions import general
+    from assur.kinematics.rates.motions import general
 
     usual = general(record)
     return {

@@ -25,7 +25,7 @@ def outcome(record: Mechanism, pose: NDArray[Any], mode: str) -> Outcome:
 
 def verdict_data(record: Mechanism, pose: NDArray[Any], mode: str) -> dict[str, Any]:
     """The verdict as plain data; for a pose that the mode does not reach, which quantity is negative."""
-    from assur.kinematics.answers import answer, pose_at_border
+    from assur.kinematics.answers.at_border import answer, pose_at_border
     from assur.results.json_text import plain
 
     verdict = record.singularity(pose, mode)
@@ -59,7 +59,7 @@ def _measures(data: dict[str, Any]) -> Iterable[RenderableType]:
 
 
 def _factors(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
-    from assur.kinematics.answers import power
+    from assur.kinematics.answers.at_border import power
     from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of
 
     listed = closed_form_of(record).factor_list

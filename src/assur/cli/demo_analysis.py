@@ -35,7 +35,7 @@ def velocity(ledger: Ledger, record: Mechanism) -> None:
     """Jp and Jq at the printed pose in the default working mode."""
     import numpy as np
 
-    from assur.kinematics.answers import pose_from_border
+    from assur.kinematics.answers.at_border import pose_from_border
     from assur.kinematics.status import closed_form_of
 
     mode = record.modes.default_working
@@ -126,7 +126,7 @@ def _ratio(record: MechanismRecord, example: Any, kind: str) -> float:
     """Smallest over largest singular value of Jp or Jq at an example."""
     import numpy as np
 
-    from assur.kinematics.velocity import velocity_map
+    from assur.kinematics.rates.velocity import velocity_map
 
     here = velocity_map(record, example.pose, example.mode)
     values = np.linalg.svd(here.jp if kind == "parallel" else here.jq, compute_uv=False)
@@ -186,7 +186,7 @@ def _random(record: MechanismRecord, found: Workspace) -> dict[str, NDArray[Any]
     """The inverse problem at random poses of the box."""
     import numpy as np
 
-    from assur.kinematics.sweep import inverse_sweep
+    from assur.kinematics.closed_form.sweep import inverse_sweep
 
     rng = np.random.default_rng(0)
     poses = [rng.uniform(low, high, POINTS) for low, high in zip(found.box.low, found.box.high, strict=True)]

@@ -11,7 +11,7 @@ from assur.cli.quantities import count
 
 if TYPE_CHECKING:
     from assur.audit.rows import Row
-    from assur.kinematics.solutions import SolutionSet
+    from assur.kinematics.answers.solution_set import SolutionSet
     from assur.mechanism import Mechanism
 
 BACK = 1e-9
@@ -40,7 +40,7 @@ def topology(ledger: Ledger, record: Mechanism) -> None:
 
 def direct(ledger: Ledger, record: Mechanism) -> None:
     """Every pose at the printed inputs."""
-    from assur.kinematics.answers import inputs_from_border
+    from assur.kinematics.answers.at_border import inputs_from_border
 
     entry = entry_of(record, "direct")
     ledger.section(f"Direct solutions ({entry.source})")
@@ -53,7 +53,7 @@ def direct(ledger: Ledger, record: Mechanism) -> None:
 
 def inverse(ledger: Ledger, record: Mechanism) -> None:
     """All inputs at the printed pose."""
-    from assur.kinematics.answers import pose_from_border
+    from assur.kinematics.answers.at_border import pose_from_border
     from assur.kinematics.status import Status
 
     entry = entry_of(record, "inverse")

@@ -33,7 +33,7 @@ def direct(
     """
     record = shared.mechanism(mechanism)
     from assur.cli.positions import outcome
-    from assur.kinematics.answers import inputs_from_border
+    from assur.kinematics.answers.at_border import inputs_from_border
     from assur.kinematics.border import input_names
 
     values = numbers(inputs, input_names(record), f"inputs of {record.name}")

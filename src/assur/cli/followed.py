@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from rich.console import RenderableType
 
-    from assur.kinematics.course import Turns
-    from assur.kinematics.path import Path
-    from assur.kinematics.solutions import SolutionSet
+    from assur.kinematics.answers.solution_set import SolutionSet
+    from assur.kinematics.paths.course import Turns
+    from assur.kinematics.paths.path import Path
     from assur.mechanism import Mechanism
 
 Along = Literal["pose", "inputs"]
@@ -37,7 +37,7 @@ def outcome(
 ) -> Outcome:
     """The path from texts `start` (home where there are none) to texts `target`; or why there is no start."""
     from assur.cli.positions import outcome as no_start
-    from assur.kinematics.following import follow
+    from assur.kinematics.paths.following import follow
 
     goal = _points(record, along, target)
     if not start:
@@ -64,7 +64,7 @@ def _points(record: Mechanism, along: Along, texts: Sequence[str], option: str =
     """Points (k, m) or (k, n) from texts, in lengths and rad."""
     import numpy as np
 
-    from assur.kinematics.answers import inputs_from_border, pose_from_border
+    from assur.kinematics.answers.at_border import inputs_from_border, pose_from_border
     from assur.kinematics.border import input_names
 
     names = record.platform.pose if along == "pose" else input_names(record)

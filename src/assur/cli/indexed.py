@@ -42,7 +42,7 @@ def length_asked(text: str | None) -> Length:
 
 def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) -> Outcome:
     """Every index at one pose (m,) in a working mode."""
-    from assur.kinematics.answers import answer, pose_at_border
+    from assur.kinematics.answers.at_border import answer, pose_at_border
     from assur.performance.indices import indices
     from assur.results.json_text import plain
 
@@ -65,7 +65,7 @@ def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) ->
 
 def over_workspace(record: Mechanism, asked: Question, points: str, length: Length, shared: Shared) -> Outcome:
     """Means and extremes of every index over the workspace of a working mode."""
-    from assur.kinematics.answers import angle_at_border, pose_at_border
+    from assur.kinematics.answers.at_border import angle_at_border, pose_at_border
     from assur.performance.overall import overall
     from assur.results.json_text import plain
     from assur.workspace.region import workspace

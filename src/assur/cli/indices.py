@@ -57,7 +57,7 @@ def indices(
     record = shared.mechanism(mechanism)
     from assur.cli import indexed, regions
     from assur.cli.numbers import numbers
-    from assur.kinematics.answers import pose_from_border
+    from assur.kinematics.answers.at_border import pose_from_border
 
     unit_length = indexed.length_asked(length)
     mode = mode or record.modes.default_working

@@ -33,7 +33,7 @@ def inverse(
     """
     record = shared.mechanism(mechanism)
     from assur.cli.positions import outcome
-    from assur.kinematics.answers import pose_from_border
+    from assur.kinematics.answers.at_border import pose_from_border
 
     values = numbers(pose, record.platform.pose, f"pose of {record.name}")
     return outcome(record, record.inverse(pose_from_border(record, values), mode, method, crossed=crossed))

@@ -12,7 +12,7 @@ from assur.cli.quantities import Style, count, point_text, point_title, pose_tex
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-    from assur.kinematics.solutions import SolutionSet
+    from assur.kinematics.answers.solution_set import SolutionSet
     from assur.mechanism import Mechanism
 
 NO_SOLUTION = 4
@@ -22,7 +22,7 @@ EXIT_CODES = {"unreachable": NO_SOLUTION, "undecided": UNDECIDED}
 
 def outcome(record: Mechanism, found: SolutionSet) -> Outcome:
     """The outcome of one problem: exit code 4 where it is proved that no solution exists, 5 where undecided."""
-    from assur.kinematics.answers import answer
+    from assur.kinematics.answers.at_border import answer
 
     data = answer(found)
     return Outcome(data, lambda: _shown(record, data, found.candidates), EXIT_CODES.get(data["status"], 0))
@@ -30,7 +30,7 @@ def outcome(record: Mechanism, found: SolutionSet) -> Outcome:
 
 def lines(record: Mechanism, found: SolutionSet) -> Iterable[RenderableType]:
     """An answer as a person reads it."""
-    from assur.kinematics.answers import answer
+    from assur.kinematics.answers.at_border import answer
 
     return _shown(record, answer(found), found.candidates)
 

@@ -183,7 +183,7 @@ def _content(path: Path, found: Workspace, data: dict[str, Any]) -> str:
 
 
 def _shown(record: Mechanism, data: dict[str, Any], written: Path | None) -> Iterable[RenderableType]:
-    from assur.kinematics.answers import power
+    from assur.kinematics.answers.at_border import power
 
     dimension = len(data["coordinates"])
     mode = f"working mode {data['mode']}" if data["mode"] else "the working mode of home"

@@ -32,7 +32,7 @@ def show(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> Ou
 
 def description(record: Mechanism) -> dict[str, Any]:
     """The mechanism as plain data; angles in its angle unit."""
-    from assur.kinematics.answers import angle_at_border
+    from assur.kinematics.answers.at_border import angle_at_border
     from assur.kinematics.closure import closure_error
     from assur.model.pose import is_angle
 

@@ -44,7 +44,7 @@ def outcome(record: Mechanism, mode: str, shared: Shared) -> Outcome:
 
 
 def _factors(record: Mechanism) -> list[dict[str, Any]]:
-    from assur.kinematics.answers import power
+    from assur.kinematics.answers.at_border import power
     from assur.kinematics.status import closed_form_of, scale
 
     return (
@@ -84,7 +84,7 @@ def _loci(region: Workspace) -> list[dict[str, Any]]:
 
 
 def _example(record: Mechanism, example: Any) -> dict[str, Any]:
-    from assur.kinematics.answers import inputs_at_border, pose_at_border
+    from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border
     from assur.results.json_text import plain
 
     return {
@@ -135,6 +135,6 @@ def _area(item: dict[str, Any]) -> str:
 
 
 def _area_unit(record: Mechanism) -> str:
-    from assur.kinematics.answers import power
+    from assur.kinematics.answers.at_border import power
 
     return power(record.unit, len(record.platform.pose) - 1)

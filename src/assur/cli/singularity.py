@@ -37,7 +37,7 @@ def singularity(
     """
     record = shared.mechanism(mechanism)
     from assur.cli import configuration, singularities
-    from assur.kinematics.answers import pose_from_border
+    from assur.kinematics.answers.at_border import pose_from_border
 
     mode = mode or record.modes.default_working
     if not pose:

@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics import border
+from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.closure import assemble, characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
-from assur.kinematics.solutions import SolutionSet
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
 

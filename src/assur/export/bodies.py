@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from assur.export.steps import Step, joint_steps
 from assur.kinematics.closure import characteristic_length
 from assur.kinematics.home import home_values
-from assur.kinematics.soundness import METRES
+from assur.kinematics.soundness.check import METRES
 from assur.model.joint_graph import Frame, child_frame, frames, joint_graph
 from assur.model.mechanism import Joint, MechanismRecord
 

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from assur.figures.context import Context
 from assur.figures.letters import mathematics
+from assur.kinematics.rates.velocity import branch_at
 from assur.kinematics.status import relative_factors, scale
-from assur.kinematics.velocity import branch_at
 from assur.numerics.number_types import Floats
 from assur.workspace.fields import at_points
 

@@ -16,10 +16,10 @@ from assur.figures.camera import Camera, plane
 from assur.figures.companion import Companion, companion
 from assur.figures.near import near_solid
 from assur.figures.skeleton import Skeleton, skeleton
+from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
-from assur.kinematics.solutions import SolutionSet
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import with_parameters
 from assur.performance.dexterity import GlobalIndex, global_condition_index

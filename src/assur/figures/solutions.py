@@ -17,7 +17,7 @@ from assur.figures.skeleton import Skeleton, skeleton
 from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import BLUE, GREEN, INK, ORANGE, PAGE, PINK, RED, SKY, SMALL, TEXT
-from assur.kinematics.solution import Solution
+from assur.kinematics.answers.solution import Solution
 from assur.model.pose import QUATERNION, is_angle
 
 FloatArray = NDArray[np.float64]

@@ -10,16 +10,16 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.answers.self_motion import SelfMotionCurve
+from assur.kinematics.answers.solution import Failure
+from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import characteristic_length
-from assur.kinematics.finite_motion import status_of
-from assur.kinematics.instantaneous import Instant, instantaneous
 from assur.kinematics.modes import Problem, is_of_mode, mode_texts, numbered
 from assur.kinematics.ordered.loops import crossed_parallelograms
 from assur.kinematics.pose import pose_of
-from assur.kinematics.self_motion import SelfMotionCurve
-from assur.kinematics.solution import Failure
-from assur.kinematics.solutions import SolutionSet
+from assur.kinematics.rates.finite_motion import status_of
+from assur.kinematics.rates.instantaneous import Instant, instantaneous
 from assur.kinematics.status import FACTOR_TOLERANCE, Status
 from assur.model.formula import Formula
 from assur.model.mechanism import MechanismRecord

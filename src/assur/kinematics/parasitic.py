@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.kinematics import border
-from assur.kinematics.motions import checked_joints
 from assur.kinematics.position import inverse
+from assur.kinematics.rates.motions import checked_joints
 from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, has_quaternion

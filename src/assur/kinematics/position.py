@@ -11,16 +11,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UnknownNameError, UsageError
-from assur.kinematics import border, soundness
-from assur.kinematics.branches import Branches
+from assur.kinematics import border
+from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.closed_form.branches import Branches
+from assur.kinematics.closed_form.roots import roots_of
+from assur.kinematics.closed_form.systems import solutions_of
 from assur.kinematics.found import Found
 from assur.kinematics.modes import Problem, all_modes, mode_signs, sign_axes, sign_names
 from assur.kinematics.ordered.loops import solve_by_loops
-from assur.kinematics.roots import roots_of
 from assur.kinematics.search import search
-from assur.kinematics.solutions import SolutionSet
+from assur.kinematics.soundness.check import check
 from assur.kinematics.status import branch_kernel, closed_form_of
-from assur.kinematics.systems import solutions_of
 from assur.model.closed_form import Eliminant, PolynomialSystem
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
@@ -53,7 +54,7 @@ def direct(
         UsageError: inputs that are not n finite numbers, a closed form that there is not.
         UnknownNameError: a mode or a method that there is not.
         MechanismFileError: on the joint graph, where the file has a fault that only shows there
-            (`assur.kinematics.soundness`).
+            (`assur check`).
 
     Example: the inputs of Table 1 of Zeng et al. 2019 have four poses; row 3 of the table is the first.
 
@@ -147,7 +148,7 @@ def _on_joint_graph(
     record: MechanismRecord, problem: Problem, given: FloatArray, only: str, method: Method, crossed: bool
 ) -> Found:
     """What is found on the joint graph, problem by problem: loop by loop where that is complete, else by a search."""
-    soundness.check(record)
+    check(record)
     found = [_assemblies(record, problem, one, method, crossed) for one in given.reshape(-1, given.shape[-1])]
     most = max((len(item.joints) for item in found), default=0)
     joints = np.full((len(found), most, len(record.coordinates)), np.nan)

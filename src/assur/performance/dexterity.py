@@ -17,8 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UsageError
 from assur.kinematics import border
 from assur.kinematics.position import inverse
+from assur.kinematics.rates.velocity import velocity_map
 from assur.kinematics.status import Status
-from assur.kinematics.velocity import velocity_map
 from assur.model.mechanism import MechanismRecord
 from assur.results.json_text import plain
 

@@ -23,10 +23,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UnknownNameError
 from assur.kinematics import border
+from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.position import inverse
-from assur.kinematics.solutions import SolutionSet
+from assur.kinematics.rates.velocity import VelocityMap, velocity_map, velocity_map_at
 from assur.kinematics.status import Status
-from assur.kinematics.velocity import VelocityMap, velocity_map, velocity_map_at
 from assur.model.mechanism import MechanismRecord
 from assur.performance.scaling import Length, chosen_length, factor_unit, scaled
 from assur.performance.transmission import Transmission, transmission_at

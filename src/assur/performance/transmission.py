@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.kinematics.closure import CLOSED, characteristic_length, closure_error
-from assur.kinematics.motions import checked_joints
+from assur.kinematics.rates.motions import checked_joints
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.performance.power import power_coefficient

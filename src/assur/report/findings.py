@@ -16,15 +16,15 @@ from assur.audit.rows import Audit, Row
 from assur.audit.tables import Table
 from assur.errors import AssurError, MechanismFileError, UsageError
 from assur.figures import Context
-from assur.kinematics.answers import inputs_from_border, pose_from_border
+from assur.kinematics.answers.at_border import inputs_from_border, pose_from_border
+from assur.kinematics.answers.solution import Solution
+from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.closure import characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
 from assur.kinematics.position import direct, inverse
-from assur.kinematics.solution import Solution
-from assur.kinematics.solutions import SolutionSet
+from assur.kinematics.rates.velocity import VelocityMap, velocity_map, velocity_map_at
 from assur.kinematics.status import closed_form_of
-from assur.kinematics.velocity import VelocityMap, velocity_map, velocity_map_at
 from assur.model.closed_form import Branch, ClosedForm, Eliminant, PolynomialSystem
 from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord

@@ -15,14 +15,14 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.kinematics.border import in_range
-from assur.kinematics.existence import exists
-from assur.kinematics.finite_motion import classify_at
-from assur.kinematics.following import follow
+from assur.kinematics.closed_form.existence import exists
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import all_modes
+from assur.kinematics.paths.following import follow
 from assur.kinematics.position import inverse
+from assur.kinematics.rates.finite_motion import classify_at
+from assur.kinematics.rates.velocity import branch_at
 from assur.kinematics.status import FACTOR_TOLERANCE, Status, closed_form_of, relative_factors
-from assur.kinematics.velocity import branch_at
 from assur.model.closed_form import ClosedForm, Factor
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats

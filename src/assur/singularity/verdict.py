@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from assur.errors import UsageError
+from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.closure import mobility
-from assur.kinematics.finite_motion import sides, status_of
-from assur.kinematics.instantaneous import instantaneous
-from assur.kinematics.motions import checked_joints, general
 from assur.kinematics.position import inverse
-from assur.kinematics.solutions import SolutionSet
+from assur.kinematics.rates.finite_motion import sides, status_of
+from assur.kinematics.rates.instantaneous import instantaneous
+from assur.kinematics.rates.motions import checked_joints, general
+from assur.kinematics.rates.velocity import VelocityMap, velocity_map
 from assur.kinematics.status import Status, closed_form_of, relative_factors
-from assur.kinematics.velocity import VelocityMap, velocity_map
 from assur.model.mechanism import MechanismRecord
 
 SAMPLES = 40
@@ -34,7 +34,7 @@ class Verdict:
         reduced_kind: the kind by the factors of det Jp and det Jq alone (serial, parallel, comprehensive).
         closest: name of the factor that is closest to zero, relative to its scale.
         factors, relative: those of the closed form, and divided by their scales. Judged on the joint graph: its
-            measures, output, input and closure (`assur.kinematics.instantaneous.Instant`).
+            measures, output, input and closure (`assur.kinematics.rates.instantaneous.Instant`).
         det_jp, det_jq, condition: of the regular form; the condition number is None where singular. On the joint graph
             the determinants are known up to a factor of both, and only the sign of their product means anything.
         rank, generic_rank: of the closure of the whole joint graph, here and in general.

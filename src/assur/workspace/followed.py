@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.kinematics.continuation import Continuation, continued
-from assur.kinematics.following import follow
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import mode_signs, sign_names
-from assur.kinematics.neighbours import working_signs
 from assur.kinematics.parasitic import all_coordinates
-from assur.kinematics.platform_held import platform_held
+from assur.kinematics.paths.continuation import Continuation, continued
+from assur.kinematics.paths.following import follow
+from assur.kinematics.paths.neighbours import working_signs
+from assur.kinematics.paths.platform_held import platform_held
 from assur.kinematics.position import inverse
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord

@@ -26,7 +26,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from assur.errors import MechanismFileError, Problem, UsageError
-from assur.kinematics import soundness
+from assur.kinematics.soundness.check import doubts, faults
 from assur.model.file.reader import read_text
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import names
@@ -52,9 +52,9 @@ def check(text: str) -> None:
     if isinstance(found, MechanismRecord):
         assert_whole(found)
         begun = time.process_time()
-        problems = soundness.faults(found)
+        problems = faults(found)
         if not problems:
-            soundness.doubts(found)
+            doubts(found)
         assert time.process_time() - begun < CHECKING
     else:
         problems = found.problems

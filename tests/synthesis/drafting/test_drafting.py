@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 import assur
 from assur.errors import AssurError, UsageError
 from assur.kinematics.closure import closure_error
-from assur.kinematics.finite_motion import classify_at
 from assur.kinematics.home import home_values
-from assur.kinematics.soundness import faults
+from assur.kinematics.rates.finite_motion import classify_at
+from assur.kinematics.soundness.check import faults
 from assur.kinematics.status import Status
 from assur.model.file.reader import read_text
 from assur.model.mechanism import MechanismRecord

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from assur.errors import UsageError
-from assur.kinematics.answers import angle_at_border
+from assur.kinematics.answers.at_border import angle_at_border
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import Input, Joint, MechanismRecord
 from assur.report.findings import Findings

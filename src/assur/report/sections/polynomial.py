@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.roots import coefficients_of
+from assur.kinematics.closed_form.roots import coefficients_of
 from assur.model.closed_form import Eliminant, PolynomialSystem
 from assur.numerics import polynomials
 from assur.report.findings import Findings

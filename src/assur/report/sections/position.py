@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from assur.kinematics.answers import inputs_at_border, pose_at_border, power
+from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
+from assur.kinematics.answers.solution import Solution
+from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.modes import Problem
-from assur.kinematics.solution import Solution
-from assur.kinematics.solutions import SolutionSet
 from assur.kinematics.status import Status
 from assur.model.closed_form import Eliminant, Margin, PolynomialSystem, SelfMotion
 from assur.model.mechanism import MechanismRecord

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 
-from assur.kinematics.answers import angle_at_border
+from assur.kinematics.answers.at_border import angle_at_border
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.report.findings import Findings

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from assur.kinematics.answers import inputs_at_border, pose_at_border, power
+from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
 from assur.kinematics.closure import mobility
 from assur.model.closed_form import Factor
 from assur.report.findings import Findings

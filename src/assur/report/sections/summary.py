@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.closure import mobility
-from assur.kinematics.instantaneous import instantaneous
 from assur.kinematics.modes import Problem
-from assur.kinematics.solutions import SolutionSet
+from assur.kinematics.rates.instantaneous import instantaneous
 from assur.report.findings import REFUSED, Findings
 from assur.report.numbers import count, extent_unit
 from assur.report.sections.performance import mixed_units

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 
-from assur.kinematics.answers import pose_at_border
+from assur.kinematics.answers.at_border import pose_at_border
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import rate_names
 from assur.report.findings import Findings

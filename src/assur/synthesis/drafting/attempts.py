@@ -12,8 +12,8 @@ import numpy as np
 from assur.errors import AssurError
 from assur.kinematics.closure import RANK_GAP
 from assur.kinematics.home import home_values
-from assur.kinematics.motions import motions
-from assur.kinematics.soundness import faults
+from assur.kinematics.rates.motions import motions
+from assur.kinematics.soundness.check import faults
 from assur.kinematics.structure import linkage
 from assur.model.file.reader import read_text
 from assur.model.mechanism import MechanismRecord

@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from assur.kinematics.closure import RANK_GAP, assemble
 from assur.kinematics.home import home_values
-from assur.kinematics.instantaneous import instantaneous
-from assur.kinematics.motions import motions
 from assur.kinematics.pose import pose_of
+from assur.kinematics.rates.instantaneous import instantaneous
+from assur.kinematics.rates.motions import motions
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 

@@ -22,8 +22,8 @@ from assur.audit.rows import Evidence
 from assur.kinematics.closure import mobility
 from assur.kinematics.modes import all_modes
 from assur.kinematics.position import inverse
+from assur.kinematics.rates.velocity import printed_velocity_map, velocity_map
 from assur.kinematics.status import FACTOR_TOLERANCE
-from assur.kinematics.velocity import printed_velocity_map, velocity_map
 from assur.model.points import quantity
 from assur.numerics.number_types import Symbols
 from assur.singularity.examples import singular_examples

@@ -1,0 +1,110 @@
+"""Answers of the position problem as plain data: the shapes that `--json` prints and that others rely on."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics import border
+from assur.kinematics.answers.solution import Solution
+from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.status import Status
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import is_angle
+from assur.results.json_text import plain
+
+FloatArray = NDArray[np.float64]
+
+
+def answer(found: SolutionSet) -> dict[str, Any]:
+    """The answer to one direct or inverse problem; angles in the mechanism's angle unit.
+
+    >>> from assur.kinematics.position import direct
+    >>> from assur.model.registry import load_record
+    >>> data = answer(direct(load_record("zeng2019"), [162.6907, -143.3209, -24.6776]))
+    >>> data["status"], data["complete"], data["solutions"][0]["mode"]
+    ('regular', True, '+++')
+    """
+    record = found.record
+    asked = "inputs" if found.problem == "direct" else "pose"
+    to_border = inputs_at_border if found.problem == "direct" else pose_at_border
+    return {
+        "mechanism": record.name,
+        "unit": record.unit,
+        "angle": record.angle,
+        "coordinates": list(record.platform.pose),
+        "input_names": list(border.input_names(record)),
+        asked: plain(to_border(record, found.given)),
+        "status": Status(int(found.overall_status)).name,
+        "complete": found.complete,
+        "complete_for": found.complete_for,
+        "right": found.right,
+        "solutions": [_solution(record, found, item) for item in found],
+        "curves": [
+            {
+                "parameter": curve.parameter,
+                "interval": plain(angle_at_border(record, np.array(curve.interval))),
+                "mode": curve.mode,
+                "poses": plain(pose_at_border(record, curve.poses(9))),
+            }
+            for curve in found.curves
+        ],
+        "failures": [
+            {
+                "quantity": failure.quantity,
+                "value": plain(failure.value),
+                "unit": power(record.unit, failure.unit),
+                "meaning": failure.meaning,
+                "branches": failure.branches,
+            }
+            for failure in found.failures
+        ],
+    }
+
+
+def _solution(record: MechanismRecord, found: SolutionSet, item: Solution) -> dict[str, Any]:
+    if found.problem == "direct":
+        own = {"pose": plain(pose_at_border(record, item.pose))}
+        other = {"working_mode": item.working_mode}
+    else:
+        own = {"inputs": plain(inputs_at_border(record, item.inputs))}
+        other = {"assembly_mode": item.assembly_mode}
+    return {**own, "mode": item.mode, **other, "residual": plain(item.residual), "status": item.status.name}
+
+
+def angle_at_border(record: MechanismRecord, angle: Any) -> Any:
+    """Angles in rad as the mechanism's angle unit."""
+    return np.degrees(angle) if record.angle == "deg" else angle
+
+
+def inputs_at_border(record: MechanismRecord, inputs: Any) -> FloatArray:
+    """Inputs (..., n) with angles in the mechanism's angle unit."""
+    angular = np.array([item.coordinate.kind == "angle" for item in record.inputs])
+    return np.asarray(np.where(angular, angle_at_border(record, np.asarray(inputs)), inputs))
+
+
+def inputs_from_border(record: MechanismRecord, inputs: Any) -> FloatArray:
+    """Inputs (..., n) in rad and lengths, from the mechanism's angle unit."""
+    angular = np.array([item.coordinate.kind == "angle" for item in record.inputs])
+    factor = np.pi / 180 if record.angle == "deg" else 1.0
+    return np.asarray(np.asarray(inputs, dtype=float) * np.where(angular, factor, 1.0))
+
+
+def pose_at_border(record: MechanismRecord, pose: Any) -> FloatArray:
+    """Poses (..., m) with angles in the mechanism's angle unit."""
+    angular = np.array([is_angle(name) for name in record.platform.pose])
+    return np.asarray(np.where(angular, angle_at_border(record, np.asarray(pose)), pose))
+
+
+def pose_from_border(record: MechanismRecord, pose: Any) -> FloatArray:
+    """Poses (..., m) in rad and lengths, from the mechanism's angle unit."""
+    angular = np.array([is_angle(name) for name in record.platform.pose])
+    factor = np.pi / 180 if record.angle == "deg" else 1.0
+    return np.asarray(np.asarray(pose, dtype=float) * np.where(angular, factor, 1.0))
+
+
+def power(unit: str, exponent: int) -> str:
+    """A unit to a power: "", "mm", "mm^2"."""
+    return "" if exponent == 0 else unit if exponent == 1 else f"{unit}^{exponent}"

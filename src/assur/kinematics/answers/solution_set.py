@@ -1,0 +1,184 @@
+"""Solutions of the direct or the inverse problem, however they were found: the one shape that all else reads."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import UsageError
+from assur.kinematics import border
+from assur.kinematics.answers.self_motion import SelfMotionCurve
+from assur.kinematics.answers.solution import Failure, Solution
+from assur.kinematics.closure import closure_error
+from assur.kinematics.modes import Problem
+from assur.kinematics.status import Status
+from assur.model.mechanism import MechanismRecord
+
+FloatArray = NDArray[np.float64]
+BLOCK = 4096
+
+
+class SolutionSet(ABC):
+    """K candidates for each problem of a batch (...), of which those that `exists` are the solutions.
+
+    Attributes:
+        problem: "direct" or "inverse".
+        given: (..., n) inputs, or (..., m) poses.
+    """
+
+    record: MechanismRecord
+    problem: Problem
+    given: FloatArray
+
+    @property
+    @abstractmethod
+    def complete(self) -> bool:
+        """Whether these are all solutions of the model `complete_for`."""
+
+    @property
+    @abstractmethod
+    def complete_for(self) -> str:
+        """The model: "joint_graph", or "reduced" where assemblies of the joint graph are left out."""
+
+    @property
+    @abstractmethod
+    def right(self) -> str:
+        """By what right the answer is complete, or why it is not known to be: one phrase."""
+
+    @property
+    @abstractmethod
+    def exists(self) -> NDArray[np.bool_]:
+        """Whether a candidate (..., K) is a solution that is listed."""
+
+    @property
+    @abstractmethod
+    def poses(self) -> FloatArray:
+        """Poses (..., K, m), NaN where there is no solution."""
+
+    @property
+    @abstractmethod
+    def inputs(self) -> FloatArray:
+        """Printed inputs (..., K, n), NaN where there is no solution."""
+
+    @property
+    @abstractmethod
+    def joints(self) -> FloatArray:
+        """Every joint's value (..., K, coordinates), in rad or length; NaN where there is no solution."""
+
+    @property
+    @abstractmethod
+    def status(self) -> NDArray[np.int8]:
+        """`Status` (..., K) of every candidate."""
+
+    @property
+    @abstractmethod
+    def overall_status(self) -> NDArray[np.int8]:
+        """`Status` (...) of the answer: the most severe among the listed solutions, or why there is none."""
+
+    @property
+    @abstractmethod
+    def labels(self) -> NDArray[np.str_]:
+        """Text (..., K) of each solution's mode in this problem."""
+
+    @property
+    @abstractmethod
+    def other_labels(self) -> NDArray[np.str_]:
+        """Text (..., K) of each solution's mode in the other problem."""
+
+    @property
+    @abstractmethod
+    def factors(self) -> Mapping[str, FloatArray]:
+        """What vanishes where a solution (..., K) is singular, by name."""
+
+    @property
+    @abstractmethod
+    def named_quantities(self) -> Mapping[str, FloatArray]:
+        """What the source names on its way (..., K), by name; angles in rad."""
+
+    @property
+    @abstractmethod
+    def curves(self) -> tuple[SelfMotionCurve, ...]:
+        """The curves of a self-motion (a batch of one): described, never one sample."""
+
+    @property
+    @abstractmethod
+    def failures(self) -> tuple[Failure, ...]:
+        """Why there is no solution (a batch of one); empty where there is one."""
+
+    def __repr__(self) -> str:
+        size = f"batch {self.batch_shape}, {self.candidates} branches"
+        return f"<{self.problem} solutions of {self.record.name}: {size}>"
+
+    @property
+    def candidates(self) -> int:
+        """K, the number of candidates for each problem."""
+        return int(self.exists.shape[-1])
+
+    @property
+    def batch_shape(self) -> tuple[int, ...]:
+        """Shape (...) of the batch."""
+        return self.given.shape[:-1]
+
+    @cached_property
+    def residuals(self) -> FloatArray:
+        """What a solution (..., K) misses, in length units; NaN where there is no solution.
+
+        The largest of: the closure error of the full joint graph; the distance of the platform from the pose; the
+        difference of the actuated joint values from the inputs (angles times the characteristic length). So an
+        answer to another question than the one asked has a residual.
+        """
+        joints = self.joints.reshape(-1, self.joints.shape[-1])
+        real = np.all(np.isfinite(joints), axis=-1)
+        rows = np.flatnonzero(real)
+        error = np.full(len(joints), np.nan)
+        for start in range(0, len(rows), BLOCK):
+            block = rows[start : start + BLOCK]
+            error[block] = np.maximum(closure_error(self.record, joints[block]), self._miss(joints[block], block))
+        return error.reshape(self.joints.shape[:-1])
+
+    def _miss(self, joints: FloatArray, rows: NDArray[np.intp]) -> FloatArray:
+        """How far joint values (N, coordinates) are from the poses and inputs of flat rows, in length units."""
+        poses = self._asked(self.poses, "inverse").reshape(-1, self.poses.shape[-1])[rows]
+        inputs = self._asked(self.inputs, "direct").reshape(-1, self.inputs.shape[-1])[rows]
+        return border.distance(self.record, joints, poses, inputs)
+
+    def _asked(self, found: FloatArray, problem: Problem) -> FloatArray:
+        """What was given, where this is the problem in which it is given; else what was found."""
+        return np.broadcast_to(self.given[..., None, :], found.shape) if self.problem == problem else found
+
+    def __iter__(self) -> Iterator[Solution]:
+        """The listed solutions of a batch of one."""
+        self._only_one()
+        names = [self.record.coordinate_label(item) for item in self.record.coordinates]
+        quantities = self.named_quantities
+        for k in np.flatnonzero(self.exists):
+            mode, other = str(self.labels[k]), str(self.other_labels[k])
+            direct = self.problem == "direct"
+            yield Solution(
+                pose=self.poses[k],
+                inputs=self.inputs[k],
+                mode=mode,
+                working_mode=other if direct else mode,
+                assembly_mode=mode if direct else other,
+                joints=dict(zip(names, self.joints[k].tolist(), strict=True)),
+                residual=float(self.residuals[k]),
+                status=Status(int(self.status[k])),
+                factors={name: float(value[k]) for name, value in self.factors.items()},
+                quantities={name: float(value[k]) for name, value in quantities.items()},
+            )
+
+    def __len__(self) -> int:
+        """Number of listed solutions of a batch of one."""
+        self._only_one()
+        return int(np.sum(self.exists))
+
+    def _only_one(self) -> None:
+        if self.batch_shape != ():
+            raise UsageError(
+                f"this is a batch of shape {self.batch_shape}; iterate over one problem at a time",
+                hint="use the arrays .poses, .inputs, .labels, .status, .exists, .residuals",
+            )

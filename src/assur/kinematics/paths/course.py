@@ -1,0 +1,131 @@
+"""A course: inputs or poses as functions of the share of a way, straight from vertex to vertex."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.border import checked, checked_poses, input_names
+from assur.kinematics.rates.motions import input_units, pose_units
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import QUATERNION, has_quaternion, is_angle
+from assur.numerics import rotations
+
+FloatArray = NDArray[np.float64]
+Prescribed = Literal["inputs", "poses"]
+Turns = Literal["short", "given"]
+LEAST = 1e-12
+"""Vertices closer than this, lengths in units of the characteristic length, are one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """A polyline of inputs (k, n) or of poses (k, m), and where along it its vertices lie.
+
+    Attributes:
+        prescribed: "inputs" or "poses".
+        vertices: (k, n) or (k, m); angles run on, so that neighbours differ by the turn that is meant.
+        shares: (k,) shares of the way, from 0 to 1, by length (a rad counts as one characteristic length).
+        scales: (r,) what counts as a change of one: the characteristic length, or a rad; negative for an input
+            that runs against its joint value.
+        changes: (k - 1, r) what changes from vertex to vertex; a quaternion's change is a rotation vector
+            in the base frame (`assur.model.pose.rate_names`).
+    """
+
+    prescribed: Prescribed
+    names: tuple[str, ...]
+    vertices: FloatArray
+    shares: FloatArray
+    changes: FloatArray
+    scales: FloatArray
+
+    def at(self, share: float, segment: int) -> FloatArray:
+        """The inputs (n,) or the pose (m,) at a share of the way, on the segment that follows a vertex."""
+        low, high = self.shares[segment : segment + 2]
+        part = (share - low) / (high - low)
+        if part == 1.0:
+            return np.asarray(self.vertices[segment + 1])
+        here: FloatArray = self.vertices[segment]
+        if not (self.prescribed == "poses" and has_quaternion(self.names)):
+            return np.asarray(here + part * self.changes[segment])
+        columns = [self.names.index(name) for name in QUATERNION]
+        others = [k for k, name in enumerate(self.names) if name not in QUATERNION]
+        found: FloatArray = np.array(here)
+        found[others] = here[others] + part * self.changes[segment, :-3]
+        turn = rotations.from_vector(part * self.changes[segment, -3:])
+        found[columns] = rotations.to_quaternion(turn @ rotations.from_quaternion(here[columns]))
+        return found
+
+    def rate(self, segment: int) -> FloatArray:
+        """Change (r,) of the driven joint values or of the pose per share of the way, in units of `scales`."""
+        return np.asarray(self.changes[segment] / self.scales / (self.shares[segment + 1] - self.shares[segment]))
+
+
+def course(
+    record: MechanismRecord, prescribed: Prescribed, start: FloatArray, wanted: ArrayLike, turns: Turns = "short"
+) -> Course:
+    """The way from `start` to wanted inputs (n,) or a wanted pose (m,), or along several, (k, n) or (k, m).
+
+    With turns = "short" every angle goes the short way from vertex to vertex; "given" takes the numbers as they
+    stand. Quaternions always go the short way. Vertices that repeat the one before are left out.
+
+    >>> from assur.model.registry import load_record
+    >>> way = course(load_record("fivebar"), "inputs", np.radians([170.0, 10.0]), np.radians([-170.0, 10.0]))
+    >>> np.degrees(way.at(0.25, 0)).round(6)
+    array([175.,  10.])
+    """
+    if turns not in ("short", "given"):
+        raise UnknownNameError("way to turn", str(turns), ("short", "given"))
+    names = input_names(record) if prescribed == "inputs" else record.platform.pose
+    what = f"{prescribed} of {record.name}"
+    given = checked(wanted, names, what) if prescribed == "inputs" else checked_poses(record, wanted)
+    if given.ndim > 2:
+        raise UsageError(f"{what}: shape {given.shape}; one target or a row of them is wanted")
+    angular = _angular(record, prescribed)
+    sizes = _sizes(record, prescribed)
+    vertices, changes, lengths = [np.asarray(start, dtype=float)], [], []
+    for target in np.atleast_2d(given):
+        here = vertices[-1]
+        there = target.copy()
+        if turns == "short":
+            there[angular] = here[angular] + _short(there[angular] - here[angular])
+        change = _change(names, prescribed, here, there)
+        if np.linalg.norm(change / sizes) <= LEAST:
+            continue
+        vertices.append(there)
+        changes.append(change)
+        lengths.append(float(np.linalg.norm(change / sizes)))
+    along = np.concatenate([[0.0], np.cumsum(lengths)])
+    shares = along / along[-1] if lengths else along
+    all_changes = np.array(changes).reshape(len(changes), len(sizes))
+    return Course(prescribed, names, np.array(vertices), shares, all_changes, sizes)
+
+
+def _angular(record: MechanismRecord, prescribed: Prescribed) -> NDArray[np.bool_]:
+    if prescribed == "inputs":
+        return np.array([item.coordinate.kind == "angle" for item in record.inputs])
+    return np.array([is_angle(name) for name in record.platform.pose])
+
+
+def _sizes(record: MechanismRecord, prescribed: Prescribed) -> FloatArray:
+    """What counts as a change of one, per rate."""
+    if prescribed == "poses":
+        return pose_units(record)
+    return np.asarray(input_units(record) * [item.sign for item in record.inputs])
+
+
+def _short(turn: FloatArray) -> FloatArray:
+    return np.asarray((turn + np.pi) % (2 * np.pi) - np.pi)
+
+
+def _change(names: tuple[str, ...], prescribed: Prescribed, here: FloatArray, there: FloatArray) -> FloatArray:
+    if prescribed == "inputs" or not has_quaternion(names):
+        return np.asarray(there - here)
+    columns = [names.index(name) for name in QUATERNION]
+    others = [k for k, name in enumerate(names) if name not in QUATERNION]
+    first, second = (rotations.from_quaternion(item[columns]) for item in (here, there))
+    return np.concatenate([there[others] - here[others], rotations.to_vector(second @ first.T)])

@@ -1,0 +1,134 @@
+"""The joint graph with its platform held: how joints follow the pose, what is singular, whether a step passes zero.
+
+One matrix D holds the closure rows and the rows of the pose, lengths in characteristic lengths; D u' = (0, v) gives
+the joint rates u' at pose rates v. Its normal equations are solved with a trace of damping, so that redundant rows
+and rods that spin do no harm; a singular value decomposition would cost ten times as much.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.paths.locked import units
+from assur.kinematics.pose import platform_rates
+from assur.kinematics.rates.motions import input_units, pose_units, twist_units
+from assur.model.joint_graph import frames, joint_graph, screws
+from assur.model.mechanism import MechanismRecord
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+DAMPING = 1e-14
+"""Share of the mean square of the columns of D."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlatformHeld:
+    """Joint rates at assemblies (N, n).
+
+    Attributes:
+        matrix: D (N, 6 v + k, n).
+        rates: (N, n, k) joint rates per rate of the pose, the smallest that do, without dimensions.
+        inputs: (N, F, k) rates of the printed inputs per rate of the pose, without dimensions: Jq^-1 Jp.
+    """
+
+    matrix: FloatArray
+    rates: FloatArray
+    inputs: FloatArray
+
+    def of(self, rows: NDArray[np.intp]) -> PlatformHeld:
+        """Those of some of the assemblies, which may repeat."""
+        return PlatformHeld(self.matrix[rows], self.rates[rows], self.inputs[rows])
+
+    @cached_property
+    def serial(self) -> FloatArray:
+        """Square (N,) of the sine that vanishes where joints must move infinitely fast: two branches merge.
+
+        It falls to zero linearly towards the border of what a working mode reaches.
+        """
+        largest = np.linalg.svd(self.rates, compute_uv=False)[..., 0]
+        return np.asarray(1.0 / (1.0 + largest**2))
+
+    @cached_property
+    def output(self) -> FloatArray:
+        """The determinant (N,) of Jp for the rows of (Jp, -Jq) orthonormal and det Jq > 0; NaN where not square."""
+        if self.inputs.shape[-1] != self.inputs.shape[-2]:
+            return np.full(len(self.inputs), np.nan)
+        size = np.eye(self.inputs.shape[-2]) + self.inputs @ np.swapaxes(self.inputs, -1, -2)
+        return np.asarray(np.linalg.det(self.inputs) / np.sqrt(np.linalg.det(size)))
+
+
+def platform_held(record: MechanismRecord, values: FloatArray) -> PlatformHeld:
+    """Joint rates at assemblies (N, n).
+
+    Example: the determinant of Jp, as the null space of the closure gives it.
+
+    >>> from assur.kinematics.home import home_values
+    >>> from assur.kinematics.rates.instantaneous import instantaneous
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("fivebar")
+    >>> home = home_values(record)[None]
+    >>> here, jp = platform_held(record, home), instantaneous(record, home).jp
+    >>> bool(np.abs(here.output - np.linalg.det(jp * pose_units(record) / 194.0)) < 1e-9)
+    True
+    """
+    matrix = held_matrix(record, values)
+    transposed = np.swapaxes(matrix, -1, -2)
+    wanted = len(pose_units(record))
+    rates = np.asarray(np.linalg.solve(_damped(transposed @ matrix, matrix), transposed[..., -wanted:]), dtype=float)
+    size = units(record)
+    own = np.array([item.sign for item in record.inputs]) * size[list(record.input_indices)] / input_units(record)
+    return PlatformHeld(matrix, rates, rates[..., list(record.input_indices), :] * own[:, None])
+
+
+def held_matrix(record: MechanismRecord, values: FloatArray) -> FloatArray:
+    """D (N, 6 v + k, n) at joint values (N, n): closure about the platform's point, then the pose; no dimensions."""
+    graph = joint_graph(record)
+    placed = frames(record, values)
+    twists = screws(record, placed, values)
+    rotation, origin = placed[record.platform.link]
+    about = twists.copy()
+    about[:, 3:] += np.cross(twists[:, :3], ((rotation @ record.platform.point) + origin)[..., None], axis=1)
+    size = units(record)
+    about *= size / twist_units(record)[:, None]
+    closure = np.zeros((len(values), len(graph.cut), 6, values.shape[-1]))
+    for index, (joint, loop) in enumerate(zip(graph.cut, graph.loops, strict=True)):
+        for name, sense in ((joint.name, 1), *loop.items()):
+            columns = graph.slices[name]
+            closure[:, index, :, columns] = sense * about[..., columns]
+    moves = platform_rates(record, placed, twists) * size / pose_units(record)[:, None]
+    return np.concatenate([closure.reshape(len(values), 6 * len(graph.cut), values.shape[-1]), moves], axis=1)
+
+
+def passes_zero(record: MechanismRecord, before: FloatArray, after: FloatArray) -> BoolArray:
+    """Whether two branches merge (N,) between near assemblies with D `before` and `after` (N, r, n): a rank is lost.
+
+    The sign of the leading coefficient of det(D1' D2 + e 1) tells an odd number of singular values that pass zero.
+    Where the closure alone passes as well, the branch goes on through a constraint singularity: none has merged.
+
+    >>> from assur.model.registry import load_record
+    >>> one, other = np.eye(5)[None], np.diag([1.0, 1.0, 1.0, 1.0, -1.0])[None]
+    >>> record = load_record("fivebar")
+    >>> passes_zero(record, one, one).tolist(), passes_zero(record, one, other).tolist()
+    ([False], [True])
+    """
+    passed = _turned(before, after)
+    rows = np.flatnonzero(passed)
+    if len(rows):
+        closure = slice(-len(pose_units(record)))
+        passed[rows] &= ~_turned(before[rows, closure], after[rows, closure])
+    return passed
+
+
+def _turned(first: FloatArray, second: FloatArray) -> BoolArray:
+    sign, _ = np.linalg.slogdet(_damped(np.swapaxes(first, -1, -2) @ second, first))
+    return np.asarray(sign < 0.0)
+
+
+def _damped(square: FloatArray, matrix: FloatArray) -> FloatArray:
+    count = square.shape[-1]
+    scale = DAMPING * np.einsum("nij,nij->n", matrix, matrix) / count
+    return np.asarray(square + scale[:, None, None] * np.eye(count))

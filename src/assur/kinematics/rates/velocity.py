@@ -1,0 +1,253 @@
+"""Velocity and acceleration: Jp v = Jq qdot (Eq. 25), both ways, with condition number and determinants."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from assur.errors import UsageError
+from assur.kinematics import border
+from assur.kinematics.closed_form.existence import exists
+from assur.kinematics.modes import mode_signs, sign_names
+from assur.kinematics.rates.instantaneous import Instant, instantaneous
+from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of, relative_factors
+from assur.model.closed_form import Branch
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import QUATERNION, has_quaternion, rate_names
+from assur.numerics.dual import Dual, Duals
+from assur.numerics.number_types import Floats
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class VelocityMap:
+    """Jp (..., r, k) and Jq (..., r, n) with Jp v = Jq qdot at poses in one working mode, or at joint values.
+
+    v are the rates of the pose as `assur.model.pose.rate_names` names them, for a quaternion the angular velocity; qdot
+    are those of the printed inputs. `exists` (...) says where the mode reaches the pose, or the joint values close the
+    loops; elsewhere every number is NaN. `singular_output` (...) marks where Jp is singular, `singular_input` where Jq
+    is, judged by the factors of the closed form or by the ranks of the joint graph. Of a mechanism with more or fewer
+    inputs than rates, Jq is not square: it has no determinant (NaN) and is solved by least squares.
+    """
+
+    jp: FloatArray
+    jq: FloatArray
+    singular_output: NDArray[np.bool_]
+    singular_input: NDArray[np.bool_]
+    exists: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, instant: Instant) -> VelocityMap:
+        """The velocity map of a first-order motion on the joint graph."""
+        return cls(instant.jp, instant.jq, instant.singular_output, instant.singular_input, instant.closed)
+
+    @cached_property
+    def det_jp(self) -> FloatArray:
+        """Determinant (...) of Jp."""
+        return self._determinant(self.jp)
+
+    @cached_property
+    def det_jq(self) -> FloatArray:
+        """Determinant (...) of Jq."""
+        return self._determinant(self.jq)
+
+    def _determinant(self, matrix: FloatArray) -> FloatArray:
+        if matrix.shape[-1] != matrix.shape[-2]:
+            return np.full(matrix.shape[:-2], np.nan)
+        finite = np.all(np.isfinite(matrix), axis=(-1, -2))
+        return np.where(finite, np.linalg.det(np.where(finite[..., None, None], matrix, 0.0)), np.nan)
+
+    @cached_property
+    def matrix(self) -> FloatArray:
+        """J = Jp^-1 Jq (..., k, n), with v = J qdot; NaN where `singular_output`."""
+        return _solve(self.jp, self.jq, self.singular_output)
+
+    @cached_property
+    def velocity_factors(self) -> FloatArray:
+        """Singular values of J (..., min(k, n)), largest first: how much faster than inputs; NaN where singular."""
+        unknown = self.singular_output | ~self.exists
+        safe = np.where(unknown[..., None, None], 0.0, self.matrix)
+        factors: FloatArray = np.linalg.svd(safe, compute_uv=False)
+        return np.where(unknown[..., None], np.nan, factors)
+
+    @cached_property
+    def condition(self) -> FloatArray:
+        """Condition number (...) of J in the 2-norm; inf where either matrix is singular, NaN out of reach."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ratio = self.velocity_factors[..., 0] / self.velocity_factors[..., -1]
+        return np.where(self.singular_output | self.singular_input, np.inf, ratio)
+
+    def output(self, input_rates: ArrayLike) -> FloatArray:
+        """Rates v (..., k) of the pose at input rates (..., n); NaN where `singular_output`."""
+        rates = np.asarray(input_rates, dtype=float)
+        product: FloatArray = (self.matrix @ rates[..., None])[..., 0]
+        return product
+
+    def input(self, output_rates: ArrayLike) -> FloatArray:
+        """Input rates (..., n) at pose rates v (..., k); NaN where `singular_input`."""
+        rates = np.asarray(output_rates, dtype=float)
+        return _solve(self.jq, self.jp @ rates[..., None], self.singular_input)[..., 0]
+
+
+def velocity_map(record: MechanismRecord, poses: ArrayLike, mode: str | None = None) -> VelocityMap:
+    """The velocity map at poses (..., m) in a working mode (the file's default where none is given).
+
+    Example: moving all three inputs of the paper's mechanism at one speed moves the platform along Y.
+
+    >>> from assur.model.registry import load_record
+    >>> here = velocity_map(load_record("zeng2019"), [-15.4714, 9.6849, 456.3315])
+    >>> here.output([1.0, 1.0, 1.0]).round(9) + 0.0
+    array([0., 1., 0.])
+    """
+    given, branch = branch_at(record, poses, mode, Floats())
+    form = closed_form_of(record)
+    jp, jq = form.jacobians(Floats(), record.values, branch.core)
+    return _velocity_map(record, given.shape[:-1], branch, jp, jq)
+
+
+def velocity_map_at(record: MechanismRecord, joints: ArrayLike) -> VelocityMap:
+    """The velocity map at joint values (..., coordinates), from the joint graph alone: for any mechanism.
+
+    Jp and Jq are those of `assur.kinematics.rates.instantaneous`: the same relation as a closed form's, in other rows.
+
+    Example: at the same configuration as above all inputs at one speed move the platform along Y.
+
+    >>> from assur.kinematics.position import inverse
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("zeng2019")
+    >>> found = inverse(record, [-15.4714, 9.6849, 456.3315], "++-++")
+    >>> velocity_map_at(record, found.joints[0]).output([1.0, 1.0, 1.0]).round(9) + 0.0
+    array([0., 1., 0.])
+    """
+    return VelocityMap.of(instantaneous(record, joints))
+
+
+def printed_velocity_map(record: MechanismRecord, poses: ArrayLike, mode: str | None = None) -> VelocityMap:
+    """The velocity map with Jp and Jq as the source prints them; where it divides by zero the rows are not finite."""
+    given, branch = branch_at(record, poses, mode, Floats())
+    form = closed_form_of(record)
+    if form.as_printed is None:
+        raise UsageError(f"{record.name} has no printed Jacobian that differs from the regular one")
+    with np.errstate(divide="ignore", invalid="ignore"):
+        jp, jq = form.as_printed(Floats(), record.values, branch.core)
+    return _velocity_map(record, given.shape[:-1], branch, jp, jq)
+
+
+def acceleration(
+    record: MechanismRecord,
+    poses: ArrayLike,
+    input_rates: ArrayLike,
+    input_accelerations: ArrayLike,
+    mode: str | None = None,
+) -> tuple[FloatArray, FloatArray]:
+    """Velocity v and acceleration (..., k) of the pose for given rates and accelerations (..., n) of the inputs.
+
+    a = Jp^-1 (Jq qddot + Jq' qdot - Jp' v), the primes being derivatives along the motion, exact by dual
+    numbers through the same kernels. Of a quaternion they are the angular velocity and acceleration. Both are
+    NaN out of reach and where Jp is singular; the acceleration is NaN where Jq is singular too, because the
+    kernels have no derivative at the root of zero.
+    """
+    here = velocity_map(record, poses, mode)
+    rates = np.asarray(input_rates, dtype=float)
+    velocity = here.output(rates)
+    given = border.checked_poses(record, poses)
+    flat = given.reshape(-1, given.shape[-1])
+    moving = _coordinate_rates(record, flat, velocity.reshape(len(flat), -1))
+    values = border.pose_components(record, flat)
+    components = tuple(_moving(value, moving[:, k]) for k, value in enumerate(values))
+    form = closed_form_of(record)
+    branch = form.inverse(Duals(), record.values, components, _sign(record, mode))
+    jp, jq = form.jacobians(Duals(), record.values, branch.core)
+    jp_rate = _matrix(jp, given.shape[:-1], derivative=True)
+    jq_rate = _matrix(jq, given.shape[:-1], derivative=True) * _input_signs(record)
+    accelerations = np.asarray(input_accelerations, dtype=float)
+    right = (here.jq @ accelerations[..., None]) + (jq_rate @ rates[..., None]) - (jp_rate @ velocity[..., None])
+    return velocity, _solve(here.jp, right, here.singular_output | here.singular_input)[..., 0]
+
+
+def branch_at(record: MechanismRecord, poses: ArrayLike, mode: str | None, ns: Any) -> tuple[FloatArray, Branch]:
+    """Poses (..., m) as checked, and the inverse kernel's branch (components of N) in one working mode."""
+    given = border.checked_poses(record, poses)
+    components = border.pose_components(record, given.reshape(-1, given.shape[-1]))
+    form = closed_form_of(record)
+    return given, form.inverse(ns, record.values, components, _sign(record, mode))
+
+
+def _sign(record: MechanismRecord, mode: str | None) -> SimpleNamespace:
+    signs = mode_signs(record, "inverse", mode or record.modes.default_working)
+    return SimpleNamespace(**dict(zip(sign_names(record, "inverse"), map(float, signs), strict=True)))
+
+
+def _coordinate_rates(record: MechanismRecord, poses: FloatArray, velocity: FloatArray) -> FloatArray:
+    """Rates (N, m) of the coordinates of poses (N, m) at velocities (N, k): q' = (0, w) q / 2 for a quaternion."""
+    pose = record.platform.pose
+    named = dict(zip(rate_names(pose), velocity.T, strict=True))
+    if has_quaternion(pose):
+        quaternion = poses[:, [pose.index(name) for name in QUATERNION]]
+        turn = velocity[:, -3:]
+        vector = quaternion[:, :1] * turn + np.cross(turn, quaternion[:, 1:])
+        scalar = -np.sum(turn * quaternion[:, 1:], axis=-1)
+        named |= zip(QUATERNION, 0.5 * np.stack([scalar, *vector.T]), strict=True)
+    return np.stack([named[name] for name in pose], axis=-1)
+
+
+def _moving(value: Any, rate: FloatArray) -> Any:
+    if isinstance(value, tuple):
+        cosine, sine = value
+        return (Dual(cosine, -sine * rate), Dual(sine, cosine * rate))
+    return Dual(value, rate)
+
+
+def _input_signs(record: MechanismRecord) -> FloatArray:
+    """d(joint value)/d(printed input), per input."""
+    return np.array([item.sign for item in record.inputs])
+
+
+def _velocity_map(
+    record: MechanismRecord, batch: tuple[int, ...], branch: Branch, jp: Sequence[Any], jq: Sequence[Any]
+) -> VelocityMap:
+    form = closed_form_of(record)
+    sizes = relative_factors(record, form.factors(Floats(), record.values, branch.core))
+    count = int(np.prod(batch, dtype=int))
+    zero = {name: np.broadcast_to(np.abs(size) <= FACTOR_TOLERANCE, (count,)) for name, size in sizes.items()}
+    real = np.broadcast_to(exists(record, form.inverse_margins, branch.margins), (count,))
+    output = np.any([zero[item.name] for item in form.factor_list if item.kind == "parallel"], axis=0)
+    inputs = np.any([zero[item.name] for item in form.factor_list if item.kind == "serial"], axis=0)
+    there = real.reshape(batch)
+    return VelocityMap(
+        np.where(there[..., None, None], _matrix(jp, batch), np.nan),
+        np.where(there[..., None, None], _matrix(jq, batch) * _input_signs(record), np.nan),
+        (np.asarray(output) & real).reshape(batch),
+        (np.asarray(inputs) & real).reshape(batch),
+        there,
+    )
+
+
+def _matrix(rows: Sequence[Any], batch: tuple[int, ...], *, derivative: bool = False) -> FloatArray:
+    """Rows of components (N,) as (..., r, k)."""
+    count = int(np.prod(batch, dtype=int))
+    matrix = np.empty((count, len(rows), len(rows[0])))
+    for r, row in enumerate(rows):
+        for k, entry in enumerate(row):
+            if derivative:
+                matrix[:, r, k] = entry.derivative if isinstance(entry, Dual) else 0.0
+            else:
+                matrix[:, r, k] = entry
+    return matrix.reshape(*batch, len(rows), len(rows[0]))
+
+
+def _solve(matrix: FloatArray, right: FloatArray, singular: NDArray[np.bool_]) -> FloatArray:
+    """Solution of matrix X = right, by least squares where it is not square; NaN where `singular`."""
+    mask = singular[..., None, None] | ~np.all(np.isfinite(matrix), axis=(-1, -2), keepdims=True)
+    safe = np.where(mask, np.eye(*matrix.shape[-2:]), matrix)
+    given = np.where(mask, 0.0, right)
+    square = matrix.shape[-2] == matrix.shape[-1]
+    solved = np.linalg.solve(safe, given) if square else np.linalg.pinv(safe) @ given
+    return np.where(mask, np.nan, solved)

@@ -1,0 +1,175 @@
+"""What only the closed joint graph tells of a file: whether it moves, as its inputs, pose and limits claim."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from assur.errors import MechanismFileError, Problem
+from assur.kinematics.closure import characteristic_length
+from assur.kinematics.home import home_values
+from assur.kinematics.limits import Limit, limits
+from assur.kinematics.soundness.claims import Claims, axis_name, claims
+from assur.kinematics.soundness.freedoms import freedom_problems, pose_problems
+from assur.kinematics.soundness.gaps import gap_problems
+from assur.model.file.place import input_place, place, problem, table_place
+from assur.model.file.toml_source import KeyPath
+from assur.model.joint_graph import joint_graph
+from assur.model.mechanism import MechanismRecord
+
+SMALLEST, LARGEST = 1e-3, 50.0
+"""A mechanism smaller or larger than this, in metres, has probably its lengths in another unit."""
+
+METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
+TINY = 1 / 500
+"""A length below this share of the longest may be in another unit."""
+
+TURNS = 1e-6
+"""A platform whose angular velocity, of a motion of size one, stays below this keeps its orientation."""
+
+ROUND = 1e-7
+"""Home may stand on a bound: beyond it by this (rad, or share of the characteristic length) is not outside."""
+
+
+@lru_cache(maxsize=64)
+def faults(record: MechanismRecord) -> tuple[Problem, ...]:
+    """Faults of a mechanism whose file reads well: loops that do not close, no freedom, too few or too many inputs,
+    inputs or a pose that say the same twice, a constant orientation that turns, a home beyond its limits.
+
+    All that do not follow from one another, in the order of the file.
+
+    >>> from assur.model.registry import load_record
+    >>> faults(load_record("zeng2019"))
+    ()
+    """
+    if not joint_graph(record).cut:
+        what = "no loop: nothing but serial chains"
+        hint = "its joint values are its position; assur is for closed loops"
+        return (problem(record, table_place(record, "joints"), what, "at least one closed loop", hint),)
+    gaps = () if record.overrides else gap_problems(record)
+    if gaps:
+        return _ordered(gaps)
+    here = claims(record)
+    found = freedom_problems(record, here)
+    if here.moving:
+        found += [*pose_problems(record, here), *_orientation(record, here)]
+    return _ordered([*found, *_limits(record)])
+
+
+def _ordered(problems: list[Problem] | tuple[Problem, ...]) -> tuple[Problem, ...]:
+    return tuple(sorted(problems, key=lambda item: item.line or 0))
+
+
+def check(record: MechanismRecord) -> None:
+    """Raise `MechanismFileError` with every fault, if there is one.
+
+    >>> from assur.model.registry import load_record
+    >>> check(load_record("fivebar"))
+    """
+    found = faults(record)
+    if found:
+        raise MechanismFileError(found)
+
+
+def doubts(record: MechanismRecord) -> tuple[Problem, ...]:
+    """What is no fault but probably not meant: a mechanism of the size of a pin or of a house, a length that is tiny
+    against the others, a home of many turns.
+
+    >>> from assur.model.registry import load_record
+    >>> doubts(load_record("zeng2019"))
+    ()
+    """
+    return _ordered([*_size(record), *_tiny(record), *_turns(record)])
+
+
+def _size(record: MechanismRecord) -> list[Problem]:
+    length = characteristic_length(record)
+    size = length * METRES[record.unit]
+    if SMALLEST <= size <= LARGEST:
+        return []
+    hint = f"is it {'m' if size < SMALLEST else 'mm'} that is meant?"
+    found = f"the longest link measures {length:.3g} {record.unit}, that is {size:.3g} m"
+    return [problem(record, ("unit",), found, f"it is unusual, but may be: {SMALLEST:g} m to {LARGEST:g} m", hint)]
+
+
+def _tiny(record: MechanismRecord) -> list[Problem]:
+    length = characteristic_length(record)
+    return [
+        problem(
+            record,
+            ("parameters", name, "value"),
+            f"{item.value:.4g} {item.unit}, where the longest link measures {length:.4g} {record.unit}",
+            "it is unusual, but may be",
+            f"is it in another unit than {item.unit}?",
+        )
+        for name, item in record.parameters.items()
+        if item.unit == record.unit and 0 < abs(item.value) < TINY * length
+    ]
+
+
+def _turns(record: MechanismRecord) -> list[Problem]:
+    found: list[Problem] = []
+    for item in record.coordinates:
+        if item.kind == "angle" and abs(record.home[item.index]) > 4 * np.pi:
+            turns = record.home[item.index] / (2 * np.pi)
+            hint = "are the angles in deg?" if record.angle == "rad" else ""
+            text = f"{record.coordinate_label(item)} begins at {turns:.3g} turns"
+            found.append(problem(record, place(record, "home", item.joint), text, "it is unusual, but may be", hint))
+    return _one_each(found)
+
+
+def _orientation(record: MechanismRecord, here: Claims) -> list[Problem]:
+    turning = here.motion.twists[..., :3, :]
+    if record.platform.orientation != "constant" or float(np.max(np.abs(turning), initial=0.0)) <= TURNS:
+        return []
+    found = f'"constant", but the platform turns as it moves, about {axis_name(turning)}'
+    hint = "leave it out; or which axes should be parallel, which rods equally long?"
+    path: KeyPath = ("platform", "orientation")
+    return [problem(record, path, found, '"constant" only where it keeps its orientation', hint)]
+
+
+def _limits(record: MechanismRecord) -> list[Problem]:
+    """Home against limits and cones of joints and strokes of inputs; of repeated limbs the first that is out."""
+    home = home_values(record)
+    length = characteristic_length(record)
+    written = [float(limit.value(record.home)) for limit in limits(record, record.home)]
+    return _one_each(
+        [
+            _outside(record, limit, float(limit.value(home)), before)
+            for limit, before in zip(limits(record, home), written, strict=True)
+            if float(limit.margin(home)) < -ROUND * (1.0 if limit.angular else length)
+        ]
+    )
+
+
+def _outside(record: MechanismRecord, limit: Limit, value: float, written: float) -> Problem:
+    kind, _, name = limit.name.partition(" of ")
+    joint = record.coordinates[limit.index].joint
+    own, low, high = (_shown(record, limit, item) for item in (value, limit.low, limit.high))
+    inside = limit.low <= written <= limit.high
+    hint = (
+        f"the file's home has {_shown(record, limit, written)}; from there the loops close at {own}" if inside else ""
+    )
+    if kind == "cone":
+        path = (*place(record, "joints", joint), "cone")
+        found = f"home tilts {joint} by {own}, out of its cone of {high}"
+        hint = hint or "the cone's axis has the same components in both frames: is it the middle of the motion?"
+        return problem(record, path, found, "a home inside", hint)
+    if kind == "stroke":
+        path = (*input_place(record, record.coordinates[limit.index]), "stroke")
+    else:
+        path = (*place(record, "joints", joint), "limits")
+    found = f"home has {name} = {own}, outside {low} to {high}"
+    return problem(record, path, found, "a home inside", hint)
+
+
+def _shown(record: MechanismRecord, limit: Limit, value: float) -> str:
+    if not limit.angular:
+        return f"{value:.6g} {record.unit}"
+    return f"{np.degrees(value):.6g} deg" if record.angle == "deg" else f"{value:.6g} rad"
+
+
+def _one_each(problems: list[Problem]) -> list[Problem]:
+    """Of several problems at one place, as the limbs of a template have, the first."""
+    return list({item.path: item for item in reversed(problems)}.values())[::-1]

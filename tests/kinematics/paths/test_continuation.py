@@ -1,0 +1,76 @@
+"""Following a working mode over a grid: what is reached, what is not, and where the border is."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import assur
+from assur.kinematics.closure import closure_error
+from assur.kinematics.home import home_values
+from assur.kinematics.paths.continuation import continued
+from assur.kinematics.paths.neighbours import working_signs
+from assur.kinematics.pose import pose_of
+
+RECORD = assur.load("fivebar")
+HOME = home_values(RECORD)
+
+
+def plane(count=21, record=RECORD, box=((-330.0, 330.0), (10.0, 320.0))):
+    axes = tuple(np.linspace(*pair, count) for pair in box)
+    return continued(record, axes, lambda points: points, (pose_of(RECORD, HOME), HOME), working_signs(RECORD, HOME))
+
+
+def test_every_reached_node_is_an_assembly_of_the_mode_at_its_pose():
+    found = plane()
+    joints = found.joints[found.reached]
+    x, y = np.meshgrid(*found.axes, indexing="ij")
+    assert np.max(closure_error(RECORD, joints)) < 1e-9 * 194
+    np.testing.assert_allclose(pose_of(RECORD, joints), np.stack([x, y], -1)[found.reached], atol=1e-6)
+    assert np.all(working_signs(RECORD, joints) == working_signs(RECORD, HOME))
+
+
+def test_without_names_of_modes_it_stays_in_the_same_branch():
+    """Nothing but the sign of the determinant tells the elbows apart then."""
+    bare = replace(RECORD, modes=replace(RECORD.modes, working={}, default_working=""))
+    named, found = plane(), None
+    axes = named.axes
+    found = continued(bare, axes, lambda points: points, (pose_of(RECORD, HOME), HOME), np.zeros(0, dtype=np.int8))
+    np.testing.assert_array_equal(found.reached, named.reached)
+    np.testing.assert_allclose(found.joints[found.reached], named.joints[named.reached], atol=1e-6)
+
+
+def test_what_is_cut_off_from_home_is_not_reached():
+    """Above y = 0 the five-bar's own reach is in one piece; a row of poses across its hole is in two."""
+    low = 0.0
+    axes = (np.linspace(-330.0, 330.0, 67),)
+
+    def poses(points):
+        return np.concatenate([points, np.full_like(points, low)], axis=1)
+
+    x = 190.0
+    joints = RECORD.inverse([x, low], mode="-+").joints[0]
+    found = continued(RECORD, axes, poses, (np.array([x]), joints), working_signs(RECORD, joints))
+    exists = RECORD.inverse(poses(axes[0][:, None]), mode="-+").exists[:, 0]
+    assert np.sum(exists & (axes[0] < 0)) > 3
+    assert np.sum(found.reached) > 3
+    assert not np.any(found.reached & (axes[0] < 0))
+    np.testing.assert_array_equal(found.reached[axes[0] > 0], exists[axes[0] > 0])
+
+
+@pytest.mark.parametrize("x", [0.0, 40.0, -75.0])
+def test_the_border_is_where_an_arm_is_stretched(x):
+    found = plane()
+    p = RECORD.values
+    exact = min(np.sqrt((p.l1 + p.l2) ** 2 - (x - side * p.g) ** 2) for side in (1, -1))
+    share = found.border(np.array([[x, exact - 9.0]]), np.array([[x, exact + 5.0]]))
+    assert 14.0 * share[0] - 9.0 == pytest.approx(0.0, abs=0.01)
+
+
+def test_points_far_from_what_is_reached_are_not_tried_and_keep_the_nearest_values():
+    found = plane()
+    answer = found.at(np.array([[0.0, 5000.0], [0.0, 200.0]]))
+    assert answer.reached.tolist() == [False, True]
+    assert np.all(np.isfinite(answer.joints))

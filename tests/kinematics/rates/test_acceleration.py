@@ -1,0 +1,126 @@
+"""Acceleration on the joint graph: against dual numbers through closed forms, and against second differences."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import assur
+from assur.kinematics.border import held_inputs, inputs_of
+from assur.kinematics.closure import assemble, characteristic_length
+from assur.kinematics.pose import pose_of
+from assur.kinematics.rates.acceleration import acceleration_at
+from assur.model.pose import LENGTHS
+from assur.numerics import rotations
+
+HERE = Path(__file__).parent
+DELTA = HERE.parent / "model" / "file" / "delta.toml"
+HEXAPOD = HERE / "hexapod.toml"
+STEP = 2e-3
+
+
+@pytest.mark.parametrize(("name", "mode"), [("fivebar", "-+"), ("zeng2019", "++-++"), ("zeng2019", "++-+-")])
+def test_it_is_that_of_the_closed_form(name, mode):
+    mechanism = assur.load(name)
+    low, high = np.array([mechanism.box[item] for item in mechanism.platform.pose]).T
+    rng = np.random.default_rng(0)
+    poses = rng.uniform(low, high, (60, len(low)))
+    found = mechanism.inverse(poses, mode)
+    regular = (found.exists & (found.status == 0))[:, 0]
+    assert np.sum(regular) > 10
+    rates, second = rng.normal(size=(2, int(np.sum(regular)), len(mechanism.inputs)))
+    velocity, acceleration = mechanism.acceleration(poses[regular], rates, second, mode)
+    here = acceleration_at(mechanism, found.joints[regular, 0], rates, second)
+    assert np.all(here.known)
+    np.testing.assert_allclose(here.velocity, velocity, atol=1e-7 * np.abs(velocity).max())
+    np.testing.assert_allclose(here.acceleration, acceleration, atol=1e-7 * np.abs(acceleration).max())
+
+
+def _path(mechanism, rates, second):
+    """Assemblies at five moments along inputs that accelerate evenly, from home."""
+    home = mechanism.home_values
+    moments = STEP * np.arange(-2, 3)[:, None]
+    inputs = inputs_of(mechanism, home) + moments * rates + moments**2 / 2 * second
+    found = assemble(mechanism, held_inputs(mechanism, home, inputs), held=mechanism.input_indices, tolerance=1e-15)
+    assert np.all(found.closed)
+    return home, found.values
+
+
+def _second(path):
+    """Second derivative in the middle of five samples, exact to the fourth order."""
+    return np.tensordot([-1, 16, -30, 16, -1], path, 1) / (12 * STEP**2)
+
+
+def _first(path):
+    return np.tensordot([1, -8, 0, 8, -1], path, 1) / (12 * STEP)
+
+
+@pytest.mark.parametrize(
+    ("file", "pose"),
+    [
+        (DELTA, '["x", "y", "z"]'),
+        (HEXAPOD, '["x", "y", "z", "phi", "theta", "psi"]'),
+        (HEXAPOD, '["psi", "z", "x", "phi", "theta", "y"]'),
+    ],
+)
+def test_coordinates_agree_with_differences(file, pose, tmp_path):
+    text = file.read_text().replace('["x", "y", "z", "qw", "qx", "qy", "qz"]', pose)
+    (tmp_path / "changed.toml").write_text(text)
+    mechanism = assur.load(tmp_path / "changed.toml")
+    rng = np.random.default_rng(2)
+    units = [
+        characteristic_length(mechanism) / 3 if item.coordinate.kind == "length" else 1 for item in mechanism.inputs
+    ]
+    rates, second = rng.normal(size=(2, len(mechanism.inputs))) * units
+    home, values = _path(mechanism, rates, second)
+    poses = pose_of(mechanism, values)
+    found = acceleration_at(mechanism, home, rates, second)
+    scale = np.where([name in LENGTHS for name in mechanism.platform.pose], characteristic_length(mechanism), 1.0)
+    np.testing.assert_allclose(found.velocity / scale, _first(poses) / scale, atol=1e-7)
+    np.testing.assert_allclose(found.acceleration / scale, _second(poses) / scale, atol=2e-6)
+    assert np.abs(found.acceleration / scale).min() > 1e-3, "every coordinate must accelerate for this to mean anything"
+
+
+def test_quaternions_have_angular_velocity_and_acceleration():
+    """Against differences of the rotation vector from the middle of the path."""
+    mechanism = assur.load(HEXAPOD)
+    rates, second = np.random.default_rng(3).normal(size=(2, 6)) * 60.0
+    home, values = _path(mechanism, rates, second)
+    rotation = mechanism.frames(values)["platform"][0]
+    turns = rotations.to_vector(rotation @ rotation[2].T)
+    found = acceleration_at(mechanism, home, rates, second)
+    np.testing.assert_allclose(found.velocity[3:], _first(turns), atol=1e-7)
+    # of a rotation vector v from the identity: w = v' + v x v' / 2 + ..., so w' = v'' where v = 0
+    np.testing.assert_allclose(found.acceleration[3:], _second(turns), atol=2e-6)
+    assert np.linalg.norm(found.acceleration[3:]) > 0.05
+
+
+def test_joint_accelerations_keep_the_loops_closed():
+    """The motion with these rates and accelerations leaves the assembly by the third power of time."""
+    mechanism = assur.load(DELTA)
+    home = mechanism.home_values
+    found = acceleration_at(mechanism, home, [0.3, -0.5, 0.7], [0.2, 0.1, -0.4])
+    times = np.array([[0.02], [0.01]])
+    gaps = mechanism.closure_error(home + times * found.joint_rates + times**2 / 2 * found.joint_accelerations)
+    assert 6.0 < gaps[0] / gaps[1] < 10.0
+
+
+def test_it_is_known_at_a_serial_singularity_and_not_at_a_parallel_one():
+    paper = assur.load("zeng2019")
+    serial = paper.inverse([80.0, -74.3479, 237.9038], "++-++").joints[0]  # sin(alpha) = 0
+    parallel = paper.inverse([-15.4714, 9.6849, 456.3315], "+++++").joints[0]  # self-motion
+    found = acceleration_at(paper, np.array([serial, parallel]), [1.0, 2.0, 3.0], [0.0, 0.0, 0.0])
+    assert found.known.tolist() == [True, False]
+    assert np.all(np.isfinite(found.acceleration[0]))
+    for numbers in (found.velocity, found.acceleration, found.joint_rates, found.joint_accelerations):
+        assert np.all(np.isnan(numbers[1]))
+
+
+def test_wrong_shapes_are_refused():
+    fivebar = assur.load("fivebar")
+    with pytest.raises(assur.UsageError, match="joint values of fivebar: 3 values, 5 wanted"):
+        acceleration_at(fivebar, [0.0, 0.0, 0.0], [0.0, 0.0], [0.0, 0.0])
+    with pytest.raises(assur.UsageError, match="input rates of fivebar: 1 values, 2 wanted"):
+        acceleration_at(fivebar, fivebar.home_values, [0.0], [0.0, 0.0])
