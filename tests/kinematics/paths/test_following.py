@@ -19,7 +19,7 @@ from assur.model.points import point
 from assur.singularity.examples import singular_examples
 
 DELTA = Path(__file__).parents[2] / "model" / "file" / "delta.toml"
-DOCS = Path(__file__).parents[2] / "docs" / "mechanism-file.md"
+DOCS = Path(__file__).parents[3] / "docs" / "mechanism-file.md"
 
 
 def turned(change):

@@ -16,7 +16,7 @@ from assur.model.pose import LENGTHS
 from assur.numerics import rotations
 
 HERE = Path(__file__).parent
-DELTA = HERE.parent / "model" / "file" / "delta.toml"
+DELTA = HERE.parents[1] / "model" / "file" / "delta.toml"
 HEXAPOD = HERE / "hexapod.toml"
 STEP = 2e-3
 

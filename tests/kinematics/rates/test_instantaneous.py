@@ -18,8 +18,8 @@ from assur.kinematics.rates.velocity import velocity_map
 from assur.singularity.examples import singular_examples
 
 HERE = Path(__file__).parent
-DELTA = HERE.parent / "model" / "file" / "delta.toml"
-DOCS = HERE.parents[1] / "docs" / "mechanism-file.md"
+DELTA = HERE.parents[1] / "model" / "file" / "delta.toml"
+DOCS = HERE.parents[2] / "docs" / "mechanism-file.md"
 CLOSED = ["fivebar", "zeng2019"]
 
 

@@ -12,7 +12,7 @@ from assur.kinematics.closure import loop_twists, mobility
 from assur.kinematics.rates.motions import closure_at_platform, general, general_share, motions
 
 HERE = Path(__file__).parent
-DELTA = HERE.parent / "model" / "file" / "delta.toml"
+DELTA = HERE.parents[1] / "model" / "file" / "delta.toml"
 
 
 @pytest.mark.parametrize(
