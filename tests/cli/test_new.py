@@ -6,6 +6,7 @@ import pytest
 
 import assur
 from assur.model.file.reader import read_text
+from assur.model.registry import load_record
 
 HYBRID = ("--chain", "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", "--chain", "P[y] P(4R)[y] P(4R)[x]")
 
@@ -120,4 +121,40 @@ def test_misuse_is_refused_and_writes_nothing(assur_cli, folder, words, said):
     run = assur_cli("new", *words)
     assert run.code == 2
     assert said in run.err
+    assert list(folder.iterdir()) == []
+
+
+WRIST = ("--limb", "R[z]@O R[0.8,0,0.6]@O R[0,0.8,0.6]@O")
+WRIST_OF_CHAINS = (
+    "R[x]@O R[0,1,0.3]@O R[0.3,0,1]@O",
+    "R[y]@O R[0.3,0,1]@O R[1,0.3,0]@O",
+    "R[z]@O R[1,0.3,0]@O R[0,1,0.3]@O",
+)
+SPHERICAL = {
+    "a wrist of one limb": (WRIST, [0, 3, 3], 3),
+    "a wrist of three limbs": (tuple(part for text in WRIST_OF_CHAINS for part in ("--chain", text)), [0, 3, 3], 3),
+    "a post and three legs": (("--chain", "S@O", *("--chain", "U P S") * 3), [0, 3, 3], 3),
+    "two limbs": (("--chain", "R[x]@O R[y]@O", "--chain", "R[y]@O R[z]@O R[x]@O"), [0, 2, 2], 2),
+    "planar and spherical": (("--chain", "R[x] R[x] R[x] R[y]@O R[z]@O", "--chain", "P[x] S@O"), [0, 3, 3], 3),
+}
+
+
+@pytest.mark.parametrize("name", SPHERICAL)
+def test_limbs_that_share_a_point_are_drafted_with_it_at_the_platform_s_origin(assur_cli, folder, name):
+    given, numbers, freedoms = SPHERICAL[name]
+    run = assur_cli("new", "my.toml", *given)
+    assert (run.code, run.err) == (0, "")
+    record = load_record("my.toml")
+    assert len(record.inputs) == freedoms
+    assert set(record.platform.pose) <= {"phi", "theta", "psi"}
+    facts = assur.topology("my.toml")
+    assert [facts.poc.t, facts.poc.r, facts.poc.dim] == numbers
+    assert facts.routes_agree is True
+
+
+def test_axes_that_were_left_out_are_said_to_be_general(assur_cli, folder):
+    run = assur_cli("new", "my.toml", "--limb", "R R R")
+    assert run.code == 2
+    assert "does not move" in run.err
+    assert "R[z] R[z] R[z]" in run.err
     assert list(folder.iterdir()) == []

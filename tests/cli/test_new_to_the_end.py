@@ -36,3 +36,27 @@ def test_it_goes_through_everything(assur_cli, tmp_path, monkeypatch):
         assert (tmp_path / name).stat().st_size > 1000
     assert assur_cli("report", "hybrid.toml", "-o", "report.html").code == 0
     assert "hybrid" in (tmp_path / "report.html").read_text(encoding="utf-8")
+
+
+WRIST = "R[z]@O R[0.8,0,0.6]@O R[0,0.8,0.6]@O"
+
+
+@pytest.mark.slow
+def test_a_spherical_wrist_goes_through_what_is_asked_of_a_pose(assur_cli, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert assur_cli("new", "wrist.toml", "--limb", WRIST).code == 0
+    assert assur_cli("check", "wrist.toml", "--json").json["sound"]
+    assert assur_cli("topology", "wrist.toml", "--json").json["dof"] == 3
+
+    pose = ("5", "8", "-4")
+    inverse = assur_cli("inverse", "wrist.toml", *pose, "--json").json
+    assert len(inverse["solutions"]) == 8  # each limb of three axes through a point has two postures
+    inputs = [f"{value:.12g}" for value in inverse["solutions"][0]["inputs"]]
+    direct = assur_cli("direct", "wrist.toml", *inputs, "--json").json
+    gaps = [max(abs(a - float(b)) for a, b in zip(item["pose"], pose, strict=True)) for item in direct["solutions"]]
+    assert min(gaps) < 1e-5
+    assert len(direct["solutions"]) <= 8  # the degree of its direct problem
+
+    assert assur_cli("singularity", "wrist.toml", "--pose", *pose, "--mode", "1").code == 0
+    assert assur_cli("follow", "wrist.toml", "--to", *pose, "--json").json["stopped"] is None
+    assert assur_cli("indices", "wrist.toml", "--pose", *pose).code == 0

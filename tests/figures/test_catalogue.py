@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import dataclasses
 import json
 
 import matplotlib as mpl
@@ -10,6 +11,7 @@ import assur
 from assur import figures
 from assur.errors import OutputError, UnknownNameError
 from assur.figures.catalogue import ENTRIES
+from assur.workspace.region import workspace
 
 MAGIC = {"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}
 
@@ -130,6 +132,19 @@ S = 100
 """
     )
     record = assur.load(path)
-    assert figures.names(record) == ["structure", "model", "solid", "graph"]
+    assert figures.names(record) == ["structure", "model", "solutions", "solid", "graph"]
     for name in figures.names(record):
         assert figures.encoded(figures.draw(record, name), "pdf").startswith(b"%PDF")
+
+
+def test_without_closed_form_only_the_flow_is_missing():
+    known = figures.Context(assur.load("fivebar"))
+    record = dataclasses.replace(known.record, closed_form=None)
+    bare = figures.Context(record, workspace(record, resolution=16))
+    missing = set(figures.left_out(record, bare)) - set(figures.left_out(known.record, known))
+    assert missing <= {"flow", "parallel", "singular"}  # no path from home meets another singularity
+    for name in figures.names(record, bare):
+        assert figures.encoded(figures.draw(record, name, bare), "pdf").startswith(b"%PDF")
+    for spec in figures.catalogue(record, bare):
+        assert spec.caption.endswith(".")
+        assert spec.caption.count("$") % 2 == 0, spec.caption

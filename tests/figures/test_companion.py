@@ -16,8 +16,7 @@ from assur.kinematics.position import inverse
 def test_bars_are_as_long_as_they_claim_in_every_configuration(every):
     record = every.record
     claims = [bar for bar in every.companion.bars if bar.length]
-    if not claims:
-        pytest.skip("no lengths are claimed")
+    assert claims or record.name == "gough_stewart", "legs that change their lengths"
     low, high = np.array([record.box[name] for name in record.platform.pose]).T
     poses = np.random.default_rng(3).uniform(low, high, size=(40, len(low)))
     solved = inverse(record, poses)

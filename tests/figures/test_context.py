@@ -1,11 +1,14 @@
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 import assur
 from assur import figures
 from assur.kinematics.closure import closure_error
+from assur.workspace.region import workspace
 
 
 @pytest.mark.parametrize("share", [0.9, 1.1])
@@ -34,3 +37,24 @@ def test_the_schematic_of_a_companion_is_reached():
         drawn = figures.Context(record).schematic
         origin = drawn.frames[record.platform.link][1]
         np.testing.assert_allclose([pose[axis] for axis in "xyz"], origin, atol=1e-6)
+
+
+def test_indices_of_a_followed_workspace_are_those_of_the_closed_form():
+    record = assur.load("fivebar")
+    bare = dataclasses.replace(record, closed_form=None)
+    found = workspace(bare, resolution=16)
+    points = found.box.spread(60, np.random.default_rng(2)).reshape(6, 10, 2)
+    here, known = figures.Context(bare, found).indices_at(points), figures.Context(record).indices_at(points)
+    for name in ("condition", "largest", "smallest", "transmission"):
+        both = np.isfinite(here[name]) & np.isfinite(known[name])
+        assert np.sum(both) > 30
+        np.testing.assert_allclose(here[name][both], known[name][both], rtol=1e-6)
+
+
+def test_singular_examples_without_closed_form_are_drawn_where_they_were_met():
+    bare = figures.Context(dataclasses.replace(assur.load("fivebar"), closed_form=None))
+    assert bare.examples
+    for example in bare.examples:
+        (item,) = figures.drawing(bare.record, example.factor.kind, bare).data["examples"]
+        np.testing.assert_array_equal(item["pose"], example.pose)
+        assert closure_error(bare.record, example.joints) < 1e-6 * bare.skeleton.size

@@ -6,6 +6,9 @@ import pytest
 from assur.kinematics.rates.velocity import velocity_map
 from assur.workspace.fields import at_points
 
+pytestmark = pytest.mark.parametrize("context", ["fivebar", "zeng2019"], indirect=True)
+"""Those of which lengths and angles do not mix."""
+
 
 def test_the_map_is_the_inverse_condition_number_of_jp_and_jq(context, data):
     names = context.record.platform.pose

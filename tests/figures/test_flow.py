@@ -5,8 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assur.figures.flow import boxes
+import assur
+from assur.figures.context import Context
+from assur.figures.flow import FLOW, boxes
 from assur.kinematics.position import direct
+from assur.model.closed_form import Eliminant, PolynomialSystem
 
 STEP = 1e-4
 
@@ -71,6 +74,37 @@ def test_arrows_lead_downwards_from_inputs_to_the_pose(context, data):
     assert ends == set(kinds)
 
 
-def test_every_assembly_sign_is_chosen_once(context, data):
-    chosen = sorted(node["sign"] for node in data("flow")["nodes"] if node["sign"])
-    assert chosen == sorted(context.record.modes.assembly)
+def test_every_sign_of_the_direct_problem_is_chosen_once(every):
+    chosen = sorted(box.sign for box in boxes(every).values() if box.sign)
+    kernel = every.record.closed_form.direct
+    if isinstance(kernel, Eliminant):
+        signs = kernel.signs
+    elif kernel is None or isinstance(kernel, PolynomialSystem):
+        signs = ()
+    else:
+        signs = every.record.modes.assembly
+    assert chosen == sorted(signs)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("zeng2019", "choices of sign give"),
+        ("planar_3rrr", "A polynomial of degree 6 is left: at most 6 poses."),
+        ("three_rps", "A polynomial of degree 4 is left after 2 choices of sign: at most 16 poses."),
+        ("gough_stewart", "The system of polynomials has 40 complex solutions."),
+    ],
+)
+def test_the_caption_counts_what_the_closed_form_finds(name, said):
+    assert said in FLOW.caption(Context(assur.load(name)))
+
+
+def test_no_step_stands_alone(every):
+    if FLOW.missing(every) == "":
+        found = boxes(every)
+        used = {want for box in found.values() for want in box.needs}
+        assert [name for name, box in found.items() if not box.needs and name not in used] == []
+
+
+def test_every_mechanism_with_a_closed_form_of_the_direct_problem_has_a_flow(every):
+    assert (FLOW.missing(every) == "") == (every.record.closed_form.direct is not None)

@@ -4,6 +4,9 @@ import numpy as np
 import pytest
 from matplotlib.path import Path
 
+pytestmark = pytest.mark.parametrize("context", ["planar_3rrr", "zeng2019"], indirect=True)
+"""Those whose workspace is not plane."""
+
 
 def shoelace(polygons):
     total = 0.0

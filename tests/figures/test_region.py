@@ -8,7 +8,6 @@ import assur
 from assur import figures
 from assur.figures.catalogue import ENTRIES
 from assur.figures.coordinates import axis_title, symbol
-from assur.figures.plots import no_workspace
 from assur.kinematics.modes import all_modes
 from assur.kinematics.status import scale
 from assur.model.pose import is_angle
@@ -50,9 +49,6 @@ def test_the_loci_are_zeros_of_their_factors(context, data):
 @pytest.mark.parametrize("name", assur.names())
 def test_the_workspace_of_every_mechanism_is_drawn_and_says_what_is_held(name):
     record = assur.load(name)
-    why = no_workspace(figures.Context(record))
-    if why:
-        pytest.skip(why)
     found = workspace(record, resolution=8)
     given = figures.Context(record, found)
     drawn = figures.drawing(record, "workspace", given)

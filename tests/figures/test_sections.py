@@ -5,6 +5,9 @@ import pytest
 
 from assur.workspace.fields import at_points
 
+pytestmark = pytest.mark.parametrize("context", ["zeng2019"], indirect=True)
+"""The one whose file names sections."""
+
 
 def shoelace(polygons):
     total = 0.0

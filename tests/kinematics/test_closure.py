@@ -23,12 +23,31 @@ def _starts(mechanism, count, seed=0):
     )
 
 
+NEARLY_ALL = 0.9
+FEWER = {
+    # rods between ball joints, free to spin: they close slowly, and 200 steps do not end every way from anywhere
+    "delta_4s": 0.35,
+    "h4_robot": 0.25,
+    "linear_delta_4s": 0.6,
+    "three_p2us": 0.8,
+    # parallelograms of four revolutes: more than one that has crossed over leaves a gap, and no step makes it smaller
+    "linear_delta_4r": 0.4,
+    "orthoglide": 0.7,
+    "three_rrrp4r": 0.65,
+    "tsai_platform": 0.45,
+}
+"""Mechanisms of which fewer than nearly all random starts close, and the share that must."""
+
+
 @pytest.mark.parametrize("name", assur.names())
 def test_random_starts_assemble_and_no_axis_is_turned_round(name):
     """The check shares nothing with the residual: joint points and axis vectors, seen from both links."""
     mechanism = assur.load(name)
     found = assemble(mechanism, _starts(mechanism, 250), max_steps=200)
-    assert np.mean(found.closed) > 0.3  # the others are closest approaches, and say so
+    assert np.mean(found.closed) > FEWER.get(name, NEARLY_ALL)
+    residual = found.residual / characteristic_length(mechanism)
+    assert np.all(residual[found.closed] < 1e-8)
+    assert np.all(residual[~found.closed] > 1e-10), "the others are closest approaches, and say so"
     values = found.values[found.closed]
     placed = frames(mechanism, values)
     for joint in joint_graph(mechanism).cut:

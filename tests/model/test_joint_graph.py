@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -12,56 +14,12 @@ from assur.model.registry import load_record
 from assur.numerics import rotations
 from assur.topology.joints import JOINT_TYPES
 
-EVERY_TYPE = """
-format = 1
-name = "every"
-title = "one joint of every type"
-source = "a test"
-unit = "mm"
-angle = "deg"
-base = "ground"
-[platform]
-link = "f"
-point = [0, 0, 0]
-pose = ["x", "y", "z"]
-orientation = "any"
-[parameters]
-k = { value = 20, meaning = "a length" }
-[links]
-ground = {}
-a = {}
-b = {}
-c = {}
-d = {}
-e = {}
-f = {}
-[joints]
-J1 = { type = "revolute", parent = "ground", child = "a", at = ["k", 0, 0], axis = [1, 2, 2] }
-J2 = { type = "prismatic", parent = "b", child = "a", at = [0, "k", 0], axis = "-y", child_axis = "z" }
-J3 = { type = "helical", parent = "b", child = "c", at = [0, 0, "k"], axis = "z", pitch = 5 }
-J4 = { type = "cylindrical", parent = "c", child = "d", at = ["k", "k", 0], child_at = [1, 2, 3], axis = "x" }
-J5 = { type = "universal", parent = "d", child = "e", at = [0, "k", "k"], axes = ["x", "y"] }
-J6 = { type = "spherical", parent = "e", child = "f", at = [3, 2, "k"], child_at = [-4, 0, 1] }
-J7 = { type = "revolute", parent = "f", child = "ground", at = ["k", 5, 0], axis = "z" }
-[inputs]
-order = ["J1"]
-J1 = { name = "q" }
-[home]
-J1 = 10
-J2 = 3
-J3 = 20
-J4 = [2, 30]
-J5 = [10, 20]
-J6 = [5, 6, 7]
-J7 = 0
-"""
+EVERY_TYPE = Path(__file__).parents[1] / "kinematics" / "rates" / "every_type.toml"
 
 
 @pytest.fixture
-def every(tmp_path):
-    path = tmp_path / "every.toml"
-    path.write_text(EVERY_TYPE)
-    return load_record(path)
+def every():
+    return load_record(EVERY_TYPE)
 
 
 def test_a_spanning_tree_reaches_every_link_and_leaves_the_independent_loops(every):

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assur.numerics.dual import Dual, Duals
+from assur.numerics.dual import Dual, DualIntervals, Duals
+from assur.numerics.intervals.interval import Interval
 
 FINITE = st.floats(min_value=-50.0, max_value=50.0)
 
@@ -101,3 +102,36 @@ def test_no_dual_is_changed_in_place():
     np.testing.assert_array_equal(number.derivative, [3.0, 4.0])
     with pytest.raises(AttributeError):
         number.value = rate
+
+
+@given(FINITE, FINITE, FINITE, FINITE, st.floats(0, 1), st.floats(0, 2))
+def test_duals_of_intervals_bound_the_duals_inside(a, b, a_rate, b_rate, share, width):
+    a_inside, b_inside = min(a + share * width, a + width), min(b + share * width, b + width)
+    number = straight_line(Dual(a_inside, a_rate), Dual(b_inside, b_rate), Duals().sqrt)
+    boxes = [Dual(Interval.of(x, x + width), Interval.of(rate)) for x, rate in ((a, a_rate), (b, b_rate))]
+    bounds = straight_line(*boxes, DualIntervals().sqrt)
+    assert bounds.value.contains(number.value)  # to the last bit: every float operation lies between the rounded ones
+    assert bounds.derivative.contains(number.derivative)
+    assert bounds.value.defined
+    assert bounds.derivative.defined
+
+
+def test_an_interval_on_the_left_leaves_the_operator_to_the_dual():
+    box, dual = Interval.of(2.0, 3.0), Dual(Interval.of(4.0, 5.0), Interval.of(1.0))
+    for found, value, slope in (
+        (box * dual, 10.0, 2.5), (box + dual, 6.5, 1.0), (box - dual, -2.0, -1.0), (box / dual, 0.5, -0.15)
+    ):  # fmt: skip
+        assert isinstance(found, Dual)
+        assert found.value.contains(value)
+        assert found.derivative.contains(slope)
+
+
+def test_the_slope_of_a_root_over_a_box_is_not_defined_where_the_radicand_may_vanish():
+    radicand = Dual(Interval.of([4.0, 0.0, -1.0, -2.0], [9.0, 9.0, 9.0, -1.0]), Interval.of(1.0))
+    root = DualIntervals().sqrt(radicand)
+    assert root.value.defined.tolist() == [True, True, False, False]
+    assert root.derivative.defined.tolist() == [True, False, False, False]
+    assert root.derivative.contains([1 / 4, 1 / 6, 1 / 6, 0]).tolist()[:3] == [True, True, True]
+    constant = DualIntervals().sqrt(4.0)
+    assert constant.value.contains(2.0)
+    assert constant.derivative.contains(0.0)

@@ -141,6 +141,24 @@ def test_spheres_too_far_apart_have_no_circle():
     assert coincident_spheres(Floats(), centres, 3.0, (1.0, 0.0, 0.0), (1.0, 0.0))[1] == -1.0
 
 
+def test_equal_spheres_about_three_points_of_a_line_have_no_circle():
+    """One in the middle of the others, and one beyond them: no point has the same distance from all three."""
+    for place in (-1.0, 0.5, 3.0):
+        centres = ((0.0, 0.0, 0.0), (0.1, 0.0, 0.2), (0.1 * place, 0.0, 0.2 * place))
+        with np.errstate(invalid="ignore"):
+            assert coincident_spheres(Floats(), centres, 9.0, (0.0, 1.0, 0.0), (1.0, 0.0))[1] < 0.0
+
+
+def test_spheres_that_all_coincide_give_the_circle_about_z():
+    angle = np.linspace(-np.pi, np.pi, 13)
+    point, radicand = coincident_spheres(
+        Floats(), ((1.0, 2.0, 3.0),) * 3, 9.0, (1.0, 1.0, 0.0), (np.cos(angle), np.sin(angle))
+    )
+    assert radicand == 9.0
+    np.testing.assert_allclose(np.hypot(point[0] - 1, point[1] - 2), 3.0, rtol=0, atol=1e-14)
+    np.testing.assert_array_equal(point[2], 3.0)
+
+
 # ---- three linear equations ------------------------------------------------------------------------------------
 
 

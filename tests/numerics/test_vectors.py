@@ -10,6 +10,7 @@ import sympy
 
 from assur.numerics import rotations, vectors
 from assur.numerics.dual import Dual
+from assur.numerics.number_types import Floats
 
 RNG = np.random.default_rng(7)
 A, B, C = RNG.normal(size=(3, 3, 5))  # three batches of five vectors, components first
@@ -36,9 +37,10 @@ def matrices(matrix):
         (vectors.scaled(A, 2.5), 2.5 * A),
         (vectors.dot(A, B), np.einsum("ik,ik->k", A, B)),
         (vectors.cross(A, B), np.cross(A, B, axis=0)),
+        (vectors.length(Floats(), A), np.linalg.norm(A, axis=0)),
         (vectors.triple(A, B, C), np.linalg.det(np.stack([A.T, B.T, C.T], axis=-2))),
     ],
-    ids=["add", "subtract", "scaled", "dot", "cross", "triple"],
+    ids=["add", "subtract", "scaled", "dot", "cross", "length", "triple"],
 )
 def test_agrees_with_numpy(found, expected):
     np.testing.assert_allclose(np.array(found), expected, rtol=1e-13, atol=1e-14)
@@ -75,6 +77,7 @@ def test_sums_and_differences_of_angles():
     for found, angle in ((total, ANGLES[0] + ANGLES[1]), (rest, ANGLES[0] - ANGLES[1])):
         np.testing.assert_allclose(found, (np.cos(angle), np.sin(angle)), rtol=0, atol=1e-15)
     assert vectors.sum_of_angles(EXACT, EXACT) == (Fraction(-7, 25), Fraction(24, 25))
+    assert vectors.sum_of_angles(EXACT, vectors.opposite(EXACT)) == (1, 0)
     assert vectors.difference_of_angles(EXACT, EXACT) == (1, 0)
 
 

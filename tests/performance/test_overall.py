@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -32,6 +32,9 @@ class Cube:
 
     def interior(self, count, rng):
         return rng.uniform(self.low, self.high, size=(count, len(self.low)))
+
+    def inside(self, count, rng):
+        return self.interior(count, rng), None
 
 
 def orthoglide_cube():
@@ -132,3 +135,19 @@ def test_a_number_of_points_that_is_none_is_refused(count):
     mechanism, cube = orthoglide_cube()
     with pytest.raises(UsageError, match="count"):
         overall(mechanism, cube, count)
+
+
+@pytest.mark.parametrize("name", ["fivebar", "zeng2019"])
+def test_over_a_region_that_was_followed_the_values_are_those_of_the_closed_form(name):
+    record = assur.load(name)
+    known = workspace(record, resolution=12)
+    found = workspace(replace(record, closed_form=None), resolution=12)
+    first, second = overall(record, known, 512), overall(replace(record, closed_form=None), found, 512)
+    assert second.points == first.points
+    for index, value in first.values.items():
+        assert second.values[index].mean == pytest.approx(value.mean, rel=1e-6), index
+        assert second.values[index].least == pytest.approx(value.least, rel=1e-4, abs=1e-6), index
+    assert second.good.share == pytest.approx(first.good.share)
+    mean, same = (global_condition_index(some, region, 512) for some, region in ((record, known), (record, found)))
+    assert same.value == pytest.approx(mean.value, rel=1e-6)
+    assert (same.points, same.singular) == (mean.points, mean.singular)

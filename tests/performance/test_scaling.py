@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -46,6 +48,10 @@ def test_the_default_is_the_mechanism_s_own_length_where_units_mix():
         assert chosen_length(record, 12.5, matrix) == 12.5
 
 
+def _mean_index(record, matrices, length):
+    return np.mean(1 / np.linalg.cond(scaled(record, matrices, length)))
+
+
 @pytest.mark.parametrize("name", ["planar_3rrr", "planar_3rpr", "h4_robot"])
 def test_no_other_length_is_more_isotropic(name, regular_poses):
     record = assur.load(name)
@@ -53,7 +59,7 @@ def test_no_other_length_is_more_isotropic(name, regular_poses):
     matrices = record.velocity_map(regular_poses(record, mode, 5), mode).matrix
     for part in (matrices[:1], matrices):
         best = isotropic_length(record, part)
-        mean = lambda length, part=part: np.mean(1 / np.linalg.cond(scaled(record, part, length)))  # noqa: E731
+        mean = partial(_mean_index, record, part)
         assert chosen_length(record, "isotropic", part) == best
         scan = best * np.exp(np.linspace(-4, 4, 801))
         assert mean(best) >= max(mean(length) for length in scan) - 1e-9

@@ -11,6 +11,7 @@ import pytest
 
 import assur
 from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.pose import pose_of
 from assur.workspace.fields import margin_fields, sample
 from assur.workspace.followed import over_grid
 from assur.workspace.grid import grid_over
@@ -213,3 +214,20 @@ def test_total_and_dexterous_workspaces_agree_with_plain_sampling():
         share, deviation = np.mean(inside), np.std(inside) / np.sqrt(4000)
         assert 0.03 < share < 0.97
         assert abs(flat.area / 240**2 - share) < 4 * deviation + 0.01
+
+
+@pytest.mark.parametrize("name", ["fivebar", "zeng2019"])
+def test_points_inside_come_with_the_joint_values_that_following_found(name):
+    known, found = both(name, {"fivebar": 24, "zeng2019": 12}[name])
+    poses, joints = found.inside(600, np.random.default_rng(5))
+    assert len(joints) == len(poses) > 50
+    np.testing.assert_allclose(pose_of(assur.load(name), joints), poses, atol=1e-6)
+    same, nothing = known.inside(600, np.random.default_rng(5))
+    assert nothing is None
+    np.testing.assert_array_equal(poses, same)
+
+
+def test_a_locus_along_the_border_is_seen_though_it_is_thinner_than_a_cell():
+    """The Delta's rods lie in one plane just before its arms stretch: a sliver of 0.15 % of the volume."""
+    known, found = both("delta_4s", 6)
+    assert sum(item.area for item in found.loci) > 0.4 * sum(item.area for item in known.loci)

@@ -6,7 +6,16 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+from assur.cli.options import (
+    SHARED_DEFAULTS,
+    Box,
+    Held,
+    MechanismName,
+    Outcome,
+    Shared,
+    Stroke,
+    WorkingMode,
+)
 
 
 def indices(
@@ -17,25 +26,14 @@ def indices(
         tuple[str, ...],
         Parameter(consume_multiple=True, metavar="X Y Z", help="One pose, one value per coordinate."),
     ] = (),
-    mode: Annotated[
-        str | None, Parameter(help="Working mode, as ++-++; the default of the mechanism's file if left out.")
-    ] = None,
+    mode: WorkingMode = None,
     length: Annotated[
         str | None,
         Parameter(metavar="LENGTH", help="Divide lengths by this one, or by the one that is most 'isotropic'."),
     ] = None,
-    box: Annotated[
-        tuple[str, ...],
-        Parameter(metavar="NAME=LOW:HIGH", help="Where to look along one coordinate; the file's box if left out."),
-    ] = (),
-    stroke: Annotated[
-        tuple[str, ...],
-        Parameter(metavar="[NAME=]LOW:HIGH", help="Limits of one input, or of all inputs if no name is given."),
-    ] = (),
-    at: Annotated[
-        tuple[str, ...],
-        Parameter(metavar="NAME=VALUE", help="Hold one coordinate; of a pose with more than three, angles as at home."),
-    ] = (),
+    box: Box = (),
+    stroke: Stroke = (),
+    at: Held = (),
     resolution: Annotated[str, Parameter(metavar="CELLS", help="Cells of the workspace, 32 if left out.")] = "32",
     points: Annotated[str, Parameter(metavar="COUNT", help="Points in its box, 4096 if left out.")] = "4096",
     shared: Shared = SHARED_DEFAULTS,

@@ -55,7 +55,9 @@ def new(
     r"""Write a mechanism's file to begin with: a copy, or a draft of chains.
 
     A draft needs no dimensions. Joints get default places, each a parameter;
-    limbs that are turns of one another about z become one template. The file
+    limbs that are turns of one another about z become one template. Axes with
+    one label (R[x]@O) meet in one point, also those of different limbs; --limb
+    gives each limb its own, unless all its axes run through it. The file
     is sound, its loops close at home whatever its parameters are, and it has
     the topology of the chains: where that cannot be had, it says so and writes
     nothing. For the notation of chains see `assur topology --help`.
@@ -64,6 +66,7 @@ def new(
         assur new my.toml --from delta_4s
         assur new my.toml --limb "R[z] R[z] R[z]" --count 3
         assur new my.toml --limb "U P S" --count 6
+        assur new my.toml --limb "R[z]@O R[0.8,0,0.6]@O R[0,0.8,0.6]@O"
         assur new my.toml --chain "R[z] R[z] R[z]" --chain "R[z] R[z]"
         assur new my.toml --chain "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]" \
             --chain "P[y] P(4R)[y] P(4R)[x]"

@@ -31,6 +31,25 @@ Crossed = Annotated[
     bool, Parameter(help="On the joint graph: let parallelograms cross over (a mode then names them, as +++~Pa1).")
 ]
 
+WorkingMode = Annotated[
+    str | None, Parameter(help="Working mode, as ++-++; the default of the mechanism's file if left out.")
+]
+
+Box = Annotated[
+    tuple[str, ...],
+    Parameter(metavar="NAME=LOW:HIGH", help="Where to look along one coordinate; the file's box if left out."),
+]
+
+Stroke = Annotated[
+    tuple[str, ...],
+    Parameter(metavar="[NAME=]LOW:HIGH", help="Limits of one input, or of all inputs if no name is given."),
+]
+
+Held = Annotated[
+    tuple[str, ...],
+    Parameter(metavar="NAME=VALUE", help="Hold one coordinate; of a pose with more than three, angles as at home."),
+]
+
 
 @Parameter(name="*", group=SHARED)
 @dataclass(frozen=True)

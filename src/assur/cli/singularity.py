@@ -7,7 +7,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from assur.cli.numbers import numbers
-from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared, WorkingMode
 
 
 def singularity(
@@ -18,9 +18,7 @@ def singularity(
         tuple[str, ...],
         Parameter(consume_multiple=True, metavar="X Y Z", help="The pose to be judged, one value per coordinate."),
     ] = (),
-    mode: Annotated[
-        str | None, Parameter(help="Working mode, as ++-++; the default of the mechanism's file if left out.")
-    ] = None,
+    mode: WorkingMode = None,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """What a configuration is: regular, or singular of which kind.

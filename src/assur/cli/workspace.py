@@ -6,32 +6,30 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+from assur.cli.options import (
+    SHARED_DEFAULTS,
+    Box,
+    Held,
+    MechanismName,
+    Outcome,
+    Shared,
+    Stroke,
+    WorkingMode,
+)
 
 
 def workspace(
     mechanism: MechanismName,
     /,
     *,
-    mode: Annotated[
-        str | None, Parameter(help="Working mode, as ++-++; the default of the mechanism's file if left out.")
-    ] = None,
-    box: Annotated[
-        tuple[str, ...],
-        Parameter(metavar="NAME=LOW:HIGH", help="Where to look along one coordinate; the file's box if left out."),
-    ] = (),
-    stroke: Annotated[
-        tuple[str, ...],
-        Parameter(metavar="[NAME=]LOW:HIGH", help="Limits of one input, or of all inputs if no name is given."),
-    ] = (),
+    mode: WorkingMode = None,
+    box: Box = (),
+    stroke: Stroke = (),
     resolution: Annotated[
         str | None,
         Parameter(metavar="CELLS", help="Cells along each coordinate; 64, or 20 if followed in space."),
     ] = None,
-    at: Annotated[
-        tuple[str, ...],
-        Parameter(metavar="NAME=VALUE", help="Hold one coordinate; of a pose with more than three, angles as at home."),
-    ] = (),
+    at: Held = (),
     section: Annotated[
         tuple[str, ...],
         Parameter(metavar="VALUE", help="Cut across the last coordinate; the file's sections if left out."),

@@ -12,6 +12,8 @@ from assur.figures.canvas import Canvas, View
 from assur.figures.style import GREY, INK, PALE, SMALL, TEXT
 
 FloatArray = NDArray[np.float64]
+CROWDED = 14.0
+"""Nearer than this to the end of another axis, in points, two numbers would stand on one another."""
 
 
 def draw_box(page: Canvas, view: View, low: FloatArray, high: FloatArray) -> None:
@@ -37,22 +39,37 @@ def draw_axes(
     A tick says what it is times `per` (3,): the number that stands there for one unit of what is drawn.
     """
     middle = view((low + high) / 2)
-    for axis in range(3):
-        base = _edge(view, low, high, axis)
-        ends = np.array([base, base])
-        ends[0, axis], ends[1, axis] = low[axis], high[axis]
-        flat = view(ends)
+    edges = [_ends(view, low, high, axis) for axis in range(3)]
+    for axis, (ends, flat) in enumerate((ends, view(ends)) for ends in edges):
+        others = np.concatenate([view(edges[k]) for k in range(3) if k != axis])
         away = _outwards(flat, middle)
         page.line(flat, 0.7, INK, 3)
         first, last = low[axis] * per[axis], high[axis] * per[axis]
         for tick in MaxNLocator(5, steps=[1, 2, 3, 5, 10]).tick_values(first, last):
             if first - 1e-9 <= tick <= last + 1e-9:
-                at = base.copy()
+                at = ends[0].copy()
                 at[axis] = tick / per[axis]
                 foot = view(at)
                 page.line(np.array([foot, foot + 3 * away]), 0.5, INK, 3)
-                page.text(foot + 8.5 * away, f"{tick:g}".replace("-", "−"), fontsize=SMALL)
+                aside = _aside(foot, flat, others)
+                page.text(foot + 8.5 * away + aside, f"{tick:g}".replace("-", "−"), fontsize=SMALL)
         page.text(flat.mean(axis=0) + 23 * away, titles[axis], fontsize=TEXT)
+
+
+def _aside(foot: FloatArray, flat: FloatArray, others: FloatArray) -> FloatArray:
+    """How far a number moves along its own axis where another axis ends, too, so that both can be read."""
+    if np.min(np.linalg.norm(others - foot, axis=1)) > CROWDED:
+        return np.zeros(2)
+    way = flat.mean(axis=0) - foot
+    return np.asarray(CROWDED / 2 * way / max(float(np.linalg.norm(way)), 1e-9))
+
+
+def _ends(view: View, low: FloatArray, high: FloatArray, axis: int) -> FloatArray:
+    """Ends (2, 3) of the edge on which an axis is drawn."""
+    base = _edge(view, low, high, axis)
+    ends = np.array([base, base])
+    ends[0, axis], ends[1, axis] = low[axis], high[axis]
+    return ends
 
 
 def _edge(view: View, low: FloatArray, high: FloatArray, axis: int) -> FloatArray:

@@ -23,6 +23,7 @@ from assur.kinematics.position import direct, inverse
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import with_parameters
 from assur.performance.dexterity import GlobalIndex, global_condition_index
+from assur.performance.indices import Indices, indices, indices_at
 from assur.singularity.examples import SingularExample, singular_examples
 from assur.topology.facts import Topology
 from assur.workspace.region import Workspace, workspace
@@ -148,6 +149,19 @@ class Context:
     def near(self) -> Manifold:
         """What of it is within its stated distance of a parallel-singular surface."""
         return near_solid(self.workspace)
+
+    def indices_at(self, points: FloatArray) -> Indices:
+        """Every index at points (..., free coordinates) of the workspace, in its mode.
+
+        >>> from assur.model.registry import load_record
+        >>> here = Context(load_record("fivebar")).indices_at(np.array([[0.0, 200.0], [0.0, 5000.0]]))
+        >>> np.isfinite(here["condition"]).tolist()
+        [True, False]
+        """
+        found, flat, batch = self.workspace, points.reshape(-1, points.shape[-1]), points.shape[:-1]
+        if self.record.closed_form:
+            return indices(self.record, found.slice.poses(flat).reshape(*batch, -1), found.mode)
+        return indices_at(self.record, found.joints(flat).reshape(*batch, -1))
 
     @cached_property
     def mean_index(self) -> GlobalIndex:

@@ -19,7 +19,8 @@ from assur.figures.coordinates import drawn_span, dress, plane_words, symbol, va
 from assur.figures.plots import mode_words, no_workspace, outline
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import GREY, INK, PAGE, TEXT, new_figure
-from assur.performance.dexterity import Dexterity, dexterity
+from assur.performance.indices import INDICES
+from assur.performance.scaling import factor_unit, is_mixed
 
 FloatArray = NDArray[np.float64]
 NODES = 160
@@ -29,39 +30,44 @@ SHOWN = 0.75
 
 @dataclass(frozen=True)
 class Measure:
-    """What is mapped: its key in the data, its symbol, its values, and where its colours end."""
+    """What is mapped: its key in the data, its name among the indices, and where its colours end."""
 
     key: str
-    symbol: str
-    of: Callable[[Dexterity], FloatArray]
+    name: str
     quantile: float
 
+    @property
+    def symbol(self) -> str:
+        """In LaTeX."""
+        return INDICES[self.name].symbol
 
-INDEX = Measure("index", r"1/\kappa", lambda found: found.condition_index, 1.0)
-FASTEST = Measure("largest", r"\sigma_{\max}", lambda found: found.velocity_factors[..., 0], SHOWN)
-SLOWEST = Measure("smallest", r"\sigma_{\min}", lambda found: found.velocity_factors[..., -1], 1.0)
+
+INDEX = Measure("index", "condition", 1.0)
+FASTEST = Measure("largest", "largest", SHOWN)
+SLOWEST = Measure("smallest", "smallest", 1.0)
 
 
 def _missing(context: Context) -> str:
     if no_workspace(context):
         return no_workspace(context)
-    record = context.record
-    kinds = {item.coordinate.kind for item in record.inputs}
-    pose = {name in ("x", "y", "z") for name in record.platform.pose}
-    return "" if len(kinds) == 1 and len(pose) == 1 else "lengths and angles are mixed, so the index has no meaning"
+    if not is_mixed(context.record):
+        return ""
+    return "lengths and angles mix: the figure manipulability maps it, lengths over a stated characteristic length"
 
 
 def _caption(context: Context) -> str:
-    found = context.mean_index
-    mean = (
-        ""
-        if found.value is None or found.error is None
-        else f" Its mean over the workspace is {found.value:.4f} ± {found.error:.4f}."
-    )
     return (
         f"Local condition index $1/\\kappa$ of $J = J_p^{{-1}}J_q$ ({mode_words(context)}):"
-        f" 0 is singular, 1 isotropic.{mean}"
+        f" 0 is singular, 1 isotropic.{_mean(context)}"
     )
+
+
+def _mean(context: Context) -> str:
+    """Of a followed workspace none is told: each pose would have to be searched for."""
+    found = context.mean_index if context.record.closed_form else None
+    if found is None or found.value is None or found.error is None:
+        return ""
+    return f" Its mean over the workspace is {found.value:.4f} ± {found.error:.4f}."
 
 
 def planes(context: Context) -> list[tuple[str, str, str, float]]:
@@ -78,9 +84,12 @@ def planes(context: Context) -> list[tuple[str, str, str, float]]:
 
 def _factor_caption(measure: Measure, which: str, end: str) -> Callable[[Context], str]:
     def caption(context: Context) -> str:
+        unit = factor_unit(context.record, None)
+        of_unit = f" in {unit}" if unit else ""
         return (
-            f"{which} velocity factor ${measure.symbol}$, the {which.lower()} singular value of $J = J_p^{{-1}}J_q$"
-            f" ({mode_words(context)}): by how much the inputs' speed is multiplied in that direction.{end}"
+            f"{which} velocity factor ${measure.symbol}${of_unit}, the {which.lower()} singular"
+            f" value of $J = J_p^{{-1}}J_q$ ({mode_words(context)}): by how much the inputs' speed is multiplied in"
+            f" that direction.{end}"
         )
 
     return caption
@@ -119,7 +128,8 @@ def _draw(context: Context, measure: Measure) -> Drawing:
         ((width - right + 5.0) / width, bottom / height, 3.5 / width, (height - bottom - 5.0) / height)
     )
     colorbar: Colorbar = figure.colorbar(image, cax=bar)
-    colorbar.set_label(f"${measure.symbol}$", fontsize=TEXT)
+    unit = "" if measure is INDEX else factor_unit(context.record, None)
+    colorbar.set_label(f"${measure.symbol}$" + (f" ({unit})" if unit else ""), fontsize=TEXT)
     colorbar.set_ticks([0.0, *_levels(top)])
     for level in _levels(top):
         colorbar.ax.axhline(level, color="white", linewidth=0.6)
@@ -137,9 +147,7 @@ def _values(
     grid[..., box.axis(plane[1])] = ys[:, None]
     if plane[2]:
         grid[..., box.axis(plane[2])] = plane[3]
-    poses = context.workspace.slice.poses(grid.reshape(-1, len(box.names)))
-    values = measure.of(dexterity(context.record, poses, context.workspace.mode))
-    return xs, ys, values.reshape(NODES, NODES)
+    return xs, ys, context.indices_at(grid)[measure.name]
 
 
 def _map(

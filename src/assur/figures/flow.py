@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 from assur.figures.canvas import POINTS, Canvas, canvas
 from assur.figures.context import Context
 from assur.figures.layers import Layout, layout, rows
-from assur.figures.letters import letter, mathematics
+from assur.figures.letters import letter, mathematics, words
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import GREY, INK, LETTER, SMALL, new_figure
+from assur.model.closed_form import Eliminant, PolynomialSystem
 
 FloatArray = NDArray[np.float64]
 Kind = Literal["input", "quantity", "condition", "pose"]
@@ -61,21 +62,28 @@ def boxes(context: Context) -> dict[str, Box]:
     for item in quantities:
         if item.problem != "inverse" and item.name not in plan.leave_out:
             equation = item.equation.split(", ")[0]
-            latex = item.latex or mathematics(item.name) or item.name
+            latex = item.latex or _words(item.name)
             found[item.name] = Box(item.name, "quantity", latex, item.needs, equation)
     for name, step in plan.steps.items():
         known = found.get(name)
         needs = tuple(step.needs if step.needs is not None else known.needs if known else ())
         kind: Kind = "condition" if step.condition else "pose" if name in record.platform.pose else "quantity"
-        latex = step.latex or (known.latex if known else mathematics(name) or name)
+        latex = step.latex or (known.latex if known else _words(name))
         equation = step.equation or (known.equation if known else "")
         found[name] = Box(name, kind, latex, (*needs, *step.adds), equation, step.sign)
     return found
 
 
+def _words(name: str) -> str:
+    """A name as mathematics: a letter, or upright words."""
+    return mathematics(name) or r"\mathrm{" + words(name).replace(" ", r"\ ") + "}"
+
+
 def _missing(context: Context) -> str:
     if context.record.closed_form is None:
         return "the mechanism has no closed form"
+    if context.record.closed_form.direct is None:
+        return "the direct problem has no closed form"
     found = boxes(context)
     unknown = [want for box in found.values() for want in box.needs if want not in found]
     if unknown:
@@ -87,13 +95,27 @@ def _missing(context: Context) -> str:
 
 def _caption(context: Context) -> str:
     found = boxes(context).values()
-    signs = [box.sign for box in found if box.sign]
-    number = len(signs)
+    conditions = [box.equation for box in found if box.kind == "condition"]
+    numbers = ", ".join(f"Eq. {equation}" for equation in conditions if equation)
+    of_source = f" ({numbers})" if numbers else ""
+    rest = f" Dashed boxes are geometric constraints{of_source}." if conditions else ""
+    return f"Flow of the direct solution: from the inputs (top) to the pose (bottom).{_count(context)}{rest}"
+
+
+def _count(context: Context) -> str:
+    """How many poses come out: by choices of sign, roots of a polynomial, or solutions of a system."""
+    form = context.record.closed_form
+    if form is None:
+        return ""
+    if isinstance(form.direct, PolynomialSystem):
+        return f" The system of polynomials has {form.direct.degree} complex solutions."
+    number = sum(bool(box.sign) for box in boxes(context).values())
     choices = "One choice of sign gives" if number == 1 else f"{number} choices of sign give"
-    count = f" {choices} {2**number} branches." if signs else ""
-    conditions = ", ".join(f"Eq. {box.equation}" for box in found if box.kind == "condition")
-    rest = f" Dashed boxes are geometric constraints ({conditions})." if conditions else ""
-    return f"Flow of the direct solution: from the inputs (top) to the pose (bottom).{count}{rest}"
+    if isinstance(form.direct, Eliminant):
+        chosen = f" after {'one choice' if number == 1 else f'{number} choices'} of sign" if number else ""
+        most, roots = form.direct.degree, form.direct.roots
+        return f" A polynomial of degree {roots} is left{chosen}: at most {most} poses."
+    return f" {choices} {2**number} branches." if number else ""
 
 
 def _draw(context: Context) -> Drawing:

@@ -24,7 +24,7 @@ from assur.figures.plots import mode_words, no_workspace, outline
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import GREY, INK, ORANGE, PAGE, TEXT, new_figure
 from assur.model.pose import LENGTHS
-from assur.performance.indices import INDICES, Indices, indices
+from assur.performance.indices import INDICES, Indices
 from assur.performance.overall import OverallIndices, overall
 from assur.performance.transmission import GOOD
 
@@ -70,25 +70,27 @@ def field(context: Context) -> Field:
     grid[..., box.axis(first)], grid[..., box.axis(second)] = xs, ys[:, None]
     if third:
         grid[..., box.axis(third)] = level
-    poses = found.slice.poses(grid.reshape(-1, len(box.names))).reshape(NODES, NODES, -1)
+    there = context.indices_at(grid)
     polygons = found.section(level, third).polygons if third else found.projection(first, second).polygons
     held = {third: level} if third else {}
-    return Field((first, second), held, xs, ys, indices(context.record, poses, found.mode), list(polygons))
+    return Field((first, second), held, xs, ys, there, list(polygons))
 
 
 @lru_cache(maxsize=4)
-def whole(context: Context) -> OverallIndices:
-    """Means over the workspace."""
+def whole(context: Context) -> OverallIndices | None:
+    """Means over the workspace; None without a closed form, where each of its poses would have to be searched for."""
+    if context.record.closed_form is None:
+        return None
     return overall(context.record, context.workspace, POINTS)
 
 
 def _transmission_caption(context: Context) -> str:
-    found = whole(context)
     words = (
         f"Transmission indices ({mode_words(context)}): the least input transmission index, the least output"
         f" transmission index, and the least of all; 0 is singular, 1 the best. Thick lines: {GOOD:g}."
     )
-    if found.good is None:
+    found = whole(context)
+    if found is None or found.good is None:
         return words
     mean = found.values["transmission"]
     share = f"{100 * found.good.share:.1f} ± {100 * found.good.share_error:.1f} %"

@@ -57,7 +57,8 @@ def _draw(context: Context) -> Drawing:
     draw_measures(page, view, skeleton, letters)
     for name, at in lettered(skeleton).items():
         page.disc(view(at), 1.2, "black", "black", 0.3, 9.5)
-        letters.add(view(at), letter(name), clear=4.0)
+        moves = np.linalg.norm(origin - at) <= 1e-9
+        letters.add(view(at), letter("O'" if moves and name == "O" else name), clear=4.0)
     if all(np.linalg.norm(origin - at) > 1e-9 for at in lettered(skeleton).values()):
         letters.add(view(origin), letter("O'"), clear=4.0)
     _name_lengths(view, skeleton, letters)

@@ -98,7 +98,7 @@ def _plane(context: Context) -> Any:
 
 
 def _space(context: Context) -> Any:
-    """Left the region from outside, right the singular surfaces in it."""
+    """Left the region from outside, right the singular surfaces in it, where there are any."""
     found = context.workspace
     drawn = stretch(context)
     low, high = drawn * found.box.low, drawn * found.box.high
@@ -109,8 +109,10 @@ def _space(context: Context) -> Any:
     span = np.ptp(camera.project(corners), axis=0)
     panel = (PAGE - 3 * 14.0) / 2
     height = panel * float(span[1] / span[0])
-    page = canvas(PAGE, height + 26.0)
-    views = [inside(camera, corners, (14.0 + k * (panel + 14.0), 15.0, panel, height)) for k in (0, 1)]
+    panels = 2 if present(found) else 1
+    width = 14.0 + panels * (panel + 14.0)
+    page = canvas(width, height + 26.0)
+    views = [inside(camera, corners, (14.0 + k * (panel + 14.0), 15.0, panel, height)) for k in range(panels)]
     for view in views:
         draw_box(page, view, low, high)
         draw_axes(page, view, low, high, titles, per)
@@ -120,6 +122,7 @@ def _space(context: Context) -> Any:
         meshes = [(mesh_of(part.simplify(fine)), colour) for part, colour in parts if not part.is_empty()]
         solids = [surface(drawn * vertices, faces, colour) for (vertices, faces), colour in meshes]
         _paste(page, views[0], joined(solids), solid=True)
+    if panels == 2:
         for edge in creases(drawn * found.vertices, found.faces):
             page.line(views[1](edge), 0.35, GREY, 5)
     surfaces = [
@@ -127,7 +130,7 @@ def _space(context: Context) -> Any:
     ]
     if surfaces:
         _paste(page, views[1], joined(surfaces), solid=False)
-    _captions(context, page, panel)
+    _captions(context, page, panel, width)
     return page.figure
 
 
@@ -140,18 +143,19 @@ def _paste(page: Canvas, view: View, mesh: Mesh, *, solid: bool) -> None:
     page.axes.imshow(image, extent=(left, right, bottom, top), interpolation="antialiased", zorder=2, aspect="auto")
 
 
-def _captions(context: Context, page: Canvas, panel: float) -> None:
+def _captions(context: Context, page: Canvas, panel: float, width: float) -> None:
     found = context.workspace
     areas = legend_of(context, loci=False)
     lines = [
         Line2D([], [], color=LOCI[k % len(LOCI)], linewidth=4, label=condition(factor_of(context, item.factor)))
         for k, item in enumerate(present(found))
     ]
-    shown: tuple[list[Any], list[Any]] = (areas, lines)
+    shown: list[list[Any]] = [areas, lines] if lines else [areas]
     for k, handles in enumerate(shown):
         middle = 14.0 + k * (panel + 14.0) + panel / 2
-        page.text((middle * POINTS, 3.5 * POINTS), f"({chr(97 + k)})", fontsize=TEXT)
-        place = (middle / PAGE, 1.0)
+        if lines:
+            page.text((middle * POINTS, 3.5 * POINTS), f"({chr(97 + k)})", fontsize=TEXT)
+        place = (middle / width, 1.0)
         if handles:
             legend = page.axes.legend(
                 handles=handles, loc="upper center", bbox_to_anchor=place, ncols=len(handles), fontsize=SMALL

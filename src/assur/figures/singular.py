@@ -48,38 +48,48 @@ def further(context: Context) -> list[SingularExample]:
     return [item for item in context.examples if all(item is not other for other in own)]
 
 
-def _no_closed_form(context: Context) -> str:
-    return "" if context.record.closed_form else "the mechanism has no closed form, so no factors"
+def _nowhere_to_look(context: Context) -> str:
+    """Why no singular configuration is looked for; empty where one is."""
+    missing = [name for name in context.record.platform.pose if name not in context.record.box]
+    return f"the mechanism's file gives no interval for {', '.join(missing)}" if missing else ""
 
 
 def _missing(kind: str, context: Context) -> str:
-    if _no_closed_form(context) or example_of(context, kind):
-        return _no_closed_form(context)
+    if _nowhere_to_look(context) or example_of(context, kind):
+        return _nowhere_to_look(context)
+    if context.record.closed_form is None:
+        return f"no path from home met a {kind} singularity in or near the file's workspace box"
     return f"no {kind} factor vanishes in or near the file's workspace box"
 
 
 def _missing_further(context: Context) -> str:
-    return _no_closed_form(context) or (
-        "" if further(context) else "no further factor vanishes in or near the file's box"
-    )
+    if _nowhere_to_look(context) or further(context):
+        return _nowhere_to_look(context)
+    if context.record.closed_form is None:
+        return "no path from home met a further kind of singularity in or near the file's box"
+    return "no further factor vanishes in or near the file's box"
 
 
 def condition(factor: Factor) -> str:
     """E.g. "$u_3 = 0$"."""
-    return f"${factor.latex or mathematics(factor.name) or factor.name} = 0$"
+    words = rf"\mathrm{{{factor.name}}}".replace("_", r"\ ")
+    return f"${factor.latex or mathematics(factor.name) or words} = 0$"
 
 
 def _caption(kind: str, context: Context) -> str:
     example = example_of(context, kind)
     if example is None:
         return ""
+    of_path = "" if context.record.closed_form else ", at which a path from home stops"
     return (
-        f"Example of a {kind} singularity: {condition(example.factor)}, {_geometry(context, example.factor)}."
+        f"Example of a {kind} singularity{of_path}: {condition(example.factor)}, {_geometry(context, example.factor)}."
         f" {_where(context, shown(context, example))}"
     )
 
 
-def _caption_further(_context: Context) -> str:
+def _caption_further(context: Context) -> str:
+    if context.record.closed_form is None:
+        return "One configuration of each further kind of singularity at which a path from home stops."
     return (
         "One configuration for each further factor that vanishes in the file's workspace box or near it, with the"
         " factor, its kind and its geometric meaning. Where several vanish together the most severe status is given."
@@ -184,6 +194,8 @@ class _Scene:
 
 def shown(context: Context, example: SingularExample) -> SingularExample:
     """The example moved to the drawn configuration in as many pose coordinates as leave it what it is."""
+    if context.record.closed_form is None:
+        return example  # it lies where a path stopped
     home = context.pose
     size = len(example.pose)
     for count in range(size, 0, -1):

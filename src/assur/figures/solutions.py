@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.errors import UsageError
 from assur.figures.camera import oblique, plane
 from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
 from assur.figures.context import Context
@@ -58,7 +59,10 @@ def ghosts(context: Context) -> list[Ghost]:
 
 
 def _missing(context: Context) -> str:
-    return "" if context.record.closed_form else "the mechanism has no closed form, so not every solution is known"
+    try:
+        return "" if context.record.closed_form or len(context.assemblies) else "no direct solution was found"
+    except UsageError as error:
+        return error.message
 
 
 def _caption(context: Context) -> str:

@@ -20,7 +20,7 @@ from assur.kinematics.pose import platform_rates, pose_error
 from assur.model.joint_graph import Frame, child_frame, frames, joint_graph, screws
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
-from assur.numerics import least_squares, rotations
+from assur.numerics import components, least_squares, rotations
 
 FloatArray = NDArray[np.float64]
 
@@ -70,9 +70,9 @@ def _residuals(record: MechanismRecord, values: FloatArray, placed: dict[str, Fr
     for index, joint in enumerate(graph.cut):
         reached = child_frame(joint, placed[joint.parent], values[..., graph.slices[joint.name]])
         rotation, origin = placed[joint.child]
-        at_joint = (rotation @ joint.child_at) + origin
-        gaps[..., index, :3] = (reached[0] @ joint.child_at) + reached[1] - at_joint
-        error = reached[0] @ np.swapaxes(rotation, -1, -2)
+        at_joint = components.applied(rotation, joint.child_at) + origin
+        gaps[..., index, :3] = components.applied(reached[0], joint.child_at) + reached[1] - at_joint
+        error = components.product_turned_back(reached[0], rotation)
         gaps[..., index, 3:] = length * rotations.to_vector(error)
     return gaps
 
@@ -82,7 +82,11 @@ def closure_error(record: MechanismRecord, values: FloatArray) -> FloatArray:
 
     Zero (to rounding) exactly where joint values (..., n) are an assembly of the whole joint graph.
     """
-    gaps = residuals(record, values)
+    return _largest(residuals(record, values))
+
+
+def _largest(gaps: FloatArray) -> FloatArray:
+    """The largest (...) of gaps (..., v, 6), each by its length and by its rotation."""
     pairs = gaps.reshape(*gaps.shape[:-1], 2, 3)
     return np.asarray(np.max(np.linalg.norm(pairs, axis=-1), axis=(-1, -2), initial=0.0))
 
@@ -122,30 +126,49 @@ def _about_cut_joints(record: MechanismRecord, values: FloatArray) -> FloatArray
     return matrix
 
 
-def _system(record: MechanismRecord, values: FloatArray, poses: FloatArray | None) -> tuple[FloatArray, FloatArray]:
-    """Residual (N, r) and its derivative (N, r, n), exact where it vanishes: the loops, then poses (N, m) if given."""
+def closing_system(
+    record: MechanismRecord, values: FloatArray, poses: FloatArray | None
+) -> tuple[FloatArray, FloatArray]:
+    """Gaps and their derivative, exact where they vanish, at joint values (N, n): what Newton's method needs.
+
+    Returns:
+        gaps (N, r) and derivative (N, r, n), in length units: the 6 v rows of the loops as `residuals` gives them, then
+        as many rows as the pose has rates, for how far the platform is from poses (N, m), if any are given.
+
+    Example: at home the platform is where it is said to be.
+
+    >>> from assur.kinematics.home import home_values
+    >>> from assur.kinematics.pose import pose_of
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("fivebar")
+    >>> home = home_values(record)[None]
+    >>> gaps, derivative = closing_system(record, home, pose_of(record, home))
+    >>> bool(abs(gaps).max() < 1e-9), derivative.shape
+    (True, (1, 8, 5))
+    """
     graph = joint_graph(record)
     length = characteristic_length(record)
+    values = components.by_components(values)
     placed = frames(record, values)
-    gaps = _residuals(record, values, placed)
-    unit_twists = screws(record, placed, values)
-    loops = (len(values), len(graph.cut), 6, values.shape[-1])
-    twists = _loop_twists(record, unit_twists).reshape(loops)
-    derivative = np.empty_like(twists)
-    for index, joint in enumerate(graph.cut):
-        rotation, origin = placed[joint.child]
-        point = (rotation @ joint.child_at) + origin
-        loop = twists[:, index]
-        derivative[:, index, :3] = loop[:, 3:] + _moments(loop[:, :3], point)
-        derivative[:, index, 3:] = length * loop[:, :3]
-    count = 6 * len(graph.cut)
-    residual, jacobian = gaps.reshape(len(values), count), derivative.reshape(len(values), count, values.shape[-1])
-    if poses is None:
-        return residual, jacobian
+    twists = screws(record, placed, values)
     units = np.array([1.0 if name in LENGTHS else length for name in rate_names(record.platform.pose)])
-    error = pose_error(record, placed, poses, length)
-    moves = platform_rates(record, placed, unit_twists) * units[:, None]
-    return np.concatenate([residual, error], axis=1), np.concatenate([jacobian, moves], axis=1)
+    rows = 6 * len(graph.cut)
+    count = rows if poses is None else rows + len(units)
+    residual, jacobian = np.empty((len(values), count)), np.zeros((len(values), count, values.shape[-1]))
+    residual[:, :rows] = _residuals(record, values, placed).reshape(len(values), rows)
+    for index, (joint, loop) in enumerate(zip(graph.cut, graph.loops, strict=True)):
+        rotation, origin = placed[joint.child]
+        point = components.applied(rotation, joint.child_at) + origin
+        block = jacobian[:, 6 * index : 6 * index + 6]
+        for name, sense in ((joint.name, 1), *loop.items()):
+            columns = graph.slices[name]
+            angular = twists[:, :3, columns]
+            block[:, :3, columns] = sense * (twists[:, 3:, columns] + components.crossed(angular, point))
+            block[:, 3:, columns] = sense * length * angular
+    if poses is not None:
+        residual[:, rows:] = pose_error(record, placed, poses, length)
+        jacobian[:, rows:] = platform_rates(record, placed, twists) * units[:, None]
+    return residual, jacobian
 
 
 def assemble(
@@ -186,7 +209,7 @@ def assemble(
         rows = rows + first
         trial = values[rows]
         trial[:, free] = unknowns * scale
-        gaps, derivative = _system(record, trial, None if wanted is None else wanted[rows])
+        gaps, derivative = closing_system(record, trial, None if wanted is None else wanted[rows])
         return gaps / length, derivative[..., free] * (scale / length)
 
     steps = 0
@@ -203,9 +226,10 @@ def assemble(
             )
             values[block, free] = found.x * scale
             steps = max(steps, found.steps)
-    error = closure_error(record, values)
+    placed = frames(record, values)
+    error = _largest(_residuals(record, values, placed))
     if wanted is not None:
-        error = np.maximum(error, np.max(np.abs(pose_error(record, frames(record, values), wanted, length)), axis=-1))
+        error = np.maximum(error, np.max(np.abs(pose_error(record, placed, wanted, length)), axis=-1))
     error = error.reshape(start.shape[:-1])
     return Assembly(values.reshape(start.shape), error, error <= CLOSED * length, steps)
 

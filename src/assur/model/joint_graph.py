@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.model.mechanism import Joint, MechanismRecord
-from assur.numerics import rotations
+from assur.numerics import components
 from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL
 
 FloatArray = NDArray[np.float64]
@@ -83,29 +83,29 @@ def motion(joint: Joint, values: FloatArray) -> tuple[FloatArray | None, FloatAr
     None stands for no rotation and for no shift.
     """
     if joint.type is SPHERICAL:
-        return rotations.from_vector(values), None
+        return components.from_vector(values), None
     axis = joint.axes[0]
     first = values[..., 0]
     if joint.type is PRISMATIC:
         return None, first[..., None] * axis
     if joint.type is REVOLUTE:
-        return rotations.about_axis(axis, first), None
+        return components.about_axis(axis, first), None
     if joint.type is HELICAL:
-        return rotations.about_axis(axis, first), (first * joint.pitch / (2 * np.pi))[..., None] * axis
+        return components.about_axis(axis, first), (first * joint.pitch / (2 * np.pi))[..., None] * axis
     if joint.type is CYLINDRICAL:
-        return rotations.about_axis(axis, values[..., 1]), first[..., None] * axis
+        return components.about_axis(axis, values[..., 1]), first[..., None] * axis
     if joint.type is UNIVERSAL:
-        turned = rotations.about_axis(axis, first) @ rotations.about_axis(joint.axes[1], values[..., 1])
-        return turned, None
+        second = components.about_axis(joint.axes[1], values[..., 1])
+        return components.product(components.about_axis(axis, first), second), None
     raise AssertionError(f"no motion for joint type {joint.type.name}")
 
 
 def child_frame(joint: Joint, parent: Frame, values: FloatArray) -> Frame:
     """Frame of the child link, given the parent's and the joint's values (..., k)."""
     turn, shift = motion(joint, values)
-    orientation = parent[0] if turn is None else parent[0] @ turn
+    orientation = parent[0] if turn is None else components.product(parent[0], turn)
     if joint.turned:
-        orientation = orientation @ joint.turn
+        orientation = components.product(orientation, joint.turn)
     origin = parent[1] + _apply(parent[0], joint.at if shift is None else joint.at + shift)
     return orientation, origin - _apply(orientation, joint.child_at)
 
@@ -113,9 +113,9 @@ def child_frame(joint: Joint, parent: Frame, values: FloatArray) -> Frame:
 def parent_frame(joint: Joint, child: Frame, values: FloatArray) -> Frame:
     """Frame of the parent link, given the child's and the joint's values (..., k)."""
     turn, shift = motion(joint, values)
-    orientation = child[0] @ joint.turn.T if joint.turned else child[0]
+    orientation = components.product(child[0], joint.turn.T) if joint.turned else child[0]
     if turn is not None:
-        orientation = orientation @ np.swapaxes(turn, -1, -2)
+        orientation = components.product_turned_back(orientation, turn)
     origin = child[1] + _apply(child[0], joint.child_at)
     return orientation, origin - _apply(orientation, joint.at if shift is None else joint.at + shift)
 
@@ -124,8 +124,7 @@ def _apply(rotation: FloatArray, vector: FloatArray) -> FloatArray:
     """Rotated vectors (..., 3) of one vector (3,), or of one for each rotation; (3,) of zeros stay that."""
     if vector.ndim == 1 and not vector.any():
         return vector
-    product: FloatArray = rotation @ vector if vector.ndim == 1 else (rotation @ vector[..., None])[..., 0]
-    return product
+    return components.applied(rotation, vector)
 
 
 def frames(record: MechanismRecord, values: FloatArray) -> dict[str, Frame]:
@@ -136,8 +135,10 @@ def frames(record: MechanismRecord, values: FloatArray) -> dict[str, Frame]:
     graph = joint_graph(record)
     if np.ndim(values) == 0 or values.shape[-1] != len(record.coordinates):
         raise UsageError(f"joint values of shape {np.shape(values)}; {len(record.coordinates)} of them are wanted")
-    batch = values.shape[:-1]
-    placed: dict[str, Frame] = {record.base: (np.broadcast_to(np.eye(3), (*batch, 3, 3)), np.zeros((*batch, 3)))}
+    values = components.by_components(values)
+    unturned = components.zeros(values.shape[:-1], 3, 3)
+    unturned[..., range(3), range(3)] = 1.0
+    placed: dict[str, Frame] = {record.base: (unturned, components.zeros(values.shape[:-1], 3))}
     for joint, forward in graph.tree:
         near, far = (joint.parent, joint.child) if forward else (joint.child, joint.parent)
         move = child_frame if forward else parent_frame
@@ -151,46 +152,33 @@ def screws(record: MechanismRecord, placed: Mapping[str, Frame], values: FloatAr
     Rows: angular velocity, then the velocity of the body point at the base's origin.
     """
     graph = joint_graph(record)
-    batch = values.shape[:-1]
-    twists = np.zeros((*batch, 6, values.shape[-1]))
+    values = components.by_components(values)
+    twists = components.zeros(values.shape[:-1], 6, values.shape[-1])
     for name, joint in record.joints.items():
         rotation, origin = placed[joint.parent]
         point = origin + _apply(rotation, joint.at)
-        own = values[..., graph.slices[name]]
-        for column, (axis, linear) in enumerate(_local_axes(joint, own)):
-            angular = _apply(rotation, axis)
-            where = graph.slices[name].start + column
-            if linear == np.inf:  # a pure translation
-                twists[..., 3:, where] = angular
+        columns, pitches = _local_axes(joint, values[..., graph.slices[name]])
+        axes = twists[..., :3, graph.slices[name]]
+        axes[...] = components.product(rotation, columns)
+        moments = twists[..., 3:, graph.slices[name]]
+        for k, pitch in enumerate(pitches):
+            if pitch == np.inf:  # a pure translation
+                moments[..., k], axes[..., k] = axes[..., k], 0.0
             else:
-                twists[..., :3, where] = angular
-                twists[..., 3:, where] = rotations.cross(point, angular) + linear * angular
+                moments[..., k] = pitch * axes[..., k]
+        moments -= components.crossed(axes, point)
     return twists
 
 
-def _local_axes(joint: Joint, values: FloatArray) -> list[tuple[FloatArray, float]]:
-    """Per component: the axis in the parent's frame and its pitch in length per rad (inf: translation)."""
+def _local_axes(joint: Joint, values: FloatArray) -> tuple[FloatArray, tuple[float, ...]]:
+    """Axes (..., 3, k) of a joint's components in the parent's frame, and pitches in length per rad (inf: shift)."""
     if joint.type is SPHERICAL:
-        return [(axis, 0.0) for axis in _spherical_rates(values)]
-    if joint.type is PRISMATIC:
-        return [(joint.axes[0], np.inf)]
-    if joint.type is HELICAL:
-        return [(joint.axes[0], joint.pitch / (2 * np.pi))]
-    if joint.type is CYLINDRICAL:
-        return [(joint.axes[0], np.inf), (joint.axes[0], 0.0)]
+        return components.left_jacobian(values), (0.0, 0.0, 0.0)
+    first = joint.axes[0]
     if joint.type is UNIVERSAL:
-        second = rotations.about_axis(joint.axes[0], values[..., 0]) @ joint.axes[1]
-        return [(joint.axes[0], 0.0), (second, 0.0)]
-    return [(joint.axes[0], 0.0)]
-
-
-def _spherical_rates(vector: FloatArray) -> list[FloatArray]:
-    """Angular velocity per rate of each part of a rotation vector: the columns of its left Jacobian."""
-    angle = np.linalg.norm(vector, axis=-1)[..., None, None]
-    cross = rotations.skew(vector)
-    small = angle < 1e-4
-    safe = np.where(small, 1.0, angle)
-    first = np.where(small, 0.5 - angle**2 / 24, (1.0 - np.cos(safe)) / safe**2)
-    second = np.where(small, 1 / 6 - angle**2 / 120, (safe - np.sin(safe)) / safe**3)
-    rates = np.eye(3) + first * cross + second * (cross @ cross)
-    return [rates[..., :, column] for column in range(3)]
+        second = components.about_axis(first, values[..., 0]) @ joint.axes[1]
+        return np.stack([np.broadcast_to(first, second.shape), second], axis=-1), (0.0, 0.0)
+    if joint.type is CYLINDRICAL:
+        return np.stack([first, first], axis=-1), (np.inf, 0.0)
+    pitch = {PRISMATIC: np.inf, HELICAL: joint.pitch / (2 * np.pi)}.get(joint.type, 0.0)
+    return first[:, None], (pitch,)

@@ -7,13 +7,15 @@ derivatives (forward-mode differentiation) without a step size.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.numerics.intervals.interval import as_interval
+
 FloatArray = NDArray[np.float64]
-Real: TypeAlias = "FloatArray | float"
+Real: TypeAlias = "FloatArray | float | Any"  # or an interval
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +97,22 @@ class Duals:
         root = np.sqrt(np.maximum(value, 0.0))
         slope = 0.5 / np.where(root > 0.0, root, np.nan)
         return Dual(root, slope * derivative)
+
+
+class DualIntervals:
+    """Namespace for a kernel over dual numbers whose parts are intervals: derivatives bounded over a box.
+
+    >>> from assur.numerics.intervals.interval import Interval
+    >>> slope = DualIntervals().sqrt(Dual(Interval.of(4.0, 9.0), Interval.of(1.0))).derivative
+    >>> float(slope.low.round(6)), float(slope.high.round(6))
+    (0.166667, 0.25)
+    """
+
+    def sqrt(self, radicand: Dual | Real, /) -> Dual:
+        """Root of max(radicand, 0); its derivative is not defined where the radicand may be zero or negative."""
+        value, derivative = _parts(radicand)
+        root = as_interval(value).sqrt()
+        return Dual(root, derivative * (0.5 / root))
 
 
 def _parts(number: Dual | Real) -> tuple[Real, Real]:

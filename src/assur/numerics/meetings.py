@@ -10,6 +10,11 @@ from typing import Any
 
 from assur.numerics.vectors import Number, Pair, Vector, add, cross, dot, scaled, subtract
 
+TINY = 1e-30
+"""What a line through centres that all coincide is taken along Z by: beside any other length it is nothing."""
+MANY = 1e9
+"""Makes a distance between centres that is not zero count for more than any radius."""
+
 
 def angle_with(ns: Any, a: Number, b: Number, c: Number, sign: Number) -> tuple[Pair, Number]:
     """The angle with a cos + b sin = c as (cosine, sine), and the radicand a^2 + b^2 - c^2.
@@ -63,36 +68,41 @@ def three_spheres(
 def coincident_spheres(
     ns: Any, centres: tuple[Vector, Vector, Vector], square: Number, across: Vector, turn: Pair
 ) -> tuple[Vector, Number]:
-    """A point at one distance from three centres of which two coincide: it runs on a circle.
+    """A point at one distance from three centres in one line: it runs on a circle where two of them coincide.
 
     Args:
         ns: the namespace of the kernel.
-        centres: three points, any two of them the same, the third another.
+        centres: three points in one line, two of them the same. Where all are, the point is free on a sphere, and the
+            circle is the one about Z.
         square: square of the radius.
-        across: a vector that is not parallel to the line through the centres.
+        across: a vector that is parallel neither to the line through the centres nor to Z.
         turn: (cosine, sine) of the angle along the circle.
 
     Returns:
-        The point; the radicand: the square of the circle's radius.
+        The point; the radicand: the square of the circle's radius. It is negative too where the centres are all apart,
+        because no point has the same distance from three points of a line.
 
     Example:
         >>> from assur.numerics.number_types import Floats
         >>> centres = ((0, 0, 0), (0, 0, 2), (0, 0, 0))
         >>> point, radicand = coincident_spheres(Floats(), centres, 10, (1, 0, 0), (1, 0))
-        >>> [float(part) for part in point], radicand
+        >>> [float(part) for part in point], float(radicand)
         ([0.0, 3.0, 1.0], 9.0)
     """
     first, second, third = centres
     u, v = subtract(second, first), subtract(third, first)
-    # one of u, v, u - v is zero, so u + v is not; and (point - first) . u = u^2 / 2, the same for v
-    axis = add(u, v)
-    length = dot(axis, axis)
-    foot = scaled(axis, (dot(u, u) + dot(v, v)) / (2 * length))
-    radicand = square - dot(foot, foot)
+    w = subtract(u, v)
+    # one of u, v, w is zero, so u + v is not, unless all are; and (point - first) . u = u^2 / 2, the same for v
+    axis = add(add(u, v), (0, 0, TINY * ns.sqrt(square)))
+    along = dot(axis, axis)
+    first_gap, second_gap, third_gap = dot(u, u), dot(v, v), dot(w, w)  # two are equal and one is zero
+    foot = scaled(axis, (first_gap + second_gap) / (2 * along))
+    apart = first_gap * second_gap * third_gap / (square * square)
+    radicand = square - (first_gap + second_gap + third_gap) / 8 - MANY * apart
     level = cross(axis, across)
     width = dot(level, level)
     right = scaled(level, turn[0] * ns.sqrt(radicand) / ns.sqrt(width))
-    up = scaled(cross(axis, level), turn[1] * ns.sqrt(radicand) / (ns.sqrt(length) * ns.sqrt(width)))
+    up = scaled(cross(axis, level), turn[1] * ns.sqrt(radicand) / (ns.sqrt(along) * ns.sqrt(width)))
     return add(add(first, foot), add(right, up)), radicand
 
 

@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from assur.numerics.intervals.interval import Interval, as_interval
+
 
 class Floats:
     """Float arrays. Below zero the root is 0: whether a branch exists is read off its margins.
@@ -38,6 +40,19 @@ class Extended:
         """Sign of the radicand times the root of its magnitude."""
         root: NDArray[np.float64] = np.copysign(np.sqrt(np.abs(radicand)), radicand)
         return root
+
+
+class Intervals:
+    """Intervals over arrays; a plain number is exact. The root is that of `Floats`, so that it encloses it.
+
+    >>> root = Intervals().sqrt(3)
+    >>> bool(root.contains(3**0.5)), float(root.width) < 1e-15
+    (True, True)
+    """
+
+    def sqrt(self, radicand: Interval | ArrayLike, /) -> Interval:
+        """Root of max(radicand, 0), not defined where part of it is negative."""
+        return as_interval(radicand).sqrt()
 
 
 class Symbols:

@@ -2,8 +2,7 @@
 
 The algebra is used by kernels: coefficients may be arrays, intervals, symbols, dual numbers, and a plain 0 or 1. The
 roots are found outside the kernels, for whole batches. A polynomial in the cosine and the sine of an angle becomes
-one in t = tan(angle/2) by `half_angle`; there a root at infinity is the angle pi, so `real_angles` treats it as any
-other.
+one in t = tan(angle/2) by `half_angle`; there a root at infinity is the angle pi, which `angle_of` gives back.
 """
 
 from __future__ import annotations
@@ -23,8 +22,6 @@ ComplexArray = NDArray[np.complex128]
 NOTHING = 1e-200
 """A coefficient smaller than this part of the largest counts as zero."""
 POLISHING = 6
-NEARLY_REAL = 1e-6
-"""Imaginary part (in rad, or relative) up to which a root counts as real; rounding splits a double root by 1e-8."""
 
 
 def add(a: Polynomial, b: Polynomial) -> tuple[Number, ...]:
@@ -169,36 +166,12 @@ def _values(coefficients: FloatArray, at: ComplexArray) -> tuple[FloatArray, Com
     return np.abs(value), np.where(far, (degree - near_it * ratio) / safe, ratio)
 
 
-def real_angles(coefficients: ArrayLike, tolerance: float = NEARLY_REAL) -> FloatArray:
-    """Real angles (..., d) in (-pi, pi], rising, of polynomials (..., d + 1) in tan(angle/2); NaN for the other roots.
-
-    A root counts as real where the imaginary part of its angle is at most `tolerance` (rad). So a double root that
-    rounding made complex is not lost: it is given twice. A zero polynomial gives NaN: every angle is a root.
-
-    >>> (real_angles([1.0, -2.0, 1.0]) / np.pi).round(12)
-    array([0.5, 0.5])
-    """
-    angles = angle_of(roots(coefficients))
-    return np.asarray(np.sort(np.where(np.abs(angles.imag) <= tolerance, angles.real, np.nan), axis=-1))
-
-
-def real_roots(coefficients: ArrayLike, size: float = 1.0, tolerance: float = NEARLY_REAL) -> FloatArray:
-    """Real roots (..., d), rising, of polynomials (..., d + 1) in an unknown of this `size`; NaN for the other roots.
-
-    A root counts as real where its imaginary part is at most `tolerance` times its magnitude or `size`, whichever is
-    larger; so a double root is kept, and given twice. Infinite roots are NaN.
-
-    >>> real_roots([-1.0, 1.0, -1.0, 1.0])
-    array([ 1., nan, nan])
-    """
-    found = roots(coefficients)
-    finite = np.where(np.isfinite(found), found, 1j * np.inf)
-    real = np.abs(finite.imag) <= tolerance * np.maximum(np.abs(finite.real), size)
-    return np.asarray(np.sort(np.where(real, finite.real, np.nan), axis=-1))
-
-
 def angle_of(found: ComplexArray) -> ComplexArray:
-    """Twice the arctangent, with real part in (-pi, pi]; pi at infinity, no real angle at +-i."""
+    """The angles whose half has these tangents, real parts in (-pi, pi]; pi at infinity, no real angle at +-i.
+
+    >>> (angle_of(roots([1.0, -1.0, 0.0])) / np.pi).round(12).real
+    array([0.5, 1. ])
+    """
     infinite = np.isinf(found)
     finite = np.where(infinite, 0, found)
     poles = (finite == 1j) | (finite == -1j)

@@ -42,6 +42,16 @@ def cross(a: Vector, b: Vector) -> Vector:
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
+def length(ns: Any, a: Vector) -> Number:
+    """Length |a|.
+
+    >>> from assur.numerics.number_types import Floats
+    >>> float(length(Floats(), (2, 3, 6)))
+    7.0
+    """
+    return ns.sqrt(dot(a, a))
+
+
 def triple(a: Vector, b: Vector, c: Vector) -> Number:
     """Triple product a . (b x c), the determinant of three rows."""
     return dot(a, cross(b, c))
@@ -109,6 +119,15 @@ def taking(start: Vector, end: Vector) -> Matrix:
         (versine * x * y + z, cosine + versine * y * y, versine * y * z - x),
         (versine * x * z - y, versine * y * z + x, cosine + versine * z * z),
     )
+
+
+def opposite(angle: Pair) -> Pair:
+    """(cosine, sine) of an angle the other way round.
+
+    >>> opposite((0, 1))
+    (0, -1)
+    """
+    return (angle[0], -angle[1])
 
 
 def sum_of_angles(first: Pair, second: Pair) -> Pair:

@@ -17,9 +17,10 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UsageError
 from assur.kinematics import border
 from assur.kinematics.position import inverse
-from assur.kinematics.rates.velocity import velocity_map
+from assur.kinematics.rates.velocity import VelocityMap, velocity_map, velocity_map_at
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
+from assur.performance.indices import status_of
 from assur.results.json_text import plain
 
 FloatArray = NDArray[np.float64]
@@ -39,6 +40,9 @@ class Region(Protocol):
 
     def interior(self, count: int, rng: np.random.Generator) -> FloatArray:
         """Poses (N, m) of equal weight inside it, of `count` spread over its box with a shift by chance."""
+
+    def inside(self, count: int, rng: np.random.Generator) -> tuple[FloatArray, FloatArray | None]:
+        """The same, and the joint values (N, n) there where they are known; else None, and poses are solved."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +134,7 @@ def global_condition_index(
     if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 16 * SHIFTS:
         raise UsageError(f"count: {count!r} is not a whole number of at least {16 * SHIFTS}")
     rng = rng or np.random.default_rng(20190719)
-    found = [dexterity(record, region.interior(int(count) // SHIFTS, rng), region.mode) for _ in range(SHIFTS)]
+    found = [_of_region(record, *region.inside(int(count) // SHIFTS, rng), region.mode) for _ in range(SHIFTS)]
     sums = np.array([np.sum(part.condition_index[part.defined]) for part in found])
     counts = np.array([np.sum(part.defined) for part in found])
     total, missing = int(np.sum(counts)), int(sum(np.sum(~part.defined) for part in found))
@@ -142,13 +146,26 @@ def global_condition_index(
     return GlobalIndex(value, STUDENT * spread, total, missing)
 
 
+def _of_region(record: MechanismRecord, poses: FloatArray, joints: FloatArray | None, mode: str) -> Dexterity:
+    """As `dexterity`; where joint values (N, n) are known nothing is solved."""
+    if joints is None:
+        return dexterity(record, poses, mode)
+    here = velocity_map_at(record, joints)
+    return Dexterity(poses, status_of(here), *_condition(here, here.singular_output | ~here.exists))
+
+
 def _block(
     record: MechanismRecord, poses: FloatArray, mode: str | None
 ) -> tuple[NDArray[np.int8], FloatArray, FloatArray]:
     status = inverse(record, poses, mode or record.modes.default_working).status[..., 0]
     here = velocity_map(record, poses, mode)
     missing = here.singular_output | (status == Status.unreachable) | (status == Status.undecided)
+    return status, *_condition(here, missing)
+
+
+def _condition(here: VelocityMap, missing: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
+    """Condition indices (N,) and velocity factors (N, k), NaN where `missing`."""
     factors = np.where(missing[:, None], np.nan, here.velocity_factors)
     # a J without any motion at all has index 0
     largest = np.where(factors[:, 0] == 0.0, 1.0, factors[:, 0])
-    return status, factors[:, -1] / largest, factors
+    return factors[:, -1] / largest, factors

@@ -151,7 +151,8 @@ def indices(
     """Every index at poses (..., m) in a working mode (the file's default), by the closed form where there is one.
 
     Args:
-        record: the mechanism. Without a closed form the joint values are searched for, pose by pose: that is slow.
+        record: the mechanism. Without a closed form the joint values are searched for, pose by pose: that is slow, and
+            a workspace that was followed knows them (`overall.overall`, or `indices_at` of its `joints`).
         poses: (..., m), lengths in the mechanism's unit and rad.
         mode: signs of the working mode.
         characteristic_length: a length; "isotropic" for the one that makes J_L most isotropic over these poses; None
@@ -187,7 +188,8 @@ def indices_at(record: MechanismRecord, joints: ArrayLike, characteristic_length
     values = np.asarray(joints, dtype=float)
     batch = values.shape[:-1]
     flat = values.reshape(-1, values.shape[-1])
-    return _gathered(record, [_at_joints(record, flat)], batch, characteristic_length)
+    parts = [_at_joints(record, flat[start : start + BLOCK]) for start in range(0, max(1, len(flat)), BLOCK)]
+    return _gathered(record, parts, batch, characteristic_length)
 
 
 def maps(
@@ -232,11 +234,15 @@ def _first(solved: SolutionSet) -> FloatArray:
 def _at_joints(record: MechanismRecord, joints: FloatArray) -> Part:
     there = np.all(np.isfinite(joints), axis=-1)
     here = velocity_map_at(record, np.where(there[:, None], joints, 0.0))
-    exists = here.exists & there
+    status = np.where(there, status_of(here), Status.unreachable).astype(np.int8)
+    return _part(record, status, here, joints)
+
+
+def status_of(here: VelocityMap) -> NDArray[np.int8]:
+    """`Status` (...) of configurations by what is singular there; unreachable where loops are open."""
     kinds = 2 * here.singular_input + 3 * here.singular_output
     of_kind = np.array([Status.regular, 0, Status.serial, Status.parallel, 0, Status.comprehensive], dtype=np.int8)
-    status = np.where(exists, of_kind[kinds], Status.unreachable).astype(np.int8)
-    return _part(record, status, here, joints)
+    return np.where(here.exists, of_kind[kinds], Status.unreachable).astype(np.int8)
 
 
 def _part(record: MechanismRecord, status: NDArray[np.int8], here: VelocityMap, joints: FloatArray) -> Part:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.model.mechanism import MechanismRecord
 from assur.performance.dexterity import SHIFTS, STUDENT, Region
-from assur.performance.indices import INDICES, Indices, indices
+from assur.performance.indices import INDICES, Indices, indices, indices_at
 from assur.performance.scaling import Length
 from assur.performance.transmission import GOOD
 from assur.results.json_text import plain
@@ -140,12 +140,16 @@ def overall(
     if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 16 * SHIFTS:
         raise UsageError(f"count: {count!r} is not a whole number of at least {16 * SHIFTS}")
     rng = rng or np.random.default_rng(20190719)
-    shifts = [region.interior(int(count) // SHIFTS, rng) for _ in range(SHIFTS)]
+    shifts, known = zip(*(region.inside(int(count) // SHIFTS, rng) for _ in range(SHIFTS)), strict=True)
     poses = np.concatenate(shifts)
     if not len(poses):
         return OverallIndices(region.mode, 0, 0, None, "", {}, None)
     shift = np.repeat(np.arange(SHIFTS), [len(part) for part in shifts])
-    found = indices(record, poses, region.mode, characteristic_length)
+    joints = [part for part in known if part is not None]
+    if len(joints) == SHIFTS:
+        found = indices_at(record, np.concatenate(joints), characteristic_length)
+    else:
+        found = indices(record, poses, region.mode, characteristic_length)
     values = {name: _overall(found[name], poses, shift) for name in INDICES}
     return OverallIndices(
         mode=region.mode,

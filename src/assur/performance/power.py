@@ -10,8 +10,8 @@ transmission index of Chen and Angeles (2007). For a force it is the cosine of t
 rotation, and a force and a translation, have the cosine of the angle between their directions.
 
 Sources: Wang J., Wu C., Liu X.-J., Performance evaluation of parallel manipulators: Motion/force transmissibility and
-its index, Mechanism and Machine Theory 45(10), 2010, pp. 1462-1476. Chen C., Angeles J., Generalized transmission
-index and transmission quality for spatial linkages, Mechanism and Machine Theory 42(9), 2007, pp. 1225-1237.
+its index, Mechanism and Machine Theory 45(10), 2010. Chen C., Angeles J., Generalized transmission
+index and transmission quality for spatial linkages, Mechanism and Machine Theory 42(9), 2007.
 """
 
 from __future__ import annotations

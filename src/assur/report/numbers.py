@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from assur.kinematics.closure import characteristic_length
@@ -26,6 +26,23 @@ class Style:
     def written(self, value: float | None, *, angle: bool) -> str:
         """A length, or an angle in the mechanism's angle unit, without its unit."""
         return fixed(value, (4 if self.angle == "deg" else 6) if angle else self.decimals)
+
+    def words(self, values: Iterable[tuple[str, float, bool]]) -> str:
+        """Names with values and units, each (name, value, whether it is an angle).
+
+        >>> Style("mm", "deg", 2).words([("x", -1.0, False), ("phi", 30.0, True), ("qw", 1.0, False)])
+        'x = −1.00 mm, phi = 30.0000°, qw = 1.00'
+        """
+        return ", ".join(
+            f"{name} = {self.written(float(value), angle=angle)}{self._after(name, angle=angle)}"
+            for name, value, angle in values
+        )
+
+    def _after(self, name: str, *, angle: bool) -> str:
+        """The unit as it stands after a value."""
+        if name in QUATERNION:
+            return ""
+        return f" {shown_unit(self.unit)}" if not angle else "°" if self.angle == "deg" else " rad"
 
     def title(self, name: str, *, angle: bool) -> str:
         """A column's title with its unit; the components of a quaternion have none."""
@@ -51,9 +68,8 @@ def input_angles(record: MechanismRecord) -> tuple[bool, ...]:
 
 
 def pose_words(record: MechanismRecord, style: Style, pose: Sequence[float]) -> str:
-    """A pose at the border, in words: "x = 1.0000, phi = 30.0000"."""
-    parts = zip(record.platform.pose, pose, pose_angles(record), strict=True)
-    return ", ".join(f"{name} = {style.written(float(value), angle=angle)}" for name, value, angle in parts)
+    """A pose at the border, in words: "x = 1.0000 mm, phi = 30.0000°"."""
+    return style.words(zip(record.platform.pose, pose, pose_angles(record), strict=True))
 
 
 def extent_unit(record: MechanismRecord, names: Sequence[str]) -> str:

@@ -17,14 +17,16 @@ CSS_INCH = 96
 
 
 def pictures(context: figures.Context, name: str) -> tuple[Picture, ...]:
-    """The figure of that name, or none where the mechanism has none."""
+    """The figure of that name, or none where the mechanism has none; the report numbers it."""
     if name not in figures.names(context.record, context):
         return ()
     spec = next(item for item in figures.catalogue(context.record, context) if item.name == name)
     figure = figures.draw(context.record, name, context)
     width, height = (round(float(size) * CSS_INCH * ENLARGED) for size in figure.get_size_inches())
     png = _with_palette(figures.encoded(figure, "png", DOTS_PER_INCH))
-    return (Picture(spec.name, spec.number, spec.title, spec.caption, png, width, height),)
+    own = context.companion.numbers.get(name)
+    caption = f"{spec.caption} It is Figure {own} of the source." if own else spec.caption
+    return (Picture(spec.name, "", spec.title, caption, png, width, height),)
 
 
 def _with_palette(png: bytes) -> bytes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from html import escape
 
@@ -100,6 +100,7 @@ def _environment() -> jinja2.Environment:
     )
     environment.globals.update(
         blocks=blocks,
+        filled=filled,
         numeric=numeric_columns,
         filtered=filtered,
         field_facts=field_facts,
@@ -192,6 +193,19 @@ def error_text(item: Scalar) -> str:
 
 def _parts(item: Scalar) -> tuple[str, str, str]:
     return numbers.with_error(item.value or 0.0, item.error or 0.0).partition(" ± ")
+
+
+def filled(table: Table) -> Table:
+    """The table without columns in which nothing stands.
+
+    >>> filled(Table("t", ("a", "b"), (("1", ""), ("2", "")))).columns
+    ('a',)
+    """
+    kept = [k for k in range(len(table.columns)) if any(row[k] != "" for row in table.rows)]
+    if not table.rows or len(kept) == len(table.columns):
+        return table
+    rows = tuple(tuple(row[k] for k in kept) for row in table.rows)
+    return replace(table, columns=tuple(table.columns[k] for k in kept), rows=rows)
 
 
 def numeric_columns(table: Table) -> list[bool]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import itertools
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import assur
@@ -23,12 +24,13 @@ from assur.report.sections.summary import summary
 from assur.report.sections.topology import topology
 from assur.report.sections.velocity import velocity
 from assur.results.files import write_whole
-from assur.results.kinds import Section
+from assur.results.kinds import Facts, Picture, Result, Section
 from assur.workspace.region import default_resolution
 
 Progress = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
 
+KNOWN = "How the numbers are known"
 SECTIONS: tuple[tuple[str, Callable[[Findings], Section]], ...] = (
     ("In brief", summary),
     ("The mechanism", description),
@@ -39,7 +41,7 @@ SECTIONS: tuple[tuple[str, Callable[[Findings], Section]], ...] = (
     ("Workspace", reach),
     ("Dexterity", performance),
     ("Audit of the source", auditing),
-    ("How the numbers are known", basis),
+    (KNOWN, basis),
     ("Sources and versions", provenance),
 )
 """In the order of a paper; adding one is one line."""
@@ -75,18 +77,26 @@ def report_html(
 
 
 def report_page(findings: Findings, progress: Progress | None = None) -> Page:
-    """The report as sections of results, before it is rendered."""
+    """The report as sections of results, before it is rendered; one that is refused is told of among the basis."""
     tick = _ticker(len(ANALYSES) + len(SECTIONS), progress)
     for analysis in ANALYSES:
         with contextlib.suppress(*REFUSED):  # the sections that need it say why
             getattr(findings, analysis)
         tick()
-    sections = []
+    sections: dict[str, Section] = {}
+    refused: dict[str, str] = {}
     for title, make in SECTIONS:
-        sections.append(_section(title, make, findings))
+        try:
+            sections[title] = make(findings)
+        except REFUSED as error:
+            refused[title] = reason(error)
         tick()
+    if refused:
+        told = Facts("Sections that this report does not have", tuple(refused.items()))
+        sections[KNOWN] = replace(sections[KNOWN], results=(*sections[KNOWN].results, told))
     record = findings.record
-    return Page(record.title, f"assur {assur.__version__} · {record.name}", record.source, tuple(sections))
+    numbered = _numbered(sections.values(), itertools.count(1))
+    return Page(record.title, f"assur {assur.__version__} · {record.name}", record.source, numbered)
 
 
 def write_report(
@@ -102,9 +112,15 @@ def _ticker(total: int, progress: Progress | None) -> Callable[[], None]:
     return (lambda: progress(next(steps), total)) if progress else (lambda: None)
 
 
-def _section(title: str, make: Callable[[Findings], Section], findings: Findings) -> Section:
-    """A section, or the reason why it does not apply to this mechanism."""
-    try:
-        return make(findings)
-    except REFUSED as error:
-        return Section(title, absent=f"This section does not apply: {reason(error)}.")
+def _numbered(sections: Iterable[Section], numbers: Iterator[int]) -> tuple[Section, ...]:
+    """The sections with their figures numbered as they stand."""
+    found = []
+    for section in sections:
+        results: list[Result | Section] = []
+        for item in section.results:
+            if isinstance(item, Section):
+                results += _numbered([item], numbers)
+            else:
+                results.append(replace(item, number=str(next(numbers))) if isinstance(item, Picture) else item)
+        found.append(replace(section, results=tuple(results)))
+    return tuple(found)

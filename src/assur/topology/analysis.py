@@ -25,6 +25,7 @@ from assur.topology.linkages.configurations import Hold, home_is_special
 from assur.topology.linkages.edges import Edge, closure, rank
 from assur.topology.linkages.linkage import Linkage
 from assur.topology.linkages.recognition import recognised
+from assur.topology.linkages.shared_points import point_of_platform
 from assur.topology.linkages.twists import dimensions, edges, generic_values, motion_space
 from assur.topology.notation import plain_text, symbolic_text
 from assur.topology.routes import KnownLimb, Rules, both, by_rules, check_xi, limb_known
@@ -135,7 +136,8 @@ def analyse(
             hint="leave out the mode",
         )
     still, held = here.keeps_orientation, mode == "translation"
-    rules = by_rules(chains, still=still, held=held)
+    at = point_of_platform(linkage, chains or ())
+    rules = by_rules(chains, still=still, held=held, at=at)
     limbs = _limbs(here, chains or (), rules)
     order = coupling(here.collapsed, collapsed.internal)
     check_xi(chains or (), [limb.here for limb in limbs], order.loops, held=held)

@@ -45,31 +45,32 @@ class Rules:
         return tuple(item.derive() for item in whole if isinstance(item, Motion) and item.derive is not None)
 
 
-def by_rules(chains: Sequence[Chain] | None, *, still: bool, held: bool) -> Rules:
+def by_rules(chains: Sequence[Chain] | None, *, still: bool, held: bool, at: str = "") -> Rules:
     """The rules' answers.
 
     Args:
         chains: the limbs; None where the joint graph has none.
         still: whether the platform does not turn, so that limbs are in translation mode.
         held: whether this is because it was asked for, and not by the mechanism's own making.
+        at: label of the common end of the limbs where O' is; empty for a general point of the platform.
     """
     if chains is None:
         return Rules((), (), Refusal("the joint graph has no limbs: it does not reduce to chains and inner loops"))
     free = tuple(_motion(chain, "translation" if held else "free", number) for number, chain in enumerate(chains, 1))
     quiet = free if held or not still else tuple(_motion(chain, "translation", n) for n, chain in enumerate(chains, 1))
-    return Rules(free, quiet, _platform(free, "translation" if held else "free"))
+    return Rules(free, quiet, _platform(free, "translation" if held else "free", at))
 
 
 def _motion(chain: Chain, mode: Mode, number: int) -> Motion | Refusal:
     return serial(chain, mode, name=f"limb {number}")
 
 
-def _platform(limbs: Sequence[Motion | Refusal], mode: Mode) -> Motion | Refusal:
+def _platform(limbs: Sequence[Motion | Refusal], mode: Mode, at: str) -> Motion | Refusal:
     motions = [limb for limb in limbs if isinstance(limb, Motion)]
     for number, limb in enumerate(limbs, 1):
         if isinstance(limb, Refusal):
             return Refusal(f"limb {number}: {limb.reason}")
-    return motions[0] if len(motions) == 1 else parallel(motions, mode)
+    return motions[0] if len(motions) == 1 else parallel(motions, mode, at=at)
 
 
 def both(what: str, rules: Motion | Refusal, space: FloatArray) -> Known:

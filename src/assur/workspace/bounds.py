@@ -22,7 +22,8 @@ Stroke = tuple[float, float]
 Values = Mapping[str, Any]
 """By joint or joint.component: a length, an angle as (cosine, sine), a spherical joint as three rows of a rotation."""
 
-Bound = Callable[[Values], FloatArray]
+Bound = Callable[[Values], Any]
+"""A margin of joint values, of their number type."""
 
 
 def bounds(record: MechanismRecord, strokes: Mapping[str, Stroke | None] | None = None) -> dict[str, Bound]:
@@ -94,17 +95,17 @@ def _interval(
     return found
 
 
-def _length(key: str, slope: float, start: float, values: Values) -> FloatArray:
-    return slope * np.asarray(values[key], dtype=float) + start
+def _length(key: str, slope: float, start: float, values: Values) -> Any:
+    return slope * values[key] + start
 
 
-def _angle(key: str, middle: float, half: float, values: Values) -> FloatArray:
+def _angle(key: str, middle: float, half: float, values: Values) -> Any:
     cosine, sine = values[key]
-    return np.asarray(cosine * math.cos(middle) + sine * math.sin(middle) - math.cos(half), dtype=float)
+    return cosine * math.cos(middle) + sine * math.sin(middle) - math.cos(half)
 
 
-def _cone(joint: Joint, values: Values) -> FloatArray:
+def _cone(joint: Joint, values: Values) -> Any:
     axis: Sequence[float] = np.asarray(joint.cone_axis).tolist()
     tilted = [sum(entry * part for entry, part in zip(row, axis, strict=True)) for row in values[joint.name]]
     cosine = sum(entry * part for entry, part in zip(tilted, axis, strict=True))
-    return np.asarray(cosine - math.cos(joint.cone or 0.0), dtype=float)
+    return cosine - math.cos(joint.cone or 0.0)

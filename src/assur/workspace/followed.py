@@ -17,10 +17,10 @@ from assur.errors import UsageError
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import mode_signs, sign_names
 from assur.kinematics.parasitic import all_coordinates
-from assur.kinematics.paths.continuation import Continuation, continued
+from assur.kinematics.paths.continuation import Continuation, Followed, continued
+from assur.kinematics.paths.ending import Mode
 from assur.kinematics.paths.following import follow
 from assur.kinematics.paths.neighbours import working_signs
-from assur.kinematics.paths.platform_held import platform_held
 from assur.kinematics.position import inverse
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
@@ -36,15 +36,18 @@ FloatArray = NDArray[np.float64]
 REACH = "reach"
 STARTS = 24
 ROUNDS = 6
-"""Steps of the false position in which a field is brought to zero on an edge."""
+"""Steps of the false position in which a field is brought to zero on an edge, at most."""
+
+ZERO = 1e-6
+"""It counts as zero at this share of what it is at the ends."""
 
 
 @dataclass(frozen=True, eq=False)
 class FollowedField:
-    """A field over a continuation: a number (N,) of joint values (N, n)."""
+    """A field over a continuation: a number (N,) of what was followed to N points."""
 
     over: Continuation
-    of: Callable[[FloatArray], FloatArray]
+    of: Callable[[Followed], FloatArray]
 
     def __call__(self, columns: Columns) -> FloatArray:
         """The field at points whose coordinates broadcast."""
@@ -54,29 +57,51 @@ class FollowedField:
 
     def values(self, points: FloatArray) -> FloatArray:
         """The field (N,) at points (N, d)."""
-        joints = self.over.at(points).joints
-        return np.full(len(points), -1.0) if np.any(np.isnan(joints)) else self.of(joints)
+        found = self.over.at(points)
+        return np.full(len(points), -1.0) if np.any(np.isnan(found.joints)) else self.of(found)
 
     def crossing(self, start: FloatArray, end: FloatArray) -> FloatArray:
-        """Share (N,) of the way between points (N, 3) at which the field is zero, by false position (Illinois)."""
+        """Share (N,) of the way between points (N, 3) at which the field is zero, by false position (Illinois).
+
+        Where the mode ends on the way it is looked for before the end, where it does not reach the way at all nowhere:
+        the zero is interpolated.
+        """
         size = len(self.over.axes)
         start, end = start[:, :size], end[:, :size]
-        low, high = np.zeros(len(start)), np.ones(len(start))
         first, last = self.values(start), self.values(end)
         crossed = (first >= 0) != (last >= 0)
-        share, before = 0.5 * np.ones(len(start)), np.zeros(len(start), dtype=bool)
-        for turn in range(ROUNDS):
-            with np.errstate(divide="ignore", invalid="ignore"):
-                share = np.where(crossed, low + (high - low) * first / (first - last), share)
-            here = self.values(start + share[:, None] * (end - start))
-            same = (here >= 0) == (first >= 0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            share = np.where(crossed, first / (first - last), np.nan)
+        there, beyond = self.over.at(start).reached, self.over.at(end).reached
+        rows = np.flatnonzero(crossed & there & beyond)
+        share[rows] = self._zero(start[rows], end[rows], first[rows], last[rows])
+        for turned in (False, True):
+            rows = np.flatnonzero(crossed & (beyond & ~there if turned else there & ~beyond))
+            inside, outside = (end[rows], start[rows]) if turned else (start[rows], end[rows])
+            ahead, behind = (last[rows], first[rows]) if turned else (first[rows], last[rows])
+            ends = self.over.border(inside, outside)
+            found = ends * self._zero(inside, inside + ends[:, None] * (outside - inside), ahead, behind)
+            share[rows] = 1.0 - found if turned else found
+        return share
+
+    def _zero(self, start: FloatArray, end: FloatArray, first: FloatArray, last: FloatArray) -> FloatArray:
+        """Share (N,) of the way between points (N, d) with fields (N,) of different signs at which it vanishes."""
+        low, high, share = np.zeros(len(start)), np.ones(len(start)), np.full(len(start), 0.5)
+        size = np.maximum(np.abs(first), np.abs(last))
+        first, last, before = first.copy(), last.copy(), np.zeros(len(start), dtype=np.int8)
+        rows = np.arange(len(start))
+        for _ in range(ROUNDS):
+            share[rows] = low[rows] + (high[rows] - low[rows]) * first[rows] / (first[rows] - last[rows])
+            here = self.values(start[rows] + share[rows, None] * (end[rows] - start[rows]))
+            same = (here >= 0) == (first[rows] >= 0)
+            front, back = rows[same], rows[~same]
             # the end that stays for a second time counts half
-            first, last = (
-                np.where(same, here, np.where(~before & (turn > 0), 0.5 * first, first)),
-                np.where(same, np.where(before & (turn > 0), 0.5 * last, last), here),
-            )
-            low, high, before = np.where(same, share, low), np.where(same, high, share), same
-        return np.where(crossed, share, np.nan)
+            last[front[before[front] == 1]] *= 0.5
+            first[back[before[back] == -1]] *= 0.5
+            low[front], first[front], before[front] = share[front], here[same], 1
+            high[back], last[back], before[back] = share[back], here[~same], -1
+            rows = rows[np.abs(here) > ZERO * size[rows]]
+        return share
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,13 +111,10 @@ class ReachField(FollowedField):
     def values(self, points: FloatArray) -> FloatArray:
         """The measure (N,) of the serial side, -1 where a point (N, d) is not reached."""
         found = self.over.at(points)
-        values = np.full(len(points), -1.0)
-        if np.any(found.reached):
-            values[found.reached] = self.of(found.joints[found.reached])
-        return values
+        return np.where(found.reached, self.of(found), -1.0)
 
     def crossing(self, start: FloatArray, end: FloatArray) -> FloatArray:
-        """Share (N,) of the way between points (N, 3) at which the reach ends, by halving from the reached side."""
+        """Share (N,) of the way between points (N, 3) at which the reach ends."""
         size = len(self.over.axes)
         start, end = start[:, :size], end[:, :size]
         there, beyond = self.over.at(start).reached, self.over.at(end).reached
@@ -109,7 +131,7 @@ def followed_margins(
 ) -> dict[str, FollowedField]:
     """The margins of a mode that was followed: its reach, then strokes and limits."""
     record = over.record
-    found: dict[str, FollowedField] = {REACH: ReachField(over, lambda joints: platform_held(record, joints).serial)}
+    found: dict[str, FollowedField] = {REACH: ReachField(over, lambda found: found.measures[0])}
     for name, bound in bounds(record, strokes).items():
         found[name] = FollowedField(over, _of_joints(record, bound))
     return found
@@ -117,8 +139,7 @@ def followed_margins(
 
 def followed_factors(over: Continuation) -> dict[str, FollowedField]:
     """The determinant of Jp, signed; none where a mechanism has more or fewer inputs than rates of its pose."""
-    record = over.record
-    return {OUTPUT.name: FollowedField(over, lambda joints: platform_held(record, joints).output)}
+    return {OUTPUT.name: FollowedField(over, lambda found: found.measures[1])}
 
 
 def over_grid(
@@ -132,7 +153,7 @@ def over_grid(
     axes = tuple(grid.low[k] + grid.step[k] * np.arange(-1, size + 2) for k, size in enumerate(grid.cells))
     signs = _signs(record, mode)
     start, how = _start(record, mode, signs, slice_, grid)
-    return continued(record, axes, slice_.poses, start, signs, tick), how
+    return continued(Mode(record, signs, slice_.poses), axes, start, tick), how
 
 
 def _signs(record: MechanismRecord, mode: str) -> NDArray[np.int8]:
@@ -171,8 +192,8 @@ def _start(
     return None, "no pose of the mode was found to follow from"
 
 
-def _of_joints(record: MechanismRecord, bound: Bound) -> Callable[[FloatArray], FloatArray]:
-    return lambda joints: bound(_values(record, joints))
+def _of_joints(record: MechanismRecord, bound: Bound) -> Callable[[Followed], FloatArray]:
+    return lambda found: bound(_values(record, found.joints))
 
 
 def _values(record: MechanismRecord, joints: FloatArray) -> Values:

@@ -8,8 +8,7 @@ the region is the part of the mode that hangs together with home inside the box.
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -21,11 +20,12 @@ from assur.kinematics.closure import characteristic_length
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.singularity.loci import Locus, parallel_loci
-from assur.workspace.bounds import Stroke, bounds
+from assur.workspace.bounds import Stroke
 from assur.workspace.domain import Box, box_of
-from assur.workspace.fields import Field, at_points, factor_fields, margin_fields
-from assur.workspace.followed import FollowedField, followed_factors, followed_margins, over_grid
-from assur.workspace.grid import UniformGrid, grid_over
+from assur.workspace.fields import Field, at_points
+from assur.workspace.followed import FollowedField
+from assur.workspace.grid import grid_over
+from assur.workspace.mode_fields import CLOSED_FORM, Progress, mode_fields
 from assur.workspace.nearness import near_volume, triangles_of
 from assur.workspace.projections import Projection, projection
 from assur.workspace.reach import Reach
@@ -34,15 +34,9 @@ from assur.workspace.slices import MOST, Slice, slice_at
 from assur.workspace.volume import region_and_error
 
 FloatArray = NDArray[np.float64]
-Progress = Callable[[int, int], None]
-"""Called with (steps done, steps in all)."""
-
 RESOLUTION = 64
 FOLLOWED = 20
 """Cells along each coordinate by default; fewer in space where the mechanism has no closed form and is followed."""
-
-FOLLOWING, LAST = 40, 3
-"""Steps of progress: of following a mode, and of what comes after the margins."""
 
 NEAR = 0.035
 """How near to a parallel singularity is near, as a share of the characteristic length, rounded to one digit."""
@@ -82,7 +76,7 @@ class Workspace:
     faces: NDArray[np.int64] = field(repr=False)
     margins: Mapping[str, Field] = field(repr=False)
     region: Reach = field(repr=False)
-    how: str = "closed form"
+    how: str = CLOSED_FORM
 
     @property
     def parallel_singular(self) -> dict[str, Any]:
@@ -108,11 +102,16 @@ class Workspace:
 
     def interior(self, count: int, rng: np.random.Generator) -> FloatArray:
         """Poses (N, m) of equal weight inside the region: what it holds of `count` points spread over the box."""
+        return self.inside(count, rng)[0]
+
+    def inside(self, count: int, rng: np.random.Generator) -> tuple[FloatArray, FloatArray | None]:
+        """Poses (N, m) as `interior`, and of a mode that was followed its joint values (N, n) there."""
         points = self.box.spread(count, rng)
         inside = np.ones(count, dtype=bool)
         for margin in self.margins.values():
             inside &= at_points(margin, len(self.box.names), points) >= 0
-        return self.slice.poses(points[inside])
+        joints = None if self.how == CLOSED_FORM else self.joints(points)[inside]
+        return self.slice.poses(points[inside]), joints
 
     def joints(self, points: FloatArray) -> FloatArray:
         """Joint values (N, n) of the mode at points (N, free coordinates); NaN where it was not followed to.
@@ -208,7 +207,7 @@ def workspace(
         near = float(f"{NEAR * characteristic_length(record):.1g}")
     if not (isinstance(near, (int, float, np.number)) and np.isfinite(near) and near > 0):
         raise UsageError(f"near: {near!r} is not a positive distance")
-    fields = _fields(record, mode, strokes, poses, grid_over(domain, resolution), progress)
+    fields = mode_fields(record, mode, strokes, poses, grid_over(domain, resolution), progress)
     region, error = region_and_error(fields.margins, fields.factors, domain, resolution, fields.tick)
     loci = parallel_loci(record, region)
     fields.tick()
@@ -238,42 +237,6 @@ def workspace(
     return found
 
 
-@dataclass(frozen=True, eq=False)
-class _Fields:
-    """The fields of a mode, where they come from, and a function that reports one more step done."""
-
-    margins: Mapping[str, Field]
-    factors: Mapping[str, Field]
-    how: str
-    tick: Callable[[], None]
-
-
-def _fields(
-    record: MechanismRecord,
-    mode: str,
-    strokes: Mapping[str, Stroke | None] | None,
-    poses: Slice,
-    grid: UniformGrid,
-    progress: Progress | None,
-) -> _Fields:
-    if record.closed_form is not None:
-        margins = margin_fields(record, mode, strokes, poses)
-        factors = factor_fields(record, mode, poses)
-        return _Fields(margins, factors, "closed form", _ticker(2 * len(margins) + LAST, progress))
-    tick = _ticker(FOLLOWING + 2 * (1 + len(bounds(record, strokes))) + LAST, progress)
-    done = 0
-
-    def following(share: float) -> None:
-        nonlocal done
-        while done < int(share * FOLLOWING):
-            done += 1
-            tick()
-
-    over, how = over_grid(record, mode, poses, grid, following)
-    following(1.0)
-    return _Fields(followed_margins(over, strokes), followed_factors(over), how, tick)
-
-
 def _default_sections(record: MechanismRecord, box: Box) -> tuple[float, ...]:
     """The file's sections, which are values of the last coordinate of the pose, where that one varies."""
     if box.names[-1] != record.platform.pose[-1]:
@@ -299,9 +262,3 @@ def _unit(record: MechanismRecord, names: Sequence[str]) -> str:
     lengths = len(names) - angles
     powers = [(record.unit, lengths), ("rad", angles)]
     return " ".join(unit if power == 1 else f"{unit}^{power}" for unit, power in powers if power)
-
-
-def _ticker(total: int, progress: Progress | None) -> Callable[[], None]:
-    """A function that reports one more step done."""
-    steps = itertools.count(1)
-    return (lambda: progress(next(steps), total)) if progress else (lambda: None)

@@ -81,3 +81,18 @@ def test_where_the_kernel_degenerates_a_root_in_doubt_is_not_decided(found):
     found.margins["aside"] = np.where(np.arange(16) == 5, 0.0, found.margins["aside"])
     assert np.flatnonzero(decided(found, counts(4, 5))[1][0]).tolist() == [5]
     assert not np.any(decided(found, counts(2, 3))[1])
+
+
+def test_a_root_in_doubt_that_another_margin_forbids_is_no_pose():
+    """R - r = 80: the legs of 80 lie level and toward the middle, where the third would need 80, too."""
+    mechanism = assur.load("three_rps")
+    found, turned = (mechanism.direct([40.0, 80.0, 80.0], method=method) for method in ("closed form", "loops"))
+    assert (len(found), found.complete) == (len(turned), turned.complete) == (0, True)
+
+
+@pytest.mark.parametrize(("height", "open_question"), [(-1.0, False), (-1e-6, True), (0.0, True)])
+def test_a_margin_forbids_only_what_rounding_cannot_bring_back(found, height, open_question):
+    scale = found.record.values.R**2
+    found.margins["aside"] = np.where(np.arange(16) == 5, np.nan, found.margins["aside"])
+    found.margins["heights"] = np.where(np.arange(16) == 5, height * scale, found.margins["heights"])
+    assert np.flatnonzero(decided(found, counts(4, 5))[1][0]).tolist() == ([5] if open_question else [])

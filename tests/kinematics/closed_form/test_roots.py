@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from types import SimpleNamespace
 
 import numpy as np
@@ -150,3 +151,56 @@ def test_nearer_it_says_that_it_does_not_know(spread):
     found = assur.load("three_rrc", r=70.0).direct(cranks_near_flat(spread))
     assert found.overall_status == Status.undecided
     assert not found.complete
+
+
+def alike(values, crank):
+    """Poses (4, 4) of the H4 robot with all cranks at one angle: the four spheres have centres in one level plane.
+
+    The pairs give x + h c = h and y = h s. So a sphere of each needs (2 h s + E)^2 = (2 h - 2 h c)^2, which has two
+    real angles, with c + s = 1 - E/(2 h), and each of them a height on either side of the plane.
+    """
+    h, reach = values.h, values.R - values.r + values.L * np.cos(crank)
+    turn = np.arccos((1 - values.E / (2 * h)) / np.sqrt(2))
+    assert 1 + values.E / (2 * h) > np.sqrt(2)  # c - s is never so large
+    phi = np.pi / 4 + np.array([turn, turn, -turn, -turn])
+    aside = 2 * h * np.sin(phi) + values.E
+    height = np.array([1, -1, 1, -1]) * np.sqrt(values.l**2 - reach**2 - aside**2) - values.L * np.sin(crank)
+    return np.stack([h - h * np.cos(phi), h * np.sin(phi), height, phi], axis=-1)
+
+
+@pytest.mark.parametrize("crank", [-60.0, 0.0, 30.0, 45.0, 89.0])
+def test_poses_that_share_phi_are_told_apart(crank):
+    mechanism = assur.load("h4_robot")
+    found = mechanism.direct(np.radians([crank] * 4))
+    wanted = alike(mechanism.values, np.radians(crank))
+    assert found.complete
+    assert len(found) == 4
+    gaps = np.abs(found.poses[found.exists][:, None] - wanted).max(axis=-1)
+    assert np.all(gaps.min(axis=0) < 1e-7)
+
+
+def test_alike_cranks_of_the_h4_are_undecided_only_where_two_knees_coincide():
+    """Then two of the four spheres are one, and nothing but a curve or no pose at all can be left."""
+    degrees = np.array(list(itertools.product((-60, 0, 30, 45, 120, 180), repeat=4)))
+    found = assur.load("h4_robot").direct(np.radians(degrees))
+    together = np.all(degrees[:, :2] == 180, axis=1) | np.all(degrees[:, 2:] == 180, axis=1)
+    assert np.array_equal(found.overall_status == Status.undecided, together)
+
+
+def test_the_leading_coefficient_of_the_h4_is_as_said():
+    mechanism = assur.load("h4_robot", h=35.0)
+    values, cranks = mechanism.values, RANDOM.uniform(-3, 3, size=(20, 4))
+    out, down = values.R - values.r + values.L * np.cos(cranks), values.L * np.sin(cranks)
+    a, b = ((out[:, k] + out[:, k + 1], down[:, k + 1] - down[:, k]) for k in (0, 2))
+    slopes = a[1] / a[0], b[1] / b[0]
+    upright = 1 / (1 + slopes[0] ** 2 + slopes[1] ** 2)  # n_z^2
+    coefficients, _ = coefficients_of(mechanism, mechanism.closed_form.direct, cranks)
+    np.testing.assert_allclose(coefficients[:, -1], -16 * (2 * values.h / values.l) ** 8 * upright**2, rtol=1e-9)
+
+
+@pytest.mark.parametrize("apart", [1.0, 0.03, 1e-4])
+def test_roots_that_go_to_infinity_leave_no_doubt(apart):
+    """Where two knees of the H4 nearly meet, four of the eight roots do; no pose is that far away."""
+    found = assur.load("h4_robot").direct(np.radians([180 - apart, 180 + 0.3 * apart, 30, 40]))
+    assert (len(found), found.complete) == (2, True)
+    assert np.all(found.residuals[found.exists] < 1e-6)

@@ -23,7 +23,18 @@ def _system(record: MechanismRecord) -> tuple[System, dict[int, float]]:
 
 
 @pytest.mark.parametrize(
-    "name", ["zeng2019", "fivebar", "planar_3rrr", "planar_3rpr", "orthoglide", "tripteron", "delta_4s"]
+    "name",
+    [
+        "zeng2019",
+        "fivebar",
+        "planar_3rrr",
+        "planar_3rpr",
+        "orthoglide",
+        "tripteron",
+        "delta_4s",
+        "three_p2us",
+        "three_rps",
+    ],
 )
 def test_joint_values_close_the_loops_and_have_the_inputs(name: str) -> None:
     record = load_record(name)
@@ -40,6 +51,18 @@ def test_joint_values_close_the_loops_and_have_the_inputs(name: str) -> None:
 def test_rods_that_a_limb_turns_are_points_on_spheres() -> None:
     found, _ = _system(load_record("orthoglide"))
     assert [(item.kind, item.alone, item.freedoms) for item in found.items] == [("rod", True, 2)] * 3
+
+
+def test_a_platform_on_three_ball_joints_is_a_triangle_of_known_sides() -> None:
+    record = load_record("three_rps")
+    found, _ = _system(record)
+    assert [(item.kind, item.freedoms) for item in found.items] == [("circle", 1)] * 3 + [("triangle", 3)]
+    side = np.sqrt(3) * record.values.r / characteristic_length(record)
+    np.testing.assert_allclose(found.items[-1].sides, side**2)
+    unknowns = solve(found).unknowns
+    p, q = (unknowns[:, list(part)].real for part in np.split(np.array(found.items[-1].columns), 2))
+    for vector in (p, q, p - q):
+        np.testing.assert_allclose(np.linalg.norm(vector, axis=1), side, atol=1e-7)
 
 
 def test_freedoms_are_columns_less_quadratic_equations() -> None:

@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 from assur.kinematics.closure import assemble
 from assur.kinematics.home import home_values
-from assur.kinematics.ordered.hinges import Stiff, Turn, rods_between_balls, turns_of_joints, turns_of_parallelograms
-from assur.model.joint_graph import frames
+from assur.kinematics.ordered.hinges import (
+    Stiff,
+    Turn,
+    middle,
+    rods_between_balls,
+    triangles_of_balls,
+    turns_of_joints,
+    turns_of_parallelograms,
+)
+from assur.model.joint_graph import frames, joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import load_record
 
@@ -34,6 +44,44 @@ def test_orientations_at_assemblies_obey_them(name: str) -> None:
             np.testing.assert_allclose(between, np.broadcast_to(np.eye(3), between.shape), atol=1e-7)
         else:
             np.testing.assert_allclose(between @ joint.axis, np.broadcast_to(joint.axis, between.shape[:-1]), atol=1e-7)
+
+
+def test_rods_of_a_p2us_and_the_crosses_of_their_joints_stay_parallel() -> None:
+    record = load_record("three_p2us")
+    alike = [turn for turn in turns_of_parallelograms(record, ("leg2.Pa",)) if isinstance(turn, Stiff)]
+    crosses = {middle(record.joints[name]) for name in ("leg2.B1", "leg2.B2")}
+    assert [{turn.parent, turn.child} for turn in alike] == [crosses, {"leg2.rod1", "leg2.rod2"}]
+    start = home_values(record) + np.random.default_rng(1).uniform(-0.3, 0.3, size=(20, len(record.coordinates)))
+    found = assemble(record, start, held=record.input_indices).values
+    slices = joint_graph(record).slices
+    angles = np.stack([found[:, slices[name]] for name in ("leg2.B1", "leg2.B2")])
+    parallel = np.linalg.norm(_rod(record, found, "leg2.rod1") - _rod(record, found, "leg2.rod2"), axis=1) < 1e-9
+    assert np.any(parallel)
+    np.testing.assert_allclose(angles[0, parallel], angles[1, parallel], atol=1e-7)
+
+
+def _rod(record: MechanismRecord, values: np.ndarray, link: str) -> np.ndarray:
+    return np.asarray(frames(record, values)[link][0][..., 2])
+
+
+def test_universal_joints_that_are_not_parallel_say_nothing_about_the_rods() -> None:
+    record = load_record("three_p2us")
+    joint = record.joints["leg1.B1"]
+    turned = dataclasses.replace(joint, axes=(joint.axes[1], joint.axes[0]))
+    other = dataclasses.replace(record, joints={**record.joints, "leg1.B1": turned})
+    assert not [turn for turn in turns_of_parallelograms(other, ("leg1.Pa",)) if isinstance(turn, Stiff)]
+
+
+def test_a_link_on_three_ball_joints_is_a_triangle() -> None:
+    record = load_record("three_rps")
+    ((link, corners),) = triangles_of_balls(record).items()
+    assert link == "platform"
+    balls = np.array([record.joints[f"leg{k}.S"].child_at for k in (1, 2, 3)])
+    assert {tuple(row) for row in corners} == {tuple(row) for row in balls}
+    six = triangles_of_balls(load_record("delta_4s"))["platform"]
+    sides = six[1:] - six[0]
+    assert np.linalg.norm(np.cross(*sides)) > 0.5 * np.prod(np.linalg.norm(sides, axis=1))  # far from being in line
+    assert triangles_of_balls(load_record("fivebar")) == {}
 
 
 def test_a_locked_joint_is_stiff() -> None:

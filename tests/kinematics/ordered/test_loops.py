@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -11,8 +13,13 @@ from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import assemble, characteristic_length, closure_error, loop_twists
 from assur.kinematics.ordered.loops import crossed_parallelograms, solve_by_loops
 from assur.kinematics.pose import pose_of
+from assur.kinematics.search import places, search
 from assur.model.mechanism import MechanismRecord
 from assur.model.points import point
+from assur.model.registry import names
+from assur.synthesis.drafting.copying import copied
+from assur.synthesis.drafting.drafting import drafted
+from assur.topology.notation import parse_chains
 
 TABLE_1 = (162.6907, -143.3209, -24.6776)
 
@@ -30,11 +37,11 @@ def test_the_papers_mechanism_has_the_four_poses_of_its_closed_form() -> None:
 
 COMPLETE = (
     *("fivebar", "planar_3rrr", "planar_3rpr", "zeng2019", "tripteron", "three_crr", "three_rrc"),
-    *("orthoglide", "linear_delta_4r", "tsai_platform", "delta_4s", "linear_delta_4s"),
+    *("orthoglide", "linear_delta_4r", "tsai_platform", "delta_4s", "linear_delta_4s", "three_p2us"),
 )
 
 
-@pytest.mark.parametrize("name", COMPLETE)
+@pytest.mark.parametrize("name", [*COMPLETE, "three_rps"])
 def test_direct_problem_agrees_with_the_closed_form(name: str) -> None:
     mechanism = assur.load(name)
     found = solve_by_loops(mechanism, inputs_of(mechanism, mechanism.home_values))
@@ -46,7 +53,7 @@ def test_direct_problem_agrees_with_the_closed_form(name: str) -> None:
     assert np.max(np.min(gaps, axis=1)) < 1e-6
 
 
-@pytest.mark.parametrize("name", COMPLETE)
+@pytest.mark.parametrize("name", [*COMPLETE, "three_rrrp4r"])
 def test_inverse_problem_agrees_with_the_closed_form(name: str) -> None:
     mechanism = assur.load(name)
     pose = pose_of(mechanism, mechanism.home_values)
@@ -183,11 +190,113 @@ def test_crossed_parallelograms_are_shown_on_demand() -> None:
     assert len(kinds) == 32  # by independent starts on the whole joint graph
 
 
-def test_what_is_no_system_of_circles_says_so() -> None:
-    mechanism = assur.load("three_rps")
+REFUSED = {
+    "gough_stewart": "platform carries a point outside the plane of three ball joints",
+    "h4_robot": "bar1 turns about more than one direction",
+    "three_upu": "leg1.A's cross turns about more than one direction",
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_is_no_system_of_circles_says_so(name: str) -> None:
+    mechanism = assur.load(name)
     found = solve_by_loops(mechanism, inputs_of(mechanism, mechanism.home_values))
     assert (len(found.joints), found.complete) == (0, False)
-    assert "platform hangs on ball joints" in found.right
+    assert REFUSED[name] in found.right
+
+
+def test_the_direct_problem_is_complete_for_15_of_18_mechanisms() -> None:
+    complete = {*COMPLETE, "three_rps", "three_rrrp4r"}
+    assert (len(complete), complete | {*REFUSED}) == (15, {*names()})
+
+
+def test_a_platform_on_three_circles_has_the_poses_of_its_two_quartics() -> None:
+    mechanism = assur.load("three_rps")
+    rng = np.random.default_rng(4)
+    counts = set()
+    for legs in [*rng.uniform(150, 400, size=(12, 3)), (900.0, 50.0, 60.0), *LEGS_ALIKE]:
+        found = solve_by_loops(mechanism, legs)
+        closed = mechanism.direct(legs)
+        assert found.complete
+        assert (len(found.joints), found.searched) == (len(closed), 16)
+        if not len(closed):
+            counts.add(0)
+            continue
+        ours, theirs = (places(mechanism, joints) for joints in (found.joints, closed.joints[closed.exists]))
+        gaps = np.max(np.abs(ours[:, None] - theirs), axis=2)
+        assert np.max(np.min(gaps, axis=0), initial=0.0) < 1e-4
+        counts.add(len(found.joints))
+    assert {0, 4, 8, 16} <= counts
+
+
+def test_where_two_quartics_are_undecided_three_circles_are_not() -> None:
+    mechanism = assur.load("three_rps", R=60.0, r=120.0)
+    legs = np.array([255.3, 343.9, 304.3])
+    found = solve_by_loops(mechanism, legs)
+    assert found.complete
+    assert not mechanism.direct(legs).complete
+    searched = search(mechanism, "direct", legs).joints
+    gaps = np.max(np.abs(places(mechanism, found.joints)[:, None] - places(mechanism, searched)), axis=2)
+    assert gaps.shape == (12, 12)
+    assert np.max(np.min(gaps, axis=0)) < 1e-5
+
+
+def test_a_platform_that_can_move_is_not_called_complete() -> None:
+    found = solve_by_loops(assur.load("three_rps", R=60.0, r=120.0), [300.0, 300.0, 300.0])
+    assert not found.complete
+    assert "leg1.A and leg2.A and leg3.A and platform have infinitely many values" in found.right
+
+
+LEGS_ALIKE = ((300.0, 300.0, 300.0), (387.2, 387.2, 387.2), (290.5, 210.4, 210.4), (150.0, 378.1, 378.1))
+"""Where poses share a leg's angle, so that its eliminant has double roots."""
+
+
+@pytest.mark.parametrize("inputs", [(0.93, 1.11, 0.78), (0.3, 0.7, 0.7)])
+def test_a_direct_problem_with_64_roots_has_the_poses_that_a_search_finds(inputs: tuple[float, ...]) -> None:
+    mechanism = assur.load("three_rrrp4r")
+    found = solve_by_loops(mechanism, inputs)
+    assert (found.complete, found.searched) == (True, 64)
+    searched = search(mechanism, "direct", np.array(inputs)).joints
+    kept = np.array([row for row in searched if not crossed_parallelograms(mechanism, row)])
+    ours, theirs = pose_of(mechanism, found.joints), pose_of(mechanism, kept)
+    gaps = np.linalg.norm(ours[:, None] - theirs, axis=-1)
+    assert len(ours) == len(theirs) == 4
+    assert np.max(np.min(gaps, axis=0)) < 1e-6
+
+
+DRAFTS = {
+    "rps": (["R[y] P[z] S"] * 3, 8),  # the cranks are driven: ball joints on three lines
+    "cs": (["C[x] S", "C[y] S", "C[z] S"], 16),
+    "pus": (["P[x] U S", "P[y] U S", "P[z] U S"], 16),
+    "rrp": (["R[z] R[z] P[x]"] * 3, 6),
+}
+
+
+@pytest.mark.parametrize("name", DRAFTS)
+def test_drafts_have_the_assemblies_that_a_search_finds(name: str, tmp_path: Path) -> None:
+    limbs, count = DRAFTS[name]
+    path = tmp_path / f"{name}.toml"
+    path.write_text(drafted(parse_chains(limbs), path).text, encoding="utf-8")
+    mechanism = assur.load(path)
+    inputs = inputs_of(mechanism, mechanism.home_values)
+    found = solve_by_loops(mechanism, inputs)
+    assert found.complete
+    assert f"({count})" in found.right
+    searched = search(mechanism, "direct", inputs).joints
+    gaps = np.max(np.abs(places(mechanism, found.joints)[:, None] - places(mechanism, searched)), axis=2)
+    assert gaps.shape[0] == gaps.shape[1]
+    assert np.max(np.min(gaps, axis=0)) < 1e-5
+
+
+@pytest.mark.parametrize(("name", "count"), [("three_rps", 8), ("three_p2us", 2), ("three_rrrp4r", 4)])
+def test_a_file_without_closed_form_is_solved_completely(name: str, count: int, tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(copied(name, path).text, encoding="utf-8")
+    mechanism = assur.load(path)
+    found = mechanism.direct(inputs_of(mechanism, mechanism.home_values))
+    assert mechanism.closed_form is None
+    assert (len(found), found.complete) == (count, True)
+    assert "its loops in turn" in found.right
 
 
 def test_a_pose_that_leaves_the_tilt_open_is_not_called_complete() -> None:

@@ -65,9 +65,23 @@ def test_parallelograms_of_ball_joints_keep_the_platform_from_turning() -> None:
     assert balls == [0, 0, 1, 1, 2, 2]
 
 
-def test_a_platform_on_ball_joints_is_refused_by_name() -> None:
-    with pytest.raises(NotCirclesError, match="platform hangs on ball joints"):
-        turnings(load_record("three_rps"), _locked("three_rps"), None, parallel=())
+def test_a_platform_on_three_ball_joints_is_known_by_their_centres() -> None:
+    found = turnings(load_record("three_rps"), _locked("three_rps"), None, parallel=())
+    assert (found["platform"].triangle, found["platform"].circle) == (0, None)
+    held = turnings(load_record("three_rps"), _locked("three_rps"), np.eye(3), parallel=())
+    assert held["platform"].corners is None
+
+
+def test_parallelograms_with_universal_joints_keep_the_platform_from_turning() -> None:
+    record = load_record("three_p2us")
+    found = turnings(record, _locked("three_p2us"), None, parallel=tuple(record.generalised))
+    assert found["platform"].circle is None
+    assert [found[f"leg{k}.rod{side}"].rod for k in (1, 2, 3) for side in (1, 2)] == [0, 0, 1, 1, 2, 2]
+
+
+def test_a_link_between_two_axes_is_refused_by_name() -> None:
+    with pytest.raises(NotCirclesError, match="bar1 turns about more than one direction"):
+        turnings(load_record("h4_robot"), _locked("h4_robot"), None, parallel=())
 
 
 def test_a_tilted_platform_contradicts_its_joints() -> None:

@@ -34,6 +34,18 @@ def test_where_the_plan_searches_in_one_dimension_two_loops_are_solved_together(
     assert (len(only.items), only.roots) == (4, 6)
 
 
+def test_the_plan_of_a_platform_on_three_circles_is_one_set() -> None:
+    assert assur.topology("three_rps").plan.search == 2
+    (only,) = _solved("three_rps").sets
+    assert (len(only.items), only.roots) == (4, 16)
+
+
+def test_the_plan_of_a_limb_with_two_circles_is_one_set_of_64() -> None:
+    assert assur.topology("three_rrrp4r").plan.search == 1
+    (only,) = _solved("three_rrrp4r").sets
+    assert (len(only.items), only.roots) == (6, 64)
+
+
 def test_every_item_is_solved_once() -> None:
     order = [number for item in _solved("zeng2019").sets for number in item.items]
     assert sorted(order) == list(range(5))

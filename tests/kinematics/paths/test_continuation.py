@@ -11,8 +11,10 @@ import assur
 from assur.kinematics.closure import closure_error
 from assur.kinematics.home import home_values
 from assur.kinematics.paths.continuation import continued
+from assur.kinematics.paths.ending import Mode
 from assur.kinematics.paths.neighbours import working_signs
 from assur.kinematics.pose import pose_of
+from assur.model.points import quantity
 
 RECORD = assur.load("fivebar")
 HOME = home_values(RECORD)
@@ -20,7 +22,8 @@ HOME = home_values(RECORD)
 
 def plane(count=21, record=RECORD, box=((-330.0, 330.0), (10.0, 320.0))):
     axes = tuple(np.linspace(*pair, count) for pair in box)
-    return continued(record, axes, lambda points: points, (pose_of(RECORD, HOME), HOME), working_signs(RECORD, HOME))
+    mode = Mode(record, working_signs(record, HOME), lambda points: points)
+    return continued(mode, axes, (pose_of(RECORD, HOME), HOME))
 
 
 def test_every_reached_node_is_an_assembly_of_the_mode_at_its_pose():
@@ -35,9 +38,7 @@ def test_every_reached_node_is_an_assembly_of_the_mode_at_its_pose():
 def test_without_names_of_modes_it_stays_in_the_same_branch():
     """Nothing but the sign of the determinant tells the elbows apart then."""
     bare = replace(RECORD, modes=replace(RECORD.modes, working={}, default_working=""))
-    named, found = plane(), None
-    axes = named.axes
-    found = continued(bare, axes, lambda points: points, (pose_of(RECORD, HOME), HOME), np.zeros(0, dtype=np.int8))
+    named, found = plane(), plane(record=bare)
     np.testing.assert_array_equal(found.reached, named.reached)
     np.testing.assert_allclose(found.joints[found.reached], named.joints[named.reached], atol=1e-6)
 
@@ -52,7 +53,7 @@ def test_what_is_cut_off_from_home_is_not_reached():
 
     x = 190.0
     joints = RECORD.inverse([x, low], mode="-+").joints[0]
-    found = continued(RECORD, axes, poses, (np.array([x]), joints), working_signs(RECORD, joints))
+    found = continued(Mode(RECORD, working_signs(RECORD, joints), poses), axes, (np.array([x]), joints))
     exists = RECORD.inverse(poses(axes[0][:, None]), mode="-+").exists[:, 0]
     assert np.sum(exists & (axes[0] < 0)) > 3
     assert np.sum(found.reached) > 3
@@ -66,7 +67,31 @@ def test_the_border_is_where_an_arm_is_stretched(x):
     p = RECORD.values
     exact = min(np.sqrt((p.l1 + p.l2) ** 2 - (x - side * p.g) ** 2) for side in (1, -1))
     share = found.border(np.array([[x, exact - 9.0]]), np.array([[x, exact + 5.0]]))
-    assert 14.0 * share[0] - 9.0 == pytest.approx(0.0, abs=0.01)
+    assert 14.0 * share[0] - 9.0 == pytest.approx(0.0, abs=1e-4)
+
+
+def test_on_the_edges_of_the_grid_and_of_one_twice_as_coarse_the_border_is_known():
+    found = plane()
+    p, step = RECORD.values, [axis[1] - axis[0] for axis in found.axes]
+    column = int(np.argmin(np.abs(found.axes[0])))
+    top = int(np.flatnonzero(found.reached[column])[-1])
+    exact = np.sqrt((p.l1 + p.l2) ** 2 - (abs(found.axes[0][column]) + p.g) ** 2)
+    for low, high in ((top, top + 1), (top - 1, top + 1), (top, top + 2)):
+        ends = np.array([[found.axes[0][column], found.axes[1][k]] for k in (low, high)])
+        share = found.border(ends[:1], ends[1:])[0]
+        assert ends[0, 1] + share * (high - low) * step[1] == pytest.approx(exact, abs=1e-3)
+    assert found.ends[column, top, 1] == found.border(ends[:1], ends[:1] + [0.0, step[1]])[0]
+
+
+def test_beyond_the_border_the_values_are_those_at_the_end_of_the_mode():
+    found = plane()
+    beside = np.isfinite(found.beyond[..., 0])
+    assert np.any(beside)
+    assert not np.any(beside & found.reached)
+    # an elbow is nearly straight there: the sign that names the mode nearly vanishes
+    signs = [np.abs(quantity(RECORD, formula, found.beyond[beside])) for formula in RECORD.modes.working.values()]
+    inside = [np.abs(quantity(RECORD, formula, HOME)) for formula in RECORD.modes.working.values()]
+    assert np.max(np.min(signs, axis=0)) < 0.1 * np.min(inside)
 
 
 def test_points_far_from_what_is_reached_are_not_tried_and_keep_the_nearest_values():

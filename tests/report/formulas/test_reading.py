@@ -93,7 +93,8 @@ def given_letters(record, problem, solution):
     for name, symbol in zip(sign_names(record, problem), mode, strict=True):
         itself = record.closed_form.signs[name].attribute == name
         written = name_mathml(name)
-        key = f'<mrow><mi>sgn</mi><mo>{APPLY}</mo><mspace width="0.14em"/>{written}</mrow>' if itself else written
+        bracketed = f"<mrow><mo>(</mo>{written}<mo>)</mo></mrow>"
+        key = f'<mrow><mi>sgn</mi><mo>{APPLY}</mo><mspace width="0.14em"/>{bracketed}</mrow>' if itself else written
         letters[key] = 1.0 if symbol == "+" else -1.0
     if problem == "inverse":
         return letters | pose_letters(record, solution.pose)

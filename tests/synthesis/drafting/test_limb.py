@@ -48,7 +48,7 @@ def test_axes_through_a_point_that_limbs_share_go_through_it():
     found = draft(parse_chains(LIMBS[3][:2]), LAYOUTS[0][0])
     record = read_text(document(found, Chosen("my", (), ("x",), False, (Input("leg1.A"),), {}, {})), PATH)
     placed = frames(record, np.zeros(len(record.coordinates)))
-    centre = np.array([0.0, 0.0, record.parameters["centreO_z"].value])
+    centre = np.array([0.0, 0.0, record.parameters["height"].value])
     for joint in record.joints.values():
         to_joint = placed[joint.parent][1] + joint.at - centre
         assert np.linalg.norm(np.cross(to_joint, joint.axes[0])) < 1e-10

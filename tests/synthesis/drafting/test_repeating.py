@@ -25,6 +25,22 @@ def test_a_point_is_each_limb_s_own():
     assert labels == [{"O1'", "A1"}, {"O2'", "A2"}]
 
 
+@pytest.mark.parametrize(
+    ("text", "shared"),
+    [
+        ("R[x]@O R[y]@O R[z]@O", True),
+        ("U[x,y]@O R[z]@O", True),
+        ("R[x]@O R[y]@O R[z]", False),
+        ("R[x]@O P[y] R[z]@O", False),
+        ("R[x] R[y]", False),
+    ],
+)
+def test_limbs_that_turn_about_one_point_share_it(text, shared):
+    limbs = repeated(text, 3)
+    labels = [{getattr(joint, "point", "") for joint in limb.joints} - {""} for limb in limbs]
+    assert (labels == [{"O"}] * 3) is shared
+
+
 @pytest.mark.parametrize("count", [-3, 0, 1, 61, 10**8])
 def test_a_count_has_bounds(count):
     with pytest.raises(UsageError, match="allowed: 2 to 60"):

@@ -14,12 +14,14 @@ from assur.kinematics.closed_form.branches import Branches
 from assur.kinematics.closed_form.existence import vanishes
 from assur.kinematics.closure import CLOSED, assemble, characteristic_length
 from assur.kinematics.search import distinct, in_one_turn
-from assur.kinematics.status import Status
+from assur.kinematics.status import Status, scale
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.intp]
+BEYOND_DOUBT = 1e-2
+"""Part of its scale by which a radicand is negative for certain: rounding moves n roots that meet by its n-th root."""
 
 
 def decided(found: Branches, count: IntArray) -> tuple[BoolArray, BoolArray]:
@@ -32,14 +34,17 @@ def decided(found: Branches, count: IntArray) -> tuple[BoolArray, BoolArray]:
     Returns:
         dropped (N, K): its loops stay open, or it is the pose of another root.
         unsure (N, K): there may be another pose here. That is so where an assembly was reached that is no branch, where
-        two roots lead to one pose that is not singular, where the kernel degenerates, and where three or more roots
-        lie together and not all of them are poses that are not singular.
+        two roots lead to one pose that is not singular, where the kernel degenerates and no margin forbids the branch,
+        and where three or more roots lie together and not all of them are poses that are not singular.
     """
-    degenerate = np.zeros(count.shape, dtype=bool)
+    degenerate, forbidden = np.zeros(count.shape, dtype=bool), np.zeros(count.shape, dtype=bool)
     for margin in found._margin_list:
+        value = found.margins[margin.name]
         if margin.zero == "degenerate":
-            value = found.margins[margin.name]
             degenerate |= vanishes(found.record, margin, value) | ~np.isfinite(value)
+        else:
+            forbidden |= value < -BEYOND_DOUBT * scale(found.record, margin.scale)
+    count = np.where(forbidden, 0, count)
     joints, residuals, status = found.joints, found.residuals, found.status
     dropped, unsure = np.zeros(count.shape, dtype=bool), (count > 1) & degenerate
     for row in range(len(count)):

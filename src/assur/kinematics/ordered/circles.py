@@ -4,22 +4,23 @@ A link that turns about u by psi carries a vector w to  w_u + z (w' - i u x w')/
 z = exp(i psi), z~ = 1/z, w_u the part of w along u and w' the rest: linear in z and z~ as if they were independent.
 So is a sliding length s along a fixed direction; across the axis of a link that turns, s z and s z~ are the unknowns.
 A rod on a hinge across u, turned by phi about it, is a point on a sphere: its unknowns are k z, k z~ and sin phi with
-k = cos phi; those of a rod between ball joints are the components of its direction. Every loop is three linear
-equations in these. What is left is quadratic: z z~ = 1 for a circle, (s z) z~ = z (s z~) for a slider,
-(k z)(k z~) + sin² phi = 1 and (k z) z~ = z (k z~) for a rod, length 1 for a direction.
+k = cos phi; those of a rod between ball joints are the components of its direction, and those of a platform on ball
+joints the vectors between three of their centres. Every loop is three linear equations in these. What is left is
+quadratic: z z~ = 1 for a circle, (s z) z~ = z (s z~) for a slider, (k z)(k z~) + sin² phi = 1 and (k z) z~ = z (k z~)
+for a rod, length 1 for a direction, three sides for a triangle.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.closure import characteristic_length
 from assur.kinematics.ordered.hinges import NotCirclesError, middle
+from assur.kinematics.ordered.items import Item
 from assur.kinematics.ordered.orientations import Turning
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import Joint, MechanismRecord
@@ -32,48 +33,6 @@ ComplexArray = NDArray[np.complex128]
 Turnings = Mapping[str, Turning]
 UNUSED = 1e-9
 """Coefficients below this do not occur in an equation whose lengths are over the characteristic length."""
-
-
-@dataclass(frozen=True)
-class Item:
-    """Unknowns that belong together, in columns from `first` on.
-
-    Attributes:
-        kind: "circle" (z, z~), "slider" (s z, s z~), "rod" (k z, k z~, sin phi) or "ball" (a direction's components).
-        circle: the column of its circle's z; of its own where it is one.
-        name: of the slider's joint.
-        alone: a rod whose circle occurs nowhere else: a point on a sphere.
-    """
-
-    kind: Literal["circle", "slider", "rod", "ball"]
-    first: int
-    circle: int
-    name: str = ""
-    alone: bool = False
-
-    @property
-    def columns(self) -> tuple[int, ...]:
-        """Its columns."""
-        return tuple(range(self.first, self.first + (3 if self.kind in ("rod", "ball") else 2)))
-
-    @property
-    def quadratic(self) -> tuple[tuple[tuple[float, int, int], ...], ...]:
-        """Its quadratic equations: sums of factor times column times column; column 0 is the constant 1."""
-        z, other, first, second = self.circle, self.circle + 1, self.first, self.first + 1
-        joined = ((1.0, first, other), (-1.0, z, second))
-        if self.kind == "circle":
-            return (((1.0, z, other), (-1.0, 0, 0)),)
-        if self.kind == "slider":
-            return (joined,)
-        if self.kind == "ball":
-            return ((*((1.0, column, column) for column in self.columns), (-1.0, 0, 0)),)
-        sphere = ((1.0, first, second), (1.0, first + 2, first + 2), (-1.0, 0, 0))
-        return (sphere,) if self.alone else (sphere, joined)
-
-    @property
-    def freedoms(self) -> int:
-        """How many linear equations determine it."""
-        return len(self.columns) - len(self.quadratic)
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,6 +68,13 @@ def system(
     for _ in range(1 + max((item.ball for item in turnings.values() if item.ball is not None), default=-1)):
         items.append(Item("ball", column, column, alone=True))
         column += 3
+    length = characteristic_length(record)
+    for turning in turnings.values():
+        if turning.corners is not None:
+            first, second = (turning.corners[1:] - turning.corners[0]) / length
+            sides = tuple(float(side @ side) for side in (first, second, first - second))
+            items.append(Item("triangle", column, column, alone=True, sides=sides))
+            column += 6
     slides: dict[str, int] = {}
     for name, joint in record.joints.items():
         if _slid(record, joint, locked) is not None:
@@ -119,9 +85,7 @@ def system(
         else:
             items.append(Item("slider", column, 1 + 2 * across, name))
         column += 1 if across is None else 2
-    bare = System(
-        record, np.zeros((0, column), dtype=complex), tuple(items), slides, turnings, characteristic_length(record)
-    )
+    bare = System(record, np.zeros((0, column), dtype=complex), tuple(items), slides, turnings, length)
     matrix = _equations(bare, locked, place)
     return replace(bare, matrix=matrix, items=_alone(items, matrix))
 
@@ -212,8 +176,8 @@ def _equations(bare: System, locked: Mapping[int, float], place: Mapping[str, fl
         points[far] = points[near] + (steps[joint.name] if forward else -steps[joint.name])
     rows = [points[joint.parent] + steps[joint.name] - points[joint.child] for joint in graph.cut]
     link = record.platform.link
-    point = points[link] + _carried(bare, link, record.platform.point / bare.length)
     for name, value in place.items():
+        point = points[link] + _carried(bare, link, record.platform.point / bare.length)
         row = point[[LENGTHS.index(name)]].copy()
         row[:, 0] -= value / bare.length
         rows.append(row)
@@ -235,9 +199,17 @@ def _step(bare: System, joint: Joint, slid: float | None) -> ComplexArray:
 
 
 def _carried(bare: System, link: str, vector: FloatArray) -> ComplexArray:
-    """A vector (3,) fixed in a link, as (3, 1 + c) on (1, unknowns)."""
+    """A vector (3,) fixed in a link, as (3, 1 + c) on (1, unknowns); of a triangle, the vector from corner 1 to it."""
     turning = bare.turnings[link]
     row = np.zeros((3, bare.matrix.shape[1]), dtype=complex)
+    if turning.corners is not None:
+        corners = turning.corners / bare.length
+        sides = (corners[1:] - corners[0]).T
+        shares = np.linalg.pinv(sides) @ (vector - corners[0])
+        if np.linalg.norm(sides @ shares - (vector - corners[0])) > UNUSED:
+            raise NotCirclesError(f"{link} carries a point outside the plane of three ball joints")
+        row[:, list(_triangle(bare, turning).columns)] = np.kron(shares, np.eye(3))
+        return row
     if turning.line is not None:
         share = vector @ turning.line
         if np.linalg.norm(vector - share * turning.line) > UNUSED:
@@ -269,11 +241,18 @@ def _halves(axis: FloatArray, across: FloatArray) -> ComplexArray:
     return np.stack([(across - 1j * quarter) / 2, (across + 1j * quarter) / 2], axis=1)
 
 
+def _triangle(found: System, turning: Turning) -> Item:
+    return [item for item in found.items if item.kind == "triangle"][turning.triangle or 0]
+
+
 def _ball(found: System, turning: Turning) -> Item:
     return [item for item in found.items if item.kind == "ball"][turning.ball or 0]
 
 
 def _orientation(found: System, turning: Turning, unknowns: ComplexArray) -> FloatArray:
+    if turning.corners is not None:
+        sides = unknowns[list(_triangle(found, turning).columns)].real.reshape(2, 3)
+        return _upright(sides) @ _upright(turning.corners[1:] - turning.corners[0]).T
     if turning.line is not None:
         wanted = unknowns[list(_ball(found, turning).columns)].real
         if turning.line @ wanted >= 0.0:
@@ -290,3 +269,10 @@ def _orientation(found: System, turning: Turning, unknowns: ComplexArray) -> Flo
         angle = np.arctan2(unknowns[rod.first + 2].real, (unknowns[rod.first] / z).real)
         inner = rotations.about_axis(turning.hinge, angle) @ inner
     return rotations.about_axis(turning.axis, np.angle(z)) @ inner
+
+
+def _upright(sides: FloatArray) -> FloatArray:
+    """The frame (3, 3) whose x axis is along the first of two vectors (2, 3), and whose xy plane contains both."""
+    x = sides[0] / np.linalg.norm(sides[0])
+    z = np.cross(x, sides[1]) / np.linalg.norm(np.cross(x, sides[1]))
+    return np.stack([x, np.cross(z, x), z], axis=1)

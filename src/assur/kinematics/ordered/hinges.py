@@ -2,7 +2,7 @@
 
 Opposite links of a P(4R) do not turn against each other. The short links of a P(4S) that stays a parallelogram turn
 against each other about their common direction, as if by a revolute joint. Ball joints say nothing; a rod between two
-of them has a direction only.
+of them has a direction only, and a link on three or more is no more than the triangle of their centres.
 """
 
 from __future__ import annotations
@@ -20,6 +20,9 @@ from assur.numerics import rotations
 from assur.topology.joints import CYLINDRICAL, PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL
 
 FloatArray = NDArray[np.float64]
+
+
+PARALLEL = 1e-9
 
 
 class NotCirclesError(Exception):
@@ -85,7 +88,10 @@ def turns_of_joints(record: MechanismRecord, locked: Mapping[int, float]) -> Ite
 
 
 def turns_of_parallelograms(record: MechanismRecord, parallel: Collection[str]) -> Iterable[Stiff | Turn]:
-    """How opposite links of parallelograms can turn against each other: not at all in a P(4R)."""
+    """How opposite links of parallelograms can turn against each other: not at all in a P(4R).
+
+    Nor do the rods of a P(2US), if its universal joints are parallel; one may have rolled over, half a turn.
+    """
     placed = frames(record, home_values(record)) if record.generalised else {}
     for group in record.generalised.values():
         if group.name not in parallel:
@@ -95,28 +101,71 @@ def turns_of_parallelograms(record: MechanismRecord, parallel: Collection[str]) 
             yield Stiff(group.parent, group.child, between)
             first, second = _rods(record, group)
             yield Stiff(first, second, placed[first][0].T @ placed[second][0])
-        if group.kind == "P(4S)":
+        if group.kind == "P(2US)":
+            yield from _rods_alike(record, group, placed)
+        if group.kind in ("P(4S)", "P(2US)"):
             near, far = (_point_on(record.joints[name], group.parent) for name in _near(record, group))
             yield Turn(group.parent, group.child, between, (far - near) / np.linalg.norm(far - near))
 
 
+def _rods_alike(
+    record: MechanismRecord, group: GeneralisedJoint, placed: Mapping[str, tuple[FloatArray, FloatArray]]
+) -> Iterable[Stiff]:
+    """Equal directions of the rods of a P(2US) are equal angles of universal joints whose axes are parallel."""
+    crosses, axes = [], []
+    values, slices = home_values(record), joint_graph(record).slices
+    for joint in (record.joints[name] for name in group.joints):
+        if joint.type is UNIVERSAL:
+            near, _ = placed[joint.parent]
+            cross = near @ rotations.about_axis(joint.axes[0], values[slices[joint.name]][0])
+            crosses.append((middle(joint), cross))
+            axes.append(np.stack([near @ joint.axes[0], cross @ joint.axes[1]]))
+    if np.max(np.linalg.norm(np.cross(axes[0], axes[1]), axis=1)) < PARALLEL:
+        rods = [(link, placed[link][0]) for link in _rods(record, group)]
+        for (first, here), (second, there) in (crosses, rods):
+            yield Stiff(first, second, here.T @ there)
+
+
 def rods_between_balls(record: MechanismRecord, parallel: Collection[str]) -> dict[str, tuple[FloatArray, int]]:
     """Rods between two ball joints: direction in their frame, and a number that the rods of a kept P(4S) share."""
-    ends: dict[str, list[Joint]] = {link: [] for link in record.links}
-    for joint in record.joints.values():
-        ends[joint.parent].append(joint)
-        ends[joint.child].append(joint)
     together = {}
     for group in record.generalised.values():
         if group.kind == "P(4S)" and group.name in parallel:
             together[_rods(record, group)[1]] = _rods(record, group)[0]
     lines: dict[str, FloatArray] = {}
-    for link, joints in ends.items():
+    for link, joints in _joints_of(record).items():
         if len(joints) == 2 and all(joint.type is SPHERICAL for joint in joints):
             near, far = (_point_on(joint, link) for joint in joints)
             lines[link] = (far - near) / np.linalg.norm(far - near)
     numbers = {link: number for number, link in enumerate(link for link in lines if link not in together)}
     return {link: (line, numbers[together.get(link, link)]) for link, line in lines.items()}
+
+
+def triangles_of_balls(record: MechanismRecord) -> dict[str, FloatArray]:
+    """Links that hang on nothing but three ball joints or more: three of the centres (3, 3) in the link's frame.
+
+    >>> from assur.model.registry import load_record
+    >>> triangles_of_balls(load_record("three_rps"))["platform"].round(1).tolist()
+    [[120.0, 0.0, 0.0], [-60.0, -103.9, 0.0], [-60.0, 103.9, 0.0]]
+    """
+    found = {}
+    for link, joints in _joints_of(record).items():
+        if len(joints) >= 3 and all(joint.type is SPHERICAL for joint in joints):
+            centres = np.array([_point_on(joint, link) for joint in joints])
+            sides = centres - centres[0]
+            second = int(np.argmax(np.linalg.norm(sides, axis=1)))
+            third = int(np.argmax(np.linalg.norm(np.cross(sides, sides[second]), axis=1)))
+            found[link] = centres[[0, second, third]]
+    return found
+
+
+def _joints_of(record: MechanismRecord) -> dict[str, list[Joint]]:
+    """Link -> its joints."""
+    found: dict[str, list[Joint]] = {link: [] for link in record.links}
+    for joint in record.joints.values():
+        found[joint.parent].append(joint)
+        found[joint.child].append(joint)
+    return found
 
 
 def _rods(record: MechanismRecord, group: GeneralisedJoint) -> tuple[str, str]:

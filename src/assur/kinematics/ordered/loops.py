@@ -14,8 +14,8 @@ from assur.kinematics.closure import assemble, characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
 from assur.kinematics.ordered.circles import System, joint_values, system
-from assur.kinematics.ordered.hinges import NoAssemblyError, NotCirclesError
-from assur.kinematics.ordered.orientations import turnings
+from assur.kinematics.ordered.hinges import NoAssemblyError, NotCirclesError, middle
+from assur.kinematics.ordered.orientations import Turning, turnings
 from assur.kinematics.ordered.solving import CurveError, Solved, solve
 from assur.kinematics.search import SAME, distinct, in_one_turn, search
 from assur.model.mechanism import MechanismRecord
@@ -223,7 +223,9 @@ def _nothing(record: MechanismRecord, complete: bool, right: str) -> LoopSolutio
 def _right(equations: System, found: Solved) -> str:
     names = _names(equations)
     sets = [f"{' and '.join(names[number] for number in item.items)} ({item.roots})" for item in found.sets]
-    return f"its loops in turn, each for all its roots: {', then '.join(sets)}"
+    return (
+        f"its loops in turn, each for all its roots: {', then '.join(sets)}" if sets else "its loops, which are linear"
+    )
 
 
 def _names(equations: System) -> Mapping[int, str]:
@@ -232,11 +234,14 @@ def _names(equations: System) -> Mapping[int, str]:
     rods = [number for number, item in enumerate(equations.items) if item.kind == "rod"]
     balls = [number for number, item in enumerate(equations.items) if item.kind == "ball"]
     circles = {item.circle // 2: number for number, item in enumerate(equations.items) if item.kind == "circle"}
+    triangles = [number for number, item in enumerate(equations.items) if item.kind == "triangle"]
     sliders = {item.name: number for number, item in enumerate(equations.items) if item.kind == "slider"}
     for joint in equations.record.joints.values():
-        for link in (joint.child, joint.parent):
-            turning = equations.turnings[link]
-            if turning.ball is not None:
+        for link in (joint.child, joint.parent, middle(joint)):
+            turning = equations.turnings.get(link, Turning(np.eye(3)))
+            if turning.triangle is not None:
+                names.setdefault(triangles[turning.triangle], link)
+            elif turning.ball is not None:
                 names.setdefault(balls[turning.ball], joint.name)
             elif turning.rod is not None:
                 names.setdefault(rods[turning.rod], joint.name)

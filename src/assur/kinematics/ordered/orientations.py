@@ -22,6 +22,7 @@ from assur.kinematics.ordered.hinges import (
     Stiff,
     Turn,
     rods_between_balls,
+    triangles_of_balls,
     turns_of_joints,
     turns_of_parallelograms,
 )
@@ -37,7 +38,8 @@ class Turning:
     """Orientation of a link: Rot(axis, psi) rotation, psi the angle of circle number `circle`; fixed where it is None.
 
     A rod on a hinge has Rot(axis, psi) Rot(hinge, phi) rotation, and a number of its own, `rod`. A rod between ball
-    joints has the number `ball`, which two rods that stay parallel share, and in its frame the direction `line`.
+    joints has the number `ball`, which two rods that stay parallel share, and in its frame the direction `line`. A link
+    on ball joints alone has the number `triangle`, and in its frame three of their centres, `corners` (3, 3).
     """
 
     rotation: FloatArray
@@ -47,6 +49,8 @@ class Turning:
     rod: int | None = None
     line: FloatArray | None = None
     ball: int | None = None
+    corners: FloatArray | None = None
+    triangle: int | None = None
 
 
 def turnings(
@@ -71,10 +75,10 @@ def turnings(
     joints = [*turns_of_joints(record, locked), *turns_of_parallelograms(record, parallel)]
     if platform is not None:
         joints.append(Stiff(record.base, record.platform.link, platform))
-    bodies = _bodies(joints)
+    bodies = _bodies(record.base, joints)
     while more := _held_together(_free(joints, bodies)):
         joints.append(more)
-        bodies = _bodies(joints)
+        bodies = _bodies(record.base, joints)
     free = _free(joints, bodies)
     root, inside_root = bodies[record.base]
     circling = {body: ways[0] for body, ways in _ways(free, root, inside_root.T).items()}
@@ -85,6 +89,11 @@ def turnings(
     found = {
         link: Turning(np.eye(3), line=line, ball=number)
         for link, (line, number) in rods_between_balls(record, parallel).items()
+    }
+    hanging = {link: item for link, item in triangles_of_balls(record).items() if link not in bodies}
+    found |= {
+        link: Turning(np.eye(3), corners=corners, triangle=number)
+        for number, (link, corners) in enumerate(hanging.items())
     }
     for link in record.links.keys() - bodies.keys() - found.keys():
         raise NotCirclesError(f"{link} hangs on ball joints")
@@ -106,8 +115,8 @@ Bodies = dict[str, tuple[str, FloatArray]]
 """Link -> its body, called by its first link, and the link's orientation in it."""
 
 
-def _bodies(joints: Sequence[Stiff | Turn]) -> Bodies:
-    links = dict.fromkeys(link for joint in joints for link in (joint.parent, joint.child))
+def _bodies(base: str, joints: Sequence[Stiff | Turn]) -> Bodies:
+    links = dict.fromkeys((base, *(link for joint in joints for link in (joint.parent, joint.child))))
     stiff = [joint for joint in joints if isinstance(joint, Stiff)]
     found: Bodies = {}
     for link in links:

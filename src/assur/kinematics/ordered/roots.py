@@ -11,6 +11,7 @@ the homogeneous variables keeps roots at infinity apart. Null space of another d
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations_with_replacement
@@ -141,24 +142,41 @@ def bilinear(forms: ComplexArray) -> Roots:
 
 def _roots(matrix: ComplexArray, count: int, size: int, degree: int, inner: int) -> ComplexArray | None:
     """Homogeneous coordinates (count, size) of the roots; None where the null space has another dimension."""
-    scale = np.linalg.norm(matrix, axis=1, keepdims=True)
-    triangle = np.linalg.qr(matrix / np.where(scale > 0, scale, 1.0), mode="r")
-    *_, singular, rows = np.linalg.svd(triangle)
-    rank = int(np.sum(singular > NULL * singular[0]))
-    if rows.shape[0] - rank != count:
+    null = null_space(matrix, count)
+    if null is None:
         return None
-    null = rows[rank:].conj().T.reshape(-1, inner, count)
+    null = null.reshape(-1, inner, count)
     places = _places(size, degree)
     shifted = [
         null[[places[_times(row, index)] for row in _monomials(size, degree - 1)]].reshape(-1, count)
         for index in range(size)
     ]
-    weights = _unitary(size, seed=2)
-    below = np.linalg.pinv(sum(weight * part for weight, part in zip(weights[0], shifted, strict=True)))
-    times = [below @ part for part in shifted]
-    mixed = sum(weight * part for weight, part in zip(weights[1], times, strict=True))
+    return common_eigenvalues([shifted]).T
+
+
+def null_space(matrix: ComplexArray, count: int) -> ComplexArray | None:
+    """Orthonormal basis (columns, count) of the null space of a matrix; None where it has another dimension."""
+    scale = np.linalg.norm(matrix, axis=1, keepdims=True)
+    triangle = np.linalg.qr(matrix / np.where(scale > 0, scale, 1.0), mode="r")
+    *_, singular, rows = np.linalg.svd(triangle)
+    rank = int(np.sum(singular > NULL * singular[0]))
+    return rows[rank:].conj().T if rows.shape[0] - rank == count else None
+
+
+def common_eigenvalues(groups: Sequence[Sequence[ComplexArray]]) -> ComplexArray:
+    """Homogeneous coordinates (all coordinates, roots) of the roots, of several points each: projective spaces.
+
+    A group has, for each coordinate of a point, what the null space holds of the monomials times that coordinate.
+    """
+    size = sum(map(len, groups))
+    times = []
+    for group in groups:
+        weights = _unitary(len(group), seed=2)[0]
+        below = np.linalg.pinv(sum(weight * part for weight, part in zip(weights, group, strict=True)))
+        times += [below @ part for part in group]
+    mixed = sum(weight * part for weight, part in zip(_unitary(size, seed=2)[1], times, strict=True))
     _, basis = schur(mixed, output="complex")
-    return np.stack([np.diag(basis.conj().T @ part @ basis) for part in times], axis=1)
+    return np.stack([np.diag(basis.conj().T @ part @ basis) for part in times])
 
 
 def _error(forms: ComplexArray, x: ComplexArray, y: ComplexArray) -> float:

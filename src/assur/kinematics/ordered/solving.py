@@ -1,36 +1,32 @@
 """Loops solved in turn: the smallest set of unknowns that has as many equations, then the next.
 
 Such a set is what the theory calls an Assur chain, found here in the equations themselves, special dimensions and all.
-A set is solved completely: as bilinear equations where its linear equations split into z's and z~'s (planar loops),
-else as quadratic ones. What is known by then enters as numbers, so that every real root of one set is carried into
-the next.
+A set is solved completely, for all its complex roots. What is known by then enters as numbers, so that every real root
+of one set is carried into the next.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.ordered.circles import Item, System
+from assur.kinematics.ordered.circles import System
+from assur.kinematics.ordered.equations import RANK, roots_of_set, without
 from assur.kinematics.ordered.hinges import NotCirclesError
-from assur.kinematics.ordered.roots import Roots, bilinear, quadratic
+from assur.kinematics.ordered.items import Item
 
 ComplexArray = NDArray[np.complex128]
 
-RANK = 1e-9
-"""Singular values of equations below this count as zero; their coefficients are of order 1."""
 REAL = 1e-3
 """A root this near to a real one is tried as an assembly: parts of a double root come out some 1e-8 apart, of a
 triple one 1e-5. What is tried in vain does not close."""
 ACCURATE = 1e-8
 """Residual of scaled equations at their roots up to which the roots are believed."""
 MOST_ITEMS = 14
-MOST_QUADRATIC = 5
-MOST_LOOPS = 4
 
 
 @dataclass(frozen=True)
@@ -77,16 +73,16 @@ def solve(found: System) -> Solved:
     slid = sorted(found.slides.values())
     if np.linalg.matrix_rank(found.matrix[:, slid], tol=RANK) < len(slid):
         raise NotCirclesError("some lengths are not determined")
-    rows = _without(found.matrix, slid)
+    rows = without(found.matrix, slid)
     known = np.zeros((1, found.matrix.shape[1]), dtype=complex)
     known[0, 0] = 1.0
     left = list(range(len(found.items)))
     looked, sets = 0, []
     for chosen in _order(rows, found.items):
         left = [number for number in left if number not in chosen]
-        equations = _without(rows, _columns(found.items, left))
+        equations = without(rows, _columns(found.items, left))
         items = [found.items[number] for number in chosen]
-        roots = [_roots_of_set(equations, row, items) for row in known]
+        roots = [roots_of_set(equations, row, items) for row in known]
         known = np.concatenate([_real(part.values, row, items) for part, row in zip(roots, known, strict=True)])
         looked += sum(len(part.values) for part in roots)
         worst = max(part.error for part in roots)
@@ -102,14 +98,6 @@ def solve(found: System) -> Solved:
 
 def _columns(items: Sequence[Item], numbers: Sequence[int]) -> list[int]:
     return [column for number in numbers for column in items[number].columns]
-
-
-def _without(rows: ComplexArray, columns: Sequence[int]) -> ComplexArray:
-    """Orthonormal combinations of rows in which these columns do not occur."""
-    if not len(columns) or not len(rows):
-        return rows
-    left, singular, _ = np.linalg.svd(rows[:, list(columns)])
-    return np.asarray(left[:, int(np.sum(singular > RANK)) :].conj().T @ rows)
 
 
 def _order(rows: ComplexArray, items: Sequence[Item]) -> list[tuple[int, ...]]:
@@ -132,103 +120,11 @@ def _closed_set(rows: ComplexArray, items: Sequence[Item], left: Sequence[int]) 
             inside = {item.first for item in here}
             if any(not item.alone and item.circle in waiting - inside for item in here):
                 continue
-            equations = _without(rows, _columns(items, [number for number in left if number not in chosen]))
+            equations = without(rows, _columns(items, [number for number in left if number not in chosen]))
             wanted = sum(item.freedoms for item in here)
             if np.linalg.matrix_rank(equations[:, _columns(items, chosen)], tol=RANK) >= wanted:
                 return chosen
     raise NotCirclesError("the loops do not determine all angles with what is locked")
-
-
-def _roots_of_set(rows: ComplexArray, known: ComplexArray, items: Sequence[Item]) -> Roots:
-    """All roots (N, c) of one set, in the order of its columns, with what is known already as numbers."""
-    columns = [column for item in items for column in item.columns]
-    constant = rows @ np.where(np.isin(range(len(known)), columns), 0.0, known)
-    linear = np.concatenate([constant[:, None], rows[:, columns]], axis=1)
-    straight = [item for item in items if item.kind in ("circle", "slider")]
-    size = len(items)
-    if len(straight) == size and size % 2 == 0:
-        halves = [list(range(1 + half, len(columns) + 1, 2)) for half in (0, 1)]
-        splits = [_independent(_without(linear, halves[1 - half])) for half in (0, 1)]
-        if all(len(part) == size // 2 for part in splits):
-            return _bilinear(
-                items, known, columns, [part[:, [0, *own]] for part, own in zip(splits, halves, strict=True)]
-            )
-    count = sum(len(item.quadratic) for item in items)
-    if count > MOST_QUADRATIC:
-        raise NotCirclesError(f"more than {MOST_QUADRATIC} quadratic equations must be solved at once")
-    basis = _affine_basis(_as_many(_independent(linear), sum(item.freedoms for item in items)))
-    places = {column: basis[1 + place] for place, column in enumerate(columns)}
-    roots = quadratic(_forms(items, known, places, places, basis[0], basis[0]))
-    return replace(roots, values=(_with_one(roots.values) @ basis.T)[:, 1:])
-
-
-def _bilinear(
-    items: Sequence[Item], known: ComplexArray, columns: Sequence[int], splits: Sequence[ComplexArray]
-) -> Roots:
-    """Roots of a set of planar loops."""
-    if len(items) // 2 > MOST_LOOPS:
-        raise NotCirclesError(f"more than {MOST_LOOPS} planar loops must be solved at once")
-    bases = [_affine_basis(part) for part in splits]
-    first, second = ({c: bases[half][1 + k] for k, c in enumerate(columns[half::2])} for half in (0, 1))
-    roots = bilinear(_forms(items, known, first, second, bases[0][0], bases[1][0]))
-    size = roots.values.shape[1] // 2
-    parts = (roots.values[:, :size], roots.values[:, size:])
-    halves = [(_with_one(part) @ basis.T)[:, 1:] for part, basis in zip(parts, bases, strict=True)]
-    return replace(roots, values=np.stack(halves, axis=-1).reshape(len(parts[0]), len(columns)))
-
-
-def _independent(rows: ComplexArray) -> ComplexArray:
-    """Rows orthonormal on the unknowns with the same span there; the constants, in column 0, come along."""
-    left, singular, _ = np.linalg.svd(rows[:, 1:], full_matrices=False)
-    rank = int(np.sum(singular > RANK))
-    return np.asarray((left[:, :rank].conj().T @ rows) / singular[:rank, None])
-
-
-def _as_many(rows: ComplexArray, count: int) -> ComplexArray:
-    """So many equations that follow from more of them: no root is lost, and false ones do not close."""
-    if len(rows) == count:
-        return rows
-    mixing = np.random.default_rng(0).normal(size=(count, len(rows)))
-    return np.asarray(mixing @ rows)
-
-
-def _affine_basis(rows: ComplexArray) -> ComplexArray:
-    """Basis (1 + c, 1 + k), columns (1, a solution) and (0, directions), of rows (r, 1 + c) times (1, x) = 0."""
-    *_, vectors = np.linalg.svd(rows[:, 1:])
-    directions = vectors[len(rows) :].conj().T
-    basis = np.zeros((rows.shape[1], 1 + directions.shape[1]), dtype=complex)
-    basis[0, 0] = 1.0
-    basis[1:, 0] = -np.linalg.pinv(rows[:, 1:]) @ rows[:, 0]
-    basis[1:, 1:] = directions
-    return basis
-
-
-Places = dict[int, ComplexArray]
-"""Column -> its row of a basis."""
-
-
-def _forms(
-    items: Sequence[Item],
-    known: ComplexArray,
-    first: Places,
-    second: Places,
-    one: ComplexArray,
-    other_one: ComplexArray,
-) -> ComplexArray:
-    """The quadratic equations of a set as forms on coordinates, columns outside it being numbers."""
-    forms = []
-    for item in items:
-        for equation in item.quadratic:
-            terms = [
-                factor * np.outer(first.get(a, known[a] * one), second.get(b, known[b] * other_one))
-                for factor, a, b in equation
-            ]
-            forms.append(np.sum(terms, axis=0))
-    return np.array(forms)
-
-
-def _with_one(values: ComplexArray) -> ComplexArray:
-    return np.concatenate([np.ones((len(values), 1)), values], axis=1)
 
 
 def _real(values: ComplexArray, row: ComplexArray, items: Sequence[Item]) -> ComplexArray:
@@ -237,6 +133,11 @@ def _real(values: ComplexArray, row: ComplexArray, items: Sequence[Item]) -> Com
     found = np.repeat(row[None], len(values), axis=0)
     found[:, columns] = values
     for item in sorted(items, key=lambda item: item.kind != "circle"):
+        if item.kind == "triangle":
+            good = np.max(np.abs(found[:, list(item.columns)].imag), axis=1) < REAL
+            found = found[good]
+            found[:, list(item.columns)] = found[:, list(item.columns)].real
+            continue
         if item.kind == "ball":
             own = found[:, list(item.columns)]
             good = np.max(np.abs(own.imag), axis=1) < REAL

@@ -9,7 +9,7 @@ that hangs together with the start.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
+from assur.kinematics.paths.ending import Mode, blocks
 from assur.kinematics.paths.neighbours import Steps
 from assur.kinematics.paths.platform_held import platform_held
 from assur.model.mechanism import MechanismRecord
@@ -24,23 +25,13 @@ from assur.model.mechanism import MechanismRecord
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.intp]
-Poses = Callable[[FloatArray], FloatArray]
-"""Points (N, d) of a grid to poses (N, m)."""
-
 NEAR = 1.6
 """Points further than this from every reached node, in grid steps along an axis, are not tried."""
 
 SAME = 1e-9
 """A point within this share of a step of a node is that node."""
 
-HALVINGS = 4
-"""A border is found to 2^-4 of the way between two points at worst."""
-
-NEARINGS, MOST = 2, 0.9
-"""Steps towards where it is foreseen, and what share of the way there each goes."""
-
-BLOCK = 4096
-KEPT = 6
+KEPT = 40
 """Answers that are remembered, for several questions about the same points."""
 
 
@@ -48,11 +39,21 @@ KEPT = 6
 class Followed:
     """Configurations at points: joint values (N, n), and whether they are assemblies there that were reached (N,).
 
-    Where a point is not reached the values are the closest approach, far away those of the nearest reached node.
+    Where a point is not reached the values are those at an end of the mode beside it, far away at the nearest one.
     """
 
+    record: MechanismRecord
     joints: FloatArray
     reached: BoolArray
+
+    @cached_property
+    def measures(self) -> tuple[FloatArray, FloatArray]:
+        """The measures `serial` and `output` (N,) of `PlatformHeld` there; of NaN both are NaN."""
+        found = np.full((2, len(self.joints)), np.nan)
+        for rows in blocks(np.flatnonzero(np.isfinite(self.joints[:, 0]))):
+            held = platform_held(self.record, self.joints[rows])
+            found[:, rows] = held.serial, held.output
+        return found[0], found[1]
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,23 +61,27 @@ class Continuation:
     """A working mode followed over a grid.
 
     Attributes:
-        record: the mechanism.
+        mode: the mechanism, the signs that name the mode, and the poses of points.
         axes: the nodes' coordinates along each of d axes, evenly spaced.
-        poses: points (N, d) to poses (N, m).
-        signs: (s,) the signs that name the working mode.
         joints: (nodes.., n) joint values at the nodes, NaN where a node is not reached.
-        beyond: (nodes.., n) the closest approach to nodes beside reached ones; else NaN.
+        beyond: (nodes.., n) at nodes beside reached ones those at the end of the mode on the way there; else NaN.
+        ends: (nodes.., 2 d) share of the way from a reached node to each neighbour, up along every axis and then down,
+            at which the mode ends; NaN where it does not.
         serial: (nodes..) the measure of the serial side (`PlatformHeld.serial`) at reached nodes.
     """
 
-    record: MechanismRecord
+    mode: Mode
     axes: tuple[FloatArray, ...]
-    poses: Poses
-    signs: NDArray[np.int8]
     joints: FloatArray
     beyond: FloatArray
+    ends: FloatArray
     serial: FloatArray
     _known: dict[bytes, Followed] = field(default_factory=dict, repr=False)
+
+    @property
+    def record(self) -> MechanismRecord:
+        """The mechanism."""
+        return self.mode.record
 
     @cached_property
     def reached(self) -> BoolArray:
@@ -86,7 +91,20 @@ class Continuation:
     @cached_property
     def _nearest(self) -> IntArray:
         """Index (d, nodes..) of the nearest reached node."""
-        return np.asarray(distance_transform_edt(~self.reached, return_distances=False, return_indices=True))
+        return _nearest_in(self.reached)
+
+    @cached_property
+    def _values(self) -> FloatArray:
+        """Joint values (nodes.., n) everywhere: at nodes that are not reached those at the nearest end."""
+        values = np.where(self.reached[..., None], self.joints, self.beyond)
+        return np.asarray(values[tuple(_nearest_in(np.isfinite(values[..., 0])))])
+
+    def _index(self, points: FloatArray) -> FloatArray:
+        """Points (N, d) in steps of the grid from its first node."""
+        low, step = (
+            np.array(values) for values in zip(*((axis[0], axis[1] - axis[0]) for axis in self.axes), strict=True)
+        )
+        return np.asarray((points - low) / step)
 
     def at(self, points: FloatArray) -> Followed:
         """Configurations at points (N, d), each one step away from the nearest node that is reached."""
@@ -100,77 +118,67 @@ class Continuation:
     def _at(self, points: FloatArray) -> Followed:
         count = len(self.record.coordinates)
         if not np.any(self.reached):
-            return Followed(np.full((len(points), count), np.nan), np.zeros(len(points), dtype=bool))
-        low = np.array([axis[0] for axis in self.axes])
-        step = np.array([axis[1] - axis[0] for axis in self.axes])
-        index = (points - low) / step
+            return Followed(self.record, np.full((len(points), count), np.nan), np.zeros(len(points), dtype=bool))
+        index = self._index(points)
         node = np.clip(np.rint(index), 0, np.subtract(self.reached.shape, 1)).astype(np.intp)
         nearest = self._nearest[(slice(None), *node.T)].T  # (N, d)
-        joints, beyond = self.joints[tuple(nearest.T)], self.beyond[tuple(node.T)]
+        joints = self._values[tuple(node.T)]
         at_node = np.max(np.abs(index - node), axis=1) <= SAME
         there = at_node & self.reached[tuple(node.T)]
         near = np.flatnonzero(~at_node & (np.max(np.abs(index - nearest), axis=1) <= NEAR))
-        for rows in _blocks(near):
-            found, good = self.stepped(joints[rows], low + step * nearest[rows], points[rows])
+        for rows in blocks(near):
+            start = nearest[rows]
+            found, good = self.mode.stepped(self.joints[tuple(start.T)], _points(self, start), points[rows])
             joints[rows[good]], there[rows[good]] = found[good], True
-        return Followed(np.where(there[:, None] | np.isnan(beyond), joints, beyond), there)
-
-    def stepped(self, joints: FloatArray, start: FloatArray, end: FloatArray) -> tuple[FloatArray, BoolArray]:
-        """Joint values (N, n) after a step between points (N, d), and where the step may be taken (N,)."""
-        held = platform_held(self.record, joints)
-        return Steps(self.record, self.signs, joints, self.poses(start), held).to(self.poses(end))
+        return Followed(self.record, joints, there)
 
     def border(self, inside: FloatArray, outside: FloatArray) -> FloatArray:
-        """Share (N,) of the way from reached points (N, d) to others at which the reach ends.
+        """Share (N,) of the way from reached points (N, d) to others at which the mode ends.
 
-        The way is halved, from the last reached point each time. Then the measure of the serial side, which falls
-        linearly to zero there, says where it ends: first most of the way is gone, at last all of it.
+        On the grid's own edges it is known; an edge of two steps ends on one of its halves.
         """
-        here = self.at(inside).joints.copy()
-        last = here.copy()
-        low, high, before = np.zeros(len(inside)), np.ones(len(inside)), np.zeros(len(inside))
-        for turn in range(HALVINGS + NEARINGS):
-            share = 0.5 * (low + high)
-            if turn >= HALVINGS:
-                share = low + MOST * (self._ending(last, here, before, low, high) - low)
-            start, end = (inside + part[:, None] * (outside - inside) for part in (low, share))
-            for rows in _blocks(np.arange(len(inside))):
-                found, good = self.stepped(here[rows], start[rows], end[rows])
-                taken, other = rows[good], rows[~good]
-                last[taken], before[taken] = here[taken], low[taken]
-                here[taken], low[taken] = found[good], share[taken]
-                high[other] = share[other]
-        return self._ending(last, here, before, low, high)
+        middle = 0.5 * (inside + outside)
+        double = np.flatnonzero(
+            np.abs(np.sum(np.abs(self._index(outside) - self._index(inside)), axis=1) - 2.0) <= SAME
+        )
+        if len(double):
+            later = np.zeros(len(inside), dtype=bool)
+            later[double] = self.at(middle[double]).reached
+            half = np.zeros(len(inside), dtype=bool)
+            half[double] = True
+            first = np.where(later[:, None], middle, inside)
+            last = np.where((half & ~later)[:, None], middle, outside)
+            found = self._border(first, last)
+            return np.where(half, 0.5 * (found + later), found)
+        return self._border(inside, outside)
 
-    def _ending(
-        self, last: FloatArray, here: FloatArray, before: FloatArray, low: FloatArray, high: FloatArray
-    ) -> FloatArray:
-        """Share (N,) of the way at which the serial measure vanishes, by its values at two reached points."""
-        share = 0.5 * (low + high)
-        for rows in _blocks(np.flatnonzero(low > before)):
-            first, second = (platform_held(self.record, values[rows]).serial for values in (last, here))
-            fall = np.maximum(first - second, 1e-300)
-            guess = low[rows] + (low[rows] - before[rows]) * second / fall
-            share[rows] = np.clip(guess, low[rows], high[rows])
-        return share
+    def _border(self, inside: FloatArray, outside: FloatArray) -> FloatArray:
+        start, way = self._index(inside), self._index(outside) - self._index(inside)
+        node, along = np.rint(start).astype(np.intp), np.rint(way).astype(np.intp)
+        single = np.sum(np.abs(along), axis=1) == 1
+        single &= np.all(np.abs(start - node) <= SAME, axis=1) & np.all(np.abs(way - along) <= SAME, axis=1)
+        single &= np.all((node >= 0) & (node < self.reached.shape), axis=1)
+        shares = np.full(len(inside), np.nan)
+        place = np.argmax(np.abs(along), axis=1)
+        place += len(self.axes) * (along[np.arange(len(along)), place] < 0)
+        shares[single] = self.ends[(*node[single].T, place[single])]
+        rows = np.flatnonzero(np.isnan(shares))
+        shares[rows], _ = self.mode.ends(self.at(inside[rows]).joints, inside[rows], outside[rows])
+        return shares
 
 
 def continued(
-    record: MechanismRecord,
+    mode: Mode,
     axes: tuple[FloatArray, ...],
-    poses: Poses,
     start: tuple[FloatArray, FloatArray] | None,
-    signs: NDArray[np.int8],
     tick: Callable[[float], None] | None = None,
 ) -> Continuation:
     """Follow a working mode over a grid.
 
     Args:
-        record: the mechanism.
+        mode: the mechanism, the signs of its working quantities that must stay, and the poses of points.
         axes: the nodes' coordinates along each of d axes, evenly spaced.
-        poses: points (N, d) to poses (N, m), lengths and rad.
         start: a point (d,) and joint values (n,) assembled there; None where there is none.
-        signs: of the record's working quantities, which must stay.
         tick: called with the share that is done, as far as can be known.
 
     Example: the five-bar over a column of poses; its elbows straighten 285.5 above the motors.
@@ -181,24 +189,20 @@ def continued(
     >>> from assur.model.registry import load_record
     >>> record = load_record("fivebar")
     >>> home = home_values(record)
-    >>> found = continued(
-    ...     record,
-    ...     (np.linspace(200.0, 300.0, 11),),
-    ...     lambda points: np.concatenate([0 * points, points], axis=1),
-    ...     (pose_of(record, home)[1:], home),
-    ...     working_signs(record, home),
-    ... )
-    >>> found.reached.astype(int).tolist(), float(found.border(np.array([[280.0]]), np.array([[290.0]]))[0].round(2))
-    ([1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0], 0.55)
+    >>> upwards = Mode(record, working_signs(record, home), lambda y: np.concatenate([0 * y, y], axis=1))
+    >>> found = continued(upwards, (np.linspace(200.0, 300.0, 11),), (pose_of(record, home)[1:], home))
+    >>> found.reached.astype(int).tolist(), float(found.border(np.array([[280.0]]), np.array([[290.0]]))[0].round(4))
+    ([1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0], 0.5545)
     """
     shape = tuple(len(axis) for axis in axes)
-    joints = np.full((*shape, len(record.coordinates)), np.nan)
-    found = Continuation(record, axes, poses, signs, joints, joints.copy(), np.full(shape, np.nan))
+    joints = np.full((*shape, len(mode.record.coordinates)), np.nan)
+    ends = np.full((*shape, 2 * len(axes)), np.nan)
+    found = Continuation(mode, axes, joints, joints.copy(), ends, np.full(shape, np.nan))
     if start is None:
         return found
     node = np.array([np.argmin(np.abs(axis - value)) for axis, value in zip(axes, start[0], strict=True)])
     point = np.array([axis[k] for axis, k in zip(axes, node, strict=True)])
-    first, good = found.stepped(start[1][None], start[0][None], point[None])
+    first, good = mode.stepped(start[1][None], start[0][None], point[None])
     if not good[0]:
         return found
     joints[tuple(node)] = first[0]
@@ -212,62 +216,70 @@ def continued(
         done += 1
         if tick is not None:
             tick(min(done / max(rounds, 1), 1.0))
+    _end(found)
     return found
 
 
-def _blocks(rows: IntArray) -> Iterator[IntArray]:
-    """Rows (N, ..) in blocks; none where there are no rows."""
-    for first in range(0, len(rows), BLOCK):
-        yield rows[first : first + BLOCK]
+def _nearest_in(there: BoolArray) -> IntArray:
+    """Index (d, nodes..) of the nearest node that is there."""
+    return np.asarray(distance_transform_edt(~there, return_distances=False, return_indices=True))
 
 
 def _spread(found: Continuation, front: IntArray) -> IntArray:
     """Step from the nodes (N, d) of a front to their neighbours, each from one of them; what is new (M, d)."""
     new = [front[:0]]
-    for rows in _blocks(front):
+    for rows in blocks(front):
         steps = _steps(found, rows)
         found.serial[tuple(rows.T)] = steps.held.serial
-        tails, heads = _edges(found, rows)
+        tails, heads, _ = _edges(found, rows)
         heads, first = np.unique(heads, axis=0, return_index=True)
-        new.append(_taken(found, heads, *steps.of(tails[first]).to(found.poses(_points(found, heads)))))
+        new.append(_taken(found, heads, *steps.of(tails[first]).to(found.mode.poses(_points(found, heads)))))
     return np.concatenate(new)
 
 
 def _taken(found: Continuation, heads: IntArray, joints: FloatArray, good: BoolArray) -> IntArray:
-    """Those of the nodes (N, d) that a step may be taken to, their joint values kept; of the others the nearest."""
+    """Those of the nodes (N, d) that a step may be taken to, their joint values kept."""
     found.joints[tuple(heads[good].T)] = joints[good]
-    found.beyond[tuple(heads[~good].T)] = joints[~good]
     return heads[good]
 
 
 def _across_the_rim(found: Continuation) -> IntArray:
     """Try what lies beside reached nodes once more, in small steps from the best neighbour; what is new (M, d)."""
     reached = np.argwhere(np.isfinite(found.joints[..., 0]))
-    tails, heads = _edges(found, reached)
+    tails, heads, _ = _edges(found, reached)
     best = np.argsort(-found.serial[tuple(reached[tails].T)], kind="stable")
     tails, heads = tails[best], heads[best]
     heads, first = np.unique(heads, axis=0, return_index=True)
     new = [heads[:0]]
-    for rows in _blocks(np.arange(len(heads))):
+    for rows in blocks(np.arange(len(heads))):
         steps = _steps(found, reached[tails[first[rows]]])
-        new.append(_taken(found, heads[rows], *steps.in_parts(found.poses(_points(found, heads[rows])))))
+        new.append(_taken(found, heads[rows], *steps.in_parts(found.mode.poses(_points(found, heads[rows])))))
     return np.concatenate(new)
 
 
+def _end(found: Continuation) -> None:
+    """Find where the mode ends on every edge from a reached node to another."""
+    reached = np.argwhere(np.isfinite(found.joints[..., 0]))
+    tails, heads, ways = _edges(found, reached)
+    nodes = reached[tails]
+    shares, joints = found.mode.ends(found.joints[tuple(nodes.T)], _points(found, nodes), _points(found, heads))
+    found.ends[(*nodes.T, ways)] = shares
+    order = np.argsort(shares, kind="stable")  # the last is the nearest
+    found.beyond[tuple(heads[order].T)] = joints[order]
+
+
 def _steps(found: Continuation, nodes: IntArray) -> Steps:
-    joints = found.joints[tuple(nodes.T)]
-    poses = found.poses(_points(found, nodes))
-    return Steps(found.record, found.signs, joints, poses, platform_held(found.record, joints))
+    return found.mode.steps(found.joints[tuple(nodes.T)], _points(found, nodes))
 
 
-def _edges(found: Continuation, front: IntArray) -> tuple[IntArray, IntArray]:
-    """Edges from a front: places in it (E,) and the neighbours (E, d) that are not reached."""
+def _edges(found: Continuation, front: IntArray) -> tuple[IntArray, IntArray, IntArray]:
+    """Edges from a front: places in it (E,), neighbours (E, d) that are not reached, and which way they lie (E,)."""
     ways = np.concatenate([np.eye(len(found.axes)), -np.eye(len(found.axes))]).astype(np.intp)
     heads = (front[:, None] + ways).reshape(-1, len(found.axes))
-    tails = np.repeat(np.arange(len(front)), len(ways))
+    tails, which = (values.ravel() for values in np.indices((len(front), len(ways))))
     inside = np.all((heads >= 0) & (heads < found.joints.shape[:-1]), axis=1)
     inside[inside] = np.isnan(found.joints[(*heads[inside].T, 0)])
-    return tails[inside], heads[inside]
+    return tails[inside], heads[inside], which[inside]
 
 
 def _points(found: Continuation, nodes: IntArray) -> FloatArray:

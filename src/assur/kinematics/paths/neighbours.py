@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.border import checked_poses
-from assur.kinematics.closure import assemble
+from assur.kinematics.paths.correcting import Corrected, corrected
 from assur.kinematics.paths.locked import units
-from assur.kinematics.paths.platform_held import PlatformHeld, held_matrix, passes_zero, platform_held
+from assur.kinematics.paths.platform_held import PlatformHeld, held_system, passes_zero, platform_held
 from assur.kinematics.rates.motions import pose_units
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
-from assur.model.points import quantity
+from assur.model.points import quantities
 from assur.model.pose import LENGTHS, QUATERNION, has_quaternion
 from assur.numerics import rotations
 from assur.topology.joints import SPHERICAL
@@ -31,9 +31,6 @@ LONG = 0.3
 
 PARTS = 4
 """What cannot be reached in one step is tried in so many."""
-
-NEWTON = 10
-"""Steps of the corrector."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,15 +54,20 @@ class Steps:
         move = np.einsum("nij,nj->ni", self.held.rates, pose_change(self.record, self.poses, poses))
         share = LONG / np.maximum(np.max(np.abs(move), axis=1, initial=0.0), LONG)
         predicted = self.joints + move * share[:, None] * units(self.record)
-        found = assemble(self.record, predicted, poses=poses, max_steps=NEWTON, near=True)
+        found = _at_poses(self.record, predicted, poses)
         near = np.max(np.abs(found.values - self.joints) / units(self.record), axis=1, initial=0.0) <= FURTHEST
         values = np.where(near[:, None], found.values, self.joints)
-        good = np.asarray(found.closed & near)
+        good = found.closed & near
         rows = np.flatnonzero(good)
-        good[rows] = np.all(working_signs(self.record, values[rows]) * self.signs >= 0, axis=1)
-        rows = np.flatnonzero(good)
-        good[rows] = ~passes_zero(self.record, self.held.matrix[rows], held_matrix(self.record, values[rows]))
-        return _whole_turns_less(self.record, values), good
+        good[rows] = self.of(rows).kept(values[rows], found.derivative[rows])
+        return whole_turns_less(self.record, values), good
+
+    def kept(self, values: FloatArray, matrix: FloatArray) -> BoolArray:
+        """Whether other assemblies (N, n) with D `matrix` (N, r, n) are of the mode, with no merging between."""
+        same = np.all(working_signs(self.record, values) * self.signs >= 0, axis=1)
+        rows = np.flatnonzero(same)
+        same[rows] = ~passes_zero(self.record, self.held.matrix[rows], matrix[rows])
+        return np.asarray(same)
 
     def in_parts(self, poses: FloatArray) -> tuple[FloatArray, BoolArray]:
         """The same in several parts, none of which may fail."""
@@ -83,9 +85,20 @@ class Steps:
         return values, good
 
 
+def _at_poses(record: MechanismRecord, start: FloatArray, poses: FloatArray) -> Corrected:
+    """Assemblies at poses (N, m) near joint values (N, n)."""
+    size = units(record)
+
+    def system(trial: FloatArray, rows: IntArray) -> tuple[FloatArray, FloatArray]:
+        return held_system(record, trial * size, poses[rows])
+
+    found = corrected(system, start / size)
+    return replace(found, values=found.values * size)
+
+
 def working_signs(record: MechanismRecord, joints: FloatArray) -> NDArray[np.int8]:
     """Signs (..., s) of the quantities that name working modes, at joint values (..., n)."""
-    signs = [np.sign(quantity(record, formula, joints)) for formula in record.modes.working.values()]
+    signs = [np.sign(value) for value in quantities(record, record.modes.working.values(), joints)]
     shape = joints.shape[:-1]
     return (
         np.stack([np.broadcast_to(item, shape) for item in signs], axis=-1).astype(np.int8)
@@ -114,7 +127,7 @@ def _unit(quaternion: FloatArray) -> FloatArray:
     return np.asarray(quaternion / np.linalg.norm(quaternion, axis=-1, keepdims=True))
 
 
-def _whole_turns_less(record: MechanismRecord, joints: FloatArray) -> FloatArray:
+def whole_turns_less(record: MechanismRecord, joints: FloatArray) -> FloatArray:
     """The same assemblies (N, n) with every rotation vector within half a turn and a little more."""
     for name, joint in record.joints.items():
         if joint.type is SPHERICAL:

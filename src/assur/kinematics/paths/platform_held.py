@@ -1,8 +1,7 @@
 """The joint graph with its platform held: how joints follow the pose, what is singular, whether a step passes zero.
 
 One matrix D holds the closure rows and the rows of the pose, lengths in characteristic lengths; D u' = (0, v) gives
-the joint rates u' at pose rates v. Its normal equations are solved with a trace of damping, so that redundant rows
-and rods that spin do no harm; a singular value decomposition would cost ten times as much.
+the joint rates u' at pose rates v (`correcting.solved`). It is the derivative that Newton's steps to a pose use.
 """
 
 from __future__ import annotations
@@ -13,16 +12,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.closure import characteristic_length, closing_system
+from assur.kinematics.paths.correcting import damped, solved
 from assur.kinematics.paths.locked import units
-from assur.kinematics.pose import platform_rates
-from assur.kinematics.rates.motions import input_units, pose_units, twist_units
-from assur.model.joint_graph import frames, joint_graph, screws
+from assur.kinematics.rates.motions import input_units, pose_units
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
-DAMPING = 1e-14
-"""Share of the mean square of the columns of D."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,32 +72,29 @@ def platform_held(record: MechanismRecord, values: FloatArray) -> PlatformHeld:
     >>> bool(np.abs(here.output - np.linalg.det(jp * pose_units(record) / 194.0)) < 1e-9)
     True
     """
-    matrix = held_matrix(record, values)
-    transposed = np.swapaxes(matrix, -1, -2)
+    return held_by(record, held_matrix(record, values))
+
+
+def held_by(record: MechanismRecord, matrix: FloatArray) -> PlatformHeld:
+    """As `platform_held`, of the matrix D (N, r, n) there."""
     wanted = len(pose_units(record))
-    rates = np.asarray(np.linalg.solve(_damped(transposed @ matrix, matrix), transposed[..., -wanted:]), dtype=float)
+    rates = solved(matrix, np.eye(matrix.shape[-2])[:, -wanted:])
     size = units(record)
     own = np.array([item.sign for item in record.inputs]) * size[list(record.input_indices)] / input_units(record)
     return PlatformHeld(matrix, rates, rates[..., list(record.input_indices), :] * own[:, None])
 
 
+def held_system(record: MechanismRecord, values: FloatArray, poses: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Gaps (N, r) of the loops and to poses (N, m) at joint values (N, n), and D; no dimensions."""
+    gaps, derivative = closing_system(record, values, poses)
+    length = characteristic_length(record)
+    return gaps / length, derivative * (units(record) / length)
+
+
 def held_matrix(record: MechanismRecord, values: FloatArray) -> FloatArray:
-    """D (N, 6 v + k, n) at joint values (N, n): closure about the platform's point, then the pose; no dimensions."""
-    graph = joint_graph(record)
-    placed = frames(record, values)
-    twists = screws(record, placed, values)
-    rotation, origin = placed[record.platform.link]
-    about = twists.copy()
-    about[:, 3:] += np.cross(twists[:, :3], ((rotation @ record.platform.point) + origin)[..., None], axis=1)
-    size = units(record)
-    about *= size / twist_units(record)[:, None]
-    closure = np.zeros((len(values), len(graph.cut), 6, values.shape[-1]))
-    for index, (joint, loop) in enumerate(zip(graph.cut, graph.loops, strict=True)):
-        for name, sense in ((joint.name, 1), *loop.items()):
-            columns = graph.slices[name]
-            closure[:, index, :, columns] = sense * about[..., columns]
-    moves = platform_rates(record, placed, twists) * size / pose_units(record)[:, None]
-    return np.concatenate([closure.reshape(len(values), 6 * len(graph.cut), values.shape[-1]), moves], axis=1)
+    """D (N, 6 v + k, n) at joint values (N, n): each loop about its cut joint, then the pose; no dimensions."""
+    poses = np.zeros((len(values), len(record.platform.pose)))
+    return held_system(record, values, poses)[1]
 
 
 def passes_zero(record: MechanismRecord, before: FloatArray, after: FloatArray) -> BoolArray:
@@ -124,11 +118,5 @@ def passes_zero(record: MechanismRecord, before: FloatArray, after: FloatArray) 
 
 
 def _turned(first: FloatArray, second: FloatArray) -> BoolArray:
-    sign, _ = np.linalg.slogdet(_damped(np.swapaxes(first, -1, -2) @ second, first))
+    sign, _ = np.linalg.slogdet(damped(np.swapaxes(first, -1, -2) @ second, first))
     return np.asarray(sign < 0.0)
-
-
-def _damped(square: FloatArray, matrix: FloatArray) -> FloatArray:
-    count = square.shape[-1]
-    scale = DAMPING * np.einsum("nij,nij->n", matrix, matrix) / count
-    return np.asarray(square + scale[:, None, None] * np.eye(count))

@@ -79,7 +79,13 @@ class VelocityMap:
 
     @cached_property
     def condition(self) -> FloatArray:
-        """Condition number (...) of J in the 2-norm; inf where either matrix is singular, NaN out of reach."""
+        """Condition number (...) of J in the 2-norm; inf where either matrix is singular, NaN out of reach.
+
+        The quotient of the largest and the smallest velocity factor. It needs no unit where all inputs have one unit
+        and all rates have one unit. Where lengths and angles mix it compares the one with the other: it changes with
+        the unit of length and says nothing alone, only how it changes from pose to pose. `assur.performance.scaling`
+        divides the lengths by one that is named, and gives a number that can be compared.
+        """
         with np.errstate(divide="ignore", invalid="ignore"):
             ratio = self.velocity_factors[..., 0] / self.velocity_factors[..., -1]
         return np.where(self.singular_output | self.singular_input, np.inf, ratio)

@@ -1,21 +1,23 @@
 """Closed form of the Delta robot: for each leg one equation a cos + b sin = c; in the direct problem three spheres.
 
-A leg is computed in its own frame, which is the base's turned about Z: outwards, along the motor's axis, up.
+A leg's frame is the base's turned about Z: outwards, along the motor's axis, up. As the platform does not turn, its
+centre is at the distance l from three points: the knees moved by uP towards the middle.
 """
 
 from types import SimpleNamespace
 
 from assur.model.closed_form import Branch, ClosedForm, Factor, Margin, SelfMotion, Sign
+from assur.numerics.legs import couples, from_leg, in_leg, thirds
 from assur.numerics.meetings import angle_with, coincident_spheres, three_spheres
 from assur.numerics.vectors import (
     about_y,
     about_z,
-    apply,
-    cross,
     dot,
+    opposite,
     product,
     scaled,
     subtract,
+    sum_of_angles,
     taking,
     transposed,
     triple,
@@ -28,20 +30,20 @@ PAIRS = ((0, 1), (1, 2), (0, 2))
 def inverse(ns, p, pose, sign):
     """Angles of the arms at a position of the platform. Signs: s1, s2, s3, + where a knee points outwards."""
     arms, margins = [], {}
-    for k, knee in enumerate((sign.s1, sign.s2, sign.s3)):
-        x, y, z = _wrist(ns, p, k, pose)
+    for k, (turn, knee) in enumerate(zip(_turns(ns), (sign.s1, sign.s2, sign.s3), strict=True), start=1):
+        x, y, z = in_leg(turn, pose)
+        x = x + p.uP - p.wB
         square = x * x + y * y + z * z
         arm, reach = angle_with(ns, 2 * p.L * x, -2 * p.L * z, square + p.L * p.L - p.l * p.l, -knee)
         arms.append(arm)
-        margins[f"distance{k + 1}"] = x * x + z * z
-        margins[f"reach{k + 1}"] = reach
+        margins[f"distance{k}"] = x * x + z * z
+        margins[f"reach{k}"] = reach
     return _branch(ns, p, pose, tuple(arms), margins)
 
 
 def direct(ns, p, inputs, sign):
     """Position of the platform at given angles of the arms. Sign: e, + where it hangs below the knees."""
-    squares = (p.l * p.l,) * 3
-    pose, meeting, normal = three_spheres(ns, _centres(ns, p, inputs), squares, -sign.e)
+    pose, meeting, normal = three_spheres(ns, _centres(ns, p, inputs), (p.l * p.l,) * 3, -sign.e)
     return _branch(ns, p, pose, tuple(inputs), {"normal": normal, "meeting": meeting})
 
 
@@ -53,65 +55,42 @@ def self_motion(ns, p, inputs, turn, sign):
 
 def _turns(ns):
     """Where the legs are, as (cosine, sine): -90, 30 and 150 deg."""
-    one, root = ns.sqrt(1), ns.sqrt(3)
-    return ((0, -one), (root / 2, one / 2), (-root / 2, one / 2))
-
-
-def _wrist(ns, p, k, pose):
-    """From the motor of a leg to the middle of its rods' lower ends, in the leg's frame."""
-    x, y, z = apply(transposed(about_z(_turns(ns)[k])), pose)
-    return (x + p.uP - p.wB, y, z)
-
-
-def _centres(ns, p, arms):
-    """Per leg, about what the platform's centre turns: the knee moved by uP towards the middle."""
-    turns = _turns(ns)
-    return tuple(apply(about_z(turns[k]), (_inner(p, arms[k]), 0, -p.L * arms[k][1])) for k in LEGS)
+    return tuple(sum_of_angles(turn, (0, -1)) for turn in thirds(ns))
 
 
 def _inner(p, arm):
-    """Distance of such a centre from the middle."""
+    """Distance of a sphere's centre from the middle."""
     return p.wB - p.uP + p.L * arm[0]
 
 
+def _centres(ns, p, arms):
+    return tuple(from_leg(t, (_inner(p, arm), 0, -p.L * arm[1])) for t, arm in zip(_turns(ns), arms, strict=True))
+
+
 def _branch(ns, p, pose, arms, margins):
-    legs = [_leg(ns, p, k, pose, arms[k]) for k in LEGS]
-    rods = tuple(leg.rod for leg in legs)
-    core = SimpleNamespace(
-        legs=legs, rods=rods, volume=triple(*rods), couples=triple(*(leg.couple for leg in legs)),
-        below=-triple(*rods), lever1=legs[0].lever, lever2=legs[1].lever, lever3=legs[2].lever,
-    )  # fmt: skip
-    margins |= {f"upright{k + 1}": 1 - leg.up for k, leg in enumerate(legs)}
-    return Branch(pose, arms, margins, core)
-
-
-def _leg(ns, p, k, pose, arm):
-    cosine, sine = arm
-    turn = about_z(_turns(ns)[k])
-    to_wrist = subtract(_wrist(ns, p, k, pose), (p.L * cosine, 0, -p.L * sine))
-    rod = scaled(to_wrist, 1 / p.l)
-    return SimpleNamespace(
-        turn=turn,
-        arm=arm,
-        inner=_inner(p, arm),
-        up=rod[2],
-        rod=apply(turn, rod),
-        couple=apply(turn, cross((0, 1, 0), rod)),
-        lever=p.L * dot(rod, (-sine, 0, -cosine)),
-        tilt=taking((0, 0, -1), rod),
+    turns = _turns(ns)
+    rods = tuple(scaled(subtract(pose, centre), 1 / p.l) for centre in _centres(ns, p, arms))
+    lever1, lever2, lever3 = (
+        p.L * dot(rod, from_leg(turn, (-arm[1], 0, -arm[0]))) for turn, rod, arm in zip(turns, rods, arms, strict=True)
     )
+    volume = triple(*rods)
+    core = SimpleNamespace(
+        arms=arms, rods=rods, volume=volume, couples=couples(turns, rods),
+        below=-volume, lever1=lever1, lever2=lever2, lever3=lever3,
+    )  # fmt: skip
+    margins |= {f"upright{k}": 1 - rod[2] for k, rod in enumerate(rods, start=1)}
+    return Branch(pose, arms, margins, core)
 
 
 def joints(ns, p, core):
     """Every joint's value; a rod is turned from hanging straight down by the smallest rotation: its spin is free."""
     found = {}
-    for k, leg in enumerate(core.legs):
-        cosine, sine = leg.arm
-        back = transposed(leg.turn)
-        upper = product(leg.turn, product(product(about_y((cosine, -sine)), leg.tilt), back))
-        lower = product(leg.turn, product(transposed(leg.tilt), back))
-        found[f"leg{k + 1}.A"] = leg.arm
-        found |= {f"leg{k + 1}.B1": upper, f"leg{k + 1}.B2": upper, f"leg{k + 1}.C1": lower, f"leg{k + 1}.C2": lower}
+    for k, (turn, arm, rod) in enumerate(zip(_turns(ns), core.arms, core.rods, strict=True), start=1):
+        tilt = taking((0, 0, -1), rod)
+        back = product(product(about_z(turn), about_y(opposite(arm))), about_z(opposite(turn)))
+        upper, lower = product(back, tilt), transposed(tilt)
+        found[f"leg{k}.A"] = arm
+        found |= {f"leg{k}.B1": upper, f"leg{k}.B2": upper, f"leg{k}.C1": lower, f"leg{k}.C2": lower}
     return found
 
 
@@ -123,8 +102,8 @@ def factors(ns, p, core):
         "lever2": core.lever2,
         "lever3": core.lever3,
         "couples": core.couples,
-        **{f"inner{k + 1}": core.legs[k].inner for k in LEGS},
-        **{f"level{i + 1}{k + 1}": p.L * (core.legs[i].arm[1] - core.legs[k].arm[1]) for i, k in PAIRS},
+        **{f"inner{k + 1}": _inner(p, core.arms[k]) for k in LEGS},
+        **{f"level{i + 1}{k + 1}": p.L * (core.arms[i][1] - core.arms[k][1]) for i, k in PAIRS},
     }
 
 

@@ -1,22 +1,28 @@
 """Closed form of the H4 robot: four spheres, |p +- h u - m_j| = l, with u the direction from one bar to the other.
 
 The bars do not turn. Limb j swings along d_j; about m_j = (its motor and knee, less its place on the bar) the middle of
-its bar, p + h u or p - h u, runs on a sphere. In the direct problem three differences of spheres are linear in p,
+its bar, p + h u or p - h u, runs on a sphere. In the direct problem the two spheres of a pair meet in a plane,
 
-    a . p = ..,  b . p = ..,  (m_3 - m_1 + 2 h u) . p = ..,    a = m_2 - m_1,  b = m_4 - m_3,
+    a . (p + h u) = ..,  b . (p - h u) = ..,    a = m_2 - m_1 without y,  b = m_4 - m_3 without x.
 
-with right sides that are linear in u; Cramer's rule and one sphere leave a polynomial of degree 8 in tan(phi/2).
+The point (x of bar 1, y of bar 2, z) is in both, on a line along a x b; w is its place there. With u = (c, s), a sphere
+of each bar and c^2 + s^2 = 1 are three quadrics in w, c and s. They meet in eight points, and where neither a nor b is
+upright never in a curve: the leading coefficient is -16 (2 h/l)^8 n_z^4, with n the unit vector along a x b.
 """
 
 from types import SimpleNamespace
 
-from assur.model.closed_form import Branch, ClosedForm, Eliminant, Factor, Margin, Sign
-from assur.numerics.expanded import unknowns
+from assur.model.closed_form import Branch, ClosedForm, Eliminant, Factor, Margin, Quantity, Sign
+from assur.numerics import resultants
 from assur.numerics.meetings import angle_with, linear_in_three
+from assur.numerics.polynomials import add as plus
+from assur.numerics.polynomials import multiply
+from assur.numerics.polynomials import scaled as times
 from assur.numerics.vectors import (
     about_x,
     about_y,
     add,
+    apply,
     cross,
     dot,
     product,
@@ -31,8 +37,10 @@ LIMBS = (1, 2, 3, 4)
 OUTWARDS = ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))
 ALONG_MOTORS = ((0, 1, 0), (0, 1, 0), (1, 0, 0), (1, 0, 0))
 DEGREE = 8
+FRAME = ((6 / 7, 2 / 7, 3 / 7), (2 / 7, 3 / 7, -6 / 7), (3 / 7, -6 / 7, -2 / 7))
+"""Orthonormal rows t, u, v over (w/l, c, s), askew: poses that mirror each other, as at equal cranks, differ in t."""
 STEPS = 2
-"""Of Newton's method after the root; without them a position would be lost where Cramer's determinant is small."""
+"""Of Newton's method after the root."""
 SMALL = 1e-8
 """Where det Jp is about this part of its scale the steps fade out: there is a double root."""
 
@@ -52,31 +60,52 @@ def inverse(ns, p, pose, sign):
 
 
 def coefficients(ns, p, inputs):
-    """The polynomial in t = tan(phi/2), every u taken times 1 + t^2."""
-    (t,) = unknowns(1)
-    q, u = 1 + t * t, (1 - t * t, 2 * t, 0 * t)
-    a, b, m1, m3 = _differences(p, inputs)
-    rows, right = _linear(p, a, b, m1, m3, q, u)
-    ab, bc, ca = cross(a, b), scaled(cross(rows[2], b), -1), cross(rows[2], a)
-    determinant = dot(rows[2], ab)
-    position = add(_times(bc, right[0]), _times(ca, right[1]))
-    position = add(position, _times(ab, q * right[2]))  # times determinant q
-    arm = subtract(scaled(u, p.h), _times(m1, q))
-    to_centre = add(position, _times(arm, determinant))
-    square = determinant * q
-    equation = dot(to_centre, to_centre) - square * square * (p.l * p.l)
-    return [equation.terms.get((k,), 0) for k in range(DEGREE + 1)]
+    """The nine coefficients of the polynomial in t."""
+    m, foot, along, _ = _line(ns, p, inputs)
+    return resultants.eliminant(_quadrics(p, m, foot, along))
 
 
-def back(ns, p, inputs, phi):
-    """The branch of a root."""
-    a, b, m1, m3 = _differences(p, inputs)
-    rows, right = _linear(p, a, b, m1, m3, 1, (phi[0], phi[1], 0))
-    position, determinant = linear_in_three(rows, right)
-    pose = (*position, phi)
+def back(ns, p, inputs, t):
+    """The pose of a root, then steps of Newton's method for what rounding left."""
+    m, foot, along, crossed = _line(ns, p, inputs)
+    u, v, apart = resultants.other_two(_quadrics(p, m, foot, along), t)
+    w, cosine, sine = apply(transposed(FRAME), (t, u, v))
+    size = ns.sqrt(cosine * cosine + sine * sine)
+    middle = scaled(add(foot, scaled(along, w)), p.l)
+    pose = (*add(middle, (-p.h * cosine, p.h * sine, 0)), (cosine / size, sine / size))
     for _ in range(STEPS):
         pose = _improved(ns, p, pose, inputs)
-    return _branch(ns, p, pose, tuple(inputs), {"determinant": determinant})
+    away = t - FRAME[0][0] * dot(along, subtract(m[0], foot))  # at a pose within (6 + sqrt(13))/7
+    return _branch(ns, p, pose, tuple(inputs), {"near": 4 - away * away, "crossed": crossed, "apart": apart})
+
+
+def _line(ns, p, inputs):
+    """Lengths per l: the centres m_j; the line of (x of bar 1, y of bar 2, z), by its foot and direction; (a x b)^2."""
+    m1, m2, m3, m4 = (scaled(_centre(p, k, inputs[k]), 1 / p.l) for k in range(4))
+    a, b = subtract(m2, m1), subtract(m4, m3)
+    n = cross(a, b)
+    foot, crossed = linear_in_three((a, b, n), (dot(a, add(m1, m2)) / 2, dot(b, add(m3, m4)) / 2, 0))
+    return (m1, m2, m3, m4), foot, scaled(n, 1 / ns.sqrt(crossed)), crossed
+
+
+def _quadrics(p, m, foot, along):
+    """A sphere of each bar, and c^2 + s^2 = 1."""
+    side = 2 * p.h / p.l
+    bar1 = tuple(zip(subtract(foot, m[0]), ((along[0], 0, 0), (along[1], 0, side), (along[2], 0, 0)), strict=True))
+    bar2 = tuple(zip(subtract(foot, m[2]), ((along[0], -side, 0), (along[1], 0, 0), (along[2], 0, 0)), strict=True))
+    turn = ((0, (0, 1, 0)), (0, (0, 0, 1)))
+    return tuple(_sum_of_squares(forms) for forms in (bar1, bar2, turn))
+
+
+def _sum_of_squares(forms):
+    """The quadric on which the squares of forms k + f . (w, c, s) add up to 1, in the coordinates of FRAME."""
+    total = ((0,), (0,), (0,), (0,), (0,), (-1,))
+    for constant, factors in forms:
+        by_t, u, v = apply(FRAME, factors)
+        far = (constant, by_t)
+        square = ((u * u,), (2 * u * v,), (v * v,), times(far, 2 * u), times(far, 2 * v), multiply(far, far))
+        total = tuple(plus(part, more) for part, more in zip(total, square, strict=True))
+    return total
 
 
 def _improved(ns, p, pose, arms):
@@ -100,33 +129,6 @@ def _determinant(rows, column):
     a, b, c, d = rows
     minors = (triple(b, c, d), triple(a, c, d), triple(a, b, d), triple(a, b, c))
     return column[1] * minors[1] - column[0] * minors[0] + column[3] * minors[3] - column[2] * minors[2]
-
-
-def _differences(p, inputs):
-    m1, m2, m3, m4 = (_centre(p, k, inputs[k]) for k in range(4))
-    return subtract(m2, m1), subtract(m4, m3), m1, m3
-
-
-def _linear(p, a, b, m1, m3, q, u):
-    """The three linear equations, rows and right sides, with 1 and u times q."""
-    m2, m4 = add(m1, a), add(m3, b)
-    third = add(_times(subtract(m3, m1), q), scaled(u, 2 * p.h))
-    right = (
-        _half(m2, m1, q) - dot(u, a) * p.h,
-        _half(m4, m3, q) + dot(u, b) * p.h,
-        _half(m3, m1, q) + dot(u, add(m1, m3)) * p.h,
-    )
-    return (a, b, third), right
-
-
-def _half(first, second, q):
-    """Half the difference of two squares, times q."""
-    return q * ((dot(first, first) - dot(second, second)) / 2)
-
-
-def _times(vector, factor):
-    """A vector times a polynomial, which must stand on the left."""
-    return tuple(factor * part for part in vector)
 
 
 def _middle(p, k):
@@ -158,7 +160,7 @@ def _branch(ns, p, pose, arms, margins):
         turning.append(side * (rod[1] * cosine - rod[0] * sine))
         margins[f"upright{k + 1}"] = 1 - rod[2]
     core = SimpleNamespace(
-        arms=arms, phi=pose[3], rods=tuple(rods), levers=tuple(levers), turning=tuple(turning),
+        arms=arms, pose=pose, phi=pose[3], rods=tuple(rods), levers=tuple(levers), turning=tuple(turning),
         lever1=levers[0], lever2=levers[1], lever3=levers[2], lever4=levers[3],
     )  # fmt: skip
     return Branch(pose, arms, margins, core)
@@ -196,6 +198,12 @@ def jacobians(ns, p, core):
     return jp, jq
 
 
+def quantities(ns, p, core):
+    """The unknown of the direct problem."""
+    (x, y, z, (cosine, sine)), (_, _, along, _) = core.pose, _line(ns, p, core.arms)
+    return {"t": dot(FRAME[0], (dot(along, (x + p.h * cosine, y - p.h * sine, z)) / p.l, cosine, sine))}
+
+
 _UPRIGHT = tuple(
     Margin(f"upright{k}", "1", f"the rods of limb {k} stand straight up: their joints have no single values", unit=0,
            zero="degenerate", latex=rf"1-n_{{{k}z}}")
@@ -205,20 +213,24 @@ _UPRIGHT = tuple(
 CLOSED_FORM = ClosedForm(
     complete_for="reduced",
     reduced_because="assemblies in which a bar turns are left out; each rod spins freely",
-    direct=Eliminant("phi", "angle", DEGREE, coefficients, back),
+    direct=Eliminant("t", "plain", DEGREE, coefficients, back),
     inverse=inverse,
     joints=joints,
     factors=factors,
     jacobians=jacobians,
+    quantities=quantities,
+    quantity_list=(Quantity("t", "number", "", meaning="(6 w/l + 2 cos(phi) + 3 sin(phi))/7, w a place on a line"),),
     signs={f"s{k}": Sign(f"lever{k}", "L") for k in LIMBS},
     direct_margins=(
+        Margin("near", "1", "the root is farther away than a sphere reaches", unit=0),
         Margin(
-            "determinant",
-            "l*l*l",
-            "the three linear equations of the position are dependent",
-            unit=3,
+            "crossed",
+            "1",
+            "the planes in which pairs of spheres meet are parallel, or two spheres coincide",
+            unit=4,
             zero="degenerate",
         ),
+        Margin("apart", "1", "two poses share the unknown t", unit=2, zero="degenerate"),
         *_UPRIGHT,
     ),
     inverse_margins=(

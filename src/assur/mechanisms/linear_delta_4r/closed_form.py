@@ -8,8 +8,9 @@ the direct problem is the meeting of three spheres. Differentiated: n_i . v = (n
 from types import SimpleNamespace
 
 from assur.model.closed_form import Branch, ClosedForm, Factor, Margin, Sign
+from assur.numerics.legs import from_leg, in_leg, pointing, thirds
 from assur.numerics.meetings import three_spheres
-from assur.numerics.vectors import scaled, subtract, triple
+from assur.numerics.vectors import opposite, scaled, subtract, triple
 
 NOTHING = 1e-30
 """What 0/0 is taken as one by: beside any other number it is nothing."""
@@ -17,13 +18,12 @@ NOTHING = 1e-30
 
 def inverse(ns, p, pose, sign):
     """Inputs at a pose. Signs: s1, s2, s3, those of cos(B)."""
-    radicands, inputs = [], []
-    for limb, chosen in zip(_limbs(ns), (sign.s1, sign.s2, sign.s3), strict=True):
-        x, y = _local(limb, pose)
+    margins, inputs = {}, []
+    for i, (turn, chosen) in enumerate(zip(thirds(ns), (sign.s1, sign.s2, sign.s3), strict=True), start=1):
+        x, y, z = in_leg(turn, pose)
         radicand = p.L * p.L - y * y - (p.R - p.r - x) * (p.R - p.r - x)
-        radicands.append(radicand)
-        inputs.append(pose[2] + chosen * ns.sqrt(radicand))
-    margins = {f"reach{i + 1}": radicands[i] for i in range(3)}
+        inputs.append(z + chosen * ns.sqrt(radicand))
+        margins[f"reach{i}"] = radicand
     return Branch(tuple(pose), tuple(inputs), margins, _core(ns, p, pose, inputs))
 
 
@@ -34,47 +34,26 @@ def direct(ns, p, inputs, sign):
     return Branch(pose, tuple(inputs), {"normal": normal / square, "meeting": radicand}, _core(ns, p, pose, inputs))
 
 
-def _limbs(ns):
-    """Directions (cosine, sine) of the limbs, 120 deg apart."""
-    cosine, sine = -ns.sqrt(1) / 2, ns.sqrt(3) / 2
-    return (1, 0), (cosine, sine), (cosine, -sine)
-
-
-def _local(limb, vector):
-    """The first two components of a vector in the frame of a limb."""
-    cosine, sine = limb
-    return cosine * vector[0] + sine * vector[1], cosine * vector[1] - sine * vector[0]
-
-
 def _centres(ns, p, inputs):
-    reach = p.R - p.r
-    return tuple((reach * limb[0], reach * limb[1], q) for limb, q in zip(_limbs(ns), inputs, strict=True))
+    return tuple(from_leg(turn, (p.R - p.r, 0, q)) for turn, q in zip(thirds(ns), inputs, strict=True))
 
 
 def _core(ns, p, pose, inputs):
     rods = tuple(scaled(subtract(centre, pose), 1 / p.L) for centre in _centres(ns, p, inputs))
-    local = tuple((*_local(limb, rod), rod[2]) for limb, rod in zip(_limbs(ns), rods, strict=True))
     return SimpleNamespace(
-        pose=tuple(pose), inputs=tuple(inputs), rods=rods, local=local,
-        widths=tuple(ns.sqrt(rod[0] * rod[0] + rod[2] * rod[2]) for rod in local),
-        arm1=rods[0][2], arm2=rods[1][2], arm3=rods[2][2], volume=triple(*rods),
-    )  # fmt: skip
+        inputs=tuple(inputs), rods=rods, arm1=rods[0][2], arm2=rods[1][2], arm3=rods[2][2], volume=triple(*rods)
+    )
 
 
 def joints(ns, p, core):
     """Every joint's value; a revolute as (cosine, sine). Short links of a flat parallelogram, free to turn, do not."""
     found = {}
-    for i, (rod, width) in enumerate(zip(core.local, core.widths, strict=True)):
-        hinge, turn = (width, -rod[1]), ((rod[2] + NOTHING) / (width + NOTHING), rod[0] / (width + NOTHING))
-        leg = f"leg{i + 1}"
-        found |= {f"{leg}.A": core.inputs[i], f"{leg}.B": turn, f"{leg}.C": _back(turn)}
-        found |= {f"{leg}.Da": hinge, f"{leg}.Db": hinge, f"{leg}.Ea": _back(hinge), f"{leg}.Eb": _back(hinge)}
+    for i, (limb, q, rod) in enumerate(zip(thirds(ns), core.inputs, core.rods, strict=True), start=1):
+        x, y, z = in_leg(limb, rod)
+        turn, hinge, _ = pointing(ns, z, x, -y, NOTHING)
+        found |= {f"leg{i}.A": q, f"leg{i}.B": turn, f"leg{i}.C": opposite(turn)}
+        found |= {f"leg{i}.D{side}": hinge for side in "ab"} | {f"leg{i}.E{side}": opposite(hinge) for side in "ab"}
     return found
-
-
-def _back(angle):
-    cosine, sine = angle
-    return (cosine, -sine)
 
 
 def factors(ns, p, core):

@@ -1,24 +1,15 @@
 """Closed form of the linear Delta: a rail meets a sphere in each leg, three spheres meet in the direct problem.
 
-A leg is computed in its own frame, which is the base's turned about Z: outwards, around, up.
+A leg's frame is the base's turned about Z: outwards, around, up. As the platform does not turn, its centre is at the
+distance l from three points: the sliders moved by r towards the middle.
 """
 
 from types import SimpleNamespace
 
 from assur.model.closed_form import Branch, ClosedForm, Factor, Margin, SelfMotion, Sign
+from assur.numerics.legs import couples, from_leg, in_leg, thirds
 from assur.numerics.meetings import coincident_spheres, three_spheres
-from assur.numerics.vectors import (
-    about_z,
-    apply,
-    cross,
-    dot,
-    product,
-    scaled,
-    subtract,
-    taking,
-    transposed,
-    triple,
-)
+from assur.numerics.vectors import cross, dot, scaled, subtract, taking, transposed, triple
 
 LEGS = (0, 1, 2)
 PAIRS = ((0, 1), (1, 2), (0, 2))
@@ -28,20 +19,19 @@ def inverse(ns, p, pose, sign):
     """Places of the sliders at a position of the platform. Signs: s1, s2, s3, + where a slider is ahead of it."""
     rail = _rail(ns, p)
     sliders, margins = [], {}
-    for k, ahead in enumerate((sign.s1, sign.s2, sign.s3)):
-        wrist = _wrist(ns, p, k, pose)
-        along = dot(rail, wrist)
+    for k, (turn, ahead) in enumerate(zip(thirds(ns), (sign.s1, sign.s2, sign.s3), strict=True), start=1):
+        x, y, z = in_leg(turn, pose)
+        wrist = (x + p.r - p.R, y, z)
         aside = cross(rail, wrist)
         reach = p.l * p.l - dot(aside, aside)
-        sliders.append(along + ahead * ns.sqrt(reach))
-        margins[f"reach{k + 1}"] = reach
+        sliders.append(dot(rail, wrist) + ahead * ns.sqrt(reach))
+        margins[f"reach{k}"] = reach
     return _branch(ns, p, pose, tuple(sliders), margins)
 
 
 def direct(ns, p, inputs, sign):
     """Position of the platform at given places of the sliders. Sign: e, + where it hangs below them."""
-    squares = (p.l * p.l,) * 3
-    pose, meeting, normal = three_spheres(ns, _centres(ns, p, inputs), squares, -sign.e)
+    pose, meeting, normal = three_spheres(ns, _centres(ns, p, inputs), (p.l * p.l,) * 3, -sign.e)
     return _branch(ns, p, pose, tuple(inputs), {"normal": normal, "meeting": meeting})
 
 
@@ -51,68 +41,42 @@ def self_motion(ns, p, inputs, turn, sign):
     return _branch(ns, p, pose, tuple(inputs), {"meeting": (radicand + 0 * turn[0]) * p.l * p.l * p.l * p.l})
 
 
-def _turns(ns):
-    """Where the legs are, as (cosine, sine): 0, 120 and 240 deg."""
-    one, root = ns.sqrt(1), ns.sqrt(3)
-    return ((one, 0), (-one / 2, root / 2), (-one / 2, -root / 2))
-
-
 def _rail(ns, p):
     """Unit vector along a rail, in its leg's frame."""
     return scaled((p.lean, 0, p.rise), 1 / ns.sqrt(p.lean * p.lean + p.rise * p.rise))
 
 
-def _wrist(ns, p, k, pose):
-    """From the rail's zero to the middle of the rods' lower ends, in the leg's frame."""
-    x, y, z = apply(transposed(about_z(_turns(ns)[k])), pose)
-    return (x + p.r - p.R, y, z)
+def _inner(ns, p, slider):
+    """Distance of a sphere's centre from the middle."""
+    return p.R - p.r + slider * _rail(ns, p)[0]
 
 
 def _centres(ns, p, sliders):
-    """Per leg, about what the platform's centre turns: the slider moved by r towards the middle."""
-    turns, rail = _turns(ns), _rail(ns, p)
-    return tuple(apply(about_z(turns[k]), (_inner(p, rail, sliders[k]), 0, sliders[k] * rail[2])) for k in LEGS)
-
-
-def _inner(p, rail, slider):
-    """Distance of such a centre from the middle."""
-    return p.R - p.r + slider * rail[0]
+    rise = _rail(ns, p)[2]
+    return tuple(from_leg(t, (_inner(ns, p, d), 0, d * rise)) for t, d in zip(thirds(ns), sliders, strict=True))
 
 
 def _branch(ns, p, pose, sliders, margins):
-    legs = [_leg(ns, p, k, pose, sliders[k]) for k in LEGS]
-    rods = tuple(leg.rod for leg in legs)
+    turns, rail = thirds(ns), _rail(ns, p)
+    rods = tuple(scaled(subtract(pose, centre), 1 / p.l) for centre in _centres(ns, p, sliders))
+    shares = tuple(dot(from_leg(turn, rail), rod) for turn, rod in zip(turns, rods, strict=True))
+    volume = triple(*rods)
     core = SimpleNamespace(
-        legs=legs, rods=rods, volume=triple(*rods), couples=triple(*(leg.couple for leg in legs)),
-        below=-triple(*rods), ahead1=-legs[0].share, ahead2=-legs[1].share, ahead3=-legs[2].share,
+        sliders=sliders, rods=rods, shares=shares, volume=volume, couples=couples(turns, rods),
+        below=-volume, ahead1=-shares[0], ahead2=-shares[1], ahead3=-shares[2],
     )  # fmt: skip
-    margins |= {f"upright{k + 1}": 1 - leg.up for k, leg in enumerate(legs)}
+    margins |= {f"upright{k}": 1 - rod[2] for k, rod in enumerate(rods, start=1)}
     return Branch(pose, sliders, margins, core)
-
-
-def _leg(ns, p, k, pose, slider):
-    turn, rail = about_z(_turns(ns)[k]), _rail(ns, p)
-    rod = scaled(subtract(_wrist(ns, p, k, pose), scaled(rail, slider)), 1 / p.l)
-    return SimpleNamespace(
-        turn=turn,
-        slider=slider,
-        inner=_inner(p, rail, slider),
-        up=rod[2],
-        rod=apply(turn, rod),
-        couple=apply(turn, cross((0, 1, 0), rod)),
-        share=dot(rail, rod),
-        tilt=taking((0, 0, -1), rod),
-    )
 
 
 def joints(ns, p, core):
     """Every joint's value; a rod is turned from hanging straight down by the smallest rotation: its spin is free."""
     found = {}
-    for k, leg in enumerate(core.legs):
-        upper = product(leg.turn, product(leg.tilt, transposed(leg.turn)))
+    for k, (slider, rod) in enumerate(zip(core.sliders, core.rods, strict=True), start=1):
+        upper = taking((0, 0, -1), rod)
         lower = transposed(upper)
-        found[f"leg{k + 1}.P"] = leg.slider
-        found |= {f"leg{k + 1}.B1": upper, f"leg{k + 1}.B2": upper, f"leg{k + 1}.C1": lower, f"leg{k + 1}.C2": lower}
+        found[f"leg{k}.P"] = slider
+        found |= {f"leg{k}.B1": upper, f"leg{k}.B2": upper, f"leg{k}.C1": lower, f"leg{k}.C2": lower}
     return found
 
 
@@ -120,16 +84,16 @@ def factors(ns, p, core):
     """Det Jp = the volume that the rods' directions span, det Jq = the product of their shares along the rails."""
     return {
         "volume": core.volume,
-        **{f"share{k + 1}": core.legs[k].share for k in LEGS},
+        **{f"share{k + 1}": core.shares[k] for k in LEGS},
         "couples": core.couples,
-        **{f"inner{k + 1}": core.legs[k].inner for k in LEGS},
-        **{f"level{i + 1}{k + 1}": core.legs[i].slider - core.legs[k].slider for i, k in PAIRS},
+        **{f"inner{k + 1}": _inner(ns, p, core.sliders[k]) for k in LEGS},
+        **{f"level{i + 1}{k + 1}": core.sliders[i] - core.sliders[k] for i, k in PAIRS},
     }
 
 
 def jacobians(ns, p, core):
     """The rods are rigid: rod_k . v = (rod_k . rail_k) dd_k."""
-    first, second, third = (leg.share for leg in core.legs)
+    first, second, third = core.shares
     return core.rods, ((first, 0, 0), (0, second, 0), (0, 0, third))
 
 

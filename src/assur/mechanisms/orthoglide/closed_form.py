@@ -8,8 +8,9 @@ problem is the meeting of three spheres. Differentiated: n_i . v = (n_i . e_i) d
 from types import SimpleNamespace
 
 from assur.model.closed_form import Branch, ClosedForm, Factor, Margin, SelfMotion, Sign
-from assur.numerics.meetings import three_spheres
-from assur.numerics.vectors import cross, dot, scaled, subtract, triple
+from assur.numerics.legs import pointing
+from assur.numerics.meetings import coincident_spheres, three_spheres
+from assur.numerics.vectors import cross, length, opposite, scaled, subtract, triple
 
 NOTHING = 1e-30
 """What 0/0 is taken as one by: beside any other number it is nothing."""
@@ -17,12 +18,11 @@ NOTHING = 1e-30
 
 def inverse(ns, p, pose, sign):
     """Inputs at a pose. Signs: s1, s2, s3, those of cos(B)."""
-    radicands, inputs = [], []
-    for local, chosen in zip(_local(pose), (sign.s1, sign.s2, sign.s3), strict=True):
-        radicand = p.L * p.L - local[1] * local[1] - local[2] * local[2]
-        radicands.append(radicand)
-        inputs.append(local[0] + chosen * ns.sqrt(radicand))
-    margins = {f"reach{i + 1}": radicands[i] for i in range(3)}
+    margins, inputs = {}, []
+    for i, ((x, y, z), chosen) in enumerate(zip(_local(pose), (sign.s1, sign.s2, sign.s3), strict=True), start=1):
+        radicand = p.L * p.L - y * y - z * z
+        inputs.append(x + chosen * ns.sqrt(radicand))
+        margins[f"reach{i}"] = radicand
     return Branch(tuple(pose), tuple(inputs), margins, _core(ns, p, pose, inputs))
 
 
@@ -38,13 +38,9 @@ def self_motion(ns, p, inputs, angle, sign):
 
     Where all three meet it is free on a sphere, of which this is one circle.
     """
-    squares = [q * q for q in inputs]
-    total = squares[0] + squares[1] + squares[2] + NOTHING * p.L * p.L
-    weights = [(squares[0] + NOTHING * p.L * p.L) / total, squares[1] / total, squares[2] / total]
-    radicand = p.L * p.L - (squares[0] + squares[1] + squares[2]) / 4
-    radius = ns.sqrt(radicand)
-    pose = tuple(inputs[i] / 2 + radius * (angle[0] * weights[i - 1] + angle[1] * weights[i - 2]) for i in range(3))
-    return Branch(pose, tuple(inputs), {"meeting": radicand * p.L * p.L * p.L * p.L}, _core(ns, p, pose, inputs))
+    pose, radicand = coincident_spheres(ns, _centres(inputs), p.L * p.L, (1, 1, 0), angle)
+    margin = (radicand + 0 * angle[0]) * p.L * p.L * p.L * p.L
+    return Branch(pose, tuple(inputs), {"meeting": margin}, _core(ns, p, pose, inputs))
 
 
 def _local(vector):
@@ -60,28 +56,21 @@ def _centres(inputs):
 
 def _core(ns, p, pose, inputs):
     rods = tuple(scaled(subtract(centre, pose), 1 / p.L) for centre in _centres(inputs))
-    local = tuple(_local(rod)[i] for i, rod in enumerate(rods))
     return SimpleNamespace(
-        pose=tuple(pose), inputs=tuple(inputs), rods=rods, local=local,
-        widths=tuple(ns.sqrt(rod[0] * rod[0] + rod[2] * rod[2]) for rod in local),
-        arm1=local[0][0], arm2=local[1][0], arm3=local[2][0], volume=triple(*rods),
-    )  # fmt: skip
+        inputs=tuple(inputs), rods=rods, arm1=rods[0][0], arm2=rods[1][1], arm3=rods[2][2], volume=triple(*rods)
+    )
 
 
 def joints(ns, p, core):
     """Every joint's value; a revolute as (cosine, sine). Short links of a flat parallelogram, free to turn, do not."""
     found = {}
-    for i, (rod, width) in enumerate(zip(core.local, core.widths, strict=True)):
-        hinge, turn = (width, rod[1]), ((rod[0] + NOTHING) / (width + NOTHING), -rod[2] / (width + NOTHING))
+    for i, (q, rod) in enumerate(zip(core.inputs, core.rods, strict=True)):
+        x, y, z = _local(rod)[i]
+        turn, hinge, _ = pointing(ns, x, -z, y, NOTHING)
         leg = f"leg{i + 1}"
-        found |= {f"{leg}.A": core.inputs[i], f"{leg}.B": turn, f"{leg}.C": _back(turn)}
-        found |= {f"{leg}.Da": hinge, f"{leg}.Db": hinge, f"{leg}.Ea": _back(hinge), f"{leg}.Eb": _back(hinge)}
+        found |= {f"{leg}.A": q, f"{leg}.B": turn, f"{leg}.C": opposite(turn)}
+        found |= {f"{leg}.D{side}": hinge for side in "ab"} | {f"{leg}.E{side}": opposite(hinge) for side in "ab"}
     return found
-
-
-def _back(angle):
-    cosine, sine = angle
-    return (cosine, -sine)
 
 
 def factors(ns, p, core):
@@ -93,17 +82,13 @@ def factors(ns, p, core):
         "arm1": core.arm1,
         "arm2": core.arm2,
         "arm3": core.arm3,
-        "sine12": _length(ns, cross(first, second)),
-        "sine23": _length(ns, cross(second, third)),
-        "sine31": _length(ns, cross(third, first)),
+        "sine12": length(ns, cross(first, second)),
+        "sine23": length(ns, cross(second, third)),
+        "sine31": length(ns, cross(third, first)),
         "gap12": ns.sqrt(q1 * q1 + q2 * q2),
         "gap23": ns.sqrt(q2 * q2 + q3 * q3),
         "gap31": ns.sqrt(q3 * q3 + q1 * q1),
     }
-
-
-def _length(ns, vector):
-    return ns.sqrt(dot(vector, vector))
 
 
 def jacobians(ns, p, core):

@@ -3,18 +3,18 @@
 from types import SimpleNamespace
 
 from assur.model.closed_form import Branch, ClosedForm, Factor, Margin, Quantity, Sign
-from assur.numerics.meetings import angle_with
-from assur.numerics.vectors import dot, scaled, triple
+from assur.numerics.legs import from_leg, in_leg, thirds, two_bars
+from assur.numerics.vectors import dot, opposite, scaled, triple
 
 LIMBS = (1, 2, 3)
 
 
 def inverse(ns, p, pose, sign):
     """Translations on the rods at a pose. Signs: k1, k2, k3, those of sin(B) of each limb."""
-    axes = _axes(ns, p)
-    back = (p.R - p.r) * axes[0][0]  # what the feet and the platform's hinges are apart, along each rod
-    inputs = tuple(dot(axis, pose) - back for axis in axes)
-    return _branch(ns, p, axes, pose, inputs, (sign.k1, sign.k2, sign.k3))
+    axis = _axis(ns, p)
+    back = (p.R - p.r) * axis[0]  # what the feet and the platform's hinges are apart, along each rod
+    inputs = tuple(dot(axis, in_leg(turn, pose)) - back for turn in thirds(ns))
+    return _branch(ns, p, pose, inputs, (sign.k1, sign.k2, sign.k3))
 
 
 def direct(ns, p, inputs, sign):
@@ -25,76 +25,62 @@ def direct(ns, p, inputs, sign):
     stretch = ns.sqrt(1 + p.rise * p.rise)
     a1, a2, a3 = (part * stretch + p.R - p.r for part in inputs)
     pose = ((2 * a1 - a2 - a3) / 3, (a2 - a3) / ns.sqrt(3), (a1 + a2 + a3) / (3 * p.rise))
-    return _branch(ns, p, _axes(ns, p), pose, inputs, (sign.e1, sign.e2, sign.e3))
+    return _branch(ns, p, pose, inputs, (sign.e1, sign.e2, sign.e3))
 
 
-def _radial(ns):
-    """Radial directions (cosine, sine) of the limbs."""
-    half = ns.sqrt(3) / 2
-    return ((1, 0), (-1 / 2, half), (-1 / 2, -half))
-
-
-def _axes(ns, p):
-    """Unit directions of the rods."""
+def _axis(ns, p):
+    """Unit direction of a rod, in its limb's frame: outwards, tangential, up."""
     long = ns.sqrt(1 + p.rise * p.rise)
-    return tuple((c / long, s / long, p.rise / long) for c, s in _radial(ns))
+    return (1 / long, 0, p.rise / long)
 
 
-def _branch(ns, p, axes, pose, inputs, signs):
+def _branch(ns, p, pose, inputs, signs):
     """Limb i works in the plane across its rod: C's tangential and its upward coordinate from the rod."""
+    out, _, rise = _axis(ns, p)
     margins, legs = {}, []
-    for number, (cosine, sine), axis, knee in zip(LIMBS, _radial(ns), axes, signs, strict=True):
-        tangent = (-sine, cosine, 0)
-        upward = (-axis[2] * cosine, -axis[2] * sine, axes[0][0])  # axis x tangent
-        across = dot(tangent, pose)
-        up = dot(upward, pose) + (p.R - p.r) * axis[2]
-        square = across * across + up * up
-        along = (square + p.l1 * p.l1 - p.l2 * p.l2) / (2 * p.l1)
-        crank, reach = angle_with(ns, across, up, along, -knee)
-        rod = ((across - p.l1 * crank[0]) / p.l2, (up - p.l1 * crank[1]) / p.l2)
-        legs.append((crank, rod))
-        margins |= {f"distance{number}": square, f"reach{number}": reach}
-    knees = {f"knee{n}": _cross(*leg) for n, leg in zip(LIMBS, legs, strict=True)}
-    core = SimpleNamespace(axes=axes, inputs=inputs, legs=tuple(legs), **knees)
+    for n, turn, knee in zip(LIMBS, thirds(ns), signs, strict=True):
+        x, y, z = in_leg(turn, pose)
+        leg = two_bars(ns, (y, out * z - rise * (x - p.R + p.r)), p.l1, p.l2, knee)
+        legs.append(leg)
+        margins |= {f"distance{n}": leg.square, f"reach{n}": leg.radicand}
+    core = SimpleNamespace(inputs=inputs, legs=legs, **{f"knee{n}": legs[n - 1].elbow[1] for n in LIMBS})
     return Branch(pose, inputs, margins, core)
-
-
-def _cross(first, second):
-    return first[0] * second[1] - first[1] * second[0]
-
-
-def _dot(first, second):
-    return first[0] * second[0] + first[1] * second[1]
 
 
 def joints(ns, p, core):
     """Every joint's value; a rotation as (cosine, sine)."""
     values = {}
-    for number, slide, (crank, rod) in zip(LIMBS, core.inputs, core.legs, strict=True):
-        values |= {
-            f"leg{number}.A.translation": slide,
-            f"leg{number}.A.rotation": crank,
-            f"leg{number}.B": (_dot(crank, rod), _cross(crank, rod)),
-            f"leg{number}.C": (rod[0], -rod[1]),
-        }
+    for n, slide, leg in zip(LIMBS, core.inputs, core.legs, strict=True):
+        values |= {f"leg{n}.A.translation": slide, f"leg{n}.A.rotation": leg.crank}
+        values |= {f"leg{n}.B": leg.elbow, f"leg{n}.C": opposite(leg.rod)}
     return values
+
+
+def _axes(ns, p):
+    """Unit directions of the rods."""
+    return tuple(from_leg(turn, _axis(ns, p)) for turn in thirds(ns))
 
 
 def factors(ns, p, core):
     """The sine of each knee divides both determinants, because both problems branch there."""
-    knees = {f"knee{n}": getattr(core, f"knee{n}") for n in LIMBS}
-    return {"axes": triple(*core.axes), **knees, **{f"border{n}": knees[f"knee{n}"] for n in LIMBS}}
+    knees = {n: leg.elbow[1] for n, leg in zip(LIMBS, core.legs, strict=True)}
+    return {
+        "axes": triple(*_axes(ns, p)),
+        **{f"knee{n}": knees[n] for n in LIMBS},
+        **{f"border{n}": knees[n] for n in LIMBS},
+    }
 
 
 def jacobians(ns, p, core):
     """U . v = dq/dt for each rod, times the sine of the limb's knee: a straight limb says nothing of the rates."""
-    jp = tuple(scaled(axis, knee) for axis, knee in zip(core.axes, (core.knee1, core.knee2, core.knee3), strict=True))
+    knees = (core.knee1, core.knee2, core.knee3)
+    jp = tuple(scaled(axis, knee) for axis, knee in zip(_axes(ns, p), knees, strict=True))
     return jp, ((core.knee1, 0, 0), (0, core.knee2, 0), (0, 0, core.knee3))
 
 
 def quantities(ns, p, core):
     """Directions of the rods in the planes of their limbs."""
-    return {f"rod{number}": rod for number, (_, rod) in zip(LIMBS, core.legs, strict=True)}
+    return {f"rod{n}": leg.rod for n, leg in zip(LIMBS, core.legs, strict=True)}
 
 
 def constraints(ns, p, core, inputs):

@@ -1,13 +1,15 @@
 """Closed form of the 3-[P2(US)]: a vertical rail meets a sphere in each leg, three spheres meet in the direct problem.
 
-A leg is computed in its own frame, which is the base's turned about Z: outwards, around, up.
+A leg's frame is the base's turned about Z: outwards, around, up. As the platform does not turn, its centre is at the
+distance l from three points: the sliders moved by r towards the middle.
 """
 
 from types import SimpleNamespace
 
 from assur.model.closed_form import Branch, ClosedForm, Factor, Margin, Sign
+from assur.numerics.legs import couples, from_leg, in_leg, pointing, thirds
 from assur.numerics.meetings import three_spheres
-from assur.numerics.vectors import about_x, about_y, about_z, apply, cross, product, transposed, triple
+from assur.numerics.vectors import about_x, about_y, about_z, opposite, product, scaled, subtract, transposed, triple
 
 LEGS = (0, 1, 2)
 
@@ -15,72 +17,51 @@ LEGS = (0, 1, 2)
 def inverse(ns, p, pose, sign):
     """Heights of the sliders at a position of the platform. Signs: s1, s2, s3, + where a slider is above it."""
     sliders, margins = [], {}
-    for k, above in enumerate((sign.s1, sign.s2, sign.s3)):
-        x, y, z = _wrist(ns, p, k, pose)
+    for k, (turn, above) in enumerate(zip(thirds(ns), (sign.s1, sign.s2, sign.s3), strict=True), start=1):
+        x, y, z = in_leg(turn, pose)
+        x = x + p.r - p.R
         reach = p.l * p.l - x * x - y * y
         sliders.append(z + above * ns.sqrt(reach))
-        margins[f"reach{k + 1}"] = reach
+        margins[f"reach{k}"] = reach
     return _branch(ns, p, pose, tuple(sliders), margins)
 
 
 def direct(ns, p, inputs, sign):
     """Position of the platform at given heights of the sliders. Sign: e, + where it hangs below them."""
-    turns = _turns(ns)
-    first, second, third = (apply(about_z(turns[k]), (p.R - p.r, 0, inputs[k])) for k in LEGS)
-    pose, meeting, normal = three_spheres(ns, (first, second, third), (p.l * p.l,) * 3, -sign.e)
+    pose, meeting, normal = three_spheres(ns, _centres(ns, p, inputs), (p.l * p.l,) * 3, -sign.e)
     return _branch(ns, p, pose, tuple(inputs), {"normal": normal, "meeting": meeting})
 
 
-def _turns(ns):
-    """Where the legs are, as (cosine, sine): 0, 120 and 240 deg."""
-    one, root = ns.sqrt(1), ns.sqrt(3)
-    return ((one, 0), (-one / 2, root / 2), (-one / 2, -root / 2))
-
-
-def _wrist(ns, p, k, pose):
-    """From the rail's zero to the middle of the rods' lower ends, in the leg's frame."""
-    x, y, z = apply(transposed(about_z(_turns(ns)[k])), pose)
-    return (x + p.r - p.R, y, z)
+def _centres(ns, p, sliders):
+    return tuple(from_leg(turn, (p.R - p.r, 0, slider)) for turn, slider in zip(thirds(ns), sliders, strict=True))
 
 
 def _branch(ns, p, pose, sliders, margins):
-    legs = [_leg(ns, p, k, pose, sliders[k]) for k in LEGS]
-    rods = tuple(leg.rod for leg in legs)
+    turns = thirds(ns)
+    rods = tuple(scaled(subtract(pose, centre), 1 / p.l) for centre in _centres(ns, p, sliders))
+    angles = []
+    for k, (turn, rod) in enumerate(zip(turns, rods, strict=True), start=1):
+        out, around, up = in_leg(turn, rod)
+        first, second, margins[f"flat{k}"] = pointing(ns, -up, -out, around)
+        angles.append((first, second))
+    volume = triple(*rods)
     core = SimpleNamespace(
-        legs=legs, sliders=sliders, rods=rods, volume=triple(*rods), couples=triple(*(leg.couple for leg in legs)),
-        below=-triple(*rods), above1=-legs[0].up, above2=-legs[1].up, above3=-legs[2].up,
+        sliders=sliders, rods=rods, angles=angles, volume=volume, couples=couples(turns, rods),
+        below=-volume, above1=-rods[0][2], above2=-rods[1][2], above3=-rods[2][2],
     )  # fmt: skip
-    margins |= {f"flat{k + 1}": leg.flat for k, leg in enumerate(legs)}
     return Branch(pose, sliders, margins, core)
-
-
-def _leg(ns, p, k, pose, slider):
-    turn = about_z(_turns(ns)[k])
-    x, y, z = _wrist(ns, p, k, pose)
-    out, around, up = rod = (x / p.l, y / p.l, (z - slider) / p.l)
-    flat = out * out + up * up
-    across = ns.sqrt(flat)
-    return SimpleNamespace(
-        turn=turn,
-        rod=apply(turn, rod),
-        couple=apply(turn, cross((0, 1, 0), rod)),
-        up=up,
-        flat=flat,
-        first=(-up / across, -out / across),
-        second=(across, around),
-    )
 
 
 def joints(ns, p, core):
     """Every joint's value; the second angle of a universal joint is taken between -90 and 90 deg."""
     found = {}
-    for k, leg in enumerate(core.legs):
-        rod = product(leg.turn, product(product(about_y(leg.first), about_x(leg.second)), transposed(leg.turn)))
-        found[f"leg{k + 1}.P"] = core.sliders[k]
+    for k, (turn, slider, (first, second)) in enumerate(zip(thirds(ns), core.sliders, core.angles, strict=True), 1):
+        rod = product(about_z(turn), product(product(about_y(first), about_x(second)), about_z(opposite(turn))))
+        found[f"leg{k}.P"] = slider
         for pair in ("1", "2"):
-            found[f"leg{k + 1}.B{pair}.first"] = leg.first
-            found[f"leg{k + 1}.B{pair}.second"] = leg.second
-            found[f"leg{k + 1}.C{pair}"] = transposed(rod)
+            found[f"leg{k}.B{pair}.first"] = first
+            found[f"leg{k}.B{pair}.second"] = second
+            found[f"leg{k}.C{pair}"] = transposed(rod)
     return found
 
 
@@ -88,14 +69,14 @@ def factors(ns, p, core):
     """Det Jp = the volume that the rods' directions span, det Jq = the product of their shares along Z."""
     return {
         "volume": core.volume,
-        **{f"share{k + 1}": core.legs[k].up for k in LEGS},
+        **{f"share{k + 1}": core.rods[k][2] for k in LEGS},
         "couples": core.couples,
     }
 
 
 def jacobians(ns, p, core):
     """The rods are rigid: rod_k . v = (rod_k . z) dd_k."""
-    first, second, third = (leg.up for leg in core.legs)
+    first, second, third = (rod[2] for rod in core.rods)
     return core.rods, ((first, 0, 0), (0, second, 0), (0, 0, third))
 
 

@@ -270,7 +270,7 @@ CLOSED_FORM = ClosedForm(
         Factor(
             "planes", "parallel", "R*R*R*r*r",
             "the planes of each S, of its leg and its revolute axis, meet in a point of the platform's plane",
-            r"\det(J_p)/\cos\theta", unit=5,
+            r"\Pi", unit=5,
         ),
         Factor(
             "cos_theta", "parallel", "1",

@@ -12,20 +12,21 @@ from itertools import product
 from types import SimpleNamespace
 
 from assur.model.closed_form import Branch, ClosedForm, Factor, Margin, Sign
+from assur.numerics.legs import from_leg, in_leg, thirds
 from assur.numerics.meetings import angle_with
-from assur.numerics.vectors import cross, difference_of_angles, dot, triple
+from assur.numerics.vectors import cross, difference_of_angles, length, opposite, triple
 
 
 def inverse(ns, p, pose, sign):
     """Crank angles at a pose. Signs: h1, h2, h3, those of cos(Da), and s1, s2, s3, those of sin(B)."""
     margins, limbs = {}, []
     signs = ((sign.h1, sign.s1), (sign.h2, sign.s2), (sign.h3, sign.s3))
-    for i, (limb, (upward, bent)) in enumerate(zip(_limbs(ns), signs, strict=True), start=1):
-        x, y = _local(limb, pose)
+    for i, (turn, (upward, bent)) in enumerate(zip(thirds(ns), signs, strict=True), start=1):
+        x, y, z = in_leg(turn, pose)
         x = x - (p.r - p.c)
         level = p.l3 * p.l3 - y * y
         height = upward * ns.sqrt(level)
-        z = pose[2] - height
+        z = z - height
         square = x * x + z * z
         right = square + p.l1 * p.l1 - p.l2 * p.l2
         crank, radicand = angle_with(ns, 2 * p.l1 * x, 2 * p.l1 * z, right, -bent)
@@ -35,24 +36,12 @@ def inverse(ns, p, pose, sign):
     return Branch(tuple(pose), tuple(limb.crank for limb in limbs), margins, _core(ns, p, limbs))
 
 
-def _limbs(ns):
-    """Directions (cosine, sine) of the limbs, 120 deg apart."""
-    cosine, sine = -ns.sqrt(1) / 2, ns.sqrt(3) / 2
-    return (1, 0), (cosine, sine), (cosine, -sine)
-
-
-def _local(limb, vector):
-    """The first two components of a vector in the frame of a limb."""
-    cosine, sine = limb
-    return cosine * vector[0] + sine * vector[1], cosine * vector[1] - sine * vector[0]
-
-
 def _core(ns, p, limbs):
     elbows = [difference_of_angles(limb.link, limb.crank) for limb in limbs]
     normals = []
-    for (cosine, sine), limb in zip(_limbs(ns), limbs, strict=True):
-        x, y = limb.link[0] * limb.hinge[0], -limb.link[1] * limb.hinge[1]
-        normals.append((cosine * x - sine * y, sine * x + cosine * y, limb.link[1] * limb.hinge[0]))
+    for turn, limb in zip(thirds(ns), limbs, strict=True):
+        (out, up), (cosine, sine) = limb.link, limb.hinge
+        normals.append(from_leg(turn, (out * cosine, -up * sine, up * cosine)))
     return SimpleNamespace(
         limbs=tuple(limbs), elbows=tuple(elbows), normals=tuple(normals), volume=triple(*normals),
         rise1=limbs[0].hinge[0], rise2=limbs[1].hinge[0], rise3=limbs[2].hinge[0],
@@ -64,15 +53,10 @@ def joints(ns, p, core):
     """Every joint's value as (cosine, sine)."""
     found = {}
     for i, (limb, elbow) in enumerate(zip(core.limbs, core.elbows, strict=True), start=1):
-        found |= {f"leg{i}.A": limb.crank, f"leg{i}.B": elbow, f"leg{i}.C": _back(limb.link)}
+        found |= {f"leg{i}.A": limb.crank, f"leg{i}.B": elbow, f"leg{i}.C": opposite(limb.link)}
         found |= {f"leg{i}.Da": limb.hinge, f"leg{i}.Db": limb.hinge}
-        found |= {f"leg{i}.Ea": _back(limb.hinge), f"leg{i}.Eb": _back(limb.hinge)}
+        found |= {f"leg{i}.Ea": opposite(limb.hinge), f"leg{i}.Eb": opposite(limb.hinge)}
     return found
-
-
-def _back(angle):
-    cosine, sine = angle
-    return (cosine, -sine)
 
 
 def factors(ns, p, core):
@@ -86,14 +70,10 @@ def factors(ns, p, core):
         "rise1": core.rise1,
         "rise2": core.rise2,
         "rise3": core.rise3,
-        "sine12": _length(ns, cross(first, second)),
-        "sine23": _length(ns, cross(second, third)),
-        "sine31": _length(ns, cross(third, first)),
+        "sine12": length(ns, cross(first, second)),
+        "sine23": length(ns, cross(second, third)),
+        "sine31": length(ns, cross(third, first)),
     }
-
-
-def _length(ns, vector):
-    return ns.sqrt(dot(vector, vector))
 
 
 def jacobians(ns, p, core):

@@ -9,8 +9,9 @@ vanishes: on the plane of the base, and on a cylinder about Z.
 from types import SimpleNamespace
 
 from assur.model.closed_form import Branch, ClosedForm, Factor, Margin, Quantity, Sign
+from assur.numerics.legs import from_leg, in_leg, pointing, thirds
 from assur.numerics.meetings import three_spheres
-from assur.numerics.vectors import dot, subtract
+from assur.numerics.vectors import length, opposite, subtract
 
 LIMBS = (1, 2, 3)
 
@@ -22,48 +23,39 @@ def inverse(ns, p, pose, sign):
 
 def direct(ns, p, inputs, sign):
     """The pose at given leg lengths. Sign: e, that of z: over or under the plane of the centres c_i."""
-    squares = tuple(length * length for length in inputs)
+    squares = tuple(own * own for own in inputs)
     pose, radicand, square = three_spheres(ns, _centres(ns, p), squares, sign.e)
     return _branch(ns, p, pose, inputs, {"apart": square, "height": radicand / square})
 
 
-def _radial(ns):
-    """Radial directions (cosine, sine) of the legs."""
-    half = ns.sqrt(3) / 2
-    return ((1, 0), (-1 / 2, half), (-1 / 2, -half))
-
-
 def _centres(ns, p):
     """Where the platform's centre would have to be for each leg to have length zero."""
-    return tuple(((p.R - p.r) * c, (p.R - p.r) * s, 0) for c, s in _radial(ns))
+    return tuple(from_leg(turn, (p.R - p.r, 0, 0)) for turn in thirds(ns))
 
 
 def _branch(ns, p, pose, lengths, margins):
     vectors = tuple(subtract(pose, centre) for centre in _centres(ns, p))
     if lengths is None:
-        lengths = tuple(ns.sqrt(dot(leg, leg)) for leg in vectors)
-    legs, found = [], dict(margins)
-    for n, (c, s), leg, length in zip(LIMBS, _radial(ns), vectors, lengths, strict=True):
-        outward = c * leg[0] + s * leg[1]
-        tangential = c * leg[1] - s * leg[0]
-        square = outward * outward + leg[2] * leg[2]
-        across = ns.sqrt(square)
-        found[f"leg{n}"] = square
-        legs.append(((leg[2] / across, outward / across), (across / length, -tangential / length)))
-    core = SimpleNamespace(pose=pose, z=pose[2], lengths=lengths, vectors=vectors, legs=tuple(legs))
+        lengths = tuple(length(ns, leg) for leg in vectors)
+    angles, found = [], dict(margins)
+    for n, turn, leg, own in zip(LIMBS, thirds(ns), vectors, lengths, strict=True):
+        outward, tangential, up = in_leg(turn, leg)
+        found[f"leg{n}"] = outward * outward + up * up
+        angles.append(pointing(ns, up / own, outward / own, -tangential / own)[:2])
+    core = SimpleNamespace(pose=pose, z=pose[2], lengths=lengths, vectors=vectors, angles=tuple(angles))
     return Branch(pose, lengths, found, core)
 
 
 def joints(ns, p, core):
     """Every joint's value; a rotation as (cosine, sine). The upper joint turns back what the lower one turns."""
     values = {}
-    for n, length, (first, second) in zip(LIMBS, core.lengths, core.legs, strict=True):
+    for n, own, (first, second) in zip(LIMBS, core.lengths, core.angles, strict=True):
         values |= {
             f"leg{n}.A.first": first,
             f"leg{n}.A.second": second,
-            f"leg{n}.P": length,
-            f"leg{n}.B.first": (second[0], -second[1]),
-            f"leg{n}.B.second": (first[0], -first[1]),
+            f"leg{n}.P": own,
+            f"leg{n}.B.first": opposite(second),
+            f"leg{n}.B.second": opposite(first),
         }
     return values
 
@@ -91,7 +83,7 @@ def jacobians(ns, p, core):
 def quantities(ns, p, core):
     """Tilt of each leg about its tangential axis, and the square of the distance from the Z axis."""
     x, y, _ = core.pose
-    return {**{f"tilt{n}": first for n, (first, _) in zip(LIMBS, core.legs, strict=True)}, "axial": x * x + y * y}
+    return {**{f"tilt{n}": first for n, (first, _) in zip(LIMBS, core.angles, strict=True)}, "axial": x * x + y * y}
 
 
 def constraints(ns, p, core, inputs):

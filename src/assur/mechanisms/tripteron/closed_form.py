@@ -3,7 +3,8 @@
 from types import SimpleNamespace
 
 from assur.model.closed_form import Branch, ClosedForm, Factor, Margin, Quantity, Sign
-from assur.numerics.meetings import angle_with
+from assur.numerics.legs import two_bars
+from assur.numerics.vectors import opposite
 
 LIMBS = (1, 2, 3)
 
@@ -21,52 +22,25 @@ def direct(ns, p, inputs, sign):
 def _branch(ns, p, pose, inputs, knees):
     """Limb i works in the plane across its rail, in which C has the two other coordinates of the platform."""
     x, y, z = pose
-    margins, legs = {}, []
-    for number, (across, up), knee in zip(LIMBS, ((y, z), (z, x), (x, y)), knees, strict=True):
-        square = across * across + up * up
-        along = (square + p.l1 * p.l1 - p.l2 * p.l2) / (2 * p.l1)
-        crank, reach = angle_with(ns, across, up, along, -knee)
-        rod = ((across - p.l1 * crank[0]) / p.l2, (up - p.l1 * crank[1]) / p.l2)
-        legs.append((crank, rod))
-        margins |= {f"distance{number}": square, f"reach{number}": reach}
-    (a1, r1), (a2, r2), (a3, r3) = legs
-    core = SimpleNamespace(
-        inputs=inputs, legs=tuple(legs), knee1=_cross(a1, r1), knee2=_cross(a2, r2), knee3=_cross(a3, r3)
-    )
+    legs = [two_bars(ns, end, p.l1, p.l2, knee) for end, knee in zip(((y, z), (z, x), (x, y)), knees, strict=True)]
+    margins = {f"distance{n}": leg.square for n, leg in zip(LIMBS, legs, strict=True)}
+    margins |= {f"reach{n}": leg.radicand for n, leg in zip(LIMBS, legs, strict=True)}
+    core = SimpleNamespace(inputs=inputs, legs=legs, **{f"knee{n}": legs[n - 1].elbow[1] for n in LIMBS})
     return Branch(pose, inputs, margins, core)
-
-
-def _cross(first, second):
-    return first[0] * second[1] - first[1] * second[0]
-
-
-def _dot(first, second):
-    return first[0] * second[0] + first[1] * second[1]
 
 
 def joints(ns, p, core):
     """Every joint's value; a revolute as (cosine, sine)."""
     values = {}
-    for number, slider, (crank, rod) in zip(LIMBS, core.inputs, core.legs, strict=True):
-        values |= {
-            f"leg{number}.P": slider,
-            f"leg{number}.A": crank,
-            f"leg{number}.B": (_dot(crank, rod), _cross(crank, rod)),
-            f"leg{number}.C": (rod[0], -rod[1]),
-        }
+    for n, slider, leg in zip(LIMBS, core.inputs, core.legs, strict=True):
+        values |= {f"leg{n}.P": slider, f"leg{n}.A": leg.crank, f"leg{n}.B": leg.elbow, f"leg{n}.C": opposite(leg.rod)}
     return values
 
 
 def factors(ns, p, core):
     """The sine of each knee divides both determinants, because both problems branch there."""
-    return {
-        "knee1": core.knee1,
-        "knee2": core.knee2,
-        "knee3": core.knee3,
-        "border1": core.knee1,
-        "border2": core.knee2,
-        "border3": core.knee3,
-    }
+    knees = {n: leg.elbow[1] for n, leg in zip(LIMBS, core.legs, strict=True)}
+    return {**{f"knee{n}": knees[n] for n in LIMBS}, **{f"border{n}": knees[n] for n in LIMBS}}
 
 
 def jacobians(ns, p, core):
@@ -77,7 +51,7 @@ def jacobians(ns, p, core):
 
 def quantities(ns, p, core):
     """Directions of the rods in the planes of their limbs."""
-    return {f"rod{number}": rod for number, (_, rod) in zip(LIMBS, core.legs, strict=True)}
+    return {f"rod{n}": leg.rod for n, leg in zip(LIMBS, core.legs, strict=True)}
 
 
 def constraints(ns, p, core, inputs):

@@ -9,23 +9,29 @@ Differentiated: n_i . v = (n_i . dE/dtheta) dtheta_i/dt.
 from types import SimpleNamespace
 
 from assur.model.closed_form import Branch, ClosedForm, Factor, Margin, SelfMotion, Sign
-from assur.numerics.meetings import angle_with, three_spheres
-from assur.numerics.vectors import add, cross, difference_of_angles, dot, scaled, subtract, triple
+from assur.numerics.legs import from_leg, in_leg, pointing, thirds
+from assur.numerics.meetings import angle_with, coincident_spheres, three_spheres
+from assur.numerics.vectors import (
+    cross,
+    difference_of_angles,
+    dot,
+    length,
+    opposite,
+    scaled,
+    subtract,
+    triple,
+)
 
 NOTHING = 1e-30
 """What 0/0 is taken as one by: beside any other number it is nothing."""
-TINY = 1e-15
-"""The same, beside a length."""
-MANY = 1e9
-"""Makes lengths that are not zero count for more than any margin."""
 
 
 def inverse(ns, p, pose, sign):
     """Crank angles at a pose. Signs: s1, s2, s3, those of sin(B)."""
     cranks, margins = [], {}
-    for i, (limb, chosen) in enumerate(zip(_limbs(ns), (sign.s1, sign.s2, sign.s3), strict=True), start=1):
-        x, y = _local(limb, pose)
-        x, z = x - (p.r - p.c), pose[2]
+    for i, (turn, chosen) in enumerate(zip(thirds(ns), (sign.s1, sign.s2, sign.s3), strict=True), start=1):
+        x, y, z = in_leg(turn, pose)
+        x = x - (p.r - p.c)
         square = x * x + z * z
         flat = p.b * p.b - y * y
         crank, radicand = angle_with(ns, 2 * p.a * x, 2 * p.a * z, square + p.a * p.a - flat, -chosen)
@@ -47,83 +53,40 @@ def self_motion(ns, p, inputs, angle, sign):
     Ends moved in by c meet on the Z axis only, so the line lies in the plane of the third crank. Where all three
     meet, the platform is free on a sphere, of which this is one circle.
     """
-    centres = _centres(ns, p, inputs)
-    sides = [_square(subtract(centres[i - 1], centres[i - 2])) for i in range(3)]
-    total = sides[0] + sides[1] + sides[2]
-    # 1 for the crank whose end is apart, 0 for the others
-    odd = [
-        (total - 2 * sides[i] + (NOTHING * p.b * p.b if i == 0 else 0)) / (total + NOTHING * p.b * p.b)
-        for i in range(3)
-    ]
-    mean = scaled(add(add(centres[0], centres[1]), centres[2]), 1 / 3)
-    apart = scaled(_weighted([subtract(centre, mean) for centre in centres], odd), 3 / 2)
-    middle = add(mean, scaled(apart, 1 / 6))
-    across = _weighted([(-sine, cosine, 0) for cosine, sine in _limbs(ns)], odd)
-    line = add(apart, (0, 0, TINY * p.b))
-    up = scaled(cross(line, across), 1 / _length(ns, line))
-    radicand = p.b * p.b - total / 8
-    radius = ns.sqrt(radicand)
-    pose = add(middle, scaled(add(scaled(across, angle[0]), scaled(up, angle[1])), radius))
-    # ends that are in one line, but all apart, let no rods of one length meet
-    margin = radicand * p.b * p.b * p.b * p.b - MANY * sides[0] * sides[1] * sides[2]
+    pose, radicand = coincident_spheres(ns, _centres(ns, p, inputs), p.b * p.b, (0, 1, 0), angle)
+    margin = (radicand + 0 * angle[0]) * p.b * p.b * p.b * p.b
     return Branch(pose, tuple(inputs), {"meeting": margin}, _core(ns, p, pose, inputs))
-
-
-def _weighted(vectors, weights):
-    first, second, third = (scaled(vector, weight) for vector, weight in zip(vectors, weights, strict=True))
-    return add(add(first, second), third)
-
-
-def _square(vector):
-    return dot(vector, vector)
-
-
-def _limbs(ns):
-    """Directions (cosine, sine) of the limbs, 120 deg apart."""
-    cosine, sine = -ns.sqrt(1) / 2, ns.sqrt(3) / 2
-    return (1, 0), (cosine, sine), (cosine, -sine)
-
-
-def _local(limb, vector):
-    """The first two components of a vector in the frame of a limb."""
-    cosine, sine = limb
-    return cosine * vector[0] + sine * vector[1], cosine * vector[1] - sine * vector[0]
 
 
 def _centres(ns, p, cranks):
     """The cranks' ends, moved in by c."""
-    found = []
-    for limb, crank in zip(_limbs(ns), cranks, strict=True):
-        out = p.r - p.c + p.a * crank[0]
-        found.append((out * limb[0], out * limb[1], p.a * crank[1]))
-    return tuple(found)
+    return tuple(
+        from_leg(turn, (p.r - p.c + p.a * cosine, 0, p.a * sine))
+        for turn, (cosine, sine) in zip(thirds(ns), cranks, strict=True)
+    )
 
 
 def _core(ns, p, pose, cranks):
     centres = _centres(ns, p, cranks)
     rods = tuple(scaled(subtract(pose, centre), 1 / p.b) for centre in centres)
-    local = tuple((*_local(limb, rod), rod[2]) for limb, rod in zip(_limbs(ns), rods, strict=True))
-    arms = [p.a * (rod[2] * crank[0] - rod[0] * crank[1]) for rod, crank in zip(local, cranks, strict=True)]
+    arms = [
+        p.a * dot(rod, from_leg(turn, (-sine, 0, cosine)))
+        for turn, rod, (cosine, sine) in zip(thirds(ns), rods, cranks, strict=True)
+    ]
     return SimpleNamespace(
-        pose=tuple(pose), cranks=tuple(cranks), centres=centres, rods=rods, local=local,
-        widths=tuple(ns.sqrt(rod[0] * rod[0] + rod[2] * rod[2]) for rod in local),
-        arm1=arms[0], arm2=arms[1], arm3=arms[2], volume=triple(*rods),
-    )  # fmt: skip
+        cranks=tuple(cranks), centres=centres, rods=rods, arm1=arms[0], arm2=arms[1], arm3=arms[2], volume=triple(*rods)
+    )
 
 
 def joints(ns, p, core):
     """Every joint's value as (cosine, sine). Short links of a flat parallelogram, free to turn, do not."""
     found = {}
-    for i, (crank, rod, width) in enumerate(zip(core.cranks, core.local, core.widths, strict=True), start=1):
-        hinge, tilt = (width, rod[1]), ((rod[0] + NOTHING) / (width + NOTHING), rod[2] / (width + NOTHING))
-        found |= {f"leg{i}.A": crank, f"leg{i}.B": difference_of_angles(tilt, crank), f"leg{i}.C": _back(tilt)}
-        found |= {f"leg{i}.Da": hinge, f"leg{i}.Db": hinge, f"leg{i}.Ea": _back(hinge), f"leg{i}.Eb": _back(hinge)}
+    for i, (limb, crank, rod) in enumerate(zip(thirds(ns), core.cranks, core.rods, strict=True), start=1):
+        x, y, z = in_leg(limb, rod)
+        tilt, hinge, _ = pointing(ns, x, z, y, NOTHING)
+        found |= {f"leg{i}.A": crank, f"leg{i}.B": difference_of_angles(tilt, crank), f"leg{i}.C": opposite(tilt)}
+        found |= {f"leg{i}.D{side}": hinge for side in "ab"} | {f"leg{i}.E{side}": opposite(hinge) for side in "ab"}
     return found
-
-
-def _back(angle):
-    cosine, sine = angle
-    return (cosine, -sine)
 
 
 def factors(ns, p, core):
@@ -134,17 +97,13 @@ def factors(ns, p, core):
         "arm1": core.arm1,
         "arm2": core.arm2,
         "arm3": core.arm3,
-        "sine12": _length(ns, cross(first, second)),
-        "sine23": _length(ns, cross(second, third)),
-        "sine31": _length(ns, cross(third, first)),
-        "gap12": _length(ns, subtract(two, one)),
-        "gap23": _length(ns, subtract(three, two)),
-        "gap31": _length(ns, subtract(one, three)),
+        "sine12": length(ns, cross(first, second)),
+        "sine23": length(ns, cross(second, third)),
+        "sine31": length(ns, cross(third, first)),
+        "gap12": length(ns, subtract(two, one)),
+        "gap23": length(ns, subtract(three, two)),
+        "gap31": length(ns, subtract(one, three)),
     }
-
-
-def _length(ns, vector):
-    return ns.sqrt(dot(vector, vector))
 
 
 def jacobians(ns, p, core):

@@ -43,7 +43,10 @@ def letter_mathml(letter: Letter) -> str:
     >>> letter_mathml(Letter("alpha", "<mi>α</mi>", "cos"))
     '<mrow><mi>cos</mi><mo>\u2061</mo><mspace width="0.14em"/><mi>α</mi></mrow>'
     """
-    return f"<mrow><mi>{letter.function}</mi>{APPLY}{letter.mathml}</mrow>" if letter.function else letter.mathml
+    if not letter.function:
+        return letter.mathml
+    inner = f"<mrow><mo>(</mo>{letter.mathml}<mo>)</mo></mrow>" if letter.function == "sgn" else letter.mathml
+    return f"<mrow><mi>{letter.function}</mi>{APPLY}{inner}</mrow>"
 
 
 def term_mathml(term: Traced) -> str:

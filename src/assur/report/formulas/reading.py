@@ -197,7 +197,7 @@ class _Reader:
         form = closed_form_of(self.record)
         for margin in form.direct_margins if self.problem == "direct" else form.inverse_margins:
             if margin_letter(margin.name) == letter:
-                return margin.meaning if margin.zero == "degenerate" else f"negative: {margin.meaning}"
+                return f"{'zero' if margin.zero == 'degenerate' else 'negative'}: {margin.meaning}"
         return ""
 
     def _coordinates(self, problem: Problem) -> list[tuple[Letter, ...]]:

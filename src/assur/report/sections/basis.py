@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from assur.figures import left_out
 from assur.kinematics.closure import CLOSED, RANK_GAP, characteristic_length
 from assur.kinematics.status import FACTOR_TOLERANCE, MARGIN_TOLERANCE, NEAR_SINGULAR, Status
@@ -10,7 +12,14 @@ from assur.report.findings import Findings
 from assur.report.numbers import short
 from assur.results.kinds import Facts, Result, Section, Table
 
-FREEDOMS = ("degrees of freedom", "rank of the closure of all loops", "the source’s formula, where it prints one")
+TOPOLOGICAL = (
+    (
+        "degrees of freedom",
+        "rank of the closure of all loops",
+        "Eq. (3): freedoms of the joints less those of the loops",
+    ),
+    ("POC sets", "rules of union and intersection", "rank of twists at random finite displacements"),
+)
 CLOSED_FORM = (
     ("poses and inputs", "closed form, every branch", "closure of the whole joint graph, residual listed"),
     ("velocity", "Jp v = Jq q̇ of the closed form", "determinants as products of factors; differences, in the tests"),
@@ -19,23 +28,39 @@ CLOSED_FORM = (
     ("global condition index", "quasi-random mean", "spread of eight independent shifts"),
     ("formulas", "the kernels, read over symbols", "the joint graph, in the tests"),
 )
+SEARCHED = (
+    (
+        "poses and inputs",
+        "loop after loop, or a search: see Completeness",
+        "closure of the joint graph, residual listed",
+    ),
+    ("velocity, singularities", "null space of the closure’s Jacobian", "finite motions; differences, in the tests"),
+    ("volume, areas", "the mode followed over a grid", "the same at half the resolution"),
+)
 AUDITED = (
-    ("POC sets, ξ, Δ, κ", "declared in the reference data", "rank of twists at random configurations (dimensions)"),
+    ("POC sets, ξ, Δ, κ", "declared in the reference data", "derived, as above"),
     ("printed values", "recomputed to their last digit", "the constraint that a wrong value breaks"),
 )
 
 
 def basis(found: Findings) -> Section:
     """Two routes to every number, conventions, tolerances."""
-    routes = [FREEDOMS]
-    routes += CLOSED_FORM if found.record.closed_form else ()
+    routes = [*TOPOLOGICAL, *(CLOSED_FORM if found.record.closed_form else SEARCHED)]
     routes += AUDITED if found.reference else ()
     known = Table("Two routes to every number", ("number", "first route", "second route"), tuple(routes))
     parts: list[Result] = [known, Facts("Conventions", _conventions(found.record)), _tolerances()]
     missing = left_out(found.record, found.context) if found.illustrated else {}
     if missing:
-        parts.append(Facts("Figures that this mechanism does not have", tuple(missing.items())))
+        parts.append(Facts("Figures that this mechanism does not have", _by_reason(missing)))
     return Section("How the numbers are known", results=parts)
+
+
+def _by_reason(missing: Mapping[str, str]) -> tuple[tuple[str, str], ...]:
+    """Names that have the same reason together."""
+    names: dict[str, list[str]] = {}
+    for name, why in missing.items():
+        names.setdefault(why, []).append(name)
+    return tuple((", ".join(together), why) for why, together in names.items())
 
 
 def _conventions(record: MechanismRecord) -> tuple[tuple[str, str], ...]:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS
 from assur.performance.dexterity import dexterity
+from assur.performance.indices import INDICES, indices_at
 from assur.report.findings import Findings
 from assur.report.numbers import short
 from assur.results.kinds import Scalar, Section, Table
@@ -20,8 +20,9 @@ PICTURES = ("dexterity", "fastest", "slowest", "transmission", "manipulability")
 
 def performance(found: Findings) -> Section:
     """Local condition index, its mean over the workspace, velocity factors."""
+    if found.record.closed_form is None:
+        return _of_the_joint_graph(found)
     record, solution = found.record, found.solution
-    closed_form_of(record)  # nothing is mapped without one
     here = dexterity(record, solution.pose, solution.working_mode)
     index = found.global_index
     said = (
@@ -45,8 +46,23 @@ def performance(found: Findings) -> Section:
         Scalar("slowest direction", _number(factors[-1]), "", "smallest velocity factor"),
         Scalar("global condition index", index.value, "", known, index.error),
     ]
-    pictures = [item for name in PICTURES for item in found.picture(name)]
-    return Section("Dexterity", said, [*scalars, *pictures, *_spread(found)])
+    return Section("Dexterity", said, [*scalars, *found.picture(*PICTURES), *_spread(found)])
+
+
+def _of_the_joint_graph(found: Findings) -> Section:
+    """Every index in the configuration of this report, by the null space of the closure, and its maps."""
+    here = indices_at(found.record, found.joints)
+    said = (
+        "Indices of J = Jp⁻¹ Jq in the configuration of this report, from the joint graph: condition indices and "
+        "transmission indices are between 0 (singular) and 1 (best); the velocity factors are the singular values of J."
+    )
+    if here.length is not None:
+        said += f" Lengths are divided by the characteristic length {short(here.length)} {found.record.unit}."
+    scalars = [
+        Scalar(name.replace("_", " "), _number(here[name]), item.unit(here), item.meaning)
+        for name, item in INDICES.items()
+    ]
+    return Section("Dexterity", said, [*scalars, *found.picture(*PICTURES)])
 
 
 def mixed_units(record: MechanismRecord) -> bool:

@@ -28,8 +28,8 @@ READ = (
     "letters that only a number tells apart are shorthand for what would be too long to read."
 )
 SEARCHED = (
-    "This mechanism has no closed form. Its assemblies are found on the joint graph itself, by Newton's method from "
-    "many starts; how far such a list can be trusted stands under Completeness."
+    "This mechanism has no closed form. Its assemblies are found on the joint graph itself; by what method, and how "
+    "far such a list can be trusted, stands under Completeness."
 )
 
 
@@ -88,12 +88,8 @@ def _modes(record: MechanismRecord) -> list[Table]:
 
 def _direct(found: Findings) -> Section:
     style, record = found.style, found.record
-    given = ", ".join(
-        f"{item.name} = {style.written(value, angle=angle)}"
-        for item, value, angle in zip(
-            record.inputs, inputs_at_border(record, found.inputs), input_angles(record), strict=True
-        )
-    )
+    names = (item.name for item in record.inputs)
+    given = style.words(zip(names, inputs_at_border(record, found.inputs), input_angles(record), strict=True))
     table = found.table("direct")
     origin = f"those of {table.source}" if table else "those of the assembled home configuration"
     said = f"Poses from inputs. At the inputs {given} ({origin}) {among(found, 'direct')}."
@@ -120,11 +116,16 @@ def _inverse(found: Findings) -> Section:
 def among(found: Findings, problem: Problem) -> str:
     """How many solutions there are, and of what."""
     answer, kernel = (found.direct if problem == "direct" else found.inverse), found.kernel(problem)
-    if kernel is None:
+    if kernel is None and not answer.complete:
         return f"a search found {count(len(answer), 'solution')}"
-    candidates = count(answer.candidates, noun(kernel))
+    candidates = f" among {count(answer.candidates, noun(kernel))}" if kernel else ""
     verb = "is" if len(answer) == 1 else "are"
-    return f"there {verb} {count(len(answer), 'real solution')} among {candidates}"
+    return f"there {verb} {count(len(answer), 'real solution')}{candidates}"
+
+
+def how_found(answer: SolutionSet) -> str:
+    """How solutions were found where there is no kernel."""
+    return "by solving loop after loop" if answer.complete else "found by search"
 
 
 def noun(kernel: object) -> str:
@@ -254,18 +255,9 @@ def _values(
 
 
 def _beside(found: Findings, problem: Problem) -> list[Result | Section]:
-    """The source's tables beside these solutions, or why there are none."""
-    rows = found.rows(problem)
+    """The source's tables beside these solutions."""
     entries = found.reference.entries[problem] if found.reference else ()
-    if not entries:
-        return [Section("Beside the source", absent=_nothing_beside(found, problem))]
-    return [solutions_beside(found, entry, rows) for entry in entries]
-
-
-def _nothing_beside(found: Findings, problem: Problem) -> str:
-    if found.unaudited:
-        return f"No table of {problem} solutions to compare with: {found.unaudited}."
-    return f"There is no {found.given} table of {problem} solutions to compare with."
+    return [solutions_beside(found, entry, found.rows(problem)) for entry in entries]
 
 
 def _symbol(name: str) -> Formula:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import platform
 from importlib import metadata
+from importlib.resources import files
+from pathlib import Path
 
 import assur
 from assur.model.mechanism import MechanismRecord
@@ -31,7 +33,7 @@ def _software() -> str:
 
 def _again(record: MechanismRecord) -> list[tuple[str, str]]:
     sets = "".join(f" --set {name}={value:.12g}" for name, value in record.overrides.items())
-    name = record.name if record.file.name == "mechanism.toml" else record.file.name
+    name = record.name if _is_built_in(record) else "/".join(record.file.parts[-2:])
     changed = ", ".join(f"{key} = {short(value)}" for key, value in record.overrides.items())
     dimensions = (
         f"{count(len(record.overrides), 'dimension')} set for this report: {changed}"
@@ -39,6 +41,11 @@ def _again(record: MechanismRecord) -> list[tuple[str, str]]:
         else "those of the file"
     )
     return [("command", f"assur report {name}{sets} -o report.html"), ("dimensions", dimensions)]
+
+
+def _is_built_in(record: MechanismRecord) -> bool:
+    """Whether its name alone calls it up; a user's own file may have the name of a built-in mechanism."""
+    return record.file.parent == Path(str(files("assur") / "mechanisms" / record.name))
 
 
 def _versions() -> Table:

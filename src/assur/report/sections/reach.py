@@ -11,7 +11,7 @@ from assur.report.findings import Findings
 from assur.report.numbers import extent_unit, fixed, short, shown_unit
 from assur.report.sections.singularities import written
 from assur.results.kinds import Result, Scalar, Section, Table
-from assur.singularity.loci import Locus
+from assur.singularity.loci import Locus, parallel_factors
 from assur.workspace.region import Workspace
 
 
@@ -20,11 +20,16 @@ def reach(found: Findings) -> Section:
     region, record = found.workspace, found.record
     strokes = [item for item in record.inputs if item.stroke]
     limits = "with the strokes of the file" if strokes else "without limits on the inputs, since none are stated"
+    how = (
+        "Each margin of the inverse problem bounds a solid; the workspace is their intersection with the box."
+        if record.closed_form
+        else f"Without a closed form the mode is {region.how} over a grid: this is the part that hangs together with "
+        "where it starts, inside the box. What is thinner than a cell may be missed."
+    )
+    mode = f"the working mode {region.mode}" if region.mode else "the mechanism"
     said = (
-        f"The poses of the box {_box(region, record)} that the working mode {region.mode} reaches"
-        f"{held_words(region, record)}, {limits}. Each "
-        "margin of the inverse problem bounds a solid; the workspace is their intersection with the box. The error is "
-        "the difference to the same calculation at half the resolution."
+        f"The poses of the box {_box(region, record)} that {mode} reaches{held_words(region, record)}, {limits}. "
+        f"{how} The error is the difference to the same calculation at half the resolution."
     )
     unit = extent_unit(record, region.box.names)
     known = f"{found.resolution} cells along each coordinate"
@@ -34,7 +39,7 @@ def reach(found: Findings) -> Section:
         results.append(Scalar("share near a singularity", round(100 * region.share, 1), "%", near))
     results += [
         *found.picture("workspace"),
-        _loci(found),
+        *_loci(found),
         *found.picture("projections"),
         *_projections(region, record),
         *found.picture("sections"),
@@ -74,11 +79,13 @@ def _box(region: Workspace, record: MechanismRecord) -> str:
     )
 
 
-def _loci(found: Findings) -> Table:
+def _loci(found: Findings) -> list[Table]:
     region, record = found.workspace, found.record
     names = region.box.names
     mixed = any(map(is_angle, names))
-    factors = {item.name: item for item in found.form.factor_list}
+    factors = {item.name: item for item in parallel_factors(record)}
+    if not factors:
+        return []
     unit = extent_unit(record, names[1:])
     rows = tuple(
         (
@@ -90,8 +97,9 @@ def _loci(found: Findings) -> Table:
     )
     size = "inside" if mixed else f"area [{unit}]" if len(names) == 3 else f"length [{unit}]"
     title = "Parallel singularities inside the workspace"
-    caption = "" if mixed else "Size of the surface on which each factor vanishes."
-    return Table(title, ("factor", "zero where", size), rows, caption)
+    where = "surface" if len(names) == 3 else "curve"
+    caption = "" if mixed else f"Size of the {where} on which each factor vanishes."
+    return [Table(title, ("factor", "zero where", size), rows, caption)]
 
 
 def _size(locus: Locus, *, mixed: bool) -> str:

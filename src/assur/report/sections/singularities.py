@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
 from assur.kinematics.closure import mobility
+from assur.kinematics.rates.instantaneous import instantaneous
 from assur.model.closed_form import Factor
 from assur.report.findings import Findings
 from assur.report.formulas.latex import latex_mathml, name_mathml
@@ -65,9 +66,16 @@ def _judged(found: Findings) -> Section:
     gains = "yes" if here.platform_gains else "no"
     items = [("kind", here.kind), ("near a singularity", "yes" if here.near else "no"), ("types of Zlatanov", types)]
     items += [("platform gains a freedom", gains), ("rank of the closure", f"{here.rank} of {here.generic_rank}")]
-    items += [("degrees of freedom", str(here.freedoms))]
+    internal = int(instantaneous(found.record, found.joints).ranks.internal)
+    items += [
+        ("degrees of freedom", f"{here.freedoms}, {internal} of them internal" if internal else f"{here.freedoms}")
+    ]
     measures = [Scalar(name, value, "", MEASURES[name]) for name, value in here.relative.items()]
-    return Section("Singularities", said, [Facts("The verdict", tuple(items)), *measures])
+    parts: list[Result] = [Facts("The verdict", tuple(items)), *measures]
+    parts += found.picture("serial", "parallel", "singular")
+    if all(name in found.record.box for name in found.record.platform.pose) and found.examples:
+        parts.append(_examples(found))
+    return Section("Singularities", said, parts)
 
 
 def _factors(found: Findings) -> Table:
@@ -131,15 +139,26 @@ def _examples(found: Findings) -> Table:
     names += [(item.name, angle) for item, angle in zip(record.inputs, input_angles(record), strict=True)]
     titles = (style.title(name, angle=angle) for name, angle in names)
     columns = ("vanishing factor", "kind", "mode", *titles, "rank of closure")
-    caption = (
-        "Found by following a factor to its zero, not written down; the kind is the most severe of what all factors "
-        f"say there. A rank below {general} is a constraint singularity of the joint graph."
+    how = (
+        "Found by following a factor to its zero, not written down; the kind is the most severe of what all factors say"
+        if record.closed_form
+        else "Paths from home to poses in and about the file's box stop there; the kind is what the joint graph says"
     )
-    without = {item.name for item in found.form.factor_list if item.kind != "other"}
-    without -= {example.factor.name for example in found.examples}
-    if without:
-        caption += f" No example was found for {', '.join(sorted(without))}."
+    caption = f"{how} there. A rank below {general} is a constraint singularity of the joint graph.{_without(found)}"
     return Table("Example configurations", columns, tuple(rows), caption)
+
+
+def _without(found: Findings) -> str:
+    """The factors of which there is no example."""
+    form = found.record.closed_form
+    named = {example.factor.name for example in found.examples}
+    without = [item for item in (form.factor_list if form else ()) if item.kind != "other" and item.name not in named]
+    return f" No example was found for {', '.join(plain(item) for item in without)}." if without else ""
+
+
+def plain(factor: Factor) -> str:
+    """A factor in words, as the source's letters where they are short: "cos_theta" as "cos theta"."""
+    return factor.name.replace("_", " ")
 
 
 def written(factor: Factor) -> Formula:

@@ -9,7 +9,7 @@ from assur.kinematics.rates.instantaneous import instantaneous
 from assur.report.findings import REFUSED, Findings
 from assur.report.numbers import count, extent_unit
 from assur.report.sections.performance import mixed_units
-from assur.report.sections.position import noun
+from assur.report.sections.position import how_found, noun
 from assur.report.sections.reach import held_words, size_name
 from assur.results.kinds import Scalar, Section
 
@@ -43,7 +43,7 @@ def _solutions(found: Findings) -> list[Scalar]:
         table, kernel = found.table(problem), found.kernel(problem)
         model = "joint graph" if answer.complete_for == "joint_graph" else "reduced model"
         where = f"at the {given} of {table.source if table else 'home'}"
-        candidates = f"of {count(answer.candidates, noun(kernel))}" if kernel else "found by search"
+        candidates = f"of {count(answer.candidates, noun(kernel))}" if kernel else how_found(answer)
         known = f"complete for the {model}" if answer.complete else "not proved to be all"
         name = f"real {problem} solutions"
         scalars.append(Scalar(name, float(len(answer)), candidates, f"{where}; {known}"))
@@ -75,13 +75,9 @@ def _dexterity(found: Findings) -> list[Scalar]:
 def _audit(found: Findings) -> list[Scalar]:
     audit = found.audit
     total = f"of {len(audit.rows)}"
+    agree = Scalar(f"{found.given} values that agree", float(audit.ok), total, f"to the {found.given} digits")
+    if not audit.wrong and not audit.missing:
+        return [agree]
     missing = f"and {count(audit.missing, 'value')} missing; " if audit.missing else ""
-    return [
-        Scalar("printed values that agree", float(audit.ok), total, "to the printed digits"),
-        Scalar(
-            "printed values that are wrong",
-            float(audit.wrong),
-            total,
-            f"{missing}each with its erratum below",
-        ),
-    ]
+    known = f"{missing}each with its erratum below"
+    return [agree, Scalar(f"{found.given} values that are wrong", float(audit.wrong), total, known)]

@@ -45,7 +45,7 @@ def topology(found: Findings) -> Section:
     """What is counted on the joint graph, and what the source prints."""
     results: list[Result | Section] = [*found.picture("structure")]
     results += [_chains(found.record)] if found.record.chains else []
-    results += [derived(found), _mobility(found), _declared(found)]
+    results += [derived(found), _mobility(found), *_declared(found)]
     return Section("Structure and topology", results=results)
 
 
@@ -87,18 +87,18 @@ def _mobility(found: Findings) -> Section:
     return Section("Mobility by rank", text, scalars)
 
 
-def _declared(found: Findings) -> Section:
+def _declared(found: Findings) -> list[Section]:
+    """What the source says of the topology, where it says something."""
     title = f"Topology as the {found.giver} states it"
     rows = (*found.rows("poc"), *found.rows("decomposition"))
     if not rows:
-        reason = found.unaudited or "the reference data have no topology"
-        return Section(title, absent=f"No declared POC sets, ξ, Δ or κ to compare with: {reason}.")
+        return []
     text = (
         f"The POC sets, loops and degrees that the {found.giver} prints, beside those that the rules derive from the "
         "joint graph and the rank of joint twists confirms, directions included. The coupling degree is the least over "
         "all orders of loops."
     )
-    return Section(title, text, [_method(found), _table(found, rows)])
+    return [Section(title, text, [_method(found), _table(found, rows)])]
 
 
 def _method(found: Findings) -> Formulas:

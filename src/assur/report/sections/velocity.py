@@ -8,6 +8,7 @@ import re
 from assur.kinematics.answers.at_border import pose_at_border
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import rate_names
+from assur.performance.scaling import is_mixed
 from assur.report.findings import Findings
 from assur.report.formulas.latex import bracket, latex_mathml, name_mathml
 from assur.report.formulas.mathml import APPLY, THIN, TIMES, display, equation, matrix_mathml
@@ -88,9 +89,14 @@ def _here(found: Findings, record: MechanismRecord) -> Section:
     scalars = [
         Scalar("det Jp", float(here.det_jp), "", _product(found, "parallel")),
         Scalar("det Jq", float(here.det_jq), "", _product(found, "serial")),
-        Scalar("condition number", condition if math.isfinite(condition) else None, "", "2-norm of Jp⁻¹ Jq"),
+        Scalar("condition number", condition if math.isfinite(condition) else None, "", _norm(record)),
     ]
     return Section("In numbers", said, [*matrices, *scalars])
+
+
+def _norm(record: MechanismRecord) -> str:
+    mixed = f"; lengths and angles mix: with lengths in {record.unit}" if is_mixed(record) else ""
+    return f"2-norm of Jp⁻¹ Jq{mixed}"
 
 
 def _product(found: Findings, kind: str) -> str:

@@ -32,7 +32,7 @@ def inputs_for(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mod
     if not asked.needed:
         raise UsageError(
             f"the chains make a structure that does not move: {found.dof} degrees of freedom",
-            hint="a limb has too few freedoms, or axes that do not go together",
+            hint=_why_rigid(chains),
         )
     if asked.needed > found.poc.dim:
         raise UsageError(
@@ -53,6 +53,13 @@ def inputs_for(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mod
         )
     chosen = min(usable, key=lambda item: max(Counter(limb_of[name] for name in item).values()))
     return chosen, analyse(place(chains, actuated=chosen), chains, mode=mode)
+
+
+def _why_rigid(chains: Sequence[Chain]) -> str:
+    """What may be wrong with chains that do not move."""
+    if any(joint.general for chain in chains for joint in chain.joints):
+        return "axes without brackets are general, none parallel to another: a planar limb is R[z] R[z] R[z]"
+    return "a limb has too few freedoms, or axes that do not go together; @O behind axes lets them share a point"
 
 
 def _first_components(names: Sequence[str]) -> tuple[str, ...] | None:

@@ -63,7 +63,6 @@ class Drawing:
     groups: list[DraftGroup] = field(default_factory=list)
     origins: dict[str, Point] = field(default_factory=dict)
     labels: dict[str, Ends] = field(default_factory=dict)
-    last: str = ""
 
     def draw(self, chain: Chain) -> None:
         """Every element of a chain, from the base to the platform."""
@@ -71,7 +70,6 @@ class Drawing:
         self.origins = {BASE_LINK: ORIGIN, PLATFORM_LINK: (Linear(), Linear(), height)}
         elements = _named(chain.elements, self.names)
         self.dimensions = {joint.name: [] for joint in flattened(elements)}
-        self.last = next((joint.name for joint in reversed(list(flattened(elements))) if not slides(joint)), "")
         self._series(elements, BASE_LINK, PLATFORM_LINK, Row(0.0, 1.0, stations(elements)))
 
     def _series(self, elements: Sequence[Element], start: str, end: str, row: Row) -> list[Ends | None]:
@@ -129,10 +127,10 @@ class Drawing:
         return found
 
     def _about_centre(self, element: ChainJoint, letter: str, share: float) -> Ends:
-        """On its own axis through a point that limbs share, away from it; the limb's last one, a U or an S in it."""
+        """On its own axis through a point that limbs share, away from it; a U or an S, or all that is flat, in it."""
         name = self.centres[element.point]
         centre: Point = (Linear(), Linear(), dimension(name) if name else Linear())
-        if len(element.axes) == 1 and letter != self.last:
+        if len(element.axes) == 1 and name:
             size = f"{letter}_d"
             value = round(REACH * (1.0 + 0.5 * share))
             self._dimension(letter, Dimension(size, value, f"from the point {element.point} to joint {letter}"))

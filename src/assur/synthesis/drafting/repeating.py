@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 
 from assur.errors import UsageError
-from assur.topology.chains import Chain, Element, InnerLoop, Parallelogram
+from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.directions import Vector, unit
 from assur.topology.notation import parse_chain, parse_chains, plain_text
 
@@ -16,33 +16,46 @@ PRIME = "'"
 
 
 def repeated(text: str, count: int) -> tuple[Chain, ...]:
-    """A limb and its turns about z, evenly spaced; a label is a point of each limb's own.
+    """A limb and its turns about z, evenly spaced.
+
+    A label is a point of each limb's own. But a limb whose axes all run through one point turns about it, and so do
+    its turns about the same one: about points of their own they would not move.
 
     Errors:
         NotationError: the text is no chain. UsageError: fewer than 2 limbs, or more than 60.
 
     >>> [chain.text for chain in repeated("R[y] U[x,y]@A S@A", 2)]
     ['R[y] U[x,y]@A1 S@A1', 'R[-y] U[-x,-y]@A2 S@A2']
+    >>> [chain.text for chain in repeated("R[x]@O R[y]@O R[z]@O", 2)]
+    ['R[x]@O R[y]@O R[z]@O', 'R[-x]@O R[-y]@O R[z]@O']
     """
     if not LEAST <= count <= MOST:
         raise UsageError(f"{count} limbs; allowed: {LEAST} to {MOST}", hint="--count says how often a limb is there")
     limb = parse_chain(text)
-    return parse_chains([plain_text(Chain(_turned(limb.elements, number, count))) for number in range(count)])
+    shared = has_one_centre(limb)
+    return parse_chains([plain_text(Chain(_turned(limb.elements, number, count, shared))) for number in range(count)])
 
 
-def _turned(elements: Sequence[Element], number: int, count: int) -> tuple[Element, ...]:
+def has_one_centre(limb: Chain) -> bool:
+    """Whether all axes of a limb run through one labelled point, and nothing slides."""
+    labels = {element.point if isinstance(element, ChainJoint) else "" for element in limb.elements}
+    return len(labels) == 1 and "" not in labels
+
+
+def _turned(elements: Sequence[Element], number: int, count: int, shared: bool) -> tuple[Element, ...]:
     angle = 2 * math.pi * number / count
     found: list[Element] = []
     for element in elements:
         if isinstance(element, InnerLoop):
-            branches = tuple(_turned(branch, number, count) for branch in element.branches)
+            branches = tuple(_turned(branch, number, count, shared) for branch in element.branches)
             found.append(dataclasses.replace(element, branches=branches))
         elif isinstance(element, Parallelogram):
             found.append(dataclasses.replace(element, axis=_about_z(element.axis, angle)))
         else:
             primes = element.point.count(PRIME)
-            label = f"{element.point.rstrip(PRIME)}{number + 1}{PRIME * primes}" if element.point else ""
+            own = f"{element.point.rstrip(PRIME)}{number + 1}{PRIME * primes}" if element.point else ""
             axes = tuple(_about_z(axis, angle) for axis in element.axes)
+            label = element.point if shared else own
             found.append(dataclasses.replace(element, axes=axes, point=label))
     return tuple(found)
 

@@ -15,6 +15,7 @@ from assur.synthesis.drafting.tables import Dimension, DraftChain, Template
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, flattened
 from assur.topology.directions import NAMED, parallel, perpendicular
 from assur.topology.joints import PRISMATIC, REVOLUTE
+from assur.topology.linkages.shared_points import common_end
 from assur.topology.notation import plain_text
 
 SCALES = (1.0, 1.1, 0.9, 1.2, 0.8)
@@ -52,7 +53,11 @@ def draft(chains: Sequence[Chain], layout: Layout) -> Draft:
     ('leg', True, True, 'leg3.A')
     """
     flat = all(_is_flat(joint) for chain in chains for joint in flattened(chain.elements))
-    centres = {label: "" if flat else _centre(label) for label in sorted(shared_labels(chains))}
+    end = common_end(chains)
+    centres = {
+        label: "" if flat else HEIGHT_NAME if label == end else _centre(label)
+        for label in sorted(shared_labels(chains) | ({end} - {""}))
+    }
     groups = [part for family in families(chains) for part in _parts(family, layout.parts)]
     letters = map(_letter, count())
     named = [tuple(islice(letters, len(chains[group.pattern].joints))) for group in groups]
@@ -66,7 +71,7 @@ def draft(chains: Sequence[Chain], layout: Layout) -> Draft:
     shared += [
         Dimension(name, round(0.4 * HEIGHT * (number + 1)), f"height of the point {label}, which limbs share")
         for number, (label, name) in enumerate(centres.items())
-        if name
+        if name not in ("", HEIGHT_NAME)
     ]
     return Draft(tuple(shared), templates, flat)
 

@@ -10,13 +10,19 @@ from numpy.typing import NDArray
 from assur.topology.chains import Chain, Element, InnerLoop, Parallelogram
 from assur.topology.joints import PRISMATIC
 from assur.topology.linkages.linkage import Linkage, part
+from assur.topology.linkages.shared_points import end_point
 
 FloatArray = NDArray[np.float64]
 
 
 def limb_linkage(linkage: Linkage, chain: Chain) -> Linkage:
-    """The joints of one limb alone; O' is fixed in the end link, on its last R axis or joint centre at home."""
-    return part(linkage, [joint.name for joint in chain.joints], linkage.platform, _tip(linkage, chain.elements))
+    """The joints of one limb alone; O' is fixed in the end link, on its last R axis or joint centre at home.
+
+    Where last axes have a point in common, and nothing behind them moves it, O' is that point.
+    """
+    tip = end_point(linkage, chain)
+    tip = _tip(linkage, chain.elements) if tip is None else tip
+    return part(linkage, [joint.name for joint in chain.joints], linkage.platform, tip)
 
 
 def limb_values(linkage: Linkage, limb: Linkage, values: FloatArray) -> FloatArray:

@@ -25,6 +25,7 @@ from assur.topology.joints import (
     JointType,
 )
 from assur.topology.linkages.linkage import Group, Linkage, LinkageJoint
+from assur.topology.linkages.shared_points import common_end
 
 FloatArray = NDArray[np.float64]
 
@@ -48,7 +49,8 @@ def place(chains: Sequence[Chain], *, seed: int = 0, actuated: Sequence[str] | N
     parallelogram Pa are Pa.a, Pa.b, Pa.c, Pa.d around it, from one end of the first rod to that of the second.
 
     O' of a chain alone is fixed in its end link, on its last R axis or joint centre at home (a general point where
-    that is an inner loop's output link); that of several limbs is a general point of the platform.
+    that is an inner loop's output link); that of several limbs is the labelled point of the platform in which all of
+    them end that resist anything, or else a general point of it.
 
     Args:
         chains: from base to platform.
@@ -69,9 +71,10 @@ def place(chains: Sequence[Chain], *, seed: int = 0, actuated: Sequence[str] | N
         raise UsageError("there is no chain to place; at least one is needed")
     building = _Building(np.random.default_rng(seed), iter(_names(chains)), len(chains) == 1)
     tips = [building.limb(number, chain) for number, chain in enumerate(chains, 1)]
-    point = tips[0] if len(chains) == 1 and tips[0] is not None else building.somewhere()
+    somewhere = building.somewhere()
+    point = tips[0] if len(chains) == 1 else building.labels.get(common_end(chains))
     inputs = tuple(_input(name, building) for name in actuated or ())
-    return Linkage(building.joints, BASE, PLATFORM, point, building.groups, inputs)
+    return Linkage(building.joints, BASE, PLATFORM, somewhere if point is None else point, building.groups, inputs)
 
 
 @dataclass

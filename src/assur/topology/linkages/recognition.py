@@ -8,30 +8,19 @@ from collections.abc import Iterator, Mapping
 from itertools import count
 from typing import cast
 
-import numpy as np
-from numpy.typing import NDArray
-
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram, ParallelogramKind
 from assur.topology.directions import unit
-from assur.topology.joints import HELICAL, REVOLUTE, SPHERICAL, UNIVERSAL
 from assur.topology.linkages.limbs import Path, limbs
 from assur.topology.linkages.linkage import Group, Linkage, LinkageJoint
-
-FloatArray = NDArray[np.float64]
-Line = tuple[FloatArray, FloatArray]
-"""A point in the base frame, and the direction of an axis or zero where every axis through it counts."""
-
-TURNING = (REVOLUTE, HELICAL, UNIVERSAL, SPHERICAL)
-"""Joints that may share a point with a neighbour."""
-
-MEETING = 1e-9
-"""Axes nearer than this share of their distance from the origin meet."""
+from assur.topology.linkages.shared_points import TURNING, Line, line_of, meet, size_of, with_shared_points
 
 
 def recognised(linkage: Linkage) -> tuple[Chain, ...] | None:
     """The limbs with their axes at home, parallelograms as one element; None where the graph has no limbs.
 
-    Neighbouring axes that meet (or coincide) get the label of their common point.
+    Neighbouring axes that meet (or coincide) get the label of their common point; limbs whose first axes meet in one
+    point of the base, or whose last axes meet in one point of the platform, have one label for it. O' has a label
+    where a limb ends in it.
     """
     inside = {name for group in linkage.groups.values() for name in group.joints}
     paths = [
@@ -43,9 +32,11 @@ def recognised(linkage: Linkage) -> tuple[Chain, ...] | None:
     found = limbs(paths, linkage.base, linkage.platform)
     if found is None:
         return None
-    lines = {name: _line(joint) for name, joint in linkage.joints.items()}
+    lines = {name: line_of(joint) for name, joint in linkage.joints.items()}
+    size = size_of(linkage)
     labels = (f"M{number}" for number in count(1))
-    return tuple(Chain(_marked(chain.elements, lines, labels)) for chain in found)
+    marked = [Chain(_marked(chain.elements, lines, labels, size)) for chain in found]
+    return with_shared_points(marked, lines, labels, size, linkage.point)
 
 
 def _joint(joint: LinkageJoint) -> ChainJoint:
@@ -64,18 +55,15 @@ def _parallelogram(group: Group, linkage: Linkage) -> Parallelogram:
     return Parallelogram(kind, unit(near[1] - near[0]), group.name)
 
 
-def _line(joint: LinkageJoint) -> Line:
-    """An R or H joint's axis; of a U or S its centre alone, which no line describes."""
-    return joint.point, joint.screws[0, :3] if joint.type in (REVOLUTE, HELICAL) else np.zeros(3)
-
-
-def _marked(elements: tuple[Element, ...], lines: Mapping[str, Line], labels: Iterator[str]) -> tuple[Element, ...]:
+def _marked(
+    elements: tuple[Element, ...], lines: Mapping[str, Line], labels: Iterator[str], size: float
+) -> tuple[Element, ...]:
     """The elements with a label on every run of neighbours whose axes run through one point."""
     marked: list[Element] = []
     run: list[ChainJoint] = []
     for element in elements:
         if isinstance(element, ChainJoint) and element.type in TURNING:
-            if not _meet([lines[item.name] for item in (*run, element)]):
+            if not meet([lines[item.name] for item in (*run, element)], size):
                 marked += _labelled(run, labels)
                 run = []
             run.append(element)
@@ -83,7 +71,7 @@ def _marked(elements: tuple[Element, ...], lines: Mapping[str, Line], labels: It
         marked += _labelled(run, labels)
         run = []
         if isinstance(element, InnerLoop):
-            branches = tuple(_marked(branch, lines, labels) for branch in element.branches)
+            branches = tuple(_marked(branch, lines, labels, size) for branch in element.branches)
             element = InnerLoop(branches, element.name or _called(branches))
         marked.append(element)
     return (*marked, *_labelled(run, labels))
@@ -100,13 +88,3 @@ def _labelled(run: list[ChainJoint], labels: Iterator[str]) -> list[ChainJoint]:
         return run
     label = next(labels)
     return [dataclasses.replace(item, point=label) for item in run]
-
-
-def _meet(lines: list[Line]) -> bool:
-    """Whether some axes and centres have a point in common: the least-squares point misses none of them."""
-    planes = [np.eye(3) - np.outer(axis, axis) for _, axis in lines]
-    rows = np.vstack(planes)
-    wanted = np.concatenate([plane @ point for plane, (point, _) in zip(planes, lines, strict=True)])
-    found = np.linalg.lstsq(rows, wanted)[0]
-    size = max(float(np.max(np.abs(wanted))), 1e-300)
-    return bool(np.max(np.abs(rows @ found - wanted)) < MEETING * size)

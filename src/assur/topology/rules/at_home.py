@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from assur.topology.directions import Vector
 from assur.topology.rules.blocks import Block, Structure
 from assur.topology.rules.elementary import Elementary, Slide, Turn
-from assur.topology.rules.meeting import Line
+from assur.topology.rules.meeting import GENERAL, Line
 from assur.topology.rules.refusals import Refusal
 from assur.topology.rules.vectors import aligned, coplanar
 
@@ -43,7 +43,9 @@ def at_home(chain: Sequence[Elementary]) -> Structure | Refusal:
         return Refusal("three axes through one point lie in one plane as written")
     slides = [item for item in chain if isinstance(item, Slide)]
     turns = [Block(turn.direction, tuple(lines.values()), net=False) for turn, lines in blocks]
-    return Structure((*slides, *turns), tuple(rods))
+    last = chain[-1] if chain else None
+    end = points.get(last.point, GENERAL) if isinstance(last, Turn) else GENERAL
+    return Structure((*slides, *turns), tuple(rods), end)
 
 
 def _parallel(first: Vector | None, second: Vector | None) -> bool:

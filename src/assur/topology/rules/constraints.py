@@ -49,7 +49,8 @@ def resisted(limbs: Sequence[Motion], taken: Orientations) -> Resisted | Refusal
         before = limbs[:index]
         couples = total.couples if _same_plane(limb, before, taken) else total.couples.with_span(limb.couples)
         shared = total.forces.meet(limb.forces)
-        related = _with_relations(couples, shared, limb, before)
+        through_one_point = have_common_end([item for item in (*before, limb) if item.dim < 6])
+        related = couples if through_one_point else _with_relations(couples, shared, limb, before)
         located = related != couples
         if located and _common_labels(limb, before) and not _one_centre(limb, before):
             return Refusal("limbs share a point, and where their axes lie decides what they resist")
@@ -74,6 +75,11 @@ def _with_relations(couples: Span, shared: Span, limb: Motion, before: Sequence[
     for _ in range(count):
         couples = couples.with_line()
     return couples
+
+
+def have_common_end(limbs: Sequence[Motion]) -> bool:
+    """Whether limbs can make all their rotations about one point of the end link: their forces run through it."""
+    return len({limb.turns_about for limb in limbs}) == 1 and bool(limbs[0].turns_about)
 
 
 def resists_purely(limb: Motion, axis: Vector) -> bool:

@@ -13,16 +13,19 @@ from assur.topology.rules.platform_set import is_helical, platform_set
 from assur.topology.rules.refusals import Refusal
 
 
-def parallel(motions: Sequence[Motion], mode: Mode = "free", name: str = "the platform") -> Motion | Refusal:
+def parallel(
+    motions: Sequence[Motion], mode: Mode = "free", name: str = "the platform", at: str = ""
+) -> Motion | Refusal:
     """The motion of a platform that several limbs carry, by the rules of POC theory.
 
     Args:
         motions: of the limbs' end links, from `serial`.
         mode: "free", or "translation" where the platform keeps its orientation.
         name: what the derivation calls it.
+        at: label of the limbs' common end where O' is; a general point of the platform by default.
 
     Returns:
-        The motion with O' at a general point of the platform, or why the rules give none.
+        The motion with O' there, or why the rules give none.
 
     Errors:
         UsageError: no limb, or another mode.
@@ -47,7 +50,9 @@ def parallel(motions: Sequence[Motion], mode: Mode = "free", name: str = "the pl
     refusal = why_it_does_not_last(found) if mode == "free" else None
     if refusal is not None:
         return refusal
-    poc = platform_set(found.limbs, found.resisted)
+    poc = platform_set(found.limbs, found.resisted, at)
+    if isinstance(poc, Refusal):
+        return poc
     return Motion(
         translations=found.resisted.forces.complement,
         rotations=found.turned,
@@ -56,7 +61,7 @@ def parallel(motions: Sequence[Motion], mode: Mode = "free", name: str = "the pl
         given=poc,
         conditions=tuple(dict.fromkeys(condition for limb in limbs for condition in limb.conditions)),
         helical=is_helical(found.limbs, found.resisted),
-        derive=lambda: limb_derivation(motions, lambda some: parallel(some, mode), name),
+        derive=lambda: limb_derivation(motions, lambda some: parallel(some, mode, at=at), name, at),
     )
 
 

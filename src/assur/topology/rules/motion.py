@@ -16,7 +16,7 @@ from assur.topology.rules.blocks import Structure, mirrored
 from assur.topology.rules.bundles import bundles
 from assur.topology.rules.chain_steps import chain_derivation
 from assur.topology.rules.derivation import Derivation, under
-from assur.topology.rules.elementary import Elementary
+from assur.topology.rules.elementary import Elementary, Turn
 from assur.topology.rules.orientations import EVERY, UNTURNED, Orientations, held, orientations
 from assur.topology.rules.refusals import Refusal
 from assur.topology.rules.spaces import rotations, translations
@@ -130,6 +130,17 @@ class Motion:
             return False
         of = bundles(self.structure)
         return of.everything in of.points
+
+    @cached_property
+    def turns_about(self) -> str:
+        """Label of the point of the end link, its last axis' or centre's, about which it can make all its rotations."""
+        last = self.limb.chain[-1] if self.limb and self.limb.chain else None
+        label = last.point if isinstance(last, Turn) else ""
+        return label if label and not label.startswith("#") and self.poc.t == self.translations.dim else ""
+
+    def seen_at(self, point: str) -> PocSet:
+        """The POC set at a labelled point of the platform: where the limb ends, or else a general one."""
+        return self.poc if point and self.turns_about == point else self.restated
 
     def pure_along(self, axis: Vector) -> bool:
         """Whether the force along an axis that it resists needs no couple about that axis.

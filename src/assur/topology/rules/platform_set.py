@@ -1,23 +1,27 @@
-"""The POC set of a platform at a general point, from what its limbs resist."""
+"""The POC set of a platform at a general point, or where its limbs end, from what they resist."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 from assur.topology.poc import Mark, PocSet
-from assur.topology.rules.constraints import Resisted, resists_purely
+from assur.topology.rules.constraints import Resisted, have_common_end, resists_purely
 from assur.topology.rules.marks import MOVING, rotation_mark, translation_mark
 from assur.topology.rules.motion import Motion
+from assur.topology.rules.refusals import Refusal
 from assur.topology.rules.spans import Span, perpendicular
 
 
-def platform_set(limbs: Sequence[Motion], found: Resisted) -> PocSet:
-    """The POC set at a general point O'.
+def platform_set(limbs: Sequence[Motion], found: Resisted, at: str = "") -> PocSet | Refusal:
+    """The POC set at a general point O', or at the labelled point in which the limbs end.
 
     t = dim M - 3 + rank of the moments about O' of all that is resisted: what is resisted by a force through O', and
-    by nothing else, O' cannot feel.
+    by nothing else, O' cannot feel. Where every limb can make all its rotations about O', all forces run through it,
+    and the linear rules hold.
     """
     resisting = [limb for limb in limbs if limb.dim < 6]
+    if at:
+        return _at_common_end(resisting, found, at)
     if len(resisting) == 1:
         return resisting[0].restated
     chains = [limb.structure for limb in limbs if limb.structure is not None]
@@ -28,6 +32,15 @@ def platform_set(limbs: Sequence[Motion], found: Resisted) -> PocSet:
     if mark.relation == "arm":
         mark = _arm(limbs, (t, turned.dim, found.dim))
     return PocSet(t, turned.dim, found.dim, mark, rotation_mark(turned, *chains))
+
+
+def _at_common_end(resisting: Sequence[Motion], found: Resisted, at: str) -> PocSet | Refusal:
+    """The POC set at the point about which all limbs can turn."""
+    if any(limb.turns_about != at for limb in resisting):
+        return Refusal("O' lies on the last axes of limbs that cannot make all their rotations about it")
+    chains = [limb.structure for limb in resisting if limb.structure is not None]
+    moved, turned = found.forces.complement, found.couples.complement
+    return PocSet(moved.dim, turned.dim, found.dim, translation_mark(moved, *chains), rotation_mark(turned, *chains))
 
 
 def _arm(limbs: Sequence[Motion], numbers: tuple[int, int, int]) -> Mark:
@@ -51,7 +64,9 @@ def _rank_of_moments(limbs: Sequence[Motion], found: Resisted) -> int:
     planar = forces.dim == 1 and forces.is_fixed and couples.dim == 2 and couples.contains_plane(forces.fixed[0])
     if planar and any(resists_purely(limb, forces.fixed[0]) for limb in limbs):
         return 2
-    through_one_point = all(limb.concurrent and limb.forces.dim == 3 for limb in limbs if limb.dim < 6)
+    resisting = [limb for limb in limbs if limb.dim < 6]
+    concurrent = all(limb.concurrent and limb.forces.dim == 3 for limb in resisting)
+    through_one_point = concurrent or have_common_end(resisting)
     if not couples.dim and forces.dim == 3 and through_one_point:
         return 2
     return min(3, forces.dim + couples.dim)

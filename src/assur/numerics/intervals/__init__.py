@@ -1,0 +1,1 @@
+"""Intervals over arrays: bounds that hold whatever the rounding does."""

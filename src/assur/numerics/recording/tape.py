@@ -1,0 +1,232 @@
+"""Straight-line programs: what a kernel did to its numbers, written down once.
+
+A kernel that is read over `Recorded` numbers leaves a `Tape`: a list of operations on earlier results. Equal operations
+on equal arguments are one entry. Nothing is reordered or simplified, so that a tape rounds as the kernel over floats
+does: its bits are those of NumPy.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from assur.numerics.number_types import Floats
+
+
+@dataclass(frozen=True)
+class Operation:
+    """One entry: an operation on earlier entries, a number, or a place where one is given.
+
+    `name` is one of "varying" and "uniform" (given: one per element, or one for all), "number", "+", "-", "*", "/",
+    "negative", "magnitude", "root", ">=", ">", "and".
+    """
+
+    name: str
+    arguments: tuple[int, ...] = ()
+    number: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Tape:
+    """A straight-line program of many elements at once.
+
+    Attributes:
+        operations: entries in the order in which they are worked out.
+        varying, uniform: names of what is given for each element, and for all of them.
+        outputs: name -> index of its entry.
+    """
+
+    operations: tuple[Operation, ...]
+    varying: tuple[str, ...]
+    uniform: tuple[str, ...]
+    outputs: Mapping[str, int]
+
+    @property
+    def logical(self) -> frozenset[str]:
+        """Outputs that are true or false."""
+        return frozenset(name for name, k in self.outputs.items() if self.operations[k].name in (">=", ">", "and"))
+
+    def evaluate(self, varying: Sequence[Any], uniform: Sequence[Any], ns: Any = None) -> dict[str, Any]:
+        """Outputs at given numbers of any type, entry by entry.
+
+        Args:
+            varying: one number per name in `varying`: arrays (...), intervals, duals, numbers of another recorder.
+            uniform: one number per name in `uniform`.
+            ns: the namespace of the type, for its root; floats where none is given.
+
+        Over float arrays a compiled loop agrees with this to the last bit.
+        """
+        root = (ns or Floats()).sqrt
+        values: list[Any] = []
+        given = {"varying": iter(varying), "uniform": iter(uniform)}
+        with np.errstate(divide="ignore", invalid="ignore"):
+            for item in self.operations:
+                if item.name in given:
+                    values.append(next(given[item.name]))
+                elif item.name == "number":
+                    values.append(item.number)
+                elif item.name == "root":
+                    values.append(root(values[item.arguments[0]]))
+                else:
+                    values.append(MEANING[item.name](*(values[k] for k in item.arguments)))
+        return {name: values[k] for name, k in self.outputs.items()}
+
+    def dependence(self) -> dict[str, frozenset[str]]:
+        """On which varying numbers each output depends.
+
+        >>> recorder = Recorder()
+        >>> x, y = recorder.varying("x"), recorder.varying("y")
+        >>> found = recorder.tape({"both": x * y, "one": y + 1}).dependence()
+        >>> sorted(found["both"]), sorted(found["one"])
+        (['x', 'y'], ['y'])
+        """
+        found: list[frozenset[str]] = []
+        names = iter(self.varying)
+        for item in self.operations:
+            own = frozenset([next(names)]) if item.name == "varying" else frozenset[str]()
+            found.append(own.union(*(found[k] for k in item.arguments)))
+        return {name: found[k] for name, k in self.outputs.items()}
+
+
+MEANING: Mapping[str, Callable[..., Any]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "negative": operator.neg,
+    "magnitude": abs,
+    ">=": operator.ge,
+    ">": operator.gt,
+    "and": operator.and_,
+}
+"""What the operations mean over every number type; the root is that of its namespace."""
+
+
+class Recorder:
+    """Namespace for a kernel over recorded numbers; it collects their operations.
+
+    >>> recorder = Recorder()
+    >>> x = recorder.varying("x")
+    >>> tape = recorder.tape({"y": recorder.sqrt(x * x + 1)})
+    >>> [item.name for item in tape.operations], float(tape.evaluate([0.75], [])["y"])
+    (['varying', '*', 'number', '+', 'root'], 1.25)
+    """
+
+    def __init__(self) -> None:
+        self._operations: list[Operation] = []
+        self._places: dict[Operation, int] = {}
+        self._varying: list[str] = []
+        self._uniform: list[str] = []
+
+    def varying(self, name: str) -> Recorded:
+        """A number that is given for each element."""
+        self._varying.append(name)
+        return self._append(Operation("varying"))
+
+    def uniform(self, name: str) -> Recorded:
+        """A number that is given once for all elements."""
+        self._uniform.append(name)
+        return self._append(Operation("uniform"))
+
+    def sqrt(self, radicand: Any, /) -> Recorded:
+        """Root of max(radicand, 0)."""
+        return self.apply("root", radicand)
+
+    def apply(self, name: str, *arguments: Any) -> Recorded:
+        """The result of an operation, found again where it was done before."""
+        indices = tuple(self._number(item).index for item in arguments)
+        return self._shared(Operation(name, indices))
+
+    def tape(self, outputs: Mapping[str, Any]) -> Tape:
+        """What was recorded, with the numbers that are wanted of it; what these do not need is left out."""
+        wanted = {name: self._number(value).index for name, value in outputs.items()}
+        return _pruned(self._operations, tuple(self._varying), tuple(self._uniform), wanted)
+
+    def _number(self, value: Any) -> Recorded:
+        if isinstance(value, Recorded):
+            return value
+        return self._shared(Operation("number", number=float(value)))
+
+    def _shared(self, operation: Operation) -> Recorded:
+        if operation not in self._places:
+            self._places[operation] = len(self._operations)
+            self._operations.append(operation)
+        return Recorded(self, self._places[operation])
+
+    def _append(self, operation: Operation) -> Recorded:
+        self._operations.append(operation)
+        return Recorded(self, len(self._operations) - 1)
+
+
+@dataclass(frozen=True, eq=False)
+class Recorded:
+    """A number of a kernel that is being recorded; plain numbers may stand on either side of an operator."""
+
+    recorder: Recorder
+    index: int
+
+    # an array on the left must leave the operator to the recorded number on the right
+    __array_ufunc__ = None
+
+    def __pos__(self) -> Recorded:
+        return self
+
+    def __neg__(self) -> Recorded:
+        return self.recorder.apply("negative", self)
+
+    def __abs__(self) -> Recorded:
+        return self.recorder.apply("magnitude", self)
+
+    def __add__(self, other: Any) -> Recorded:
+        return self.recorder.apply("+", self, other)
+
+    def __sub__(self, other: Any) -> Recorded:
+        return self.recorder.apply("-", self, other)
+
+    def __mul__(self, other: Any) -> Recorded:
+        return self.recorder.apply("*", self, other)
+
+    def __truediv__(self, other: Any) -> Recorded:
+        return self.recorder.apply("/", self, other)
+
+    def __radd__(self, other: Any) -> Recorded:
+        return self.recorder.apply("+", other, self)
+
+    def __rsub__(self, other: Any) -> Recorded:
+        return self.recorder.apply("-", other, self)
+
+    def __rmul__(self, other: Any) -> Recorded:
+        return self.recorder.apply("*", other, self)
+
+    def __rtruediv__(self, other: Any) -> Recorded:
+        return self.recorder.apply("/", other, self)
+
+    def __ge__(self, other: Any) -> Recorded:
+        return self.recorder.apply(">=", self, other)
+
+    def __gt__(self, other: Any) -> Recorded:
+        return self.recorder.apply(">", self, other)
+
+    def __and__(self, other: Any) -> Recorded:
+        return self.recorder.apply("and", self, other)
+
+
+def _pruned(
+    operations: Sequence[Operation], varying: tuple[str, ...], uniform: tuple[str, ...], outputs: Mapping[str, int]
+) -> Tape:
+    """The entries that the outputs need, and those that are given, in their order."""
+    needed = set(outputs.values())
+    for k in range(len(operations) - 1, -1, -1):
+        if k in needed:
+            needed.update(operations[k].arguments)
+    kept = [k for k, item in enumerate(operations) if k in needed or item.name in ("varying", "uniform")]
+    place = {k: new for new, k in enumerate(kept)}
+    moved = tuple(
+        Operation(operations[k].name, tuple(place[a] for a in operations[k].arguments), operations[k].number)
+        for k in kept
+    )
+    return Tape(moved, varying, uniform, {name: place[k] for name, k in outputs.items()})

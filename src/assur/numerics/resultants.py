@@ -1,0 +1,108 @@
+"""Three quadrics meet in eight points: the polynomial for one coordinate t is a resultant, without any division.
+
+At a fixed t the quadrics are three conics in x and y. Written as Q = x^2 (..) + y (..) + 1 (..), and likewise with y^2
+or 1^2 split off, the determinant of the three rows of factors is a conic again, Sylvester's form; it vanishes at every
+common point. Three quadrics and three forms are six equations linear in x^2, x y, y^2, x, y and 1, and the determinant
+is the resultant of the conics (Sylvester; J.-P. Jouanolou, Formes d'inertie et resultant, 1997). In t its degree is 8,
+and its leading coefficient is the resultant of the quadratic parts: zero only where these have a common point.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from assur.numerics.polynomials import Polynomial, add, multiply, scaled, subtract
+
+Number = Any
+Quadric = tuple[Polynomial, Polynomial, Polynomial, Polynomial, Polynomial, Polynomial]
+"""Factors of x^2, x y, y^2, x, y and 1, polynomials in t of degrees 0, 0, 0, 1, 1, 2; it is where the sum is zero."""
+Minors = Mapping[tuple[int, ...], Polynomial]
+"""Three columns of three quadrics or forms -> their determinant."""
+
+
+def eliminant(quadrics: tuple[Quadric, Quadric, Quadric]) -> tuple[Number, ...]:
+    """Coefficients (9) of the polynomial in t whose roots are the coordinates t of the common points.
+
+    Example: x^2 = 1, y^2 = 4 and x y = t^2 - 2 give t^4 (t^2 - 4)^2, up to the sign.
+
+    >>> first, second = ((1,), (0,), (0,), (0,), (0,), (-1,)), ((0,), (0,), (1,), (0,), (0,), (-4,))
+    >>> third = ((0,), (1,), (0,), (0,), (0,), (2, 0, -1))
+    >>> eliminant((first, second, third))
+    (0, 0, 0, 0, -16, 0, 8, 0, -1)
+    """
+    minors = _minors(quadrics)
+    lower = _minors(_forms(minors))
+    total: tuple[Number, ...] = ()
+    for columns, minor in minors.items():
+        others = tuple(k for k in range(6) if k not in columns)
+        total = add(total, scaled(multiply(minor, lower[others]), _sense((*columns, *others))))
+    return total
+
+
+def other_two(quadrics: tuple[Quadric, Quadric, Quadric], t: Number) -> tuple[Number, Number, Number]:
+    """The coordinates x and y of the point at a root t, and a square that vanishes where two points share it.
+
+    The vector (x^2, x y, y^2, x, y, 1) is across all six equations. Any five, three quadrics and two forms, give a
+    multiple of it; the three multiples are taken together, and the square is that of their last parts, free of scale.
+    """
+    here = tuple(tuple((_value(part, t),) for part in quadric) for quadric in quadrics)
+    minors = _minors(here)
+    forms = _forms(minors)
+    x: Number = 0
+    y: Number = 0
+    one: Number = 0
+    for pair in itertools.combinations(forms, 2):
+        along_x, along_y, along_one = (_left_out(place, minors, *pair) for place in (3, 4, 5))
+        x, y, one = x + along_x * along_one, y + along_y * along_one, one + along_one * along_one
+    size = sum(minor[0] * minor[0] for minor in minors.values())
+    return x / one, y / one, one / (size * size * size)
+
+
+def _left_out(place: int, minors: Minors, first: Sequence[Polynomial], second: Sequence[Polynomial]) -> Number:
+    """The determinant of three quadrics and two forms without one column, at one t."""
+    total: Number = 0
+    for columns, minor in minors.items():
+        if place not in columns:
+            i, j = (k for k in range(6) if k != place and k not in columns)
+            pair = first[i][0] * second[j][0] - first[j][0] * second[i][0]
+            total = total + _sense((*columns, place, i, j)) * minor[0] * pair
+    return total
+
+
+def _forms(minors: Minors) -> tuple[Sequence[Polynomial], ...]:
+    """Sylvester's forms, with x^2, y^2 and 1^2 split off."""
+    m, none = minors, (0,)
+    return (
+        (m[0, 1, 3], m[0, 2, 3], none, subtract(m[0, 1, 5], m[0, 3, 4]), m[0, 2, 5], m[0, 4, 5]),
+        (none, m[0, 2, 4], m[1, 2, 4], m[0, 2, 5], subtract(m[1, 2, 5], m[2, 3, 4]), scaled(m[2, 3, 5], -1)),
+        (none, m[0, 2, 5], m[1, 2, 5], m[0, 4, 5], subtract(m[1, 4, 5], m[2, 3, 5]), m[3, 4, 5]),
+    )
+
+
+def _minors(rows: Sequence[Sequence[Polynomial]]) -> Minors:
+    first, second, third = rows
+    pairs = {
+        (i, j): subtract(multiply(second[i], third[j]), multiply(second[j], third[i]))
+        for i, j in itertools.combinations(range(6), 2)
+    }
+    return {
+        (i, j, k): add(
+            subtract(multiply(first[i], pairs[j, k]), multiply(first[j], pairs[i, k])), multiply(first[k], pairs[i, j])
+        )
+        for i, j, k in itertools.combinations(range(6), 3)
+    }
+
+
+def _sense(order: Sequence[int]) -> int:
+    """Of a permutation: 1 if it is even, -1 if it is odd."""
+    crossed = sum(first > second for first, second in itertools.combinations(order, 2))
+    return -1 if crossed % 2 else 1
+
+
+def _value(polynomial: Polynomial, t: Number) -> Number:
+    total: Number = 0
+    for coefficient in reversed(polynomial):
+        total = total * t + coefficient
+    return total
