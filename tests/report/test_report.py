@@ -159,7 +159,7 @@ def test_a_file_without_closed_form_has_its_solutions_by_search(delta, read):
     assert page.faults == []
     text = " ".join(page.words["p"].split())
     assert "found on the joint graph itself" in text
-    assert {"Workspace", "Dexterity", "Singularities"} <= set(re.findall(r"\w+", page.words["h2"]))
+    assert {"Dexterity", "Singularities"} <= set(re.findall(r"\w+", page.words["h2"]))
     right = next(iter(re.findall(r"Direct problem: (not proved: a search[^.]*)\.", text)))
     assert "starts" in right
     answer = delta.direct(inputs_of(delta, delta.home_values))
@@ -248,7 +248,7 @@ def test_every_figure_is_there(findings, read, monkeypatch):
     assert "$" not in page.words["figcaption"]
     numbers = re.findall(r"Figure (\d+)\. ", page.words["figcaption"])
     assert numbers == [str(k) for k in range(1, len(names) + 1)]
-    own = re.findall(r"It is Figure (\w+) of the source\.", page.words["figcaption"])
+    own = re.findall(r"Compare Figure (\w+) of the source\.", page.words["figcaption"])
     assert sorted(own) == sorted(drawn.context.companion.numbers.values())
 
 

@@ -46,7 +46,8 @@ def direct(
         mode: an assembly mode; all of them by default.
         method: "closed form"; on the joint graph "loops", one after another as the theory orders them, complete where
             it says so, or "search" from many starts, never known to be complete. By default the
-            closed form where there is one, else the loops where they are complete, else a search.
+            closed form where there is one, else the loops where they are complete, else a search. A single problem
+            that the roots of a polynomial leave open goes to the loops too.
         crossed: whether parallelograms may cross over; a mode says which do ("+++~Pa1"). A search lists crossed ones
             too without being asked.
 
@@ -118,10 +119,19 @@ def _answer(
     if method in ("loops", "search") or kernel is None or crossed:
         return _on_joint_graph(record, problem, given, _numbered_mode(record, problem, mode), method, crossed)
     if isinstance(kernel, Eliminant):
-        return roots_of(record, kernel, given, _numbered_mode(record, problem, mode))
+        return _roots(record, kernel, given, _numbered_mode(record, problem, mode), method)
     if isinstance(kernel, PolynomialSystem):
         return solutions_of(record, kernel, given, _numbered_mode(record, problem, mode))
     return _branches(record, problem, given, mode)
+
+
+def _roots(record: MechanismRecord, kernel: Eliminant, given: FloatArray, only: str, method: Method) -> SolutionSet:
+    """The roots of a polynomial; for a single problem that these leave open, the loops in turn where they do not."""
+    if method == "auto" and given.ndim == 1 and not roots_of(record, kernel, given, "").complete:
+        found = _on_joint_graph(record, "direct", given, only, "loops", crossed=False)
+        if found.all_known:
+            return found
+    return roots_of(record, kernel, given, only)
 
 
 def _branches(record: MechanismRecord, problem: Problem, given: FloatArray, mode: str | None) -> Branches:

@@ -1,4 +1,4 @@
-"""Components: small matrices in batches whose memory runs over the batch first, so that each operation is one long pass.
+"""Components: small matrices in batches whose memory runs over the batch first: every operation is one long pass.
 
 Shapes are as everywhere, (..., 3) and (..., 3, 3); only the order in memory differs. What NumPy computes from such
 arrays keeps it; its matrix product is the exception, and several times slower than `product` here.

@@ -22,6 +22,10 @@ Minors = Mapping[tuple[int, ...], Polynomial]
 """Three columns of three quadrics or forms -> their determinant."""
 
 
+ASKEW = ((6 / 7, 2 / 7, 3 / 7), (2 / 7, 3 / 7, -6 / 7), (3 / 7, -6 / 7, -2 / 7))
+"""Orthonormal rows t, x, y, askew to the usual planes of symmetry: solutions that mirror each other differ in t."""
+
+
 def eliminant(quadrics: tuple[Quadric, Quadric, Quadric]) -> tuple[Number, ...]:
     """Coefficients (9) of the polynomial in t whose roots are the coordinates t of the common points.
 

@@ -25,7 +25,7 @@ def pictures(context: figures.Context, name: str) -> tuple[Picture, ...]:
     width, height = (round(float(size) * CSS_INCH * ENLARGED) for size in figure.get_size_inches())
     png = _with_palette(figures.encoded(figure, "png", DOTS_PER_INCH))
     own = context.companion.numbers.get(name)
-    caption = f"{spec.caption} It is Figure {own} of the source." if own else spec.caption
+    caption = f"{spec.caption} Compare Figure {own} of the source." if own else spec.caption
     return (Picture(spec.name, "", spec.title, caption, png, width, height),)
 
 

@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
 from assur.model.mechanism import Coordinate, Input, Joint, MechanismRecord
+from assur.numerics.intervals.functions import cosine_sine
+from assur.numerics.intervals.interval import Interval
 
 FloatArray = NDArray[np.float64]
 Stroke = tuple[float, float]
@@ -25,9 +27,26 @@ Values = Mapping[str, Any]
 Bound = Callable[[Values], Any]
 """A margin of joint values, of their number type."""
 
+Constant = Callable[[Interval], Any]
+"""What stands in a margin for a constant of which an enclosure is known."""
 
-def bounds(record: MechanismRecord, strokes: Mapping[str, Stroke | None] | None = None) -> dict[str, Bound]:
+
+def nearest(constant: Interval) -> float:
+    """The float in the middle: of an enclosure a few roundings wide, the constant as floats have it."""
+    return float(constant.middle)
+
+
+def bounds(
+    record: MechanismRecord,
+    strokes: Mapping[str, Stroke | None] | None = None,
+    constant: Constant = nearest,
+) -> dict[str, Bound]:
     """Every bound as a margin of joint values: strokes (the user's, else the file's), then limits and cones of joints.
+
+    Args:
+        record: the mechanism.
+        strokes: input -> (low, high), or None for no stroke; the file's for what is left out.
+        constant: what stands for a constant (a sum, a cosine) whose enclosure is given; a float by default.
 
     >>> from assur.model.registry import load_record
     >>> list(bounds(load_record("zeng2019"), {"yA1": (-300, 300), "yA2": (-math.inf, 5)}))
@@ -37,15 +56,15 @@ def bounds(record: MechanismRecord, strokes: Mapping[str, Stroke | None] | None 
     for item, stroke in _strokes(record, strokes):
         if stroke is not None:
             key = record.coordinate_label(item.coordinate)
-            found |= _interval(item.name, key, item.coordinate.kind, stroke, item.sign, item.offset)
+            found |= _interval(item.name, key, item.coordinate.kind, stroke, constant, item.sign, item.offset)
     for coordinate in record.coordinates:
         limit = _limit(record, coordinate)
         if limit is not None:
             key = record.coordinate_label(coordinate)
-            found |= _interval(key, key, coordinate.kind, limit)
+            found |= _interval(key, key, coordinate.kind, limit, constant)
     for joint in record.joints.values():
         if joint.cone is not None and joint.cone_axis is not None:
-            found[f"tilt of {joint.name} <= {joint.cone:g}"] = partial(_cone, joint)
+            found[f"tilt of {joint.name} <= {joint.cone:g}"] = partial(_cone, joint, constant)
     return found
 
 
@@ -78,34 +97,36 @@ def _checked(name: str, stroke: Any) -> Stroke:
 
 
 def _interval(
-    name: str, key: str, kind: str, interval: Stroke, sign: float = 1.0, offset: float = 0.0
+    name: str, key: str, kind: str, interval: Stroke, constant: Constant, sign: float = 1.0, offset: float = 0.0
 ) -> dict[str, Bound]:
     """Margins of low <= sign * value + offset <= high."""
     low, high = interval
     if kind == "angle":
         if high - low >= 2 * math.pi:
             return {}
-        middle, half = sign * ((low + high) / 2 - offset), (high - low) / 2
-        return {f"{low:g} <= {name} <= {high:g}": partial(_angle, key, middle, half)}
+        first, last = Interval.of(low), Interval.of(high)
+        middle, half = ((first + last) / 2 - offset) * sign, (last - first) / 2
+        circle = (*cosine_sine(middle), cosine_sine(half)[0])
+        return {f"{low:g} <= {name} <= {high:g}": partial(_angle, key, *map(constant, circle))}
     found: dict[str, Bound] = {}
     if math.isfinite(low):
-        found[f"{name} >= {low:g}"] = partial(_length, key, sign, offset - low)
+        found[f"{name} >= {low:g}"] = partial(_length, key, sign, constant(Interval.of(offset) - low))
     if math.isfinite(high):
-        found[f"{name} <= {high:g}"] = partial(_length, key, -sign, high - offset)
+        found[f"{name} <= {high:g}"] = partial(_length, key, -sign, constant(Interval.of(high) - offset))
     return found
 
 
-def _length(key: str, slope: float, start: float, values: Values) -> Any:
+def _length(key: str, slope: float, start: Any, values: Values) -> Any:
     return slope * values[key] + start
 
 
-def _angle(key: str, middle: float, half: float, values: Values) -> Any:
+def _angle(key: str, cosine_at: Any, sine_at: Any, least: Any, values: Values) -> Any:
     cosine, sine = values[key]
-    return cosine * math.cos(middle) + sine * math.sin(middle) - math.cos(half)
+    return cosine * cosine_at + sine * sine_at - least
 
 
-def _cone(joint: Joint, values: Values) -> Any:
+def _cone(joint: Joint, constant: Constant, values: Values) -> Any:
     axis: Sequence[float] = np.asarray(joint.cone_axis).tolist()
     tilted = [sum(entry * part for entry, part in zip(row, axis, strict=True)) for row in values[joint.name]]
     cosine = sum(entry * part for entry, part in zip(tilted, axis, strict=True))
-    return cosine - math.cos(joint.cone or 0.0)
+    return cosine - constant(cosine_sine(Interval.of(joint.cone or 0.0))[0])

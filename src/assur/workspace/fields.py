@@ -102,4 +102,4 @@ def _bound(record: MechanismRecord, branch: Callable[[Columns], Branch], bound: 
     with np.errstate(divide="ignore", invalid="ignore"):
         found = branch(columns)
         joints: Values = closed_form_of(record).joints(Extended(), record.values, found.core)
-        return bound(joints)
+        return np.asarray(bound(joints), dtype=float)

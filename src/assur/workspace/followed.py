@@ -2,7 +2,9 @@
 
 The reach itself is one margin: positive where the mode was followed to, falling to zero at its border as the square
 of the measure of the serial side, negative elsewhere. Every other field is read off the joint values, beyond the
-border off those of the nearest reached node, where the reach forbids the pose anyway.
+border off those at the nearest end of the mode, where the reach forbids the pose anyway. So a singularity locus runs
+up to the border; of one that runs along it, nearer than a cell, only a part is seen, and where two loci cross the
+sign of the one determinant rounds the crossing off within a cell.
 """
 
 from __future__ import annotations

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
+
+import assur
 
 PRINTED = {
     "Nominal position, inverse row 1": ["-20.5", "-20.5", "-20.5"],
@@ -43,6 +46,22 @@ def test_angles_of_the_general_position_by_bisection():
 
         low, high = printed - 0.05, printed + 0.05
         assert miss(low) * miss(high) < 0
+
+
+@pytest.mark.parametrize(
+    ("angles", "position"),
+    [
+        ([0, 0, 0], [0.0, 0.0, -1064.4517]),
+        ([10, 20, 30], [108.1354, -180.3484, -1243.5413]),
+        ([-20.5, -20.5, -20.5], [0.0, 0.0, -900.3195]),
+        ([47.5, -11.6, 21.4], [300.4598, 499.9385, -1099.8281]),
+        ([0, 0, 60], [619.5159, -357.6777, -1040.1298]),
+    ],
+)
+def test_a_public_program_for_the_paper_has_the_same_positions(angles, position):
+    """In mm, as github.com/Pieces98/Deltarobot_Kinematics prints them for sB = 567, sP = 76, L = 524, l = 1244."""
+    found = assur.load("delta_4s").direct(np.radians(angles), "+")
+    np.testing.assert_allclose(1000 * found.poses[0], position, rtol=0, atol=6e-5)
 
 
 def test_audit_is_complete(found):

@@ -49,7 +49,8 @@ def solve_by_loops(
     """Every assembly at printed inputs (n,), or at a pose (m,), the loops solved one after another.
 
     Where every link turns about one direction, or not at all, the loops are linear equations in points on circles;
-    they are solved in the order of the mechanism's Assur chains, each for all its complex roots at once.
+    so they are with rods, which are points on spheres, and platforms on three ball joints, which are triangles. They
+    are solved in the order of the mechanism's Assur chains, each for all its complex roots at once.
 
     Args:
         record: the mechanism.

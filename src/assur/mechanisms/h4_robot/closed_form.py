@@ -37,8 +37,6 @@ LIMBS = (1, 2, 3, 4)
 OUTWARDS = ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))
 ALONG_MOTORS = ((0, 1, 0), (0, 1, 0), (1, 0, 0), (1, 0, 0))
 DEGREE = 8
-FRAME = ((6 / 7, 2 / 7, 3 / 7), (2 / 7, 3 / 7, -6 / 7), (3 / 7, -6 / 7, -2 / 7))
-"""Orthonormal rows t, u, v over (w/l, c, s), askew: poses that mirror each other, as at equal cranks, differ in t."""
 STEPS = 2
 """Of Newton's method after the root."""
 SMALL = 1e-8
@@ -69,13 +67,13 @@ def back(ns, p, inputs, t):
     """The pose of a root, then steps of Newton's method for what rounding left."""
     m, foot, along, crossed = _line(ns, p, inputs)
     u, v, apart = resultants.other_two(_quadrics(p, m, foot, along), t)
-    w, cosine, sine = apply(transposed(FRAME), (t, u, v))
+    w, cosine, sine = apply(transposed(resultants.ASKEW), (t, u, v))
     size = ns.sqrt(cosine * cosine + sine * sine)
     middle = scaled(add(foot, scaled(along, w)), p.l)
     pose = (*add(middle, (-p.h * cosine, p.h * sine, 0)), (cosine / size, sine / size))
     for _ in range(STEPS):
         pose = _improved(ns, p, pose, inputs)
-    away = t - FRAME[0][0] * dot(along, subtract(m[0], foot))  # at a pose within (6 + sqrt(13))/7
+    away = t - resultants.ASKEW[0][0] * dot(along, subtract(m[0], foot))  # at a pose within (6 + sqrt(13))/7
     return _branch(ns, p, pose, tuple(inputs), {"near": 4 - away * away, "crossed": crossed, "apart": apart})
 
 
@@ -98,10 +96,10 @@ def _quadrics(p, m, foot, along):
 
 
 def _sum_of_squares(forms):
-    """The quadric on which the squares of forms k + f . (w, c, s) add up to 1, in the coordinates of FRAME."""
+    """The quadric on which the squares of forms k + f . (w, c, s) add up to 1, in the coordinates of resultants.ASKEW."""
     total = ((0,), (0,), (0,), (0,), (0,), (-1,))
     for constant, factors in forms:
-        by_t, u, v = apply(FRAME, factors)
+        by_t, u, v = apply(resultants.ASKEW, factors)
         far = (constant, by_t)
         square = ((u * u,), (2 * u * v,), (v * v,), times(far, 2 * u), times(far, 2 * v), multiply(far, far))
         total = tuple(plus(part, more) for part, more in zip(total, square, strict=True))
@@ -201,7 +199,7 @@ def jacobians(ns, p, core):
 def quantities(ns, p, core):
     """The unknown of the direct problem."""
     (x, y, z, (cosine, sine)), (_, _, along, _) = core.pose, _line(ns, p, core.arms)
-    return {"t": dot(FRAME[0], (dot(along, (x + p.h * cosine, y - p.h * sine, z)) / p.l, cosine, sine))}
+    return {"t": dot(resultants.ASKEW[0], (dot(along, (x + p.h * cosine, y - p.h * sine, z)) / p.l, cosine, sine))}
 
 
 _UPRIGHT = tuple(

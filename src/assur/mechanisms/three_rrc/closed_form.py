@@ -8,17 +8,14 @@ eight points at most, and never in a curve: z alone satisfies a polynomial with 
 from types import SimpleNamespace
 
 from assur.model.closed_form import Branch, ClosedForm, Eliminant, Factor, Margin, Quantity, Sign
-from assur.numerics import quadrics
 from assur.numerics.meetings import angle_with, linear_in_three
 from assur.numerics.polynomials import add as plus
 from assur.numerics.polynomials import multiply
 from assur.numerics.polynomials import scaled as times
+from assur.numerics.resultants import ASKEW, eliminant, other_two
 from assur.numerics.vectors import add, apply, difference_of_angles, dot, scaled, subtract, transposed, triple
 
 LIMBS = (1, 2, 3)
-FRAME = ((6 / 7, 2 / 7, 3 / 7), (2 / 7, 3 / 7, -6 / 7), (3 / 7, -6 / 7, -2 / 7))
-"""Orthonormal rows t, x, y, askew to every plane of symmetry: poses that mirror each other differ in t."""
-
 DAMPING = 1e-12
 """Keeps a step of least squares calm at a double root."""
 
@@ -37,15 +34,15 @@ def inverse(ns, p, pose, sign):
 
 
 def coefficients(ns, p, inputs):
-    """The nine coefficients of the polynomial in t, the pose's coordinate along FRAME[0] in units of l2."""
-    return quadrics.eliminant(_cylinders(ns, _ends(p, inputs)))
+    """The nine coefficients of the polynomial in t, the pose's coordinate along ASKEW[0] in units of l2."""
+    return eliminant(_cylinders(ns, _ends(p, inputs)))
 
 
 def back(ns, p, inputs, t):
     """The pose at a root: the other two coordinates, then two steps of least squares for what rounding left."""
     ends = _ends(p, inputs)
-    x, y, apart = quadrics.other_two(_cylinders(ns, ends), t)
-    point = apply(transposed(FRAME), (t, x, y))
+    x, y, apart = other_two(_cylinders(ns, ends), t)
+    point = apply(transposed(ASKEW), (t, x, y))
     for _ in range(2):
         point = _nearer(ns, ends, point)
     pose = scaled(point, p.l2)
@@ -66,7 +63,7 @@ def _ends(p, cranks):
 def _cylinders(ns, ends):
     """(e_i . p - rho_i)^2 + (z - zeta_i)^2 - 1 = 0 in the coordinates t, x, y."""
     return tuple(
-        _cylinder(apply(FRAME, e), apply(FRAME, (0, 0, 1)), end) for e, end in zip(_radial(ns), ends, strict=True)
+        _cylinder(apply(ASKEW, e), apply(ASKEW, (0, 0, 1)), end) for e, end in zip(_radial(ns), ends, strict=True)
     )
 
 
@@ -141,7 +138,7 @@ def jacobians(ns, p, core):
 def quantities(ns, p, core):
     """The unknown of the direct problem, and the directions of the rods."""
     directions = {f"phi{n}": rod for n, rod in zip(LIMBS, core.planar, strict=True)}
-    return {"t": dot(FRAME[0], core.pose) / p.l2, **directions}
+    return {"t": dot(ASKEW[0], core.pose) / p.l2, **directions}
 
 
 def constraints(ns, p, core, inputs):
@@ -160,7 +157,7 @@ CLOSED_FORM = ClosedForm(
     quantities=quantities,
     constraints=constraints,
     signs={**{f"s{n}": Sign(f"sin{n}", "1") for n in LIMBS}, "e": Sign("normals", "1")},
-    direct_margins=(Margin("apart", "1", "two poses share the unknown t", unit=0, zero="degenerate"),),
+    direct_margins=(Margin("apart", "1", "two poses share the unknown t", unit=2, zero="degenerate"),),
     inverse_margins=tuple(
         margin
         for n in LIMBS

@@ -27,7 +27,9 @@ def _text(found: Findings) -> str:
     constant = " Its orientation is expected to stay as it is." if record.platform.orientation == "constant" else ""
     changed = ", ".join(f"{name} = {short(value)}" for name, value in record.overrides.items())
     numbered = (
-        " Figures carry the numbers of the source." if found.illustrated and found.context.companion.numbers else ""
+        " Captions name the figures of the source that show the same."
+        if found.illustrated and found.context.companion.numbers
+        else ""
     )
     overrides = f"\n\nDimensions other than the file's are used in this report: {changed}." if changed else ""
     return (

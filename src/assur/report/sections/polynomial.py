@@ -25,7 +25,8 @@ def polynomial_words(found: Findings, eliminant: Eliminant) -> str:
     unknown = f"tan({name}/2)" if _angular(eliminant) else name
     parts = polynomials_at(found, eliminant)
     degree = parts[0][1].size - 1
-    choices = f"{len(parts)} polynomials, by the choice of {', '.join(eliminant.signs)},"
+    told = [name for k, name in enumerate(eliminant.signs) if len({label[k : k + 1] for label, _ in parts}) > 1]
+    choices = f"{len(parts)} polynomials, by the choice of {', '.join(told)},"
     which = "one polynomial" if len(parts) == 1 else choices
     meant = next((item.meaning for item in found.form.quantity_list if item.name == name and item.meaning), "")
     said = f"{unknown} ({meant})" if meant else unknown
