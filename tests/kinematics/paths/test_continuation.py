@@ -80,7 +80,7 @@ def test_on_the_edges_of_the_grid_and_of_one_twice_as_coarse_the_border_is_known
         ends = np.array([[found.axes[0][column], found.axes[1][k]] for k in (low, high)])
         share = found.border(ends[:1], ends[1:])[0]
         assert ends[0, 1] + share * (high - low) * step[1] == pytest.approx(exact, abs=1e-3)
-    assert found.ends[column, top, 1] == found.border(ends[:1], ends[:1] + [0.0, step[1]])[0]
+    assert found.ends[column, top, 1] == found.border(ends[:1], ends[:1] + np.array([0.0, step[1]]))[0]
 
 
 def test_beyond_the_border_the_values_are_those_at_the_end_of_the_mode():

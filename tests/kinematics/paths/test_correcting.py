@@ -41,7 +41,7 @@ def test_what_has_no_solution_is_given_up_early_and_keeps_its_nearest_approach()
 
 
 def test_a_fold_is_met_slowly_but_met():
-    found = corrected(lambda x, rows: (x**2, 2 * x[:, :, None]), np.array([[0.05]]))
+    found = corrected(lambda x, _: (x**2, 2 * x[:, :, None]), np.array([[0.05]]))
     assert found.closed[0]
     assert abs(found.values[0, 0]) < 1e-4
 

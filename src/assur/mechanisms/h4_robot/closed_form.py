@@ -96,7 +96,7 @@ def _quadrics(p, m, foot, along):
 
 
 def _sum_of_squares(forms):
-    """The quadric on which the squares of forms k + f . (w, c, s) add up to 1, in the coordinates of resultants.ASKEW."""
+    """The quadric on which the squares of forms k + f . (w, c, s) add up to 1, in the askew coordinates."""
     total = ((0,), (0,), (0,), (0,), (0,), (-1,))
     for constant, factors in forms:
         by_t, u, v = apply(resultants.ASKEW, factors)
