@@ -47,6 +47,17 @@ def mode_signs(record: MechanismRecord, problem: Problem, mode: str) -> tuple[in
     return tuple(1 if symbol == "+" else -1 for symbol in mode)
 
 
+def mode_kernel_signs(record: MechanismRecord, problem: Problem, mode: str | None = None) -> SimpleNamespace:
+    """Signs of a mode by name, as kernels take them; the file's default working mode where none is given.
+
+    >>> from assur.model.registry import load_record
+    >>> mode_kernel_signs(load_record("fivebar"), "inverse", "+-")
+    namespace(s1=1.0, s2=-1.0)
+    """
+    signs = mode_signs(record, problem, mode or record.modes.default_working)
+    return SimpleNamespace(**dict(zip(sign_names(record, problem), map(float, signs), strict=True)))
+
+
 def mode_text(signs: Sequence[int] | NDArray[np.int8]) -> str:
     """Text of a mode from its signs; a sign that has merged to zero is written 0.
 

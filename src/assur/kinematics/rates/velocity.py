@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -14,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UsageError
 from assur.kinematics import border
 from assur.kinematics.closed_form.existence import exists
-from assur.kinematics.modes import mode_signs, sign_names
+from assur.kinematics.modes import mode_kernel_signs
 from assur.kinematics.rates.instantaneous import Instant, instantaneous
 from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of, relative_factors
 from assur.model.closed_form import Branch
@@ -169,7 +168,7 @@ def acceleration(
     values = border.pose_components(record, flat)
     components = tuple(_moving(value, moving[:, k]) for k, value in enumerate(values))
     form = closed_form_of(record)
-    branch = form.inverse(Duals(), record.values, components, _sign(record, mode))
+    branch = form.inverse(Duals(), record.values, components, mode_kernel_signs(record, "inverse", mode))
     jp, jq = form.jacobians(Duals(), record.values, branch.core)
     jp_rate = _matrix(jp, given.shape[:-1], derivative=True)
     jq_rate = _matrix(jq, given.shape[:-1], derivative=True) * _input_signs(record)
@@ -183,12 +182,7 @@ def branch_at(record: MechanismRecord, poses: ArrayLike, mode: str | None, ns: A
     given = border.checked_poses(record, poses)
     components = border.pose_components(record, given.reshape(-1, given.shape[-1]))
     form = closed_form_of(record)
-    return given, form.inverse(ns, record.values, components, _sign(record, mode))
-
-
-def _sign(record: MechanismRecord, mode: str | None) -> SimpleNamespace:
-    signs = mode_signs(record, "inverse", mode or record.modes.default_working)
-    return SimpleNamespace(**dict(zip(sign_names(record, "inverse"), map(float, signs), strict=True)))
+    return given, form.inverse(ns, record.values, components, mode_kernel_signs(record, "inverse", mode))
 
 
 def _coordinate_rates(record: MechanismRecord, poses: FloatArray, velocity: FloatArray) -> FloatArray:
