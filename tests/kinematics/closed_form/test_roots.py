@@ -95,7 +95,7 @@ def test_poses_that_meet_are_there_on_one_side_and_not_on_the_other(first, befor
     there = border(mechanism, first, (80.0, *first[1:]))
     for away in (1e-9, 1e-6, 1e-3):
         for sense, number in ((1, before), (-1, after)):
-            found = mechanism.direct(there + sense * away * FIRST)
+            found = mechanism.direct(there + sense * away * FIRST, method="closed form")
             assert (found.complete, len(found)) == (True, number)
 
 
@@ -106,7 +106,7 @@ def test_where_three_roots_meet_the_answer_is_right_or_undecided():
     undecided = 0
     for away in (0.0, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-4, 1e-2):
         for sense, number in ((1, 16), (-1, 12)):
-            found = mechanism.direct(there + sense * away * FIRST)
+            found = mechanism.direct(there + sense * away * FIRST, method="closed form")
             undecided += not found.complete
             assert (found.complete and len(found) == number) or (not found.complete and away < 5e-7)
     assert undecided > 0
@@ -114,7 +114,7 @@ def test_where_three_roots_meet_the_answer_is_right_or_undecided():
 
 def test_a_polynomial_that_is_not_finite_is_undecided():
     mechanism = assur.load("three_rps", R=60.0, r=120.0)
-    found = mechanism.direct(np.array([250.0, 260.0, 275.0]))
+    found = mechanism.direct(np.array([250.0, 260.0, 275.0]), method="closed form")
     assert found.overall_status == Status.undecided
 
 
@@ -148,7 +148,7 @@ def test_two_fourfold_roots_of_the_3_rrc_that_nearly_meet(spread):
 
 @pytest.mark.parametrize("spread", [1e-6, 1e-7, 0.0])
 def test_nearer_it_says_that_it_does_not_know(spread):
-    found = assur.load("three_rrc", r=70.0).direct(cranks_near_flat(spread))
+    found = assur.load("three_rrc", r=70.0).direct(cranks_near_flat(spread), method="closed form")
     assert found.overall_status == Status.undecided
     assert not found.complete
 
