@@ -16,7 +16,7 @@ from assur.kinematics.modes import Problem
 from assur.kinematics.ordered.circles import System, joint_values, system
 from assur.kinematics.ordered.hinges import NoAssemblyError, NotCirclesError, middle
 from assur.kinematics.ordered.orientations import Turning, turnings
-from assur.kinematics.ordered.solving import CurveError, Solved, solve
+from assur.kinematics.ordered.solving import DOUBTFUL, CurveError, Solved, solve
 from assur.kinematics.search import SAME, distinct, in_one_turn, search
 from assur.model.mechanism import MechanismRecord
 from assur.model.points import point
@@ -169,7 +169,8 @@ def _at_once(question: _Question, parallel: frozenset[str]) -> LoopSolutions:
         nearly = "nearly " if error.error else ""
         return _nothing(record, False, f"not proved, since {listed} {nearly}have infinitely many values, real or not")
     starts = np.array([joint_values(equations, row, locked) for row in found.unknowns])
-    joints = question.closed(starts.reshape(-1, len(record.coordinates)))
+    starts = starts.reshape(-1, len(record.coordinates))
+    joints = question.closed(starts)
     kept = [name for name in record.generalised if name in parallel]
     note = f"; {' and '.join(kept)} stay{'s' if len(kept) == 1 else ''} parallel" if kept else ""
     right = _right(equations, found) + note
@@ -177,6 +178,9 @@ def _at_once(question: _Question, parallel: frozenset[str]) -> LoopSolutions:
         return LoopSolutions(
             joints, False, f"not proved, since the pose leaves the platform's tilt open: {right}", found.looked
         )
+    sure = np.repeat(found.bent <= DOUBTFUL, len(starts) // max(len(found.bent), 1))
+    if not sure.all() and len(question.closed(starts[sure])) < len(joints):
+        return LoopSolutions(joints, False, f"not proved, since roots are too near to tell them: {right}", found.looked)
     return LoopSolutions(joints, True, right, found.looked)
 
 

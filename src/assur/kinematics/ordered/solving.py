@@ -24,6 +24,8 @@ ComplexArray = NDArray[np.complex128]
 REAL = 1e-3
 """A root this near to a real one is tried as an assembly: parts of a double root come out some 1e-8 apart, of a
 triple one 1e-5. What is tried in vain does not close."""
+DOUBTFUL = 1e-6
+"""An assembly of a root that is not real by more than this may be one of a double root, or none: not to be told."""
 ACCURATE = 1e-8
 """Residual of scaled equations at their roots up to which the roots are believed."""
 MOST_ITEMS = 14
@@ -39,9 +41,10 @@ class Set:
 
 @dataclass(frozen=True, eq=False)
 class Solved:
-    """Unknowns (K, 1 + c) made real, the first 1; the sets; how many complex roots were looked at."""
+    """Unknowns (K, 1 + c) made real, the first 1; by how much that bent them (K,); the sets; how many roots there were."""
 
     unknowns: ComplexArray
+    bent: NDArray[np.float64]
     sets: tuple[Set, ...]
     looked: int
 
@@ -76,6 +79,7 @@ def solve(found: System) -> Solved:
     rows = without(found.matrix, slid)
     known = np.zeros((1, found.matrix.shape[1]), dtype=complex)
     known[0, 0] = 1.0
+    bent = np.zeros(1)
     left = list(range(len(found.items)))
     looked, sets = 0, []
     for chosen in _order(rows, found.items):
@@ -83,7 +87,9 @@ def solve(found: System) -> Solved:
         equations = without(rows, _columns(found.items, left))
         items = [found.items[number] for number in chosen]
         roots = [roots_of_set(equations, row, items) for row in known]
-        known = np.concatenate([_real(part.values, row, items) for part, row in zip(roots, known, strict=True)])
+        real = [_real(part.values, row, items) for part, row in zip(roots, known, strict=True)]
+        bent = np.concatenate([np.maximum(own, before) for (_, own), before in zip(real, bent, strict=True)])
+        known = np.concatenate([rows_of for rows_of, _ in real])
         looked += sum(len(part.values) for part in roots)
         worst = max(part.error for part in roots)
         if not all(part.isolated for part in roots) or worst > ACCURATE:
@@ -93,7 +99,7 @@ def solve(found: System) -> Solved:
             break
     if len(slid):
         known[:, slid] = -(np.linalg.pinv(found.matrix[:, slid]) @ (found.matrix @ known.T)).T
-    return Solved(known, tuple(sets), looked)
+    return Solved(known, bent, tuple(sets), looked)
 
 
 def _columns(items: Sequence[Item], numbers: Sequence[int]) -> list[int]:
@@ -127,11 +133,13 @@ def _closed_set(rows: ComplexArray, items: Sequence[Item], left: Sequence[int]) 
     raise NotCirclesError("the loops do not determine all angles with what is locked")
 
 
-def _real(values: ComplexArray, row: ComplexArray, items: Sequence[Item]) -> ComplexArray:
-    """Rows of unknowns with the real roots of one set filled in, made exactly real."""
+def _real(values: ComplexArray, row: ComplexArray, items: Sequence[Item]) -> tuple[ComplexArray, NDArray[np.float64]]:
+    """Rows of unknowns with the real roots of one set filled in, made exactly real, and how far that moved each."""
     columns = [column for item in items for column in item.columns]
+    width = len(row)
     found = np.repeat(row[None], len(values), axis=0)
     found[:, columns] = values
+    found = np.hstack([found, values])  # the roots as they were, at the end of each row
     for item in sorted(items, key=lambda item: item.kind != "circle"):
         if item.kind == "triangle":
             good = np.max(np.abs(found[:, list(item.columns)].imag), axis=1) < REAL
@@ -165,4 +173,5 @@ def _real(values: ComplexArray, row: ComplexArray, items: Sequence[Item]) -> Com
             for part, sense in zip(both, (1.0, -1.0), strict=True):
                 part[:, [item.circle]], part[:, [item.circle + 1]] = sense * turned, sense * np.conj(turned)
             found = np.concatenate(both)
-    return found
+    moved = np.abs(found[:, columns] - found[:, width:]) / (1.0 + np.abs(found[:, width:]))
+    return found[:, :width], np.max(moved, axis=1, initial=0.0)
