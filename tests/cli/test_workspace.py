@@ -80,3 +80,14 @@ def _volume(points, faces):
         (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (points[index - 1] for index in (i, j, k))
         total += (ax * (by * cz - bz * cy) - ay * (bx * cz - bz * cx) + az * (bx * cy - by * cx)) / 6
     return total
+
+
+def test_sizes_have_the_unit_of_what_varies(assur_cli):
+    angles = assur_cli("workspace", "three_rps", "--at", "z=250", "--resolution", "8")
+    assert angles.code == 0
+    assert "area [rad]" in angles.out
+    assert "mm]" not in angles.out
+    assert "share within" not in angles.out
+    mixed = assur_cli("workspace", "planar_3rrr", "--resolution", "8").out
+    assert "area [" not in mixed
+    assert "area [mm^2]" in assur_cli("workspace", "zeng2019", "--resolution", "8").out

@@ -114,6 +114,6 @@ def test_captions_state_the_length_and_the_share(context):
 def test_colours_past_the_border_are_those_of_the_nearest_node():
     values = np.full((3, 4), np.nan)
     values[1, 1], values[1, 3] = 0.25, 0.75
-    filled = module._continued(values)
+    filled = module.continued(values)
     assert filled[1, 1] == filled[1, 0] == filled[0, 1] == 0.25
     assert filled[1, 3] == filled[2, 3] == 0.75

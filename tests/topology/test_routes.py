@@ -7,11 +7,12 @@ from functools import lru_cache
 
 import pytest
 
+import assur
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.counting.coupling import coupling, coupling_of
 from assur.topology.counting.inputs import default_inputs
 from assur.topology.linkages.placing import place
-from assur.topology.linkages.twists import generic_edges
+from assur.topology.linkages.twists import ShakyError, generic_edges
 from assur.topology.notation import parse_chains
 from assur.topology.routes import check_xi
 from assur.topology.rules.union import serial
@@ -95,3 +96,46 @@ def test_nothing_is_compared_where_a_limb_is_not_known():
     chains, motions, loops = closed((HYBRID, SLIDES))
     wrong = [dataclasses.replace(loop, xi=1) for loop in loops]
     check_xi(chains, [motions[0], None], wrong, held=False)
+
+
+TURNS = ((1.0, 0.0), (-0.5, 0.8660254037844386), (-0.5, -0.8660254037844386))
+"""Three limbs turned about z: the cosine and sine of each."""
+
+
+def three(text):
+    """A limb written with axes a (radial), t (tangential), and its turns about z."""
+    return [text.replace("a", f"{c},{s},0").replace("t", f"{-s},{c},0") for c, s in TURNS]
+
+
+def test_three_limbs_whose_only_common_orientation_is_a_double_one_are_shaky():
+    """C[t] R[t] U[t;a]: limb i asks t_i . R a_i = 0. With R = exp(w) and w along the angle b from x this is
+    w_z + |w|^2 sin(2b - 2 phi_i) / 4 = 0 to second order: of three phi_i, 120 degrees apart, only w = 0 is left, twice.
+    The rotations about x and y are instantaneous everywhere and lead nowhere; the routes used to disagree on rounding.
+    """
+    texts = three("C[t] R[t] U[t; a]")
+    with pytest.raises(ShakyError, match="shaky"):
+        assur.topology(texts)
+    two = assur.topology(texts[:2])  # w_z can follow |w|^2: the platform turns
+    assert two.poc.r > 0
+    assert assur.topology(texts[:1]).poc.dim == 5
+
+
+def test_the_rules_leave_a_platform_to_the_twists_where_the_mechanism_keeps_a_limb_special():
+    """The axes of each limb lie on one line, all sliders stay where they are, and only the rods spin."""
+    found = assur.topology([f"R[z]@{at} {slide} R[z]@{at}" for at, slide in zip("ABC", three("P[a]"), strict=True)])
+    assert (found.poc.dim, found.known.route) == (0, "twists")
+    assert "keeps limb 1 in a special position" in found.known.refusal
+
+
+def test_limbs_whose_forces_may_run_through_a_shared_point_of_the_base_are_refused():
+    """Each S@O C[u] resists one force, and it runs through O: the platform turns about O, and O' moves in t2."""
+    found = assur.topology(["S@O C[x]", "S@O C[y]", "S@O C[z]"])
+    assert (found.poc.t, found.poc.r, found.poc.dim) == (2, 3, 3)
+    assert "share a point" in found.known.refusal
+
+
+def test_xi_is_not_compared_where_fewer_limbs_would_not_hold_a_limb_special():
+    """Three limbs y, y, z, y keep the platform unturned, each in the plane across its y; two of them do not."""
+    found = assur.topology(three("R[t] U[t; 0,0,1] P[0,0,1] R[t]"))
+    assert (found.poc.t, found.poc.r, found.known.route) == (1, 0, "both")
+    assert found.xi[0] == 6  # the rules would have said xi = 4

@@ -19,6 +19,10 @@ def direct(
     ] = None,
     method: MethodName = "auto",
     crossed: Crossed = False,
+    certify: Annotated[
+        bool,
+        Parameter(help="Prove every pose by intervals, and that there is no other. With --method search: box by box."),
+    ] = False,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """Every pose of the platform at given inputs.
@@ -27,8 +31,12 @@ def direct(
     the gap that is left when every loop of the joint graph is closed with it.
     Exit code 4: it is proved that there is none; 5: undecided.
 
+    With --certify each answer has bounds, and is proved or undecided, never a
+    guess. Every number given counts as the float that is nearest to it.
+
     For example:
         assur direct zeng2019 162.6907 -143.3209 -24.6776
+        assur direct zeng2019 162.6907 -143.3209 -24.6776 --certify
         assur direct fivebar 127 53 --set l2=200 --json
     """
     record = shared.mechanism(mechanism)
@@ -37,4 +45,11 @@ def direct(
     from assur.kinematics.border import input_names
 
     values = numbers(inputs, input_names(record), f"inputs of {record.name}")
-    return outcome(record, record.direct(inputs_from_border(record, values), mode, method, crossed=crossed))
+    given = inputs_from_border(record, values)
+    if certify:
+        from assur.cli import certified_solutions
+        from assur.kinematics.certified.certify import certified_direct
+
+        way = certified_solutions.way_of(method, mode, crossed=crossed)
+        return certified_solutions.outcome(record, certified_direct(record, given, way))
+    return outcome(record, record.direct(given, mode, method, crossed=crossed))

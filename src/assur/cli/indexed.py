@@ -125,7 +125,7 @@ def _pose_shown(record: Mechanism, data: dict[str, Any], units: dict[str, str]) 
     )
     factors = ", ".join(map(short, data["velocity_factors"]))
     yield f"velocity factors of J = Jp^-1 Jq: {factors} {data['velocity_factor_unit']}".rstrip()
-    yield _length_words(record, data["characteristic_length"])
+    yield length_words(record, data["characteristic_length"])
 
 
 def _overall_shown(record: Mechanism, data: dict[str, Any], found: OverallIndices) -> Iterable[RenderableType]:
@@ -148,7 +148,7 @@ def _overall_shown(record: Mechanism, data: dict[str, Any], found: OverallIndice
     unit = data["velocity_factor_unit"]
     if unit:
         yield f"largest and smallest are velocity factors in {unit}; manipulability is their product"
-    yield _length_words(record, found.length)
+    yield length_words(record, found.length)
     yield ""
     good = found.good
     size = f"{with_error(good.volume, good.volume_error)} {good.unit}"
@@ -162,7 +162,7 @@ def _overall_shown(record: Mechanism, data: dict[str, Any], found: OverallIndice
         yield f"{data['singular']} points are singular and left out of the means of J's indices"
 
 
-def _length_words(record: Mechanism, length: float | None) -> str:
+def length_words(record: Mechanism, length: float | None) -> str:
     from assur.performance.scaling import is_mixed
 
     if length is not None:

@@ -19,6 +19,9 @@ def inverse(
     ] = None,
     method: MethodName = "auto",
     crossed: Crossed = False,
+    certify: Annotated[
+        bool, Parameter(help="Prove all inputs by intervals, and that there are no others, or say what is undecided.")
+    ] = False,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """All inputs that hold the platform at a given pose.
@@ -30,10 +33,18 @@ def inverse(
     For example:
         assur inverse zeng2019 -15.4714 9.6849 456.3315
         assur inverse zeng2019 -15.4714 9.6849 456.3315 --mode ++-++
+        assur inverse zeng2019 -15.4714 9.6849 456.3315 --certify
     """
     record = shared.mechanism(mechanism)
     from assur.cli.positions import outcome
     from assur.kinematics.answers.at_border import pose_from_border
 
     values = numbers(pose, record.platform.pose, f"pose of {record.name}")
-    return outcome(record, record.inverse(pose_from_border(record, values), mode, method, crossed=crossed))
+    given = pose_from_border(record, values)
+    if certify:
+        from assur.cli import certified_solutions
+        from assur.kinematics.certified.certify import certified_inverse
+
+        way = certified_solutions.way_of(method, mode, crossed=crossed)
+        return certified_solutions.outcome(record, certified_inverse(record, given, way))
+    return outcome(record, record.inverse(given, mode, method, crossed=crossed))

@@ -31,6 +31,7 @@ For example:
 def application() -> App:
     """The application with every command."""
     from assur.cli.audit import audit
+    from assur.cli.certify import certify
     from assur.cli.check import check
     from assur.cli.crosscheck import crosscheck
     from assur.cli.demo import demo
@@ -49,6 +50,7 @@ def application() -> App:
     from assur.cli.singularity import singularity
     from assur.cli.synthesize import synthesize
     from assur.cli.topology import topology
+    from assur.cli.verify import verify
     from assur.cli.workspace import workspace
 
     app = App(
@@ -69,6 +71,8 @@ def application() -> App:
         follow,
         singularity,
         workspace,
+        certify,
+        verify,
         indices,
         audit,
         figures,

@@ -198,7 +198,9 @@ def _shown(record: Mechanism, data: dict[str, Any], written: Path | None) -> Ite
     size = f"{with_error(data['volume'], data['volume_error'])} {data['unit']}"
     yield f"{what}: {size} (error: difference to half the resolution)"
     yield ""
-    surface = power(record.unit, dimension - 1)
+    lengths = [is_length(name) for name in data["coordinates"]]
+    one = record.unit if all(lengths) else "" if any(lengths) else "rad"  # no one unit where lengths and angles mix
+    surface = f" [{power(one, dimension - 1)}]" if one and dimension > 1 else ""
     yield from _sections(data, surface)
     yield from _singular(record, data, surface)
     if written is not None:
@@ -223,7 +225,7 @@ def _sections(data: dict[str, Any], surface: str) -> Iterable[RenderableType]:
         return
     last = data["coordinates"][-1]
     yield table(
-        (f"section at {last}", f"area [{surface}]"),
+        (f"section at {last}", f"area{surface}"),
         [(f"{item[last]:g}", f"{item['area']:.7g}") for item in data["sections"]],
     )
     yield ""
@@ -240,8 +242,10 @@ def _singular(record: Mechanism, data: dict[str, Any], surface: str) -> Iterable
         for name, item in singular["factors"].items()
     ]
     yield heading("parallel singularities inside")
-    yield table(("factor", f"area [{surface}]", "zero where"), rows, left=("factor", "zero where"))
+    yield table(("factor", f"area{surface}", "zero where"), rows, left=("factor", "zero where"))
     share, near = singular["share"], f"{singular['near']:g} {record.unit}"
+    if not all(is_length(name) for name in data["coordinates"]):
+        return  # no distance where angles vary
     if share is None:
         yield f"share within {near} of one: not known"
     else:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
@@ -16,6 +16,7 @@ from assur.cli.options import (
     Stroke,
     WorkingMode,
 )
+from assur.errors import UsageError
 
 
 def workspace(
@@ -42,6 +43,29 @@ def workspace(
         str | None,
         Parameter(name=("-o", "--output"), metavar="FILE", help="Write the answer (.json) or surface (.obj)."),
     ] = None,
+    certify: Annotated[
+        bool, Parameter(negative="", help="Prove bounds of the volume and of the sections, by intervals.")
+    ] = False,
+    gap: Annotated[
+        str | None,
+        Parameter(metavar="SHARE", help="With --certify: by how much the bounds may differ; 1e-3 if left out."),
+    ] = None,
+    finest: Annotated[
+        str | None,
+        Parameter(metavar="LENGTH", help="With --certify, in place of a gap: size at which boxes are no longer cut."),
+    ] = None,
+    prove: Annotated[
+        str | None,
+        Parameter(metavar="NAME=LOW:HIGH,..", help="Prove that all of this box is reached and none of it singular."),
+    ] = None,
+    largest: Annotated[
+        Literal["cube", "cylinder", "ball"] | None,
+        Parameter(help="The largest that is proved in the same sense, about the point --around."),
+    ] = None,
+    around: Annotated[str | None, Parameter(metavar="NAME=VALUE,..", help="With --largest: the middle.")] = None,
+    ratio: Annotated[
+        str | None, Parameter(metavar="NUMBER", help="With --largest cylinder: height over diameter; 1 if left out.")
+    ] = None,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     """The workspace of one working mode: volume, sections, loci.
@@ -51,15 +75,35 @@ def workspace(
     share of the volume that is near one. --box, --stroke and --section may be
     repeated; lengths and angles are in the mechanism's units.
 
+    With --certify, --prove or --largest the answer is a proof by intervals and
+    needs a closed form. Ctrl-C ends it with the bounds reached. Exit code 4: a
+    pose fails, which is shown; 5: undecided.
+
     For example:
         assur workspace zeng2019
         assur workspace zeng2019 --box x=-110:80 --stroke -300:300 -o out.obj
         assur workspace zeng2019 --mode ++++- --stroke yA1=-200:200 --json
         assur workspace planar_3rpr --at phi=10
+        assur workspace zeng2019 --certify --gap 1e-5
+        assur workspace zeng2019 --prove x=-40:0,y=-50:50,z=380:400
+        assur workspace zeng2019 --largest cube --around x=-40,y=0,z=400
     """
     record = shared.mechanism(mechanism)
     from assur.cli import regions
 
     asked = regions.question(record, mode, box, stroke, resolution, section, near, at)
+    if certify or prove is not None or largest is not None:
+        from assur.cli import certified_regions
+
+        if resolution is not None or near is not None or output is not None:
+            raise UsageError(
+                "--resolution, --near and -o belong to the estimate, not to a proof",
+                hint="leave them out; `assur certify` writes a proof to a file",
+            )
+        proof = certified_regions.Asked(gap, finest, prove, largest, around, ratio)
+        return certified_regions.outcome(record, asked, proof, shared)
+    for name, value in (("--gap", gap), ("--finest", finest), ("--around", around), ("--ratio", ratio)):
+        if value is not None:
+            raise UsageError(f"{name} is part of a proof", hint="add --certify, or --largest")
     target = regions.target(output) if output is not None else None
     return regions.outcome(record, asked, target, shared)

@@ -13,6 +13,7 @@ from assur.figures.dexterity import DEXTERITY, LARGEST, SMALLEST
 from assur.figures.encode import FORMATS, encoded
 from assur.figures.flow import FLOW
 from assur.figures.graph import GRAPH
+from assur.figures.index_maps import INDEX_MAPS
 from assur.figures.indices import MANIPULABILITY, TRANSMISSION
 from assur.figures.model import MODEL
 from assur.figures.planes import PLANES_FIGURE
@@ -47,6 +48,7 @@ ENTRIES: tuple[Entry, ...] = (
     SMALLEST,
     TRANSMISSION,
     MANIPULABILITY,
+    INDEX_MAPS,
     GRAPH,
 )
 Progress = Callable[[int, int], None]
@@ -59,7 +61,8 @@ def catalogue(record: MechanismRecord, context: Context | None = None) -> list[F
     >>> from assur.model.registry import load_record
     >>> [spec.name for spec in catalogue(load_record("fivebar"))]  # doctest: +NORMALIZE_WHITESPACE
     ['structure', 'model', 'solutions', 'flow', 'solid', 'serial', 'parallel', 'singular', 'workspace',
-     'dexterity', 'fastest', 'slowest', 'transmission', 'manipulability', 'graph']
+     'dexterity', 'fastest', 'slowest', 'transmission', 'manipulability', 'indices',
+     'graph']
     """
     shared = context or Context(record)
     return [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -44,6 +45,7 @@ class Context:
     record: MechanismRecord
     given_workspace: Workspace | None = None
     drawings: dict[str, Any] = field(default_factory=dict, repr=False)
+    _known: dict[tuple[tuple[int, ...], bytes], Indices] = field(default_factory=dict, repr=False)
 
     @cached_property
     def companion(self) -> Companion:
@@ -158,6 +160,12 @@ class Context:
         >>> np.isfinite(here["condition"]).tolist()
         [True, False]
         """
+        key = (points.shape, hashlib.blake2b(np.ascontiguousarray(points).tobytes()).digest())
+        if key not in self._known:  # several figures show the same plane
+            self._known[key] = self._indices_at(points)
+        return self._known[key]
+
+    def _indices_at(self, points: FloatArray) -> Indices:
         found, flat, batch = self.workspace, points.reshape(-1, points.shape[-1]), points.shape[:-1]
         if self.record.closed_form:
             return indices(self.record, found.slice.poses(flat).reshape(*batch, -1), found.mode)

@@ -167,7 +167,7 @@ def _map(context: Context, axes: Axes, there: Field, values: FloatArray, *, good
         return
     border = PathPatch(path, facecolor="none", edgecolor=INK, linewidth=0.8, zorder=5)
     axes.add_patch(border)
-    shown = _continued(values)
+    shown = continued(values)
     colours = axes.pcolormesh(there.xs, there.ys, shown, cmap=COLOURS, vmin=0.0, vmax=1.0, shading="gouraud")
     colours.set_clip_path(border)
     colours.set_rasterized(True)
@@ -179,7 +179,7 @@ def _map(context: Context, axes: Axes, there: Field, values: FloatArray, *, good
         line.set_clip_path(border)
 
 
-def _continued(values: FloatArray) -> FloatArray:
+def continued(values: FloatArray) -> FloatArray:
     """Values with those of the nearest node where there are none, so that colours reach the border."""
     nearest = distance_transform_edt(~np.isfinite(values), return_distances=False, return_indices=True)
     return np.asarray(values[tuple(nearest)])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Literal
 
 import networkx as nx
@@ -17,7 +16,6 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.figures.context import Context
 from assur.figures.coordinates import held_words
-from assur.figures.near import Distance
 from assur.figures.singular import condition
 from assur.figures.style import BLUE, GREEN, ORANGE, PINK, RED
 from assur.model.closed_form import Factor
@@ -26,7 +24,6 @@ from assur.workspace.region import Workspace
 from assur.workspace.slices import slice_at
 
 FloatArray = NDArray[np.float64]
-NEXT = 1.0
 FREE = "#8fd3bd"
 CLOSE = "#f0a07a"
 LOCI = (RED, BLUE, PINK, ORANGE, GREEN)
@@ -148,25 +145,8 @@ def factor_of(context: Context, name: str) -> Factor:
 
 
 def present(found: Workspace) -> list[Locus]:
-    """The loci that have a surface inside the workspace; of a mode that was followed, not what is next to its border.
-
-    There the determinant is continued from within, and its sign means nothing.
-    """
-    shown = found.loci if not _is_trimmed(found) else [_trimmed(found, locus) for locus in found.loci]
-    return [locus for locus in shown if len(locus.faces)]
-
-
-def _is_trimmed(found: Workspace) -> bool:
-    return found.how != "closed form" and len(found.box.names) == 3
-
-
-def _trimmed(found: Workspace, locus: Locus) -> Locus:
-    """The faces that are farther than `NEXT` cells from the border of the region."""
-    if not len(locus.faces) or not len(found.faces):
-        return locus
-    step = np.asarray(found.region.grid.step)
-    gaps = Distance((found.vertices / step)[found.faces], 2 * NEXT)(locus.vertices / step)
-    return replace(locus, faces=locus.faces[np.all(gaps[locus.faces] > NEXT, axis=1)])
+    """The loci that have a surface inside the workspace."""
+    return [locus for locus in found.loci if len(locus.faces)]
 
 
 def legend_of(context: Context, *, near: bool = True, loci: bool = True) -> list[Patch | Line2D]:
@@ -212,5 +192,4 @@ def locus_words(context: Context) -> str:
     items = [f"{condition(factor_of(context, locus.factor))} ({locus.meaning})" for locus in present(context.workspace)]
     if not items:
         return "No parallel-singular surface lies inside."
-    trimmed = " Within a cell of the border they are not drawn." if _is_trimmed(context.workspace) else ""
-    return "Parallel-singular surfaces inside: " + "; ".join(items) + f".{trimmed}"
+    return "Parallel-singular surfaces inside: " + "; ".join(items) + "."

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from assur.model.joint_graph import Frame, frames, joint_graph, screws
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion, rate_names
-from assur.numerics import rotations
+from assur.numerics import components, rotations
 
 FloatArray = NDArray[np.float64]
 LEAST_COSINE = 1e-12
@@ -48,12 +48,12 @@ def platform_twists(record: MechanismRecord, placed: dict[str, Frame], twists: F
     `twists` (..., 6, n) are those of `assur.model.joint_graph.screws`.
     """
     graph = joint_graph(record)
-    moves = np.zeros_like(twists)
-    for name, sense in graph.paths[record.platform.link].items():
-        columns = graph.slices[name]
-        moves[..., columns] = sense * twists[..., columns]
     _, point = _platform(record, placed)
-    moves[..., 3:, :] += np.cross(moves[..., :3, :], point[..., :, None], axis=-2)
+    moves = components.zeros(twists.shape[:-2], *twists.shape[-2:])
+    for name, sense in graph.paths[record.platform.link].items():
+        own, columns = moves[..., graph.slices[name]], twists[..., graph.slices[name]]
+        own[...] = sense * columns
+        own[..., 3:, :] += components.crossed(own[..., :3, :], point)
     return moves
 
 
@@ -64,7 +64,8 @@ def pose_error(record: MechanismRecord, placed: dict[str, Frame], poses: FloatAr
     """
     rotation, point = _platform(record, placed)
     given = {name: poses[..., k] for k, name in enumerate(record.platform.pose)}
-    angles = dict(zip(ANGLES, rotations.to_angles(rotation), strict=True))
+    turned = any(name in ANGLES for name in record.platform.pose)
+    angles = dict(zip(ANGLES, rotations.to_angles(rotation), strict=True)) if turned else {}
     rows = []
     for name in rate_names(record.platform.pose):
         if name in LENGTHS:

@@ -40,8 +40,8 @@ PATHS = 8
 STOPPED = 1e-12
 """Share of a path within which it stops before a singularity, which is then within what counts as one."""
 
-INPUT = Factor("input", "serial", "1", "the platform stands and an input can move", unit=0)
-CLOSURE = Factor("closure", "other", "1", "the loops lose a constraint", unit=0)
+INPUT = Factor("input", "serial", "1", "the platform stands and an input can move", r"\det J_q", unit=0)
+CLOSURE = Factor("closure", "other", "1", "the loops lose a constraint", r"\sigma_\mathrm{min}(J_c)", unit=0)
 MET = {"serial": INPUT, "parallel": OUTPUT, "constraint": CLOSURE}
 """What a path that stops has met."""
 

@@ -7,7 +7,7 @@ inside and has no surface.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -22,7 +22,7 @@ FloatArray = NDArray[np.float64]
 Faces = NDArray[np.int64]
 
 OUTPUT = Factor("output", "parallel", "1", "the inputs stand and the platform can move", r"\det J_p", unit=0)
-"""The one parallel factor of a mechanism without closed form: with orthonormal rows of (Jp, -Jq), at most 1."""
+"""The one parallel factor of a mechanism without closed form: with rows of Jp of length 1, so that it is at most 1."""
 
 
 class Region(Protocol):
@@ -43,6 +43,8 @@ class Locus:
         factor, meaning: its name and what it means geometrically.
         vertices: (n, m) poses; faces: (k, 3) triangles, or (k, 2) segments in a plane.
         area: total area (length in a plane), in units of the pose coordinates.
+        area_error: estimate of its error: the difference to half the resolution. Two surfaces nearer to each other
+            than a cell may be missed by both resolutions.
         everywhere: the factor vanishes in the whole region, so there is no surface: the mode has a
             singularity at each of its poses.
     """
@@ -52,11 +54,14 @@ class Locus:
     vertices: FloatArray
     faces: Faces
     area: float
+    area_error: float = 0.0
     everywhere: bool = False
 
 
-def parallel_loci(record: MechanismRecord, region: Region) -> tuple[Locus, ...]:
+def parallel_loci(record: MechanismRecord, region: Region, coarser: Region | None = None) -> tuple[Locus, ...]:
     """The locus of every parallel factor in a region; one without faces where the factor keeps its sign.
+
+    `coarser` is the same region at half the resolution, for the errors of areas.
 
     Example: in the built working mode of Zeng et al. 2019 two kinds of parallel singularity cross the
     paper's own search box (E7): links 9 and 10 along Y, and parallelogram 1 flat.
@@ -66,7 +71,12 @@ def parallel_loci(record: MechanismRecord, region: Region) -> tuple[Locus, ...]:
     >>> [locus.factor for locus in workspace(load_record("zeng2019"), resolution=24).loci if locus.area > 0]
     ['w', 'v']
     """
-    return tuple(_locus(record, region, item) for item in parallel_factors(record))
+    found = []
+    for factor in parallel_factors(record):
+        locus = _locus(record, region, factor)
+        error = 0.0 if coarser is None else abs(locus.area - _locus(record, coarser, factor).area)
+        found.append(replace(locus, area_error=error))
+    return tuple(found)
 
 
 def parallel_factors(record: MechanismRecord) -> tuple[Factor, ...]:
@@ -85,7 +95,7 @@ def _locus(record: MechanismRecord, region: Region, factor: Factor) -> Locus:
     zero = FACTOR_TOLERANCE * scale(record, factor.scale)
     everywhere = values.size > 0 and bool(np.all(np.abs(values) <= zero))
     if np.max(values, initial=0.0) <= zero or np.min(values, initial=0.0) >= -zero:
-        return Locus(factor.name, factor.meaning, *_nothing(), everywhere)
+        return Locus(factor.name, factor.meaning, *_nothing(), everywhere=everywhere)
     return Locus(factor.name, factor.meaning, *region.zero_surface(factor.name))
 
 

@@ -28,7 +28,7 @@ from assur.topology.linkages.recognition import recognised
 from assur.topology.linkages.shared_points import point_of_platform
 from assur.topology.linkages.twists import dimensions, edges, generic_values, motion_space
 from assur.topology.notation import plain_text, symbolic_text
-from assur.topology.routes import KnownLimb, Rules, both, by_rules, check_xi, limb_known
+from assur.topology.routes import KnownLimb, Rules, as_the_limbs_are, both, by_rules, check_xi, limb_known
 
 FloatArray = NDArray[np.float64]
 Mode = Literal["home", "translation"]
@@ -139,6 +139,7 @@ def analyse(
     at = point_of_platform(linkage, chains or ())
     rules = by_rules(chains, still=still, held=held, at=at)
     limbs = _limbs(here, chains or (), rules)
+    rules = as_the_limbs_are(rules, limbs)
     order = coupling(here.collapsed, collapsed.internal)
     check_xi(chains or (), [limb.here for limb in limbs], order.loops, held=held)
     decoupling = by_jacobian(here.collapsed, base, platform)

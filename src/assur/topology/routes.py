@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -18,7 +19,7 @@ from assur.topology.linkages.linkage import Linkage
 from assur.topology.linkages.twists import dimensions, edges, motion_space
 from assur.topology.rules.derivation import Derivation
 from assur.topology.rules.intersection import parallel, xi_of_next
-from assur.topology.rules.motion import Mode, Motion
+from assur.topology.rules.motion import Mode, Motion, motion_of
 from assur.topology.rules.refusals import Refusal
 from assur.topology.rules.union import serial
 
@@ -125,12 +126,26 @@ def _space(limb: Linkage, values: FloatArray) -> FloatArray:
     return motion_space(edges(limb, values), limb.base, limb.platform)
 
 
+def as_the_limbs_are(rules: Rules, limbs: Sequence[KnownLimb]) -> Rules:
+    """The rules' answers, without one for the platform where the mechanism keeps a limb special.
+
+    The rules take a limb to move as it does by itself, once it is displaced. A mechanism may keep it where it has fewer
+    motions: the limbs R[z]@A P[x] R[z]@A stand with their axes on one line, and three of them never leave that.
+    """
+    special = [number for number, limb in enumerate(limbs, 1) if limb.here is None]
+    if not special or isinstance(rules.platform, Refusal):
+        return rules
+    reason = f"the mechanism keeps limb {special[0]} in a special position, where it has other motions than by itself"
+    return dataclasses.replace(rules, platform=Refusal(reason))
+
+
 def check_xi(chains: Sequence[Chain], limbs: Sequence[Motion | None], loops: Sequence[Loop], *, held: bool) -> None:
     """Compare xi of Eq. (4) by the rules with the rank of the closure, for every loop that closes whole limbs.
 
     Args:
         chains: the limbs.
-        limbs: their motions at the mechanism's configurations; nothing is compared where one is not known.
+        limbs: their motions at the mechanism's configurations; nothing is compared where one is not known, nor in a
+            loop of limbs that have fewer motions there than by themselves, because fewer limbs may not hold them so.
         loops: in their order.
         held: whether the platform was asked to keep its orientation.
 
@@ -151,12 +166,19 @@ def check_xi(chains: Sequence[Chain], limbs: Sequence[Motion | None], loops: Seq
         part = [own for name, own in zip(names, passed, strict=True) if name & taken and not name <= taken]
         broken = any(not own or own & taken for own in part)
         whole = not broken and all(passed[index] and passed[index] <= set(loop.edges) for index in new)
-        if whole and (len(inside), len(new)) in ((0, 2), (len(inside) or -1, 1)):
+        free = held or all(_by_itself(motions[index]) for index in (*inside, *new))
+        if whole and free and (len(inside), len(new)) in ((0, 2), (len(inside) or -1, 1)):
             first, last = (inside or new[:1]), new[-1]
             before, after = (_together(motions, some, held) for some in (first, [*first, last]))
             if isinstance(before, Motion) and isinstance(after, Motion):
                 _compare(number, loop, xi_of_next(before, motions[last], after))
         inside += new
+
+
+def _by_itself(limb: Motion) -> bool:
+    """Whether a limb moves in its mechanism as it does by itself, and so in a part of the mechanism too."""
+    alone = motion_of(limb.limb) if limb.limb else limb
+    return isinstance(alone, Motion) and alone.dim == limb.dim
 
 
 def _together(motions: Sequence[Motion], chosen: Sequence[int], held: bool) -> Motion | Refusal:

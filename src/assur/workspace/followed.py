@@ -1,19 +1,22 @@
 """Followed: the fields of a working mode without closed form, read off the joint values that following gives.
 
 The reach itself is one margin: positive where the mode was followed to, falling to zero at its border as the square
-of the measure of the serial side, negative elsewhere. Every other field is read off the joint values, beyond the
-border off those at the nearest end of the mode, where the reach forbids the pose anyway. So a singularity locus runs
-up to the border; of one that runs along it, nearer than a cell, only a part is seen, and where two loci cross the
-sign of the one determinant rounds the crossing off within a cell.
+of the measure of the serial side, negative elsewhere. Every other field is read off the joint values, and continued
+beyond the border as the root of a closed form would be (`continued_past`). So a singularity locus runs up to the
+border and along it; two loci nearer to each other than a cell are not seen, as the sign of the one determinant is
+the same on both sides of them, and where two cross the crossing is rounded off within a cell.
 """
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt
 
 from assur.errors import UsageError
 from assur.kinematics.home import home_values
@@ -43,6 +46,9 @@ ROUNDS = 6
 ZERO = 1e-6
 """It counts as zero at this share of what it is at the ends."""
 
+SHORTEST = 0.01
+"""Least share of a way from which a field is continued beyond its end."""
+
 
 @dataclass(frozen=True, eq=False)
 class FollowedField:
@@ -58,15 +64,28 @@ class FollowedField:
         return self.values(points).reshape(wide[0].shape)
 
     def values(self, points: FloatArray) -> FloatArray:
-        """The field (N,) at points (N, d)."""
+        """The field (N,) at points (N, d); where the mode does not reach that at the nearest node, continued."""
         found = self.over.at(points)
-        return np.full(len(points), -1.0) if np.any(np.isnan(found.joints)) else self.of(found)
+        return np.where(found.reached, self.of(found), self._at_nodes[tuple(self.over.nodes(points).T)])
+
+    @cached_property
+    def _at_nodes(self) -> FloatArray:
+        """The field (nodes..), continued beyond the border; -1 everywhere where nothing is reached."""
+        over, ends = self.over, self.over.ends
+        values = np.full(over.reached.shape, np.nan)
+        if not np.any(over.reached):
+            return np.full_like(values, -1.0)
+        values[over.reached] = self.of(over.at_nodes)
+        rows = ends.longest
+        first, last = values[tuple(ends.tails[rows].T)], self.of(over.at_ends)[rows]
+        values[tuple(ends.heads[rows].T)] = continued_past(first, last, ends.share[rows])
+        return filled(values)
 
     def crossing(self, start: FloatArray, end: FloatArray) -> FloatArray:
         """Share (N,) of the way between points (N, 3) at which the field is zero, by false position (Illinois).
 
-        Where the mode ends on the way it is looked for before the end, where it does not reach the way at all nowhere:
-        the zero is interpolated.
+        Where the mode ends on the way it is zero before the end, or beyond, where the field is continued. Where it
+        does not reach the way at all the zero is interpolated.
         """
         size = len(self.over.axes)
         start, end = start[:, :size], end[:, :size]
@@ -77,24 +96,40 @@ class FollowedField:
         there, beyond = self.over.at(start).reached, self.over.at(end).reached
         rows = np.flatnonzero(crossed & there & beyond)
         share[rows] = self._zero(start[rows], end[rows], first[rows], last[rows])
-        for turned in (False, True):
-            rows = np.flatnonzero(crossed & (beyond & ~there if turned else there & ~beyond))
+        for rows, turned in ((crossed & there & ~beyond, False), (crossed & beyond & ~there, True)):
             inside, outside = (end[rows], start[rows]) if turned else (start[rows], end[rows])
             ahead, behind = (last[rows], first[rows]) if turned else (first[rows], last[rows])
-            ends = self.over.border(inside, outside)
-            found = ends * self._zero(inside, inside + ends[:, None] * (outside - inside), ahead, behind)
+            found = self._across(inside, outside, ahead, behind)
             share[rows] = 1.0 - found if turned else found
         return share
 
-    def _zero(self, start: FloatArray, end: FloatArray, first: FloatArray, last: FloatArray) -> FloatArray:
-        """Share (N,) of the way between points (N, d) with fields (N,) of different signs at which it vanishes."""
+    def _across(self, inside: FloatArray, outside: FloatArray, ahead: FloatArray, behind: FloatArray) -> FloatArray:
+        """Share (N,) of ways out of the mode, between points (N, d), at which the field, known at both, is zero."""
+        ends, joints = self.over.border(inside, outside)
+        value = self.of(Followed(self.over.record, joints))
+        before = (value >= 0) != (ahead >= 0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            share = ends + (1.0 - ends) * (value / (value - behind)) ** 2
+        stop = inside + ends[:, None] * (outside - inside)
+        rows = np.flatnonzero(before)
+        share[rows] = ends[rows] * self._zero(inside[rows], stop[rows], ahead[rows], value[rows], bent=True)
+        return share
+
+    def _zero(
+        self, start: FloatArray, end: FloatArray, first: FloatArray, last: FloatArray, bent: bool = False
+    ) -> FloatArray:
+        """Share (N,) of the way between points (N, d) with fields (N,) of different signs at which it vanishes.
+
+        With `bent` the ways end at the border, where fields run as the square root of what is left of the way.
+        """
         low, high, share = np.zeros(len(start)), np.ones(len(start)), np.full(len(start), 0.5)
         size = np.maximum(np.abs(first), np.abs(last))
         first, last, before = first.copy(), last.copy(), np.zeros(len(start), dtype=np.int8)
         rows = np.arange(len(start))
         for _ in range(ROUNDS):
             share[rows] = low[rows] + (high[rows] - low[rows]) * first[rows] / (first[rows] - last[rows])
-            here = self.values(start[rows] + share[rows, None] * (end[rows] - start[rows]))
+            part = _straight(share[rows], bent)
+            here = self.values(start[rows] + part[:, None] * (end[rows] - start[rows]))
             same = (here >= 0) == (first[rows] >= 0)
             front, back = rows[same], rows[~same]
             # the end that stays for a second time counts half
@@ -103,7 +138,52 @@ class FollowedField:
             low[front], first[front], before[front] = share[front], here[same], 1
             high[back], last[back], before[back] = share[back], here[~same], -1
             rows = rows[np.abs(here) > ZERO * size[rows]]
-        return share
+        return _straight(share, bent)
+
+
+def _straight(share: FloatArray, bent: bool) -> FloatArray:
+    return 1.0 - (1.0 - share) ** 2 if bent else share
+
+
+def continued_past(first: FloatArray, last: FloatArray, share: FloatArray) -> FloatArray:
+    """A field (N,) at the far end of ways at whose `share` the mode ends, from what it is at the start and there.
+
+    It ends where it turns back into another branch, and fields run as a + b sqrt(d) at the distance d from there.
+    Beyond, the smooth function a - b sqrt(d) goes on with them.
+
+    >>> continued_past(np.array([3.0]), np.array([1.0]), np.array([0.2]))
+    array([-3.])
+    """
+    share = np.maximum(share, SHORTEST)
+    return np.asarray(last + (last - first) * np.sqrt((1.0 - share) / share))
+
+
+def filled(values: FloatArray) -> FloatArray:
+    """A field (nodes..) with no NaN: beside known nodes as a plane through three of them, else the nearest value."""
+    for _ in range(values.ndim - 1):
+        values = np.where(np.isnan(values), _planes(values), values)
+    nearest = distance_transform_edt(np.isnan(values), return_distances=False, return_indices=True)
+    return np.asarray(values[tuple(nearest)])
+
+
+def _planes(values: FloatArray) -> FloatArray:
+    """At each node the mean over the squares of the grid that it closes of what makes them plane; NaN without one."""
+    total, count = np.zeros(values.shape), np.zeros(values.shape)
+    padded = np.pad(values, 1, constant_values=np.nan)
+
+    def moved(steps: dict[int, int]) -> FloatArray:
+        return padded[
+            tuple(slice(1 + steps.get(k, 0), size + 1 + steps.get(k, 0)) for k, size in enumerate(values.shape))
+        ]
+
+    for i, j in itertools.combinations(range(values.ndim), 2):
+        for a, b in itertools.product((-1, 1), repeat=2):
+            plane = moved({i: a}) + moved({j: b}) - moved({i: a, j: b})
+            known = np.isfinite(plane)
+            total[known] += plane[known]
+            count += known
+    with np.errstate(invalid="ignore"):
+        return np.asarray(total / count)
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,7 +203,7 @@ class ReachField(FollowedField):
         shares = np.full(len(start), np.nan)
         for turned, rows in ((False, there & ~beyond), (True, beyond & ~there)):
             inside, outside = (end[rows], start[rows]) if turned else (start[rows], end[rows])
-            found = self.over.border(inside, outside)
+            found, _ = self.over.border(inside, outside)
             shares[rows] = 1.0 - found if turned else found
         return shares
 

@@ -126,7 +126,7 @@ def test_signs_of_an_eliminant_make_one_polynomial_each():
     assert np.array_equal(found[:, 0], found[:, 1])  # a pose and its mirror image have one root
     assert not np.allclose(found[0], found[1])
     answer = mechanism.direct([380.0, 390.0, 400.0])
-    assert answer.right == "closed form, all roots of 4 polynomials of degree 4"
+    assert answer.right == "closed form, all roots of 2 polynomials of degree 4, with both signs of side"
     real = np.sum(polynomials.nearness(found[:, :, 0], polynomials.roots(found[:, :, 0]), rounding[:, :, 0])[0])
     assert len(answer) == real == 16
 

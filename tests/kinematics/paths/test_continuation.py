@@ -66,8 +66,9 @@ def test_the_border_is_where_an_arm_is_stretched(x):
     found = plane()
     p = RECORD.values
     exact = min(np.sqrt((p.l1 + p.l2) ** 2 - (x - side * p.g) ** 2) for side in (1, -1))
-    share = found.border(np.array([[x, exact - 9.0]]), np.array([[x, exact + 5.0]]))
+    share, joints = found.border(np.array([[x, exact - 9.0]]), np.array([[x, exact + 5.0]]))
     assert 14.0 * share[0] - 9.0 == pytest.approx(0.0, abs=1e-4)
+    assert pose_of(RECORD, joints[0])[1] == pytest.approx(exact, abs=0.05)
 
 
 def test_on_the_edges_of_the_grid_and_of_one_twice_as_coarse_the_border_is_known():
@@ -78,24 +79,42 @@ def test_on_the_edges_of_the_grid_and_of_one_twice_as_coarse_the_border_is_known
     exact = np.sqrt((p.l1 + p.l2) ** 2 - (abs(found.axes[0][column]) + p.g) ** 2)
     for low, high in ((top, top + 1), (top - 1, top + 1), (top, top + 2)):
         ends = np.array([[found.axes[0][column], found.axes[1][k]] for k in (low, high)])
-        share = found.border(ends[:1], ends[1:])[0]
+        (share, *_), _ = found.border(ends[:1], ends[1:])
         assert ends[0, 1] + share * (high - low) * step[1] == pytest.approx(exact, abs=1e-3)
-    assert found.ends[column, top, 1] == found.border(ends[:1], ends[:1] + np.array([0.0, step[1]]))[0]
+    share, joints = found.border(ends[:1], ends[:1] + np.array([0.0, step[1]]))
+    place = found.ends.place[column, top, 1]
+    assert found.ends.share[place] == share[0]
+    np.testing.assert_array_equal(found.ends.joints[place], joints[0])
 
 
-def test_beyond_the_border_the_values_are_those_at_the_end_of_the_mode():
+def test_every_end_is_on_its_way_out_of_the_mode():
     found = plane()
-    beside = np.isfinite(found.beyond[..., 0])
-    assert np.any(beside)
-    assert not np.any(beside & found.reached)
+    ends = found.ends
+    assert len(ends.share) > 20
+    assert np.all(found.reached[tuple(ends.tails.T)])
+    assert not np.any(found.reached[tuple(ends.heads.T)])
+    tails, heads = (
+        np.stack([axis[k] for axis, k in zip(found.axes, nodes.T, strict=True)], axis=1)
+        for nodes in (ends.tails, ends.heads)
+    )
+    on_way = tails + ends.share[:, None] * (heads - tails)
+    np.testing.assert_allclose(pose_of(RECORD, ends.joints), on_way, atol=0.1)
     # an elbow is nearly straight there: the sign that names the mode nearly vanishes
-    signs = [np.abs(quantity(RECORD, formula, found.beyond[beside])) for formula in RECORD.modes.working.values()]
+    signs = [np.abs(quantity(RECORD, formula, ends.joints)) for formula in RECORD.modes.working.values()]
     inside = [np.abs(quantity(RECORD, formula, HOME)) for formula in RECORD.modes.working.values()]
     assert np.max(np.min(signs, axis=0)) < 0.1 * np.min(inside)
 
 
-def test_points_far_from_what_is_reached_are_not_tried_and_keep_the_nearest_values():
+def test_points_far_from_what_is_reached_are_not_tried():
     found = plane()
     answer = found.at(np.array([[0.0, 5000.0], [0.0, 200.0]]))
     assert answer.reached.tolist() == [False, True]
-    assert np.all(np.isfinite(answer.joints))
+    assert np.isfinite(answer.joints[:, 0]).tolist() == [False, True]
+
+
+def test_of_the_ways_to_a_node_the_longest_is_chosen():
+    ends = plane().ends
+    heads = ends.heads[ends.longest]
+    assert len(heads) == len(np.unique(ends.heads, axis=0)) < len(ends.heads)
+    for head, row in zip(heads, ends.longest, strict=True):
+        assert ends.share[row] == np.max(ends.share[np.all(ends.heads == head, axis=1)])

@@ -6,7 +6,9 @@ import pytest
 from assur.kinematics.structure import linkage
 from assur.model.registry import load_record
 from assur.topology.chains import InnerLoop, Parallelogram
+from assur.topology.linkages.placing import place
 from assur.topology.linkages.recognition import recognised
+from assur.topology.notation import parse_chain, parse_chains
 
 
 def test_the_paper_has_a_hybrid_chain_with_an_inner_loop_and_one_with_two_parallelograms():
@@ -57,3 +59,24 @@ def test_neighbouring_axes_that_meet_share_a_label(tmp_path, offset, labelled):
     (chain,) = recognised(linkage(load_record(file)))
     assert [bool(joint.point) for joint in chain.joints] == labelled
     assert len({joint.point for joint in chain.joints if joint.point}) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "same"),
+    [
+        ("R[z]@A P[z] R[z]@A", True),
+        ("R[z]@A P[z] P[z] U[z,x]@A", True),
+        ("R[z] P[z] R[z]", False),
+        ("R[z]@A P[x] S@A", True),
+    ],
+)
+def test_axes_that_meet_across_a_slide_have_one_label(text, same):
+    chain = recognised(place([parse_chain(text)]))[0]
+    first, last = chain.elements[0].point, chain.elements[-1].point
+    assert (first == last != "") == same
+    assert not any(item.point for item in chain.elements[1:-1])
+
+
+def test_an_axis_on_one_line_in_all_limbs_is_common_although_it_slides_along_itself():
+    found = recognised(place(parse_chains(["P[z] R[z]@O P[x] R[z]", "P[z] R[z]@O P[y] R[z]"])))
+    assert found[0].elements[1].point == found[1].elements[1].point != ""

@@ -57,9 +57,12 @@ class RootBranches(Branches):
     @property
     def right(self) -> str:
         """By what right the answer is complete."""
-        parts = 2 ** (len(self.sign_shape) - 1)
+        signs = _signs(self.record)
+        parts = 2 ** sum(signs.values())
         which = f"{parts} polynomials" if parts > 1 else "a polynomial"
-        return f"closed form, all roots of {which} of degree {self.sign_shape[-1]}"
+        spare = [name for name, chooses in signs.items() if not chooses]
+        twice = f", with both signs of {' and '.join(spare)}" if spare else ""
+        return f"closed form, all roots of {which} of degree {self.sign_shape[-1]}{twice}"
 
     @cached_property
     def status(self) -> NDArray[np.int8]:
@@ -94,6 +97,18 @@ class RootBranches(Branches):
     @cached_property
     def _merged(self) -> BoolArray:
         return np.zeros((*self.batch_shape, *self.modes_asked.shape), dtype=bool)
+
+
+def _signs(record: MechanismRecord) -> dict[str, bool]:
+    """The signs of the eliminant, and whether each chooses between polynomials; else only `back` uses it."""
+    form = record.closed_form
+    if form is None or not isinstance(form.direct, Eliminant) or not form.direct.signs:
+        return {}
+    signs, inputs = form.direct.signs, border.input_components(record, np.ones((1, len(record.inputs))))
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        entries = form.direct.coefficients(Floats(), record.values, inputs, sign_axes(signs))
+    sizes = np.broadcast_shapes(*map(np.shape, entries))  # one length 2 for each sign that an entry depends on
+    return dict(zip(signs, (size == 2 for size in (*(1,) * len(signs), *sizes)[-len(signs) - 1 : -1]), strict=True))
 
 
 def roots_of(record: MechanismRecord, eliminant: Eliminant, given: FloatArray, only: str = "") -> RootBranches:

@@ -2,37 +2,44 @@
 
 A kernel's temporaries are as long as a block and stay in the cache; components come as separate arrays and
 the answers have the components first, (rows, N). Where `exists` is False the other numbers are those of the
-nearest branch (roots of negative radicands count as 0) and mean nothing. The bits of an answer do not
-depend on the block.
+nearest branch (roots of negative radicands count as 0) and mean nothing.
+
+There are two engines. "numpy" works in arrays, "compiled" in one fused loop that is made from the same kernel
+(`recorded`) and kept on disk; "auto" takes the second where it is loaded already, or where there is so much to do that
+loading it is repaid. The bits of an answer depend neither on the engine, nor on the block, nor on the number of
+threads; only a zero may have another sign, which compares equal.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from types import SimpleNamespace
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from assur.errors import UnknownNameError, UsageError
+from assur.errors import UnknownNameError
 from assur.kinematics import border
+from assur.kinematics.closed_form.blocks import Components, FloatArray, Progress, columns_of, each_block
 from assur.kinematics.closed_form.existence import exists
+from assur.kinematics.closed_form.filling import Engine, Filler, chosen, empty, run
+from assur.kinematics.closed_form.recorded import recording
 from assur.kinematics.modes import Problem, mode_signs, sign_axes, sign_names
 from assur.kinematics.status import branch_kernel, closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
+from assur.numerics.recording.loops import empty_rows
+from assur.numerics.singular_values import float_condition_index
 from assur.numerics.small_matrices import determinant
 
-FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
-Components = Sequence[ArrayLike] | NDArray[np.float64]
-"""One array (N,) per component, as a sequence or as the rows of one array."""
+Want = Literal["inputs", "exists", "det_jp", "det_jq", "factors", "condition_index", "smallest"]
 
-Progress = Callable[[int, int], None]
-Want = Literal["inputs", "exists", "det_jp", "det_jq", "factors"]
+ALL_WANTED: tuple[Want, ...] = ("inputs", "exists", "det_jp", "det_jq", "factors", "condition_index", "smallest")
+WANT: tuple[Want, ...] = ALL_WANTED[:5]
+"""What is worked out where nothing is said."""
 
-WANT: tuple[Want, ...] = ("inputs", "exists", "det_jp", "det_jq", "factors")
 BLOCK = 16384
 """Poses per block in one mode: measured, long enough to hide the calls and short enough for a cache of 1 MB."""
 
@@ -46,8 +53,10 @@ def inverse_sweep(
     mode: str = "",
     want: Sequence[Want] = WANT,
     *,
-    block: int = BLOCK,
+    block: int | None = None,
     progress: Progress | None = None,
+    engine: Engine = "auto",
+    threads: int = 0,
 ) -> dict[str, NDArray[Any]]:
     """Inverse problem in one working mode at N poses, with the determinants and their factors.
 
@@ -55,16 +64,20 @@ def inverse_sweep(
         record: the mechanism; it must have a closed form.
         components: m arrays (N,), the pose coordinates in the file's order (lengths, angles in rad).
         mode: the working mode, such as "++-++"; the file's default where none is given.
-        want: what to work out, of "inputs", "exists", "det_jp", "det_jq", "factors".
-        block: poses that are worked on at a time.
+        want: what to work out, of "inputs", "exists", "det_jp", "det_jq", "factors", "condition_index", "smallest".
+        block: poses that are worked on at a time; the engine's own choice where none is given.
         progress: called after every block with the poses done and N.
+        engine: "numpy", "compiled" (needs numba), or "auto": compiled where that is repaid.
+        threads: how many work on it; where 0, one for NumPy, and as many as there are cores for compiled loops.
 
     Returns:
         What was wanted by name: inputs (n, N) as printed, exists (N,) bool, det_jp (N,) and det_jq (N,) of the
-        regular Jacobians, factors (f, N) in the order of the closed form's list.
+        regular Jacobians, factors (f, N) in the order of the closed form's list, condition_index (N,), which is
+        1/cond2 of Jp^-1 Jq, 0 where either is singular, and smallest (N,), its smallest singular value.
 
     Errors:
-        UsageError: an unknown mode or quantity, components of unequal length or not finite, a block below 1.
+        UsageError: an unknown mode, quantity or engine, components of unequal length or not finite, a block below 1,
+            threads below 0.
 
     Example: Table 2, row 4, of Zeng et al. 2019.
 
@@ -74,40 +87,69 @@ def inverse_sweep(
         (array([ 162.691, -143.321,  -24.678]), array([ True]))
     """
     for name in want:
-        if name not in WANT:
-            raise UnknownNameError("quantity of a sweep", name, WANT)
-    form, p, ns = closed_form_of(record), record.values, Floats()
+        if name not in ALL_WANTED:
+            raise UnknownNameError("quantity of a sweep", name, ALL_WANTED)
+    form = closed_form_of(record)
     signs = mode_signs(record, "inverse", mode or record.modes.default_working)
+    columns, count = columns_of(components, record.platform.pose, f"poses of {record.name}")
+    sizes = {"inputs": len(record.inputs), "factors": len(form.factor_list)}
+    answer, numbers, truths = empty(want, sizes, count)
+    tape = chosen(engine, count, lambda: recording(record, "inverse", tuple(dict.fromkeys(want))))
+    if tape is not None:
+        rows = tuple(row for name in answer if name != "exists" for row in tape.rows[name])
+        run(
+            Filler(tape, tape.uniform(signs), rows, tape.truths, numbers, truths),
+            components,
+            columns,
+            block,
+            progress,
+            threads,
+        )
+        return answer
     sign = SimpleNamespace(**dict(zip(sign_names(record, "inverse"), map(float, signs), strict=True)))
-    columns, count = _columns(components, record.platform.pose, f"poses of {record.name}")
-    names = [item.name for item in form.factor_list]
-    answer = _empty(want, {"inputs": len(record.inputs), "factors": len(names)}, count)
+
+    def work(part: slice, given: FloatArray) -> None:
+        _in_one_mode(record, given, sign, {name: array[..., part] for name, array in answer.items()})
+
+    each_block(work, columns, count, BLOCK if block is None else block, progress, threads or 1)
+    return answer
+
+
+def _in_one_mode(
+    record: MechanismRecord, given: FloatArray, sign: SimpleNamespace, answer: Mapping[str, NDArray[Any]]
+) -> None:
+    """What is wanted in one mode at poses (b, m), by NumPy, into arrays (rows, b) or (b,)."""
+    form, p, ns = closed_form_of(record), record.values, Floats()
     turn = float(np.prod([item.sign for item in record.inputs]))  # of det Jq, from joint values to printed inputs
     with np.errstate(divide="ignore", invalid="ignore"):
-        for part, given in _blocks(columns, count, block, progress):
-            branch = form.inverse(ns, p, border.pose_components(record, given), sign)
-            if "inputs" in answer:
-                _store(answer["inputs"], border.printed_inputs(record, branch.inputs), part)
-            if "exists" in answer:
-                answer["exists"][part] = exists(record, form.inverse_margins, branch.margins)
-            if "det_jp" in answer or "det_jq" in answer:
-                jp, jq = form.jacobians(ns, p, branch.core)
-                if "det_jp" in answer:
-                    answer["det_jp"][part] = determinant(jp)
-                if "det_jq" in answer:
-                    np.multiply(determinant(jq), turn, out=answer["det_jq"][part])
-            if "factors" in answer:
-                found = form.factors(ns, p, branch.core)
-                _store(answer["factors"], [found[name] for name in names], part)
-    return answer
+        branch = form.inverse(ns, p, border.pose_components(record, given), sign)
+        if "inputs" in answer:
+            _store(answer["inputs"], border.printed_inputs(record, branch.inputs))
+        if "exists" in answer:
+            answer["exists"][...] = exists(record, form.inverse_margins, branch.margins)
+        if answer.keys() & {"det_jp", "det_jq", "condition_index", "smallest"}:
+            jp, jq = form.jacobians(ns, p, branch.core)
+            if "det_jp" in answer:
+                answer["det_jp"][...] = determinant(jp)
+            if "det_jq" in answer:
+                np.multiply(determinant(jq), turn, out=answer["det_jq"])
+            if answer.keys() & {"condition_index", "smallest"}:
+                for name, value in zip(("condition_index", "smallest"), float_condition_index(jp, jq), strict=True):
+                    if name in answer:
+                        answer[name][...] = value
+        if "factors" in answer:
+            found = form.factors(ns, p, branch.core)
+            _store(answer["factors"], [found[item.name] for item in form.factor_list])
 
 
 def inverse_all_sweep(
     record: MechanismRecord,
     components: Components,
     *,
-    block: int = BLOCK_ALL,
+    block: int | None = None,
     progress: Progress | None = None,
+    engine: Engine = "auto",
+    threads: int = 0,
 ) -> tuple[tuple[FloatArray, ...], BoolArray]:
     """All inverses at N poses, as the few distinct numbers that they are combinations of.
 
@@ -122,15 +164,32 @@ def inverse_all_sweep(
         >>> [array.shape for array in inputs], exists.shape
         ([(2, 1, 2, 1, 1, 1), (2, 1, 1, 2, 1, 1), (1, 2, 1, 1, 2, 1)], (2, 2, 1, 1, 1, 1))
     """
-    columns, count = _columns(components, record.platform.pose, f"poses of {record.name}")
+    columns, count = columns_of(components, record.platform.pose, f"poses of {record.name}")
     solve = _all_branches(record, "inverse")
     values, exists = solve(np.empty((0, len(columns))))  # of no poses: shapes only
-    answer = tuple(np.empty((*np.shape(value)[:-1], count)) for value in values)
+    axes = [np.shape(value)[:-1] for value in values]
+    numbers = empty_rows(sum(map(_size, axes)), count)
+    places = np.cumsum([0, *map(_size, axes)])
+    answer = tuple(
+        numbers[first:last].reshape(*shape, count)
+        for first, last, shape in zip(places[:-1], places[1:], axes, strict=True)
+    )
     real = np.empty((*exists.shape[:-1], count), dtype=bool)
-    for part, given in _blocks(columns, count, block, progress):
+    tape = chosen(engine, count, lambda: recording(record, "inverse", every=True))
+    if tape is not None:
+        n, modes = len(values), _mode_axes(record, "inverse")
+        rows = tuple(tape.rows["inputs"][n * mode + k] for k in range(n) for mode in _firsts(axes[k], modes))
+        wanted = tuple(tape.truths[mode] for mode in _firsts(real.shape[:-1], modes))
+        filler = Filler(tape, tape.uniform(), rows, wanted, numbers, real.reshape(len(wanted), count))
+        run(filler, components, columns, block, progress, threads)
+        return answer, real
+
+    def work(part: slice, given: FloatArray) -> None:
         values, real[..., part] = solve(given)
         for row, value in zip(answer, values, strict=True):
             row[..., part] = value
+
+    each_block(work, columns, count, BLOCK_ALL if block is None else block, progress, threads or 1)
     return answer, real
 
 
@@ -138,20 +197,24 @@ def inverse_all_expanded_sweep(
     record: MechanismRecord,
     components: Components,
     *,
-    block: int = BLOCK_ALL,
+    block: int | None = None,
     progress: Progress | None = None,
+    engine: Engine = "auto",
+    threads: int = 0,
 ) -> tuple[FloatArray, BoolArray]:
     """All inverses at N poses: printed inputs (K, n, N) and exists (K, N), K in the order of the working modes."""
-    columns, count = _columns(components, record.platform.pose, f"poses of {record.name}")
-    return _expanded(record, "inverse", columns, count, block, progress)
+    columns, _ = columns_of(components, record.platform.pose, f"poses of {record.name}")
+    return _expanded(record, "inverse", components, columns, block, progress, engine, threads)
 
 
 def direct_all_sweep(
     record: MechanismRecord,
     components: Components,
     *,
-    block: int = BLOCK_ALL,
+    block: int | None = None,
     progress: Progress | None = None,
+    engine: Engine = "auto",
+    threads: int = 0,
 ) -> tuple[FloatArray, BoolArray]:
     """All directs at N inputs (n arrays (N,), as printed): poses (K, m, N) and exists (K, N), K by assembly mode.
 
@@ -164,29 +227,56 @@ def direct_all_sweep(
         >>> poses.shape, int(exists.sum())
         ((8, 3, 1), 4)
     """
-    columns, count = _columns(components, border.input_names(record), f"inputs of {record.name}")
-    return _expanded(record, "direct", columns, count, block, progress)
+    columns, _ = columns_of(components, border.input_names(record), f"inputs of {record.name}")
+    return _expanded(record, "direct", components, columns, block, progress, engine, threads)
 
 
 def _expanded(
     record: MechanismRecord,
     problem: Problem,
+    components: Components,
     columns: tuple[FloatArray, ...],
-    count: int,
-    block: int,
+    block: int | None,
     progress: Progress | None,
+    engine: Engine,
+    threads: int,
 ) -> tuple[FloatArray, BoolArray]:
-    solve = _all_branches(record, problem)
-    axes = (2,) * len(sign_names(record, problem))
+    axes, count = _mode_axes(record, problem), len(columns[0])
+    branches = _size(axes)
     rows = len(record.inputs) if problem == "inverse" else len(record.platform.pose)
-    answer = np.empty((*axes, rows, count))
-    real = np.empty((*axes, count), dtype=bool)
-    for part, given in _blocks(columns, count, block, progress):
+    solve = _all_branches(record, problem)
+    numbers, truths = empty_rows(branches * rows, count), np.empty((branches, count), dtype=bool)
+    found = numbers.reshape(branches, rows, count), truths
+    tape = chosen(engine, count, lambda: recording(record, problem, every=True))
+    if tape is not None:
+        wanted = tape.rows["inputs" if problem == "inverse" else "poses"]
+        filler = Filler(tape, tape.uniform(), wanted, tape.truths, numbers, truths)
+        run(filler, components, columns, block, progress, threads)
+        return found
+    answer, real = numbers.reshape(*axes, rows, count), truths.reshape(*axes, count)
+
+    def work(part: slice, given: FloatArray) -> None:
         values, real[..., part] = solve(given)
         for k, value in enumerate(values):
             answer[..., k, part] = value
-    branches = 2 ** len(axes)
-    return answer.reshape(branches, rows, count), real.reshape(branches, count)
+
+    each_block(work, columns, count, BLOCK_ALL if block is None else block, progress, threads or 1)
+    return found
+
+
+def _mode_axes(record: MechanismRecord, problem: Problem) -> tuple[int, ...]:
+    return (2,) * len(sign_names(record, problem))
+
+
+def _firsts(shape: Sequence[int], axes: Sequence[int]) -> list[int]:
+    """For each place of an array of a shape that broadcasts to `axes`, the first combination of signs it stands for."""
+    numbers = np.arange(_size(axes)).reshape(axes)
+    chosen = numbers[tuple(slice(length) for length in shape[len(shape) - len(axes) :])] if axes else numbers
+    return [int(number) for number in chosen.reshape(-1)[: _size(shape)]]
+
+
+def _size(shape: Sequence[int]) -> int:
+    return int(np.prod(shape, dtype=int))
 
 
 def _all_branches(
@@ -211,41 +301,6 @@ def _all_branches(
     return solve
 
 
-def _columns(components: Components, names: Sequence[str], what: str) -> tuple[tuple[FloatArray, ...], int]:
-    """Components as arrays (N,) of floats, one per name, and N."""
-    if len(components) != len(names):
-        raise UsageError(f"{what}: {len(components)} components, {len(names)} wanted", hint=f"give {', '.join(names)}")
-    columns = tuple(np.asarray(values, dtype=float) for values in components)
-    shapes = {column.shape for column in columns}
-    if len(shapes) != 1 or columns[0].ndim != 1:
-        found = ", ".join(str(column.shape) for column in columns)
-        raise UsageError(f"{what}: components of shapes {found}", hint="give arrays (N,) of one length")
-    return columns, len(columns[0])
-
-
-def _empty(want: Sequence[str], rows: Mapping[str, int], count: int) -> dict[str, NDArray[Any]]:
-    return {
-        name: np.empty((rows[name], count) if name in rows else count, bool if name == "exists" else float)
-        for name in want
-    }
-
-
-def _blocks(
-    columns: tuple[FloatArray, ...], count: int, block: int, progress: Progress | None
-) -> Iterator[tuple[slice, FloatArray]]:
-    """Each block's place and its problems (b, k), contiguous along each component."""
-    if block < 1:
-        raise UsageError(f"a block of {block} poses; it needs at least 1")
-    for start in range(0, count, block):
-        part = slice(start, min(start + block, count))
-        given = np.stack([column[part] for column in columns])
-        if not np.all(np.isfinite(given)):
-            raise UsageError("every component must be finite, not NaN or infinite")
-        yield part, given.T
-        if progress is not None:
-            progress(part.stop, count)
-
-
-def _store(rows: NDArray[Any], values: Sequence[Any], part: slice) -> None:
+def _store(rows: NDArray[Any], values: Sequence[Any]) -> None:
     for row, value in zip(rows, values, strict=True):
-        row[part] = value
+        row[...] = value

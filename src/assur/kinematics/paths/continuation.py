@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -37,23 +37,49 @@ KEPT = 40
 
 @dataclass(frozen=True, eq=False)
 class Followed:
-    """Configurations at points: joint values (N, n), and whether they are assemblies there that were reached (N,).
-
-    Where a point is not reached the values are those at an end of the mode beside it, far away at the nearest one.
-    """
+    """Configurations at points: joint values (N, n), NaN where a point was not reached."""
 
     record: MechanismRecord
     joints: FloatArray
-    reached: BoolArray
+
+    @cached_property
+    def reached(self) -> BoolArray:
+        """Which points (N,) were reached."""
+        return np.asarray(np.isfinite(self.joints[:, 0]))
 
     @cached_property
     def measures(self) -> tuple[FloatArray, FloatArray]:
         """The measures `serial` and `output` (N,) of `PlatformHeld` there; of NaN both are NaN."""
         found = np.full((2, len(self.joints)), np.nan)
-        for rows in blocks(np.flatnonzero(np.isfinite(self.joints[:, 0]))):
+        for rows in blocks(np.flatnonzero(self.reached)):
             held = platform_held(self.record, self.joints[rows])
             found[:, rows] = held.serial, held.output
         return found[0], found[1]
+
+
+@dataclass(frozen=True, eq=False)
+class Ends:
+    """Ways (E,) from reached nodes to neighbours that are not reached, and where the mode ends on each.
+
+    Attributes:
+        tails, heads: (E, d) the nodes at both ends of a way.
+        share: (E,) of the way at which the mode ends.
+        joints: (E, n) joint values a little before.
+        place: (nodes.., 2 d) which way leads from a node up along every axis and then down; -1 where none does.
+    """
+
+    tails: IntArray
+    heads: IntArray
+    share: FloatArray
+    joints: FloatArray
+    place: IntArray
+
+    @cached_property
+    def longest(self) -> IntArray:
+        """Of the ways to each head that one (H,) on which the mode ends nearest to it."""
+        order = np.argsort(-self.share, kind="stable")
+        _, first = np.unique(self.heads[order], axis=0, return_index=True)
+        return np.asarray(order[first])
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,18 +90,15 @@ class Continuation:
         mode: the mechanism, the signs that name the mode, and the poses of points.
         axes: the nodes' coordinates along each of d axes, evenly spaced.
         joints: (nodes.., n) joint values at the nodes, NaN where a node is not reached.
-        beyond: (nodes.., n) at nodes beside reached ones those at the end of the mode on the way there; else NaN.
-        ends: (nodes.., 2 d) share of the way from a reached node to each neighbour, up along every axis and then down,
-            at which the mode ends; NaN where it does not.
         serial: (nodes..) the measure of the serial side (`PlatformHeld.serial`) at reached nodes.
+        ends: the ways to a neighbour on which the mode ends.
     """
 
     mode: Mode
     axes: tuple[FloatArray, ...]
     joints: FloatArray
-    beyond: FloatArray
-    ends: FloatArray
     serial: FloatArray
+    ends: Ends
     _known: dict[bytes, Followed] = field(default_factory=dict, repr=False)
 
     @property
@@ -94,10 +117,14 @@ class Continuation:
         return _nearest_in(self.reached)
 
     @cached_property
-    def _values(self) -> FloatArray:
-        """Joint values (nodes.., n) everywhere: at nodes that are not reached those at the nearest end."""
-        values = np.where(self.reached[..., None], self.joints, self.beyond)
-        return np.asarray(values[tuple(_nearest_in(np.isfinite(values[..., 0])))])
+    def at_nodes(self) -> Followed:
+        """Configurations at the nodes that are reached."""
+        return Followed(self.record, self.joints[self.reached])
+
+    @cached_property
+    def at_ends(self) -> Followed:
+        """Configurations at the ends."""
+        return Followed(self.record, self.ends.joints)
 
     def _index(self, points: FloatArray) -> FloatArray:
         """Points (N, d) in steps of the grid from its first node."""
@@ -115,56 +142,59 @@ class Continuation:
             self._known[key] = self._at(points)
         return self._known[key]
 
+    def nodes(self, points: FloatArray) -> IntArray:
+        """The node (N, d) next to each point (N, d)."""
+        return self._node(self._index(points))
+
+    def _node(self, index: FloatArray) -> IntArray:
+        return np.asarray(np.clip(np.rint(index), 0, np.subtract(self.reached.shape, 1)).astype(np.intp))
+
     def _at(self, points: FloatArray) -> Followed:
-        count = len(self.record.coordinates)
+        joints = np.full((len(points), len(self.record.coordinates)), np.nan)
         if not np.any(self.reached):
-            return Followed(self.record, np.full((len(points), count), np.nan), np.zeros(len(points), dtype=bool))
+            return Followed(self.record, joints)
         index = self._index(points)
-        node = np.clip(np.rint(index), 0, np.subtract(self.reached.shape, 1)).astype(np.intp)
+        node = self._node(index)
         nearest = self._nearest[(slice(None), *node.T)].T  # (N, d)
-        joints = self._values[tuple(node.T)]
         at_node = np.max(np.abs(index - node), axis=1) <= SAME
-        there = at_node & self.reached[tuple(node.T)]
+        joints[at_node] = self.joints[tuple(node[at_node].T)]
         near = np.flatnonzero(~at_node & (np.max(np.abs(index - nearest), axis=1) <= NEAR))
         for rows in blocks(near):
             start = nearest[rows]
             found, good = self.mode.stepped(self.joints[tuple(start.T)], _points(self, start), points[rows])
-            joints[rows[good]], there[rows[good]] = found[good], True
-        return Followed(self.record, joints, there)
+            joints[rows[good]] = found[good]
+        return Followed(self.record, joints)
 
-    def border(self, inside: FloatArray, outside: FloatArray) -> FloatArray:
-        """Share (N,) of the way from reached points (N, d) to others at which the mode ends.
+    def border(self, inside: FloatArray, outside: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Where the mode ends on ways from reached points (N, d) to others: the share (N,), and joint values (N, n).
 
         On the grid's own edges it is known; an edge of two steps ends on one of its halves.
         """
         middle = 0.5 * (inside + outside)
-        double = np.flatnonzero(
-            np.abs(np.sum(np.abs(self._index(outside) - self._index(inside)), axis=1) - 2.0) <= SAME
-        )
-        if len(double):
-            later = np.zeros(len(inside), dtype=bool)
-            later[double] = self.at(middle[double]).reached
-            half = np.zeros(len(inside), dtype=bool)
-            half[double] = True
-            first = np.where(later[:, None], middle, inside)
-            last = np.where((half & ~later)[:, None], middle, outside)
-            found = self._border(first, last)
-            return np.where(half, 0.5 * (found + later), found)
-        return self._border(inside, outside)
+        far = np.sum(np.abs(self._index(outside) - self._index(inside)), axis=1)
+        double = np.abs(far - 2.0) <= SAME
+        later = double.copy()
+        later[double] = self.at(middle[double]).reached
+        first = np.where(later[:, None], middle, inside)
+        last = np.where((double & ~later)[:, None], middle, outside)
+        share, joints = self._border(first, last)
+        return np.where(double, 0.5 * (share + later), share), joints
 
-    def _border(self, inside: FloatArray, outside: FloatArray) -> FloatArray:
+    def _border(self, inside: FloatArray, outside: FloatArray) -> tuple[FloatArray, FloatArray]:
         start, way = self._index(inside), self._index(outside) - self._index(inside)
         node, along = np.rint(start).astype(np.intp), np.rint(way).astype(np.intp)
         single = np.sum(np.abs(along), axis=1) == 1
         single &= np.all(np.abs(start - node) <= SAME, axis=1) & np.all(np.abs(way - along) <= SAME, axis=1)
         single &= np.all((node >= 0) & (node < self.reached.shape), axis=1)
-        shares = np.full(len(inside), np.nan)
-        place = np.argmax(np.abs(along), axis=1)
-        place += len(self.axes) * (along[np.arange(len(along)), place] < 0)
-        shares[single] = self.ends[(*node[single].T, place[single])]
-        rows = np.flatnonzero(np.isnan(shares))
-        shares[rows], _ = self.mode.ends(self.at(inside[rows]).joints, inside[rows], outside[rows])
-        return shares
+        which = np.argmax(np.abs(along), axis=1)
+        which += len(self.axes) * (along[np.arange(len(along)), which] < 0)
+        place = np.full(len(inside), -1)
+        place[single] = self.ends.place[(*node[single].T, which[single])]
+        known, rows = place >= 0, np.flatnonzero(place < 0)
+        share, joints = np.empty(len(inside)), np.empty((len(inside), self.joints.shape[-1]))
+        share[known], joints[known] = self.ends.share[place[known]], self.ends.joints[place[known]]
+        share[rows], joints[rows] = self.mode.ends(self.at(inside[rows]).joints, inside[rows], outside[rows])
+        return share, joints
 
 
 def continued(
@@ -191,13 +221,15 @@ def continued(
     >>> home = home_values(record)
     >>> upwards = Mode(record, working_signs(record, home), lambda y: np.concatenate([0 * y, y], axis=1))
     >>> found = continued(upwards, (np.linspace(200.0, 300.0, 11),), (pose_of(record, home)[1:], home))
-    >>> found.reached.astype(int).tolist(), float(found.border(np.array([[280.0]]), np.array([[290.0]]))[0].round(4))
-    ([1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0], 0.5545)
+    >>> found.reached.astype(int).tolist(), found.border(np.array([[280.0]]), np.array([[290.0]]))[0].round(4)
+    ([1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0], array([0.5545]))
     """
     shape = tuple(len(axis) for axis in axes)
     joints = np.full((*shape, len(mode.record.coordinates)), np.nan)
-    ends = np.full((*shape, 2 * len(axes)), np.nan)
-    found = Continuation(mode, axes, joints, joints.copy(), ends, np.full(shape, np.nan))
+    none = np.zeros((0, len(axes)), dtype=np.intp)
+    nowhere = np.full((*shape, 2 * len(axes)), -1)
+    ends = Ends(none, none, np.zeros(0), np.zeros((0, joints.shape[-1])), nowhere)
+    found = Continuation(mode, axes, joints, np.full(shape, np.nan), ends)
     if start is None:
         return found
     node = np.array([np.argmin(np.abs(axis - value)) for axis, value in zip(axes, start[0], strict=True)])
@@ -216,8 +248,7 @@ def continued(
         done += 1
         if tick is not None:
             tick(min(done / max(rounds, 1), 1.0))
-    _end(found)
-    return found
+    return replace(found, ends=_ends(found))
 
 
 def _nearest_in(there: BoolArray) -> IntArray:
@@ -257,15 +288,15 @@ def _across_the_rim(found: Continuation) -> IntArray:
     return np.concatenate(new)
 
 
-def _end(found: Continuation) -> None:
-    """Find where the mode ends on every edge from a reached node to another."""
+def _ends(found: Continuation) -> Ends:
+    """Where the mode ends on every edge from a reached node to another."""
     reached = np.argwhere(np.isfinite(found.joints[..., 0]))
     tails, heads, ways = _edges(found, reached)
     nodes = reached[tails]
-    shares, joints = found.mode.ends(found.joints[tuple(nodes.T)], _points(found, nodes), _points(found, heads))
-    found.ends[(*nodes.T, ways)] = shares
-    order = np.argsort(shares, kind="stable")  # the last is the nearest
-    found.beyond[tuple(heads[order].T)] = joints[order]
+    share, joints = found.mode.ends(found.joints[tuple(nodes.T)], _points(found, nodes), _points(found, heads))
+    place = found.ends.place.copy()
+    place[(*nodes.T, ways)] = np.arange(len(nodes))
+    return Ends(nodes, heads, share, joints, place)
 
 
 def _steps(found: Continuation, nodes: IntArray) -> Steps:

@@ -20,6 +20,8 @@ from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
+RESTS = 1e-3
+"""Rate of an input per rate of the pose, without dimensions, below which the input counts as resting."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,25 +53,31 @@ class PlatformHeld:
 
     @cached_property
     def output(self) -> FloatArray:
-        """The determinant (N,) of Jp for the rows of (Jp, -Jq) orthonormal and det Jq > 0; NaN where not square."""
+        """The determinant (N,) of Jp with rows of length 1, one per input, for det Jq > 0; NaN where not square.
+
+        Rows of (Jp, -Jq) may be multiplied by anything. With these the determinant runs evenly up to where an element
+        of Jq vanishes and on from there; where an input rests (`RESTS`) it falls to zero with its row.
+        """
         if self.inputs.shape[-1] != self.inputs.shape[-2]:
             return np.full(len(self.inputs), np.nan)
-        size = np.eye(self.inputs.shape[-2]) + self.inputs @ np.swapaxes(self.inputs, -1, -2)
-        return np.asarray(np.linalg.det(self.inputs) / np.sqrt(np.linalg.det(size)))
+        size = np.sqrt(np.sum(self.inputs**2, axis=-1, keepdims=True) + RESTS**2)
+        return np.asarray(np.linalg.det(self.inputs / size))
 
 
 def platform_held(record: MechanismRecord, values: FloatArray) -> PlatformHeld:
     """Joint rates at assemblies (N, n).
 
-    Example: the determinant of Jp, as the null space of the closure gives it.
+    Example: the determinant of Jp for rows of length 1, as the null space of the closure gives Jp.
 
     >>> from assur.kinematics.home import home_values
     >>> from assur.kinematics.rates.instantaneous import instantaneous
     >>> from assur.model.registry import load_record
     >>> record = load_record("fivebar")
     >>> home = home_values(record)[None]
-    >>> here, jp = platform_held(record, home), instantaneous(record, home).jp
-    >>> bool(np.abs(here.output - np.linalg.det(jp * pose_units(record) / 194.0)) < 1e-9)
+    >>> there = instantaneous(record, home)
+    >>> rows = np.linalg.solve(there.jq, there.jp * pose_units(record))
+    >>> wanted = np.linalg.det(rows / np.linalg.norm(rows, axis=-1, keepdims=True))
+    >>> bool(np.abs(platform_held(record, home).output - wanted)[0] < 1e-6)
     True
     """
     return held_by(record, held_matrix(record, values))

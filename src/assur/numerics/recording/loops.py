@@ -1,142 +1,162 @@
 """Tapes as one fused compiled loop: numba makes machine code of generated source, kept on disk for the next start.
 
-Elements are worked on in strips. A strip's inputs and outputs lie in one buffer, row after row, so that the compiler
-knows that they do not overlap and vectorises the loop. No operation is reordered or contracted: the bits are those of
-`Tape.evaluate`, whatever the strip, the block or the number of threads (the sign of a zero under a root left out).
+Elements are worked on in groups. The inputs and outputs of a group lie in one small buffer, row after row, so that the
+compiler knows that they do not overlap and vectorises the loop; from there they go to the answer, past the caches where
+it is larger than those. No operation is reordered or contracted: the bits are those of `Tape.evaluate`, whatever
+the block or the number of threads (the sign of a zero under a root left out).
 """
 
 from __future__ import annotations
 
-import hashlib
 import importlib.util
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from functools import lru_cache
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from assur.numerics.recording.tape import Operation, Tape
+from assur.errors import UsageError
+from assur.numerics.recording.source import GROUP, digest, places_of, source
+from assur.numerics.recording.tape import Tape
 
 FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+IntArray = NDArray[np.intp]
 
-STRIP = 256
-"""Elements of a strip: its buffer stays in the fastest cache."""
-
-_TEXT = {
-    "+": "{0} + {1}",
-    "-": "{0} - {1}",
-    "*": "{0} * {1}",
-    "/": "{0} / {1}",
-    "negative": "-{0}",
-    "magnitude": "abs({0})",
-    "root": "sqrt(0.0 if {0} < 0.0 else {0})",
-    ">=": "{0} >= {1}",
-    ">": "{0} > {1}",
-    "and": "{0} & {1}",
-}
+LINE = 64
+"""Bytes of a line of the caches."""
+STREAMED = 16 * 1024 * 1024
+"""Bytes from which an answer is stored past the caches."""
+SHARE = 16384
+"""Elements that are worth a thread of their own."""
 
 
-def source(tape: Tape) -> str:
-    """The loop as Python source for numba: `loop(given, uniform, answer, start, stop)`.
+@dataclass(frozen=True, eq=False)
+class Loop:
+    """A tape as machine code.
 
-    >>> from assur.numerics.recording.tape import Recorder
-    >>> recorder = Recorder()
-    >>> x = recorder.varying("x")
-    >>> "v1 = v0 * v0" in source(recorder.tape({"y": x * x}))
-    True
+    Attributes:
+        tape: what it works out. Its outputs that are numbers, and those that are true or false, each have a place in
+            a group; equal outputs share one.
     """
-    once = _uniform_entries(tape)
-    before, inside = [], []
-    varying, uniform = 0, 0
-    for k, item in enumerate(tape.operations):
-        if item.name == "varying":
-            inside.append(f"v{k} = strip[{varying * STRIP} + i]")
-            varying += 1
-        elif item.name == "uniform":
-            before.append(f"v{k} = uniform[{uniform}]")
-            uniform += 1
-        elif item.name == "number":
-            before.append(f"v{k} = {item.number!r}")
-        else:
-            (before if k in once else inside).append(f"v{k} = {_text(item)}")
-    for row, (name, k) in enumerate(tape.outputs.items()):
-        value = f"1.0 if v{k} else 0.0" if name in tape.logical else f"v{k}"
-        inside.append(f"strip[{(varying + row) * STRIP} + i] = {value}")
-    rows, outputs = varying + len(tape.outputs), len(tape.outputs)
-    return "\n".join(
-        [
-            "from math import inf, nan, sqrt",
-            "",
-            "import numpy as np",
-            "from numba import njit",
-            "",
-            "",
-            '@njit(cache=True, nogil=True, error_model="numpy")',
-            "def loop(given, uniform, answer, start, stop):",
-            f"    strip = np.zeros({rows * STRIP})",
-            *(f"    {line}" for line in before),
-            f"    for first in range(start, stop, {STRIP}):",
-            f"        size = min({STRIP}, stop - first)",
-            f"        for row in range({varying}):",
-            "            for i in range(size):",
-            f"                strip[row * {STRIP} + i] = given[row, first + i]",
-            f"        for i in range({STRIP}):",
-            *(f"            {line}" for line in inside),
-            f"        for row in range({outputs}):",
-            "            for i in range(size):",
-            f"                answer[row, first + i] = strip[({varying} + row) * {STRIP} + i]",
-            "",
-        ]
-    )
 
+    tape: Tape
 
-def compiled(tape: Tape) -> Callable[..., FloatArray]:
-    """A function of given (k, N) and uniform (u,) numbers that returns the outputs (rows, N), on every core."""
-    loop = _loaded(source(tape)).loop
-    rows = len(tape.outputs)
+    @cached_property
+    def places(self) -> dict[str, int]:
+        """Output -> its row in a group, from which any row of an answer may take it."""
+        return places_of(self.tape)
 
-    def run(given: Any, uniform: Sequence[float], answer: FloatArray | None = None, threads: int = 0) -> FloatArray:
+    def __call__(self, given: ArrayLike, uniform: Sequence[float], threads: int = 0) -> dict[str, NDArray[Any]]:
+        """Outputs (N,) by name, of numbers (k, N), one row per varying name, and the uniform ones (u,).
+
+        Args:
+            given: numbers (k, N).
+            uniform: numbers (u,) that are the same for every element.
+            threads: how many work on it; as many as there are cores where 0.
+
+        Example:
+            >>> from assur.numerics.recording.tape import Recorder
+            >>> recorder = Recorder()
+            >>> x, p = recorder.varying("x"), recorder.uniform("p")
+            >>> compiled(recorder.tape({"y": x * p, "large": x > p}))([[1.0, 2.0, 4.0]], [3.0])
+            {'y': array([ 3.,  6., 12.]), 'large': array([False, False,  True])}
+        """
         columns = np.ascontiguousarray(given, dtype=float)
         count = columns.shape[1]
-        found = np.empty((rows, count)) if answer is None else answer
-        numbers = np.asarray(uniform, dtype=float)
+        names: list[list[str]] = [[], []]
+        for name in self.tape.outputs:
+            names[name in self.tape.logical].append(name)
+        rows = tuple(np.array([self.places[name] for name in part], dtype=np.intp) for part in names)
+        numbers, truths = empty_rows(len(names[0]), count), np.empty((len(names[1]), count), dtype=bool)
         shares = _shares(count, threads or os.cpu_count() or 1)
-        if len(shares) == 1:
-            loop(columns, numbers, found, 0, count)
-            return found
-        with ThreadPoolExecutor(len(shares)) as pool:
-            for done in [pool.submit(loop, columns, numbers, found, *share) for share in shares]:
-                done.result()
-        return found
 
-    return run
+        def work(share: tuple[int, int]) -> None:
+            self.fill(columns, uniform, (numbers, truths), rows, share)
+
+        if len(shares) == 1:
+            work(shares[0])
+        else:
+            with ThreadPoolExecutor(len(shares)) as pool:
+                list(pool.map(work, shares))
+        found = {**dict(zip(names[0], numbers, strict=True)), **dict(zip(names[1], truths, strict=True))}
+        return {name: found[name] for name in self.tape.outputs}
+
+    def fill(
+        self,
+        given: FloatArray,
+        uniform: Sequence[float] | FloatArray,
+        answer: tuple[FloatArray, BoolArray],
+        rows: tuple[IntArray, ...],
+        part: tuple[int, int],
+        *,
+        shift: int = 0,
+        streaming: bool | None = None,
+    ) -> int:
+        """Work out elements start to stop, into rows of an answer; other threads may run meanwhile.
+
+        Args:
+            given: numbers (k, M), contiguous.
+            uniform: (u,).
+            answer: numbers (R, N) and truths (T, N), contiguous.
+            rows: for each row of the one, and of the other, the place of its output in a group (`places`).
+            part: start and stop, of the elements of `given`.
+            shift: where element 0 of `given` stands in the answer.
+            streaming: whether to store past the caches, if all rows begin at a line of these (`empty_rows`); where the
+                answer is large if not said.
+
+        Returns:
+            0 where all given numbers are finite.
+        """
+        numbers, truths = answer
+        past = numbers.nbytes >= STREAMED if streaming is None else streaming
+        past = (
+            past and (numbers.ctypes.data + 8 * (part[0] + shift)) % LINE == 0 and numbers.shape[1] % (LINE // 8) == 0
+        )
+        flat = given.reshape(-1), given.shape[1], np.asarray(uniform, dtype=float), numbers.reshape(-1)
+        return int(self._code(*flat, truths.reshape(-1), numbers.shape[1], *rows, (*part, shift), past))
+
+    @property
+    def loaded(self) -> bool:
+        """Whether the machine code is in memory, so that a call costs nothing but its work."""
+        return "_code" in self.__dict__ and bool(self._code.signatures)
+
+    @cached_property
+    def _code(self) -> Any:
+        return _loaded(source(self.tape)).loop
+
+
+def compiled(tape: Tape) -> Loop:
+    """A tape as a compiled loop; machine code is made at its first call, or found on disk.
+
+    Errors:
+        UsageError: numba is not installed.
+    """
+    if importlib.util.find_spec("numba") is None:
+        raise UsageError("compiled loops need numba, which is not installed", hint="pip install numba, or use NumPy")
+    return Loop(tape)
+
+
+def empty_rows(rows: int, count: int) -> FloatArray:
+    """Numbers (rows, count) that begin at a line of the caches, so that large answers can be stored past these."""
+    spare = LINE // 8
+    numbers = np.empty(rows * count + spare)
+    first = -numbers.ctypes.data % LINE // 8
+    return numbers[first : first + rows * count].reshape(rows, count)
 
 
 def _shares(count: int, threads: int) -> list[tuple[int, int]]:
-    """Where each thread starts and stops: whole strips, and none so small that starting it takes longer."""
-    least = 64 * STRIP
-    parts = max(1, min(threads, count // least))
-    step = -(-count // parts // STRIP) * STRIP or STRIP
+    """Where each thread starts and stops: none so small that starting it takes longer."""
+    parts = max(1, min(threads, count // SHARE))
+    step = max(-(-count // parts // GROUP) * GROUP, GROUP)
     return [(start, min(start + step, count)) for start in range(0, max(count, 1), step)]
-
-
-def _uniform_entries(tape: Tape) -> set[int]:
-    """Entries that are the same for all elements: worked out once, before the loop."""
-    once: set[int] = set()
-    for k, item in enumerate(tape.operations):
-        if item.name in ("uniform", "number") or (item.arguments and once.issuperset(item.arguments)):
-            once.add(k)
-    return once
-
-
-def _text(item: Operation) -> str:
-    return _TEXT[item.name].format(*(f"v{k}" for k in item.arguments))
 
 
 def cache_folder() -> Path:
@@ -150,7 +170,7 @@ def cache_folder() -> Path:
 @lru_cache(maxsize=64)
 def _loaded(text: str) -> ModuleType:
     """The source as a module; a file, since numba keeps machine code beside files only."""
-    name = f"assur_loop_{hashlib.sha256(text.encode()).hexdigest()[:24]}"
+    name = f"assur_loop_{digest(text)}"
     path = cache_folder() / "loops" / f"{name}.py"
     if not path.exists() or path.read_text(encoding="utf-8") != text:
         path.parent.mkdir(parents=True, exist_ok=True)

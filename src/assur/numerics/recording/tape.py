@@ -22,7 +22,7 @@ class Operation:
     """One entry: an operation on earlier entries, a number, or a place where one is given.
 
     `name` is one of "varying" and "uniform" (given: one per element, or one for all), "number", "+", "-", "*", "/",
-    "negative", "magnitude", "root", ">=", ">", "and".
+    "negative", "magnitude", "root", ">=", ">", "and", "not".
     """
 
     name: str
@@ -48,7 +48,7 @@ class Tape:
     @property
     def logical(self) -> frozenset[str]:
         """Outputs that are true or false."""
-        return frozenset(name for name, k in self.outputs.items() if self.operations[k].name in (">=", ">", "and"))
+        return frozenset(name for name, k in self.outputs.items() if self.operations[k].name in LOGICAL)
 
     def evaluate(self, varying: Sequence[Any], uniform: Sequence[Any], ns: Any = None) -> dict[str, Any]:
         """Outputs at given numbers of any type, entry by entry.
@@ -63,7 +63,7 @@ class Tape:
         root = (ns or Floats()).sqrt
         values: list[Any] = []
         given = {"varying": iter(varying), "uniform": iter(uniform)}
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             for item in self.operations:
                 if item.name in given:
                     values.append(next(given[item.name]))
@@ -102,8 +102,12 @@ MEANING: Mapping[str, Callable[..., Any]] = {
     ">=": operator.ge,
     ">": operator.gt,
     "and": operator.and_,
+    "not": np.logical_not,
 }
 """What the operations mean over every number type; the root is that of its namespace."""
+
+LOGICAL = frozenset({">=", ">", "and", "not"})
+"""Operations whose result is true or false."""
 
 
 class Recorder:
@@ -146,10 +150,12 @@ class Recorder:
         wanted = {name: self._number(value).index for name, value in outputs.items()}
         return _pruned(self._operations, tuple(self._varying), tuple(self._uniform), wanted)
 
-    def _number(self, value: Any) -> Recorded:
-        if isinstance(value, Recorded):
-            return value
+    def number(self, value: float) -> Recorded:
+        """A number that is written into the program."""
         return self._shared(Operation("number", number=float(value)))
+
+    def _number(self, value: Any) -> Recorded:
+        return value if isinstance(value, Recorded) else self.number(value)
 
     def _shared(self, operation: Operation) -> Recorded:
         if operation not in self._places:
@@ -213,6 +219,9 @@ class Recorded:
 
     def __and__(self, other: Any) -> Recorded:
         return self.recorder.apply("and", self, other)
+
+    def __invert__(self) -> Recorded:
+        return self.recorder.apply("not", self)
 
 
 def _pruned(

@@ -10,6 +10,7 @@ from typing import cast
 
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram, ParallelogramKind
 from assur.topology.directions import unit
+from assur.topology.joints import PRISMATIC
 from assur.topology.linkages.limbs import Path, limbs
 from assur.topology.linkages.linkage import Group, Linkage, LinkageJoint
 from assur.topology.linkages.shared_points import TURNING, Line, line_of, meet, size_of, with_shared_points
@@ -18,7 +19,8 @@ from assur.topology.linkages.shared_points import TURNING, Line, line_of, meet, 
 def recognised(linkage: Linkage) -> tuple[Chain, ...] | None:
     """The limbs with their axes at home, parallelograms as one element; None where the graph has no limbs.
 
-    Neighbouring axes that meet (or coincide) get the label of their common point; limbs whose first axes meet in one
+    Neighbouring axes that meet (or coincide) get the label of their common point, also where slides stand between them:
+    one along an axis leaves that axis where it is. Limbs whose first axes meet in one
     point of the base, or whose last axes meet in one point of the platform, have one label for it. O' has a label
     where a limb ends in it.
     """
@@ -58,14 +60,17 @@ def _parallelogram(group: Group, linkage: Linkage) -> Parallelogram:
 def _marked(
     elements: tuple[Element, ...], lines: Mapping[str, Line], labels: Iterator[str], size: float
 ) -> tuple[Element, ...]:
-    """The elements with a label on every run of neighbours whose axes run through one point."""
+    """The elements with a label on every run of neighbours whose axes run through one point, slides passed over."""
     marked: list[Element] = []
     run: list[ChainJoint] = []
     for element in elements:
         if isinstance(element, ChainJoint) and element.type in TURNING:
-            if not meet([lines[item.name] for item in (*run, element)], size):
+            if not meet([lines[item.name] for item in (*run, element) if item.type in TURNING], size):
                 marked += _labelled(run, labels)
                 run = []
+            run.append(element)
+            continue
+        if run and isinstance(element, ChainJoint) and element.type is PRISMATIC:
             run.append(element)
             continue
         marked += _labelled(run, labels)
@@ -84,7 +89,8 @@ def _called(branches: tuple[tuple[Element, ...], ...]) -> str:
 
 
 def _labelled(run: list[ChainJoint], labels: Iterator[str]) -> list[ChainJoint]:
-    if len(run) < 2:
+    """The joints of a run, its axes with one label if there are several; slides among them have none."""
+    if sum(item.type in TURNING for item in run) < 2:
         return run
     label = next(labels)
-    return [dataclasses.replace(item, point=label) for item in run]
+    return [dataclasses.replace(item, point=label) if item.type in TURNING else item for item in run]

@@ -16,8 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop
-from assur.topology.joints import HELICAL, REVOLUTE, SPHERICAL, UNIVERSAL
+from assur.topology.joints import HELICAL, PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL
 from assur.topology.linkages.linkage import Linkage, LinkageJoint
+from assur.topology.rules.vectors import aligned
 
 FloatArray = NDArray[np.float64]
 Line = tuple[FloatArray, FloatArray]
@@ -187,8 +188,13 @@ def _equations(lines: Sequence[Line]) -> tuple[FloatArray, FloatArray]:
 
 
 def _end_run(chain: Chain, end: int) -> tuple[str, ...]:
-    """Names of the joints at an end of a limb whose axes meet there; empty where it does not end in such a joint."""
-    ordered = chain.elements if end == 0 else chain.elements[::-1]
+    """Names of the joints at an end of a limb whose axes meet there; empty where it does not end in such a joint.
+
+    A slide along the one axis behind it is passed over: the axis stays on its line.
+    """
+    ordered = list(chain.elements if end == 0 else chain.elements[::-1])
+    while len(ordered) > 1 and _slides_along(ordered):
+        del ordered[0]
     first = ordered[0]
     if not isinstance(first, ChainJoint) or first.type not in TURNING:
         return ()
@@ -198,6 +204,15 @@ def _end_run(chain: Chain, end: int) -> tuple[str, ...]:
             break
         names.append(element.name)
     return tuple(names)
+
+
+def _slides_along(ordered: Sequence[Element]) -> bool:
+    """Whether a limb begins with a slide along the axis behind it, which stays where it is as a line."""
+    slide = ordered[0]
+    behind = next((item for item in ordered if not (isinstance(item, ChainJoint) and item.type is PRISMATIC)), slide)
+    if not (isinstance(slide, ChainJoint) and slide.type is PRISMATIC and isinstance(behind, ChainJoint)):
+        return False
+    return behind.type in (REVOLUTE, HELICAL) and aligned(slide.axes[0], behind.axes[0])
 
 
 def _label(joint: Element) -> str:

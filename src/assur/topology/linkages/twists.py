@@ -27,6 +27,10 @@ FloatArray = NDArray[np.float64]
 CLEAR = 1e3
 """The smallest singular value that counts is at least so many times the largest one that does not."""
 
+BLURRED = 2e-5
+"""Share of the largest below which a closure's singular value may be zero: where two solutions of the loops coincide,
+closing them to 1e-11 finds joints to its root, 3e-6, and leaves that much of a singular value that is zero."""
+
 COMMON = 1e-12
 """A direction is fixed if its part outside the space, squared and averaged over the configurations, is below this."""
 
@@ -41,6 +45,10 @@ class UnclearRankError(AssurError):
     """Singular values do not say what the rank is, or configurations of one linkage disagree."""
 
     exit_code = 5
+
+
+class ShakyError(UnclearRankError):
+    """The loops close only where they are singular: instantaneous freedoms stay everywhere and lead nowhere."""
 
 
 def clear_rank(matrix: FloatArray, scale: float | None = None) -> int:
@@ -169,6 +177,8 @@ def _agreeing(linkage: Linkage, values: FloatArray) -> FloatArray:
     """The configurations, if they agree although home is special."""
     try:
         poc_dimensions(edges(linkage, values), linkage.base, linkage.platform)
+    except ShakyError:
+        raise
     except UnclearRankError as error:
         raise UnclearRankError(
             f"home has freedoms that are lost on the way, and what is reached from it disagrees: {error.message}",
@@ -193,7 +203,7 @@ def motion_space(edges: Sequence[Edge], base: str, link: str) -> FloatArray:
         link: the link that moves; the edges connect both.
 
     Errors:
-        UnclearRankError: see `clear_rank`.
+        UnclearRankError: see `clear_rank`. ShakyError: the loops may be singular wherever they close.
     """
     moves = along(edges, base, link)
     free = _null_space(closure(edges))
@@ -209,7 +219,20 @@ def _null_space(matrix: FloatArray) -> FloatArray:
     if not matrix.shape[1]:
         return np.broadcast_to(np.eye(count), (len(matrix), count, count))
     _, singular, turned = np.linalg.svd(matrix)
+    _refuse_shaky(singular)
     return np.asarray(np.swapaxes(turned[:, _clear(singular, None) :], -1, -2))
+
+
+def _refuse_shaky(singular: NDArray[np.floating[Any]]) -> None:
+    """Refuse a closure (N, k) with singular values so small that its loops may be singular wherever they close."""
+    shares = singular / np.maximum(singular[:, :1], RANK_GAP)
+    small = shares[(shares > RANK_GAP) & (shares < BLURRED)]
+    if small.size:
+        raise ShakyError(
+            f"no clear rank: a singular value of {small.min():.1e} may be zero, as where loops close only in singular "
+            "configurations: such a mechanism is shaky, with instantaneous freedoms everywhere that lead nowhere",
+            hint="its axes are special as written: other directions or another number of limbs avoid that",
+        )
 
 
 def poc_dimensions(edges: Sequence[Edge], base: str, link: str) -> tuple[int, int, int]:

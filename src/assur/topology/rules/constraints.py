@@ -105,5 +105,10 @@ def _common_labels(limb: Motion, before: Sequence[Motion]) -> bool:
     return any(_labels(limb) & _labels(other) for other in before)
 
 
+def share_a_point(limbs: Sequence[Motion]) -> bool:
+    """Whether axes of two limbs run through one labelled point."""
+    return any(_common_labels(limb, limbs[:index]) for index, limb in enumerate(limbs))
+
+
 def _labels(limb: Motion) -> frozenset[str]:
     return limb.limb.labels if limb.limb else frozenset()

@@ -17,6 +17,7 @@ from assur.topology.rules.bundles import bundles
 from assur.topology.rules.chain_steps import chain_derivation
 from assur.topology.rules.derivation import Derivation, under
 from assur.topology.rules.elementary import Elementary, Turn
+from assur.topology.rules.helices import coupled
 from assur.topology.rules.orientations import EVERY, UNTURNED, Orientations, held, orientations
 from assur.topology.rules.refusals import Refusal
 from assur.topology.rules.spaces import rotations, translations
@@ -184,9 +185,13 @@ def motion_at_home(limb: Limb) -> Motion | Refusal:
     return structure if isinstance(structure, Refusal) else _moving(limb, structure, UNTURNED)
 
 
-def _moving(limb: Limb, structure: Structure, taken: Orientations) -> Motion:
+def _moving(limb: Limb, structure: Structure, taken: Orientations) -> Motion | Refusal:
+    moved = translations(structure)
+    refusal = coupled(limb.chain, moved)
+    if refusal is not None:
+        return refusal
     return Motion(
-        translations=translations(structure),
+        translations=moved,
         rotations=rotations(structure),
         orientations=taken,
         freedoms=limb.freedoms,

@@ -11,29 +11,13 @@ from assur.topology.directions import Vector
 from assur.topology.poc import Mark, PocSet
 from assur.topology.rules.blocks import structure
 from assur.topology.rules.derivation import Derivation, Step
-from assur.topology.rules.elementary import Elementary, Slide, Turn
+from assur.topology.rules.elementary import Elementary, Turn
+from assur.topology.rules.helices import coupled
 from assur.topology.rules.motion import Motion
 from assur.topology.rules.orientations import Orientations
 from assur.topology.rules.refusals import Refusal
 from assur.topology.rules.spaces import translations
 from assur.topology.rules.spans import Span, along
-from assur.topology.rules.vectors import aligned
-
-
-def coupled(chain: Sequence[Elementary]) -> str | None:
-    """Name of the first helical joint whose pitch makes a difference; None where there is none.
-
-    >>> z = (0.0, 0.0, 1.0)
-    >>> coupled([Turn(z, "H1", pitch=True), Turn((1.0, 0.0, 0.0), "R1")])
-    'H1'
-    """
-    helices = [(place, item) for place, item in enumerate(chain) if isinstance(item, Turn) and item.pitch]
-    if not helices or translations(structure(chain)).dim == 3:
-        return None
-    for place, item in helices:
-        if item.direction is None or not _absorbed(chain, place, item.direction):
-            return item.name
-    return None
 
 
 def lone_helix(turn: Turn, axis: Vector) -> Motion:
@@ -55,22 +39,4 @@ def lone_helix(turn: Turn, axis: Vector) -> Motion:
 
 def pitch_refusal(chain: Sequence[Elementary]) -> Refusal | None:
     """Why the rules give no answer for a chain with helical joints, where they do not."""
-    name = coupled(chain)
-    return Refusal(f"the pitch of {name} couples a rotation and a translation") if name else None
-
-
-def _absorbed(chain: Sequence[Elementary], place: int, axis: Vector) -> bool:
-    """Whether the links that only slides and parallel axes join to a helical joint translate along its axis."""
-    first, last = place, place + 1
-    while first > 0 and _keeps(chain[first - 1], axis):
-        first -= 1
-    while last < len(chain) and _keeps(chain[last], axis):
-        last += 1
-    return translations(structure(chain[first:last])).contains(axis)
-
-
-def _keeps(item: Elementary, axis: Vector) -> bool:
-    """Whether what follows keeps its angle to an axis."""
-    if isinstance(item, Slide) or not item.finite:
-        return True
-    return item.direction is not None and aligned(item.direction, axis)
+    return coupled(chain, translations(structure(chain)))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from assur.topology.poc import Mark, PocSet
-from assur.topology.rules.constraints import Resisted, have_common_end, resists_purely
+from assur.topology.rules.constraints import Resisted, have_common_end, resists_purely, share_a_point
 from assur.topology.rules.marks import MOVING, rotation_mark, translation_mark
 from assur.topology.rules.motion import Motion
 from assur.topology.rules.refusals import Refusal
@@ -24,6 +24,13 @@ def platform_set(limbs: Sequence[Motion], found: Resisted, at: str = "") -> PocS
         return _at_common_end(resisting, found, at)
     if len(resisting) == 1:
         return resisting[0].restated
+    if (
+        found.forces.dim == 3
+        and not found.couples.dim
+        and share_a_point(resisting)
+        and not _through_one_point(resisting)
+    ):
+        return Refusal("limbs share a point, and whether their forces run through it decides how O' moves")
     chains = [limb.structure for limb in limbs if limb.structure is not None]
     moved, turned = found.forces.complement, found.couples.complement
     t = found.dim - 3 + _rank_of_moments(limbs, found)
@@ -65,11 +72,14 @@ def _rank_of_moments(limbs: Sequence[Motion], found: Resisted) -> int:
     if planar and any(resists_purely(limb, forces.fixed[0]) for limb in limbs):
         return 2
     resisting = [limb for limb in limbs if limb.dim < 6]
-    concurrent = all(limb.concurrent and limb.forces.dim == 3 for limb in resisting)
-    through_one_point = concurrent or have_common_end(resisting)
-    if not couples.dim and forces.dim == 3 and through_one_point:
+    if not couples.dim and forces.dim == 3 and _through_one_point(resisting):
         return 2
     return min(3, forces.dim + couples.dim)
+
+
+def _through_one_point(resisting: Sequence[Motion]) -> bool:
+    """Whether all forces that limbs resist run through one point."""
+    return all(limb.concurrent and limb.forces.dim == 3 for limb in resisting) or have_common_end(resisting)
 
 
 def _with_rotation(t: int, turned: Span, found: Resisted) -> Span:

@@ -5,9 +5,8 @@ Over intervals it says for a whole box at once what holds at each of its poses.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from types import SimpleNamespace
 from typing import Any
@@ -17,13 +16,15 @@ from numpy.typing import NDArray
 
 from assur.kinematics.modes import mode_signs, sign_names
 from assur.kinematics.status import closed_form_of
+from assur.model.closed_form import ClosedForm
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, QUATERNION, has_quaternion, is_angle
 from assur.numerics.intervals.functions import cosine_sine
 from assur.numerics.intervals.interval import Interval, as_interval
-from assur.numerics.number_types import Intervals
 from assur.numerics.recording.tape import Recorded, Recorder, Tape
 from assur.workspace.bounds import Stroke, bounds
+from assur.workspace.certified.programs import folded, with_radicands
+from assur.workspace.certified.sloped import ClampedIntervals, Sloped, SlopedNumbers, coordinate, turn
 from assur.workspace.slices import Slice, slice_at
 
 FloatArray = NDArray[np.float64]
@@ -31,35 +32,72 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Criteria:
-    """Margins and parallel factors of a working mode over the free coordinates of a slice.
+    """Margins, and factors where they are asked for, of a working mode over the free coordinates of a slice.
+
+    A pose is reached where every operation of the formulas has a value, no margin is negative and nothing is zero that
+    they divide by. The dimensions are exactly the floats of the record.
 
     Attributes:
         slice: which coordinates vary, and at what the others are held.
-        tape: outputs are the margins and factors by name; its varying numbers are lengths, and cosines and sines
-            of angles (of half of them where the pose is a quaternion).
-        uniform: values of what does not vary.
+        tape: outputs are all the names below; its varying numbers are lengths, and cosines and sines of angles (of
+            half of them where the pose is a quaternion).
+        uniform: enclosures of what does not vary.
         margins: names of what must not be negative.
+        radicands: names of radicands that are no margins; they must not be negative either.
         regular: names of what must not be zero: the formulas divide by it.
-        factors: names of the parallel factors; where one is zero the pose is singular.
+        roots: those of `margins` and `radicands` of which a root is taken.
+        factors: names of factors by kind; where one is zero the pose is singular. Of kind "constraint" are groups
+            of factors that must not all be zero, as the sum of their squares, or the factor where it is one.
     """
 
     slice: Slice
     tape: Tape
-    uniform: tuple[Any, ...]
+    uniform: tuple[Interval, ...]
     margins: tuple[str, ...]
+    radicands: tuple[str, ...]
     regular: tuple[str, ...]
-    factors: tuple[str, ...]
+    roots: tuple[str, ...]
+    factors: Mapping[str, tuple[str, ...]]
 
     def over(self, box: Sequence[Interval]) -> dict[str, Interval]:
-        """Every margin and factor over boxes: one interval (...) per free coordinate, in lengths and rad."""
-        found = self.tape.evaluate(components(self.tape, self.slice, box), self.uniform, Intervals())
+        """Every output over boxes (...): one interval per free coordinate, in lengths and rad.
+
+        Roots of negative numbers are zero here. That loses no pose that is reached, where no radicand is negative: so
+        a margin below zero all over a box proves that none of it is reached, and margins and radicands that are
+        nowhere negative and everywhere defined prove that all of it is.
+        """
+        found = self.tape.evaluate(components(self.tape, self.slice, box), self.uniform, ClampedIntervals())
         return {name: as_interval(value) for name, value in found.items()}
+
+    def sloped(self, box: Sequence[Interval], middles: Sequence[FloatArray | None]) -> dict[str, Sloped]:
+        """Every output over boxes (N,) with its slopes; no slopes by coordinates whose middle is None."""
+        varying = _sloped_components(self.tape, self.slice, box, middles)
+        found = self.tape.evaluate(varying, self.uniform, SlopedNumbers())
+        nothing = (None,) * sum(middle is not None for middle in middles)
+        return {
+            name: value if isinstance(value, Sloped) else Sloped(as_interval(value), as_interval(value), nothing)
+            for name, value in found.items()
+        }
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Every factor that is asked for."""
+        return tuple(name for names in self.factors.values() for name in names)
+
+    @property
+    def nonsingular(self) -> Criteria:
+        """The same where a pose is wanted only if no factor is zero: factors count among what formulas divide by."""
+        return replace(self, regular=(*self.regular, *self.names))
+
+    @property
+    def analytic(self) -> bool:
+        """Whether every output is analytic wherever it is defined and no radicand is zero."""
+        return not any(item.name in ("magnitude", ">=", ">", "and") for item in self.tape.operations)
 
     @cached_property
     def used(self) -> tuple[bool, ...]:
-        """Per free coordinate whether any margin depends on it; the others only give the region its length."""
-        depends = self.tape.dependence()
-        names = frozenset[str]().union(*(depends[name] for name in (*self.margins, *self.regular)))
+        """Per free coordinate whether any output depends on it; the others only give the region its length."""
+        names = frozenset[str]().union(*self.tape.dependence().values())
         return tuple(any(_coordinate(name) == free for name in names) for free in self.slice.free)
 
 
@@ -68,8 +106,16 @@ def criteria(
     mode: str | None = None,
     strokes: Mapping[str, Stroke | None] | None = None,
     held: Mapping[str, float] | None = None,
+    factors: Sequence[str] = (),
 ) -> Criteria:
-    """The criteria of a working mode, strokes and limits of joints among them; the mode and strokes of the file by default.
+    """The criteria of a working mode, strokes and limits of joints among them.
+
+    Args:
+        record: the mechanism.
+        mode: signs of the working mode; the file's default where none is given.
+        strokes: input -> (low, high) as printed, or None for no limit; the file's for what is left out.
+        held: pose coordinates that stand still, as `assur.workspace.slices.slice_at` takes them.
+        factors: kinds of factors wanted beside the margins: "parallel", "serial", "constraint".
 
     Errors:
         UsageError: no closed form, an unknown mode, coordinate or input, a stroke that is none.
@@ -83,10 +129,10 @@ def criteria(
     """
     form, poses, recorder = closed_form_of(record), slice_at(record, held), Recorder()
     mode = mode or record.modes.default_working
-    uniform: dict[str, Any] = {}
+    uniform: dict[str, Interval] = {}
 
-    def given(name: str, value: Any) -> Recorded:
-        uniform[name] = value
+    def given(name: str, value: Interval | float) -> Recorded:
+        uniform[name] = as_interval(value)
         return recorder.uniform(name)
 
     p = SimpleNamespace(**{name: given(name, value) for name, value in vars(record.values).items()})
@@ -95,13 +141,29 @@ def criteria(
     branch = form.inverse(recorder, p, _pose(recorder, poses, given), sign)
     joints = form.joints(recorder, p, branch.core)
     margins = {item.name: branch.margins[item.name] for item in form.inverse_margins if item.zero == "merge"}
-    margins |= {name: bound(joints) for name, bound in bounds(record, strokes).items()}
+    limits = bounds(record, strokes, lambda value: given(f"constant {len(uniform)}", value))
+    margins |= {name: bound(joints) for name, bound in limits.items()}
     regular = {item.name: branch.margins[item.name] for item in form.inverse_margins if item.zero == "degenerate"}
-    values = form.factors(recorder, p, branch.core)
-    factors = {item.name: values[item.name] for item in form.factor_list if item.kind == "parallel"}
-    tape = recorder.tape({**margins, **regular, **factors})
-    numbers = tuple(as_interval(uniform[name]) for name in tape.uniform)  # so that p.l * p.l is enclosed too
-    return Criteria(poses, tape, numbers, tuple(margins), tuple(regular), tuple(factors))
+    kinds = _factors(form, form.factors(recorder, p, branch.core), factors)
+    wanted = {name: value for values in kinds.values() for name, value in values.items()}
+    tape, radicands, roots = with_radicands(recorder.tape({**margins, **regular, **wanted}), tuple(margins))
+    names = {kind: tuple(values) for kind, values in kinds.items()}
+    program, numbers = folded(tape, [uniform[name] for name in tape.uniform])
+    return Criteria(poses, program, numbers, tuple(margins), radicands, tuple(regular), roots, names)
+
+
+def _factors(form: ClosedForm, values: Mapping[str, Any], kinds: Sequence[str]) -> dict[str, dict[str, Any]]:
+    """What must not be zero, by kind and name."""
+    found: dict[str, dict[str, Any]] = {}
+    for kind in kinds:
+        if kind != "constraint":
+            found[kind] = {item.name: values[item.name] for item in form.factor_list if item.kind == kind}
+            continue
+        found[kind] = {}
+        for group in form.constraint_singular:
+            name = " and ".join(group)
+            found[kind][name] = values[name] if len(group) == 1 else sum(values[item] * values[item] for item in group)
+    return found
 
 
 def components(tape: Tape, poses: Slice, box: Sequence[Any]) -> list[Any]:
@@ -111,10 +173,34 @@ def components(tape: Tape, poses: Slice, box: Sequence[Any]) -> list[Any]:
         if not is_angle(name):
             found[name] = value
             continue
-        angle = value / 2 if has_quaternion(poses.pose) else value
+        angle = value / _parts_of_a_turn(poses)
         pair = cosine_sine(angle) if isinstance(angle, Interval) else (np.cos(angle), np.sin(angle))
         found |= zip((f"cos {name}", f"sin {name}"), pair, strict=True)
     return [found[name] for name in tape.varying]
+
+
+def _sloped_components(
+    tape: Tape, poses: Slice, box: Sequence[Interval], middles: Sequence[FloatArray | None]
+) -> list[Any]:
+    """The varying numbers of the tape with their slopes; plain intervals where the middle is None."""
+    size = sum(middle is not None for middle in middles)
+    found: dict[str, Any] = dict(zip(tape.varying, components(tape, poses, box), strict=True))
+    index = 0
+    for name, whole, middle in zip(poses.free, box, middles, strict=True):
+        if middle is None:
+            continue
+        if is_angle(name):
+            pair = turn(whole, middle, index, size, 1 / _parts_of_a_turn(poses))
+            found |= zip((f"cos {name}", f"sin {name}"), pair, strict=True)
+        else:
+            found[name] = coordinate(whole, middle, index, size)
+        index += 1
+    return [found[name] for name in tape.varying]
+
+
+def _parts_of_a_turn(poses: Slice) -> float:
+    """Quaternions are made of half angles."""
+    return 2.0 if has_quaternion(poses.pose) else 1.0
 
 
 def _coordinate(component: str) -> str:
@@ -123,7 +209,6 @@ def _coordinate(component: str) -> str:
 
 def _pose(recorder: Recorder, poses: Slice, given: Any) -> tuple[Any, ...]:
     """The pose as the kernel takes it, recorded."""
-    half = 2 if has_quaternion(poses.pose) else 1
     values: dict[str, Any] = {}
     for name in (*poses.free, *poses.held):
         free = name in poses.free
@@ -132,9 +217,9 @@ def _pose(recorder: Recorder, poses: Slice, given: Any) -> tuple[Any, ...]:
         elif free:
             values[name] = (recorder.varying(f"cos {name}"), recorder.varying(f"sin {name}"))
         else:
-            angle = poses.held[name] / half
-            values[name] = (given(f"cos {name}", math.cos(angle)), given(f"sin {name}", math.sin(angle)))
-    if half == 2:
+            cosine, sine = cosine_sine(Interval.of(poses.held[name]) / _parts_of_a_turn(poses))
+            values[name] = (given(f"cos {name}", cosine), given(f"sin {name}", sine))
+    if has_quaternion(poses.pose):
         values |= zip(QUATERNION, _quaternion(*(values[name] for name in ANGLES)), strict=True)
     return tuple(values[name] for name in poses.pose)
 

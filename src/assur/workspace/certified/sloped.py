@@ -68,7 +68,7 @@ class Sloped:
         return self + -other
 
     def __mul__(self, other: Sloped | Constant) -> Sloped:
-        """f g - f(c) g(c) = (f - f(c)) g(c) + f (g - g(c)); of a square (f - f(c)) (f + f(c))."""
+        """With f g - f(c) g(c) = (f - f(c)) g(c) + f (g - g(c)); of a square (f - f(c)) (f + f(c))."""
         if other is self:
             total = self.whole + self.centre
             return Sloped(self.centre.square(), self.whole.square(), _each(lambda s: s * total, self.slopes))
@@ -78,7 +78,7 @@ class Sloped:
         return Sloped(self.centre * other.centre, self.whole * other.whole, slopes)
 
     def __truediv__(self, other: Sloped | Constant) -> Sloped:
-        """With q = f / g: q - q(c) = ((f - f(c)) - q(c) (g - g(c))) / g."""
+        """With q = f / g, q - q(c) = ((f - f(c)) - q(c) (g - g(c))) / g."""
         if not isinstance(other, Sloped):
             return Sloped(self.centre / other, self.whole / other, _each(lambda s: s / other, self.slopes))
         quotient = self.centre / other.centre
@@ -158,8 +158,10 @@ def _root_rate(whole: Interval, centre: Interval) -> Interval:
     above = 1.0 / (root + root_at)  # no upper bound where both may be zero
     least, most = np.maximum(above.low, 0.0), above.high
     # u below zero, v above: root(v) / (v - u) is at most 1 / root(v), which is the bound above, and at least this
-    apart = Interval.of(np.maximum(centre.high, whole.low)) - Interval.of(whole.low)
-    slanted = (as_interval(root_at.low) / apart).low
+    finite = np.isfinite(whole.low) & np.isfinite(centre.high)
+    start, end = np.where(finite, whole.low, 0.0), np.where(finite, centre.high, 1.0)
+    slanted = (as_interval(root_at.low) / (as_interval(np.maximum(end, start)) - start)).low
+    slanted = np.where(finite, slanted, 0.0)
     below = np.minimum(whole.low, centre.low) < 0
     least = np.where(below, np.minimum(least, np.where(slanted > 0, slanted, 0.0)), least)
     # v below zero, u above: root(u) / (u + depth) is at most 1 / (2 root(depth))
@@ -194,7 +196,7 @@ def ranged(number: Sloped, offsets: Sequence[Interval]) -> Interval:
 
     >>> x = coordinate(Interval.of([0.0], [1.0]), np.array([0.5]), 0, 1)
     >>> found = ranged(x * (1 - x), [Interval.of([-0.5], [0.5])])  # natural: [0, 1]
-    >>> found.low.round(6), found.high.round(6)
+    >>> abs(found.low).round(6), found.high.round(6)
     (array([0.]), array([0.5]))
     """
     total: Any = number.centre

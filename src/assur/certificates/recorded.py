@@ -1,0 +1,106 @@
+"""Whether a certificate is that of a mechanism as it is now: its formulas recorded anew and compared, entry by entry.
+
+The small verifier proves what follows from the formulas in the certificate; this step says whose formulas they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import zip_longest
+from pathlib import Path
+from typing import Any
+
+from assur.certificates.certificate import file_hashes
+from assur.certificates.formulas import CONSTANT, GROUPS, formulas
+from assur.errors import UsageError
+from assur.model.mechanism import MechanismRecord
+from assur.model.registry import load_record, with_parameters
+
+
+def record_of(document: Mapping[str, Any], name_or_path: str | Path | None = None) -> MechanismRecord:
+    """The mechanism of a certificate, by its name or from a file, with the certificate's dimensions.
+
+    Errors:
+        UnknownNameError, UsageError: there is no such mechanism here, or it cannot have these dimensions.
+    """
+    statement = document["statement"]
+    record = load_record(statement["mechanism"] if name_or_path is None else name_or_path)
+    changed = {name: float.fromhex(value) for name, value in statement["parameters"].items()}
+    return with_parameters(record, **changed) if changed else record
+
+
+def differences(document: Mapping[str, Any], record: MechanismRecord) -> tuple[str, ...]:
+    """What of a certificate is not this mechanism's; nothing where it is all its own.
+
+    Args:
+        document: a certificate that the verifier read.
+        record: the mechanism with the certificate's dimensions, from `record_of`.
+
+    >>> from assur.certificates.certificate import certificate
+    >>> record, other = load_record("zeng2019"), load_record("zeng2019", l2=300)
+    >>> document = certificate(record, most=1).to_json()
+    >>> differences(document, record), differences(document, other)
+    ((), ('parameters: none there, l2 = 300.0 here', 'formulas: number l2 is 280.0 there, 300.0 here'))
+    """
+    statement = document["statement"]
+    if statement["mechanism"] != record.name:
+        return (f"mechanism: {statement['mechanism']} there, {record.name} here",)
+    found = []
+    there = {name: float.fromhex(value) for name, value in statement["parameters"].items()}
+    if there != dict(record.overrides):
+        found.append(f"parameters: {_listed(there)} there, {_listed(record.overrides)} here")
+    here = file_hashes(record)
+    if statement["files"] != here:
+        changed = sorted(
+            name for name in {*here, *statement["files"]} if here.get(name) != statement["files"].get(name)
+        )
+        found.append(f"files: {', '.join(changed)} not as they were")
+    return (*found, *_formulas(document, record))
+
+
+def _listed(values: Mapping[str, float]) -> str:
+    return ", ".join(f"{name} = {value}" for name, value in values.items()) or "none"
+
+
+def _formulas(document: Mapping[str, Any], record: MechanismRecord) -> tuple[str, ...]:
+    """The first difference of the formulas, if there is one."""
+    statement, there = document["statement"], document["program"]
+    held = {name: float.fromhex(value) for name, value in statement["held"].items()}
+    strokes = {name: None if pair is None else _pair(pair) for name, pair in statement["strokes"].items()}
+    try:
+        rules = formulas(record, statement["mode"], strokes, held)
+    except UsageError as error:
+        return (f"statement: {error.message}",)
+    if list(rules.slice.free) != statement["coordinates"]:
+        return (f"coordinates: {', '.join(statement['coordinates'])} there, {', '.join(rules.slice.free)} here",)
+    here = rules.to_json()
+    for k, (one, two) in enumerate(zip_longest(there["operations"], here["operations"])):
+        if not _same(one, two):
+            return (f"formulas: {_shown(k, one, two)}",)
+    groups = [group for group in GROUPS if there[group] != here[group]]
+    return tuple(f"formulas: other {group}" for group in groups)
+
+
+def _pair(texts: list[str]) -> tuple[float, float]:
+    return float.fromhex(texts[0]), float.fromhex(texts[1])
+
+
+def _same(one: list[Any] | None, two: list[Any] | None) -> bool:
+    """Equal; bounds of a constant need only enclose those recorded now, less their slack."""
+    if one == two:
+        return True
+    if one is None or two is None or one[0] != "number" or two[0] != "number" or one[3] != two[3]:
+        return False
+    if not one[3].startswith(f"{CONSTANT} "):
+        return False
+    (low, high), (least, most) = _pair(one[1:3]), _pair(two[1:3])
+    slack = (most - least) / 4
+    return low <= least + slack and most - slack <= high
+
+
+def _shown(place: int, one: list[Any] | None, two: list[Any] | None) -> str:
+    if one is None or two is None:
+        return f"operations end at {place} {'there' if one is None else 'here'}"
+    if one[0] == two[0] == "number" and one[3] == two[3]:
+        return f"number {one[3] or place} is {float.fromhex(one[1])} there, {float.fromhex(two[1])} here"
+    return f"operation {place} is {' '.join(map(str, one))} there, {' '.join(map(str, two))} here"

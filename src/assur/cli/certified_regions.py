@@ -1,0 +1,269 @@
+"""What `assur workspace` proves: bounds of volumes and areas, boxes, and the largest shape about a point."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from assur.cli.numbers import assignments, interval, number
+from assur.cli.options import Outcome, Shared
+from assur.cli.output import heading, table
+from assur.cli.progress import progress
+from assur.cli.quantities import is_length
+from assur.errors import UnknownNameError, UsageError
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from assur.cli.regions import Question
+    from assur.mechanism import Mechanism
+    from assur.workspace.certified.largest import LargestShape
+    from assur.workspace.certified.proving import ProvedBox
+    from assur.workspace.certified.region import CertifiedWorkspace
+    from assur.workspace.certified.shapes import ShapeName
+
+UNDECIDED = 5
+"""Exit code where neither a proof nor a pose that fails was found; 4 where one fails."""
+
+REFUTED = 4
+
+
+@dataclass(frozen=True)
+class Asked:
+    """The words that only proofs take, as typed."""
+
+    gap: str | None
+    finest: str | None
+    prove: str | None
+    largest: ShapeName | None
+    around: str | None
+    ratio: str | None
+
+
+def outcome(record: Mechanism, question: Question, asked: Asked, shared: Shared) -> Outcome:
+    """The proof that is wanted, as data and for a person."""
+    _compatible(asked)
+    if asked.prove is not None:
+        return _box(record, question, asked.prove, shared)
+    if asked.largest is not None:
+        return _largest(record, question, asked, asked.largest, shared)
+    return _volume(record, question, asked, shared)
+
+
+def _compatible(asked: Asked) -> None:
+    if asked.prove is not None and asked.largest is not None:
+        raise UsageError("--prove and --largest are two questions", hint="ask one after the other")
+    if asked.largest is not None and asked.around is None:
+        raise UsageError("--largest: about which point?", hint="add --around x=0,y=0,z=400")
+    for name, value in (("--around", asked.around), ("--ratio", asked.ratio)):
+        if value is not None and asked.largest is None:
+            raise UsageError(f"{name} belongs to --largest", hint="for example --largest cube --around x=0,y=0,z=400")
+    other = asked.prove is not None or asked.largest is not None
+    if other and (asked.gap is not None or asked.finest is not None):
+        raise UsageError("--gap and --finest belong to --certify", hint="leave them out")
+    if asked.gap is not None and asked.finest is not None:
+        raise UsageError("--gap and --finest: give one of them", hint="--finest is in the mechanism's length unit")
+
+
+def _volume(record: Mechanism, question: Question, asked: Asked, shared: Shared) -> Outcome:
+    from assur.workspace.certified.region import certified_workspace
+
+    gap = 1e-3 if asked.gap is None else number(asked.gap, "--gap")
+    finest = None if asked.finest is None else number(asked.finest, "--finest")
+    if gap <= 0:
+        raise UsageError(f"--gap: {gap:g} is not positive", hint="1e-3 means bounds that differ by a thousandth")
+    if finest is not None and finest <= 0:
+        raise UsageError(f"--finest: {finest:g} is not a positive length")
+    with progress("certified workspace", shared) as step:
+        found = certified_workspace(
+            record, question.mode, question.box, question.strokes, question.held, gap, question.sections, finest, step
+        )
+    data = {"mechanism": record.name, **_outside(record, found.to_json())}
+    return Outcome(data, lambda: _shown_volume(record, found, data))
+
+
+def _shown_volume(record: Mechanism, found: CertifiedWorkspace, data: Mapping[str, Any]) -> Iterable[RenderableType]:
+    yield heading(f"{record.name}, certified workspace of working mode {found.mode}")
+    yield f"box: {_pairs(record, data['coordinates'], data['box'])}"
+    if data["held"]:
+        yield f"held: {_values(record, data['held'])}"
+    what = ("length", "area", "volume")[len(found.box.names) - 1]
+    low, high = bounds(*found.volume)
+    yield f"{what}: {low} .. {high} {found.unit}"
+    gap = "" if found.gap_reached is None else f", gap {found.gap_reached:.2g}"
+    yield f"how: {found.how}{gap}"
+    boxes = data["boxes"]
+    along = ", ".join(boxes["coordinates"])
+    yield f"boxes over {along}: {boxes['inside']} inside, {boxes['outside']} outside, {boxes['boundary']} boundary"
+    if found.note:
+        yield f"note: {found.note}"
+    if found.sections:
+        last = found.sections[0].coordinate
+        yield ""
+        yield table(
+            (f"section at {last}", f"least [{found.sections[0].unit}]", f"most [{found.sections[0].unit}]"),
+            [(f"{item[last]:g}", *bounds(*item["area"])) for item in data["sections"]],
+        )
+        for item in data["sections"]:
+            if item["stopped"]:
+                yield f"note: section at {item[last]:g}: {item['stopped']}"
+
+
+def _box(record: Mechanism, question: Question, text: str, shared: Shared) -> Outcome:
+    from assur.workspace.certified.proving import prove_box
+
+    example = f"{record.platform.pose[0]}=-20:20"
+    box = dict(question.box)
+    for name, pair in assignments(text.split(","), "--prove", example).items():
+        low, high = interval(pair, f"--prove {name}", example)
+        _known(record, name)
+        box[name] = (low * _factor(record, name), high * _factor(record, name))
+    with progress("proof", shared) as step:
+        found = prove_box(record, box, question.mode, question.strokes, held=question.held, progress=step)
+    data = {"mechanism": record.name, **_outside(record, found.to_json())}
+    code = {"proved": 0, "refuted": REFUTED, "undecided": UNDECIDED}[found.status]
+    return Outcome(data, lambda: _shown_box(record, found, data), exit_code=code)
+
+
+def _shown_box(record: Mechanism, found: ProvedBox, data: Mapping[str, Any]) -> Iterable[RenderableType]:
+    yield heading(f"{record.name}, a box in working mode {found.mode}")
+    yield f"box: {_pairs(record, data['coordinates'], data['box'])}"
+    if data["held"]:
+        yield f"held: {_values(record, data['held'])}"
+    yield "question: is every pose reached within limits, and none singular?"
+    yield f"answer: {found.status}"
+    if found.status != "proved":
+        yield f"proved for {100 * found.share:.4g} % of it"
+    if found.witness is not None:
+        yield f"fails at: {_values(record, data['witness']['pose'])}"
+        yield f"because: {found.witness.why}"
+    boxes = data["boxes"]
+    if boxes["failed"] or boxes["doubtful"]:
+        yield f"parts: {boxes['proved']} proved, {boxes['failed']} not reached at all, {boxes['doubtful']} undecided"
+        yield ""
+        rows = [("not reached", item) for item in boxes["largest_failed"][:5]]
+        rows += [("undecided", item) for item in boxes["largest_doubtful"][:5]]
+        yield table(
+            ("the largest parts", *boxes["coordinates"]),
+            [(word, *(f"{low:.5g} .. {high:.5g}" for low, high in item)) for word, item in rows],
+            left=("the largest parts",),
+        )
+    if found.stopped:
+        yield f"note: {found.stopped}; what was not looked at counts as undecided"
+
+
+def _largest(record: Mechanism, question: Question, asked: Asked, shape: ShapeName, shared: Shared) -> Outcome:
+    from assur.workspace.certified.largest import largest
+
+    example = "x=0,y=0,z=400"
+    centre = {}
+    for name, text in assignments((asked.around or "").split(","), "--around", example).items():
+        _known(record, name)
+        centre[name] = number(text, f"--around {name}") * _factor(record, name)
+    ratio = 1.0 if asked.ratio is None else number(asked.ratio, "--ratio")
+    with progress(f"largest {shape}", shared) as step:
+        found = largest(
+            record, shape, centre, ratio, question.mode, question.strokes, held=question.held, progress=step
+        )
+    data = {"mechanism": record.name, **_outside(record, found.to_json())}
+    code = 0 if found.size > 0 else REFUTED if found.witness is not None else UNDECIDED
+    return Outcome(data, lambda: _shown_largest(record, found, data), exit_code=code)
+
+
+def _shown_largest(record: Mechanism, found: LargestShape, data: Mapping[str, Any]) -> Iterable[RenderableType]:
+    name = found.shape.name
+    yield heading(f"{record.name}, the largest {name} in working mode {found.mode}")
+    yield f"around: {_values(record, data['centre'])}"
+    if data["held"]:
+        yield f"held: {_values(record, data['held'])}"
+    yield "inside: every pose is reached within limits, and none is singular"
+    side = "edge" if name == "cube" else "diameter"
+    more = "" if found.height is None else f", height {found.height:.7g} {record.unit}"
+    yield f"proved up to: {side} {found.size:.7g} {record.unit}{more}"
+    if found.witness is not None:
+        yield f"not beyond: {side} {found.refuted:.7g} {record.unit}"
+        yield f"fails at: {_values(record, data['witness']['pose'])}"
+        yield f"because: {found.witness.why}"
+    if found.stopped:
+        yield f"note: {NOTES[found.stopped]}"
+
+
+NOTES = {
+    "interrupted": "interrupted: this is the size reached",
+    "undecided": "between the two sizes nothing could be decided",
+    "no limit": "nothing fails within the farthest size looked at",
+}
+
+
+def _known(record: Mechanism, name: str) -> None:
+    from assur.workspace.slices import coordinates
+
+    if name not in coordinates(record):
+        raise UnknownNameError(f"pose coordinate of {record.name}", name, coordinates(record))
+
+
+def _factor(record: Mechanism, name: str) -> float:
+    return math.pi / 180 if record.angle == "deg" and not is_length(name) else 1.0
+
+
+def _outside(record: Mechanism, data: dict[str, Any]) -> dict[str, Any]:
+    """The same with angles of poses in the mechanism's angle unit; volumes keep their unit, which they say."""
+
+    def pair(name: str, ends: Sequence[float]) -> list[float]:
+        return [end / _factor(record, name) for end in ends]
+
+    def pose(values: Mapping[str, float]) -> dict[str, float]:
+        return {name: value / _factor(record, name) for name, value in values.items()}
+
+    changed = dict(data)
+    if "box" in data:
+        changed["box"] = [pair(*item) for item in zip(data["coordinates"], data["box"], strict=True)]
+    for key in ("held", "centre"):
+        if key in data:
+            changed[key] = pose(data[key])
+    if data.get("witness"):
+        changed["witness"] = {**data["witness"], "pose": pose(data["witness"]["pose"])}
+    boxes = dict(data.get("boxes", {}))
+    for key in ("largest_failed", "largest_doubtful"):
+        if key in boxes:
+            boxes[key] = [[pair(*item) for item in zip(boxes["coordinates"], box, strict=True)] for box in boxes[key]]
+    if boxes:
+        changed["boxes"] = boxes
+    if "sections" in data:
+        last = data["coordinates"][-1]
+        changed["sections"] = [{**item, last: item[last] / _factor(record, last)} for item in data["sections"]]
+    return changed
+
+
+def _pairs(record: Mechanism, names: Sequence[str], pairs: Sequence[Sequence[float]]) -> str:
+    parts = []
+    for name, (low, high) in zip(names, pairs, strict=True):
+        parts.append(f"{name} {low:g} .. {high:g} {record.unit if is_length(name) else record.angle}")
+    return ", ".join(parts)
+
+
+def _values(record: Mechanism, values: Mapping[str, float]) -> str:
+    units = {name: record.unit if is_length(name) else record.angle for name in values}
+    return ", ".join(f"{name} = {value:.7g} {units[name]}" for name, value in values.items())
+
+
+def bounds(low: float, high: float) -> tuple[str, str]:
+    """Proved bounds as text, rounded outwards to the second digit of their difference.
+
+    >>> bounds(22810123.414, 22824645.233), bounds(0.0, 0.0)
+    (('22810000', '22825000'), ('0', '0'))
+    """
+    if not high > low:
+        return f"{low:.17g}", f"{high:.17g}"
+    from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
+
+    with localcontext() as context:
+        context.prec = 1100  # enough for any two floats
+        step = Decimal(1).scaleb((Decimal(high) - Decimal(low)).adjusted() - 1)
+        least = (Decimal(low) / step).to_integral_value(ROUND_FLOOR) * step
+        most = (Decimal(high) / step).to_integral_value(ROUND_CEILING) * step
+        if step.adjusted() < -15:
+            return str(least.normalize()), str(most.normalize())
+        return f"{least:f}", f"{most:f}"

@@ -1,0 +1,123 @@
+"""How a certified answer to a direct or an inverse problem reads, and what exit code it gives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from assur.cli.options import MethodName, Outcome
+from assur.cli.output import heading, table
+from assur.cli.positions import NO_SOLUTION, UNDECIDED
+from assur.cli.quantities import Style, pose_text, short, style_of, tiny
+from assur.errors import UsageError
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from assur.kinematics.certified.certify import Way
+    from assur.kinematics.certified.result import Certificate
+    from assur.mechanism import Mechanism
+
+WAYS: dict[str, Way] = {"auto": "auto", "closed form": "closed form", "loops": "joint graph", "search": "boxes"}
+
+
+def way_of(method: MethodName, mode: str | None, *, crossed: bool) -> Way:
+    """The way to certify that the options ask for.
+
+    Errors:
+        UsageError: one mode alone, or crossed parallelograms, which no certificate knows.
+
+    >>> way_of("search", None, crossed=False)
+    'boxes'
+    """
+    if mode is not None:
+        raise UsageError("--certify is about all modes together", hint="leave --mode out")
+    if crossed:
+        raise UsageError("--certify leaves crossed parallelograms out", hint="leave --crossed out")
+    return WAYS[method]
+
+
+def outcome(record: Mechanism, found: Certificate) -> Outcome:
+    """The outcome: exit code 4 where it is proved that there is no solution, 5 where something is undecided."""
+    from assur.kinematics.certified.result import answer
+
+    data = answer(found)
+    code = UNDECIDED if not found.proved else 0 if len(found) else NO_SOLUTION
+    return Outcome(data, lambda: _shown(record, data, found.headline), code)
+
+
+def _shown(record: Mechanism, data: dict[str, Any], headline: str) -> Iterable[RenderableType]:
+    style = style_of(record)
+    problem = "direct" if "inputs" in data else "inverse"
+    yield heading(f"{data['mechanism']}, {problem}: {headline}")
+    yield _given(record, data, style)
+    yield ""
+    if data["solutions"]:
+        yield _solutions(record, data, style)
+    if data["undecided"]:
+        yield _undecided(data, style)
+    yield from _right(record, data)
+
+
+def _given(record: Mechanism, data: dict[str, Any], style: Style) -> str:
+    if "pose" in data:
+        return f"at {pose_text(style, data['coordinates'], data['pose'])}"
+    kinds = [item.coordinate.kind for item in record.inputs]
+    given = zip(data["input_names"], kinds, data["inputs"], strict=True)
+    return (
+        f"at {', '.join(f'{name} = {style.kind(kind, value)} {style.kind_unit(kind)}' for name, kind, value in given)}"
+    )
+
+
+def _solutions(record: Mechanism, data: dict[str, Any], style: Style) -> RenderableType:
+    """Middles of the bounds, and the largest distance of a bound from its middle."""
+    direct = "inputs" in data
+    if direct:
+        titles = [style.coordinate_title(name) for name in data["coordinates"]]
+    else:
+        kinds = [item.coordinate.kind for item in record.inputs]
+        titles = [f"{name} [{style.kind_unit(kind)}]" for name, kind in zip(data["input_names"], kinds, strict=True)]
+    other = "working_mode" if direct else "assembly_mode"
+    rows, hows = [], list(dict.fromkeys(item["how"] for item in data["solutions"]))
+    for item in data["solutions"]:
+        bounds = item["pose" if direct else "inputs"]
+        pairs = list(zip(bounds["low"], bounds["high"], strict=True))
+        middles = [0.5 * (low + high) for low, high in pairs]
+        if direct:
+            values = [style.coordinate(*pair) for pair in zip(data["coordinates"], middles, strict=True)]
+        else:
+            values = [style.kind(*pair) for pair in zip(kinds, middles, strict=True)]
+        off = max(0.5 * (high - low) for low, high in pairs)
+        rows.append((item["mode"], *values, tiny(off), item[other], str(hows.index(item["how"]) + 1)))
+    return table(("mode", *titles, "+-", other.partition("_")[0], "proof"), rows)
+
+
+def _undecided(data: dict[str, Any], style: Style) -> RenderableType:
+    rows = []
+    for item in data["undecided"]:
+        if item["name"] == "pose":
+            names = data["coordinates"]
+            low, high = (
+                "\n".join(f"{name} {style.coordinate(name, value)}" for name, value in zip(names, ends, strict=True))
+                for ends in (item["low"], item["high"])
+            )
+        else:
+            low, high = (short(item[end][0]) for end in ("low", "high"))
+        rows.append((item["name"], low, high, item["unit"], item["meaning"], str(item["branches"])))
+    return table(
+        ("undecided", "from", "to", "unit", "which is", "branches"), rows, left=("undecided", "unit", "which is")
+    )
+
+
+def _right(record: Mechanism, data: dict[str, Any]) -> Iterable[str]:
+    hows = list(dict.fromkeys(item["how"] for item in data["solutions"]))
+    yield from (f"proof {k}: {how}" for k, how in enumerate(hows, 1))
+    form = record.closed_form
+    because = f" ({form.reduced_because})" if form is not None and form.reduced_because else ""
+    model = f"the reduced model{because}" if data["complete_for"] == "reduced" else "the joint graph"
+    if data["proved"]:
+        yield f"Complete for {model}, by {data['right']}."
+    elif data["complete"]:
+        yield f"Complete for {model} but for what is undecided, by {data['right']}."
+    else:
+        yield f"Whether these are all is not proved: {data['right']}."

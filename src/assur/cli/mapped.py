@@ -1,0 +1,159 @@
+"""Index maps as data, as files and as a person reads them."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from assur.cli import regions
+from assur.cli.indexed import Length, length_words
+from assur.cli.numbers import assignments, whole_number
+from assur.cli.options import Outcome, Shared
+from assur.cli.output import heading, table
+from assur.cli.paths import output_file
+from assur.cli.progress import progress
+from assur.cli.quantities import point_text, point_title, short, style_of
+from assur.errors import UnknownNameError, UsageError
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from assur.mechanism import Mechanism
+    from assur.workspace.index_maps import IndexMaps
+    from assur.workspace.region import Workspace
+
+PICTURES = (".png", ".pdf", ".svg")
+ENDINGS = (".npz", ".csv", ".json", *PICTURES)
+
+
+def over_plane(
+    record: Mechanism,
+    plane: str,
+    at: Sequence[str],
+    asked: tuple[str | None, Sequence[str], Sequence[str], str],
+    nodes: str,
+    output: str | None,
+    length: Length,
+    shared: Shared,
+) -> Outcome:
+    """Every index over the coordinates of `plane`; `asked` is the mode, boxes, strokes and resolution."""
+    from assur.workspace.index_maps import index_maps
+    from assur.workspace.region import workspace
+
+    names = _names(record, plane)
+    mode, box, stroke, resolution = asked
+    question = regions.question(record, mode, box, stroke, resolution, (), None, [*at, *_rest(record, names, at)])
+    count = whole_number(nodes, "--nodes")
+    written = None if output is None else output_file(output, ENDINGS)
+    if written is not None and written.suffix.lower() in PICTURES and len(names) != 2:
+        raise UsageError(f"cannot draw {len(names)} coordinates in {written}", hint="give two to --map, as --map x,z")
+    with progress("workspace", shared) as step:
+        region = workspace(
+            record,
+            question.mode,
+            question.box,
+            question.strokes,
+            question.resolution,
+            (),
+            held=question.held,
+            progress=step,
+        )
+    with progress("index maps", shared):
+        found = index_maps(record, region, names, nodes=count, characteristic_length=length)
+    shown = found.in_degrees() if record.angle == "deg" else found
+    if written is not None:
+        _write(written, record, region, found, shown)
+    return Outcome(shown.to_json(), lambda: _shown(record, shown, written))
+
+
+def _names(record: Mechanism, plane: str) -> tuple[str, ...]:
+    from assur.workspace.slices import coordinates
+
+    names = tuple(name.strip() for name in plane.split(","))
+    for name in names:
+        if name not in coordinates(record):
+            raise UnknownNameError(f"pose coordinate of {record.name}", name, coordinates(record))
+    if len(set(names)) < len(names):
+        raise UsageError(f"--map: {plane} names a coordinate twice", hint="give different ones, as --map x,z")
+    return names
+
+
+def _rest(record: Mechanism, names: Sequence[str], at: Sequence[str]) -> list[str]:
+    """The coordinates of which nothing was said, held where they are at home (angles of many) or in mid-box."""
+    from assur.kinematics.answers.at_border import angle_at_border
+    from assur.model.pose import LENGTHS
+    from assur.workspace.slices import MOST, coordinates, slice_at
+
+    given = assignments(at, "--at", f"{record.platform.pose[-1]}=0")
+    twice = [name for name in names if name in given]
+    if twice:
+        raise UsageError(f"--map: {twice[0]} varies, and --at holds it", hint="leave one of the two out")
+    every = coordinates(record)
+    home = slice_at(record).held if len(every) > MOST else {}
+    texts = []
+    for name in every:
+        if name in names or name in given:
+            continue
+        if name not in home and name not in record.box:
+            raise UsageError(f"--map: nothing says where {name} is held", hint=f"add --at {name}=0")
+        value = home[name] if name in home else sum(record.box[name]) / 2
+        texts.append(f"{name}={value if name in LENGTHS else angle_at_border(record, value)!r}")
+    return texts
+
+
+def _write(path: Path, record: Mechanism, region: Workspace, found: IndexMaps, shown: IndexMaps) -> None:
+    from assur.results.files import write_whole
+    from assur.results.json_text import json_text
+
+    ending = path.suffix.lower()
+    if ending in PICTURES:
+        from assur.figures.context import Context
+        from assur.figures.encode import encoded
+        from assur.figures.index_maps import drawn
+        from assur.figures.style import styled
+
+        with styled():
+            figure = drawn(Context(record, region), found).figure
+        write_whole(path, encoded(figure, ending[1:]))
+    elif ending == ".npz":
+        import numpy as np
+
+        stream = io.BytesIO()
+        np.savez_compressed(stream, **shown.arrays())
+        write_whole(path, stream.getvalue())
+    else:
+        write_whole(path, shown.csv() if ending == ".csv" else json_text(shown.to_json()) + "\n")
+
+
+def _shown(record: Mechanism, found: IndexMaps, written: Path | None) -> Iterable[RenderableType]:
+    import numpy as np
+
+    style, names = style_of(record), found.coordinates
+    of_mode = f" of working mode {found.mode}" if found.mode else ""
+    yield heading(f"{found.mechanism}, index maps{of_mode}")
+    axes = ", ".join(f"{name} {nodes[0]:g} .. {nodes[-1]:g}" for name, nodes in found.axes)
+    held = "".join(f", {name} = {value:g}" for name, value in found.held.items())
+    inside = int(np.sum(np.isfinite(found["transmission"])))
+    yield f"over {axes}{held}: {inside} of {found.status.size} nodes in the workspace"
+    yield ""
+    rows: list[tuple[Any, ...]] = []
+    for name, item in found.maps.items():
+        if item.least is None or item.most is None or item.mean is None:
+            rows.append((name, item.unit, "none", "none", "", "none", ""))
+            continue
+        least, most = (point_text(style, names, end.at) for end in (item.least, item.most))
+        rows.append((name, item.unit, *map(short, (item.mean, item.least.value)), least, short(item.most.value), most))
+    where = point_title(style, names)
+    yield table(("index", "unit", "mean", "least", f"at {where}", "most", f"at {where}"), rows, left=("index", "unit"))
+    yield "means and extremes are those of the nodes; without --map they come with errors"
+    if found.reach is not None:
+        beyond = int(np.sum(np.isinf(found["distance"])))
+        yield (
+            f"distance: from the nearest parallel singularity that rays found within {found.reach:g} {found.unit}"
+            f" (none from {beyond} nodes)"
+        )
+    yield length_words(record, found.length)
+    if written is not None:
+        yield f"written: {written}"

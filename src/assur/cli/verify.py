@@ -1,0 +1,93 @@
+"""`assur verify`: a certificate checked by the small verifier, and compared with the mechanism as it is now."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Parameter
+
+from assur.cli.options import PLAIN, Outcome, Plain
+from assur.errors import UnknownNameError, UsageError
+
+if TYPE_CHECKING:
+    from assur.model.mechanism import MechanismRecord
+
+REFUSED, MALFORMED, UNDECIDED = 1, 3, 5
+
+
+def verify(
+    file: Annotated[str, Parameter(name="FILE", help="A certificate that `assur certify` wrote.")],
+    /,
+    *,
+    mechanism: Annotated[
+        str | None, Parameter(help="Name or file of the mechanism; the name in the certificate if left out.")
+    ] = None,
+    shared: Plain = PLAIN,  # noqa: ARG001  # read by main
+) -> Outcome:
+    """Check a certificate with the small verifier.
+
+    It proves every leaf again by ball arithmetic, with exact volumes, and shares
+    no code with what made the file. Then the formulas are recorded anew from the
+    mechanism's files and compared. Exit code 1: refused, a leaf or a claim does
+    not hold or it is that of another mechanism or version; 3: no whole
+    certificate; 5: it holds, but the mechanism is not at hand.
+
+    For example:
+        assur verify cert.json
+        assur verify cert.json --mechanism my_mechanism.toml
+    """
+    path = Path(file)
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise UsageError(f"cannot read {path}: {error.strerror}", hint="give a file of `assur certify`") from error
+    from assur.verifier.check import verify as checked
+    from assur.verifier.reading import MalformedError, RefusedError
+
+    start = time.perf_counter()
+    try:
+        document = checked(content)
+    except MalformedError as error:
+        return _refused(path, str(error), MALFORMED)
+    except RefusedError as error:
+        return _refused(path, str(error), REFUSED)
+    seconds = time.perf_counter() - start
+    return _compared(path, document, mechanism, seconds)
+
+
+def _compared(path: Path, document: dict[str, Any], mechanism: str | None, seconds: float) -> Outcome:
+    """The certificate holds for its formulas; whether they are the mechanism's."""
+    from assur.certificates.recorded import differences, record_of
+
+    try:
+        record: MechanismRecord | None = record_of(document, mechanism)
+    except UnknownNameError:
+        if mechanism is not None:
+            raise
+        record = None
+    different = differences(document, record) if record is not None else ()
+    if different:
+        return _refused(path, f"another mechanism or version: {'; '.join(different)}", REFUSED)
+    whose = "the mechanism's, recorded anew" if record is not None else "not compared: the mechanism is not at hand"
+    return _verified(document, record, whose, seconds)
+
+
+def _verified(document: dict[str, Any], record: MechanismRecord | None, whose: str, seconds: float) -> Outcome:
+    from assur.certificates.summary import claim_lines, statement_lines
+    from assur.cli.output import heading
+
+    first, *rest = [*statement_lines(document, record), *claim_lines(document, record)]
+    how = f"proved: every leaf by ball arithmetic, volumes exact, in {seconds:.2g} s"
+    known = {key: document[key] for key in ("kind", "statement", "claims", "made_by", "sha256")}
+    data = {"verified": True, "mechanism_compared": record is not None, "seconds": seconds, **known}
+    shown = [heading(first), *rest, how, f"formulas: {whose}"]
+    return Outcome(data, lambda: shown, 0 if record is not None else UNDECIDED)
+
+
+def _refused(path: Path, why: str, code: int) -> Outcome:
+    from assur.cli.output import heading
+
+    text = " ".join(why.split())
+    return Outcome({"verified": False, "refused": text}, lambda: [heading(f"refused: {path}"), text], code)

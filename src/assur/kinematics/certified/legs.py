@@ -1,0 +1,71 @@
+"""The direct problem as equations of the pose: the inputs that the inverse kernel gives are those that are given.
+
+In each working mode the kernel says which inputs hold the platform at a pose; its radicands must not be negative. Its
+algebra is the legs' own, so what is proved with it owes nothing to the closed form of the direct problem.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.certified.given import joint_inputs, parameters, pose_numbers
+from assur.kinematics.modes import sign_names
+from assur.kinematics.status import closed_form_of
+from assur.model.mechanism import MechanismRecord
+from assur.numerics.krawczyk import Equations
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Legs:
+    """Conditions for poses at printed inputs (n,); a label is a row of `modes`, the working modes.
+
+    They are what `assur.numerics.branch_and_prune` asks for: as many equations as coordinates of the pose, and the
+    margins of the kernel, which must not be negative.
+    """
+
+    record: MechanismRecord
+    inputs: FloatArray
+
+    @cached_property
+    def modes(self) -> FloatArray:
+        """Signs (2^s, s) of every working mode, plus before minus, the last running fastest."""
+        names = sign_names(self.record, "inverse")
+        return np.array(list(itertools.product((1.0, -1.0), repeat=len(names)))).reshape(2 ** len(names), len(names))
+
+    @cached_property
+    def _given(self) -> tuple[Any, ...]:
+        return joint_inputs(self.record, self.inputs)
+
+    @cached_property
+    def _parameters(self) -> SimpleNamespace:
+        return parameters(self.record)
+
+    def __call__(self, ns: Any, numbers: tuple[Any, ...], labels: IntArray) -> tuple[Sequence[Any], Sequence[Any]]:
+        """Equations and inequalities at poses of any number type, (N,) per coordinate, angles in rad."""
+        form, names = closed_form_of(self.record), sign_names(self.record, "inverse")
+        sign = SimpleNamespace(**{name: self.modes[labels, k] for k, name in enumerate(names)})
+        branch = form.inverse(ns, self._parameters, pose_numbers(self.record, numbers), sign)
+        zero: list[Any] = []
+        positive = [branch.margins[item.name] for item in form.inverse_margins if item.zero == "merge"]
+        for found, wanted in zip(branch.inputs, self._given, strict=True):
+            if isinstance(wanted, tuple):  # an angle: the sine of the difference is zero, its cosine is positive
+                zero.append(found[1] * wanted[0] - found[0] * wanted[1])
+                positive.append(found[0] * wanted[0] + found[1] * wanted[1])
+            else:
+                zero.append(found - wanted)
+        return zero, positive
+
+    def equations(self, labels: IntArray) -> Equations:
+        """The equations alone, of poses whose labels (N,) are known."""
+        return lambda ns, numbers: self(ns, numbers, labels)[0]

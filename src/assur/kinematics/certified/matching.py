@@ -1,0 +1,107 @@
+"""Two proofs of one answer: bounds of every branch from the closed form, and bounds of every pose from the legs alone.
+
+The closed form says how many poses there are at most; the legs prove so many at least. Where the numbers agree the
+answer is complete, even if the bounds of a branch are too wide to tell that it exists.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.certified.branches import Judged, grouped
+from assur.kinematics.certified.proofs import Proofs
+from assur.kinematics.certified.result import Certificate, Doubt, ProvedSolution
+from assur.kinematics.status import closed_form_of
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import is_angle
+from assur.numerics.intervals.functions import TURN
+from assur.numerics.intervals.interval import Interval, common
+
+FloatArray = NDArray[np.float64]
+BOTH = "closed form over intervals, and Krawczyk on the legs"
+FORM = "closed form over intervals"
+LEGS = "Krawczyk on the legs"
+
+
+@dataclass(frozen=True, eq=False)
+class Candidates:
+    """Branches of a closed form over intervals, their modes and the working modes of the float answer, if known."""
+
+    branches: Judged
+    modes: tuple[str, ...]
+    working: tuple[str, ...]
+
+
+def matched(
+    record: MechanismRecord,
+    inputs: FloatArray,
+    candidates: Candidates,
+    known: Proofs,
+    floats: SolutionSet,
+    right: str,
+    extra: Sequence[Doubt] = (),
+) -> Certificate:
+    """The certificate of a direct problem (n,) from both proofs; `extra` are doubts that no branch answers for."""
+    found = candidates.branches
+    names = record.platform.pose
+    turned = {int(k): _turned(names, found.pose[k], known.pose) for k in np.flatnonzero(~found.absent)}
+    rivals = {k: _meeting(found.pose[k], bounds) for k, bounds in turned.items()}
+    possible = int(np.sum(~found.absent))
+    settled = len(known.rows) == possible and not extra and not np.any(~found.exists & ~found.absent & ~found.merging)
+    solutions: list[ProvedSolution] = []
+    taken: set[int] = set()
+    for k in np.flatnonzero(found.exists).tolist():
+        bounds, how = found.pose[k], FORM
+        one = rivals[k][0] if len(rivals[k]) == 1 else -1
+        if one >= 0 and (settled or bool(np.all(bounds.within(_turned(names, bounds, known.alone)[one])))):
+            bounds, how = common(bounds, turned[k][one])[0], BOTH
+            taken.add(one)
+        solutions.append(_solution(inputs, bounds, candidates.modes[k], candidates.working[k], how))
+    held = {j for k in np.flatnonzero(found.exists).tolist() for j in rivals[k]}
+    left = [j for j in range(len(known.rows)) if j not in taken | held]
+    doubts = list(found.doubts)
+    for j in left:
+        row = int(known.rows[j])
+        labels = str(floats.labels[row]), str(floats.other_labels[row])
+        solutions.append(_solution(inputs, known.pose[j], *labels, LEGS))
+    if settled:
+        doubts = []
+    if len(solutions) > possible or len(known.rows) > possible:
+        doubts.append((-1, Doubt("pose", *_ends(known.pose), "the closed form and the legs disagree here")))
+    form = closed_form_of(record)
+    undecided = (*grouped(doubts), *extra)
+    return Certificate(
+        record, "direct", inputs, tuple(solutions), undecided, True, form.complete_for, right, found.by
+    )  # fmt: skip
+
+
+def _meeting(bounds: Interval, known: Interval) -> list[int]:
+    """Which of the proved poses (K, m) may be the one in these bounds (m,)."""
+    return [j for j in range(len(known.low)) if not np.any(common(known[j], bounds)[1])]
+
+
+def _solution(inputs: FloatArray, pose: Interval, mode: str, working: str, how: str) -> ProvedSolution:
+    return ProvedSolution(pose, Interval.of(inputs), mode, working, mode, how)
+
+
+def _turned(names: tuple[str, ...], bounds: Interval, known: Interval) -> Interval:
+    """Poses (K, m) with their angles moved by whole turns to where the bounds (m,) of a branch are."""
+    for k, name in enumerate(names):
+        turns = np.round((bounds.middle[k] - known.middle[:, k]) / TURN.middle) if is_angle(name) else 0.0
+        if np.any(turns):
+            column = known[:, k] + TURN * turns
+            low, high = known.low.copy(), known.high.copy()
+            low[:, k] = np.where(turns == 0, low[:, k], column.low)
+            high[:, k] = np.where(turns == 0, high[:, k], column.high)
+            known = Interval.of(low, high)
+    return known
+
+
+def _ends(bounds: Interval) -> tuple[FloatArray, FloatArray]:
+    """The hull of poses (K, m)."""
+    return np.min(bounds.low, axis=0), np.max(bounds.high, axis=0)

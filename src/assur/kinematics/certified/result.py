@@ -1,0 +1,172 @@
+"""What a certificate says: solutions with bounds, proved one by one; what is undecided; whether that is all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics import border
+from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
+from assur.kinematics.modes import Problem
+from assur.model.mechanism import MechanismRecord
+from assur.numerics.intervals.interval import Interval
+from assur.results.json_text import plain
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class ProvedSolution:
+    """A solution that certainly exists, and is the only one within these bounds.
+
+    Attributes:
+        pose, inputs: bounds (m,) and (n,), lengths and rad; what was given is exact.
+        mode: the signs that name it among the solutions of its problem.
+        working_mode, assembly_mode: both names of the configuration, as the float answer has them.
+        how: by what it is proved.
+    """
+
+    pose: Interval
+    inputs: Interval
+    mode: str
+    working_mode: str
+    assembly_mode: str
+    how: str
+
+    @property
+    def width(self) -> float:
+        """The widest of its bounds, lengths and rad alike."""
+        return float(np.max([np.max(self.pose.width, initial=0.0), np.max(self.inputs.width, initial=0.0)]))
+
+
+@dataclass(frozen=True, eq=False)
+class Doubt:
+    """Where nothing is proved: a margin whose bounds hold zero, or a box of poses.
+
+    Attributes:
+        name: of the margin, or "pose".
+        low, high: (1,) bounds of the margin, or (m,) of the poses, lengths and rad.
+        meaning: what it means, in one phrase.
+        unit: power of the length unit of a margin.
+        branches: how many branches are in doubt for this reason.
+    """
+
+    name: str
+    low: FloatArray
+    high: FloatArray
+    meaning: str
+    unit: int = 0
+    branches: int = 1
+
+
+@dataclass(frozen=True, eq=False)
+class Certificate:
+    """The proved answer to one direct or inverse problem, as far as it could be proved.
+
+    Attributes:
+        problem: "direct" or "inverse".
+        given: (n,) inputs or (m,) a pose, each float taken as the exact number that it is, angles in rad.
+        solutions: proved one by one, no two the same.
+        undecided: where there may be others, or none.
+        complete: whether it is proved that outside of `undecided` there is no other solution.
+        complete_for: for which model: "joint_graph" or "reduced".
+        right: by what right it is complete, or why it is not.
+        excluded: margin -> how many branches it excludes.
+    """
+
+    record: MechanismRecord
+    problem: Problem
+    given: FloatArray
+    solutions: tuple[ProvedSolution, ...]
+    undecided: tuple[Doubt, ...]
+    complete: bool
+    complete_for: Literal["joint_graph", "reduced"]
+    right: str
+    excluded: dict[str, int] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        return f"<{self.problem} certificate of {self.record.name}: {self.headline}>"
+
+    def __len__(self) -> int:
+        return len(self.solutions)
+
+    def __iter__(self) -> Iterator[ProvedSolution]:
+        return iter(self.solutions)
+
+    @property
+    def proved(self) -> bool:
+        """Whether these are proved to be all solutions; where it is false the answer is undecided, never a guess."""
+        return self.complete and not self.undecided
+
+    @property
+    def headline(self) -> str:
+        """The answer in one phrase."""
+        count = f"{len(self.solutions)} solution{'' if len(self.solutions) == 1 else 's'}"
+        if self.proved:
+            return f"proved, {count} and no other" if self.solutions else "proved, no solution"
+        places = f"{len(self.undecided)} place{'' if len(self.undecided) == 1 else 's'}"
+        where = f"undecided in {places}" if self.undecided else "whether there are others is not"
+        return f"{count} proved, {where}"
+
+
+def answer(found: Certificate) -> dict[str, Any]:
+    """A certificate as plain data, angles in the mechanism's angle unit.
+
+    Bounds are those inside; in degrees they are rounded to the nearest float.
+
+    >>> from assur.kinematics.certified.certify import certified_direct
+    >>> from assur.model.registry import load_record
+    >>> data = answer(certified_direct(load_record("zeng2019"), [162.6907, -143.3209, -24.6776]))
+    >>> data["proved"], len(data["solutions"]), data["solutions"][0]["mode"]
+    (True, 4, '+++')
+    """
+    record = found.record
+    direct = found.problem == "direct"
+    given = inputs_at_border(record, found.given) if direct else pose_at_border(record, found.given)
+    return {
+        "mechanism": record.name,
+        "unit": record.unit,
+        "angle": record.angle,
+        "coordinates": list(record.platform.pose),
+        "input_names": list(border.input_names(record)),
+        ("inputs" if direct else "pose"): plain(given),
+        "proved": found.proved,
+        "complete": found.complete,
+        "complete_for": found.complete_for,
+        "right": found.right,
+        "solutions": [_solution(found, item) for item in found.solutions],
+        "undecided": [_doubt(record, item) for item in found.undecided],
+        "excluded": dict(found.excluded),
+    }
+
+
+def _solution(found: Certificate, item: ProvedSolution) -> dict[str, Any]:
+    record = found.record
+    if found.problem == "direct":
+        bounds = {"pose": _bounds(pose_at_border(record, item.pose.low), pose_at_border(record, item.pose.high))}
+        other = {"working_mode": item.working_mode}
+    else:
+        low, high = (inputs_at_border(record, end) for end in (item.inputs.low, item.inputs.high))
+        bounds, other = {"inputs": _bounds(low, high)}, {"assembly_mode": item.assembly_mode}
+    return {**bounds, "mode": item.mode, **other, "how": item.how}
+
+
+def _doubt(record: MechanismRecord, item: Doubt) -> dict[str, Any]:
+    low, high = item.low, item.high
+    if item.name == "pose":
+        low, high = pose_at_border(record, low), pose_at_border(record, high)
+    return {
+        "name": item.name,
+        **_bounds(low, high),
+        "unit": power(record.unit, item.unit),
+        "meaning": item.meaning,
+        "branches": item.branches,
+    }
+
+
+def _bounds(low: FloatArray, high: FloatArray) -> dict[str, Any]:
+    return {"low": plain(low), "high": plain(high)}

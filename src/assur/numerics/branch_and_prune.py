@@ -1,0 +1,230 @@
+"""All zeros of n equations in boxes: what holds none is thrown away, what holds one is kept, the rest is halved.
+
+A box is thrown away where an equation cannot be zero in it, an inequality cannot hold, or its Krawczyk image misses it
+(`assur.numerics.krawczyk`). What is left when boxes are too small or too many is handed back as undecided.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from assur.numerics.intervals.interval import Interval, as_interval, common
+from assur.numerics.intervals.shapes import concatenate, empty
+from assur.numerics.krawczyk import image, inflated, parts, proves, refutes, tightened
+from assur.numerics.number_types import Intervals
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.intp]
+Conditions = Callable[[Any, tuple[Any, ...], IntArray], tuple[Sequence[Any], Sequence[Any]]]
+"""(namespace, n numbers (N,), labels (N,)) -> n numbers that are to be zero, others that must not be negative."""
+
+FINE_ENOUGH = 0.25
+"""Part of the scale below which a box is tested by its image: a wider one is only halved."""
+
+MOST_CLUSTERED = 1000
+"""Of more undecided boxes than these only one hull is given."""
+
+
+class Existing(Intervals):
+    """Intervals whose root is defined of what is not negative in its radicand: for places that a condition allows.
+
+    Where a radicand is negative there is no solution, and a condition of its own says so; so nothing is lost.
+
+    >>> bool(Existing().sqrt(Interval.of(-1.0, 4.0)).defined), bool(Existing().sqrt(Interval.of(-1.0, 4.0)).contains(2))
+    (True, True)
+    """
+
+    def sqrt(self, radicand: Any, /) -> Interval:
+        """Root of max(radicand, 0)."""
+        number = as_interval(radicand)
+        root = number.sqrt()
+        return Interval(root.low, root.high, number.defined)
+
+
+@dataclass(frozen=True, eq=False)
+class Zeros:
+    """What is known of the zeros in some boxes.
+
+    Attributes:
+        found: (K, n) narrow boxes that hold exactly one zero each, no two the same.
+        labels: (K,) the label of each.
+        undecided: (U, n) boxes in which nothing is proved, neighbours joined; every other zero would be in one of them.
+        undecided_labels: (U,) theirs; -1 where boxes of several labels were joined.
+        examined: how many boxes were looked at.
+    """
+
+    found: Interval
+    labels: IntArray
+    undecided: Interval
+    undecided_labels: IntArray
+    examined: int
+
+
+def zeros(
+    conditions: Conditions,
+    boxes: Interval,
+    labels: IntArray,
+    scale: ArrayLike,
+    *,
+    smallest: float = 1e-7,
+    most: int = 200_000,
+    total: int = 5_000_000,
+) -> Zeros:
+    """Every zero in boxes (N, n), each with a label that the conditions are told.
+
+    Args:
+        conditions: what is to hold.
+        boxes: where to look.
+        labels: (N,) such as a number of a choice of signs.
+        scale: (n,) sizes of the unknowns, against which widths are judged.
+        smallest: part of the scale below which a box is not halved any more.
+        most, total: so many boxes at most are open at once, and looked at, else all open ones are undecided.
+
+    Example: x^2 = 2, x y = 1, between -3 and 3.
+
+    >>> answer = zeros(lambda ns, x, label: ([x[0] * x[0] - 2, x[0] * x[1] - 1], []),
+    ...     Interval.of([[-3.0, -3.0]], [[3.0, 3.0]]), np.zeros(1, dtype=int), [1.0, 1.0])
+    >>> sorted(answer.found.middle.round(6).tolist()), len(answer.undecided.low)
+    ([[-1.414214, -0.707107], [1.414214, 0.707107]], 0)
+    """
+    size = np.broadcast_to(np.asarray(scale, dtype=float), boxes.shape[-1:])
+    proved: list[tuple[Interval, Interval, IntArray]] = []
+    left: list[tuple[Interval, IntArray]] = []
+    examined = 0
+    while len(boxes.low):
+        examined += len(boxes.low)
+        if len(boxes.low) > most or examined > total:
+            left.append((boxes, labels))
+            break
+        kept = ~excluded(conditions, boxes, labels)
+        boxes, labels = boxes[kept], labels[kept]
+        small = np.max(boxes.width / size, axis=-1) < FINE_ENOUGH
+        tested, known, open_ = _tested(conditions, boxes[small], labels[small], size)
+        proved.append(known)
+        boxes, labels = _joined([(boxes[~small], labels[~small]), (tested, labels[small][open_])], boxes.shape[-1])
+        done = np.max(boxes.width / size, axis=-1) < smallest
+        left.append((boxes[done], labels[done]))
+        boxes, labels = _halved(boxes[~done], labels[~done], size)
+    found, own, doubtful = _distinct(conditions, proved, boxes.shape[-1])
+    left.append(doubtful)
+    rest, of_rest = _clusters(*_joined(left, boxes.shape[-1]), 4 * smallest * size)
+    return Zeros(found, own, rest, of_rest, examined)
+
+
+def excluded(conditions: Conditions, boxes: Interval, labels: IntArray) -> NDArray[np.bool_]:
+    """Where (N,) boxes (N, n) certainly hold no zero, because one equation or one inequality says so."""
+    if not len(boxes.low):
+        return np.zeros(0, dtype=bool)
+    zero, positive = conditions(Existing(), parts(boxes), labels)
+    none = np.zeros(len(boxes.low), dtype=bool)
+    for value in zero:
+        none |= as_interval(value).nonzero
+    for value in positive:
+        none |= as_interval(value).negative
+    return none
+
+
+def certain(conditions: Conditions, boxes: Interval, labels: IntArray) -> NDArray[np.bool_]:
+    """Where (N,) every inequality certainly holds all over a box."""
+    _, positive = conditions(Intervals(), parts(boxes), labels)
+    sure = np.ones(len(boxes.low), dtype=bool)
+    for value in positive:
+        sure &= as_interval(value).positive
+    return sure
+
+
+def _tested(
+    conditions: Conditions, boxes: Interval, labels: IntArray, size: FloatArray
+) -> tuple[Interval, tuple[Interval, Interval, IntArray], NDArray[np.bool_]]:
+    """Boxes that stay open, narrowed; those proved with what is unique in them; and which (N,) stay open."""
+    if not len(boxes.low):
+        return boxes, (boxes, boxes, labels), np.zeros(0, dtype=bool)
+    wide = inflated(boxes, 1e-12 * size)
+    picture = image(_equations(conditions, labels), wide)
+    one = proves(picture, wide)
+    one[one] &= certain(conditions, picture[one], labels[one])
+    open_ = ~one & ~refutes(picture, boxes)
+    narrow, apart = common(boxes, picture)
+    usable = narrow.defined & ~apart
+    low, high = np.where(usable, narrow.low, boxes.low), np.where(usable, narrow.high, boxes.high)
+    return Interval(low, high, boxes.defined)[open_], (picture[one], wide[one], labels[one]), open_
+
+
+def _equations(conditions: Conditions, labels: IntArray) -> Callable[[Any, tuple[Any, ...]], Sequence[Any]]:
+    return partial(_zero_part, conditions, labels)
+
+
+def _zero_part(conditions: Conditions, labels: IntArray, ns: Any, x: tuple[Any, ...]) -> Sequence[Any]:
+    return conditions(ns, x, labels)[0]
+
+
+def _halved(boxes: Interval, labels: IntArray, size: FloatArray) -> tuple[Interval, IntArray]:
+    """Both halves of each box, across its widest coordinate against the scale."""
+    if not len(boxes.low):
+        return boxes, labels
+    rows, widest = np.arange(len(boxes.low)), np.argmax(boxes.width / size, axis=-1)
+    cut = boxes.middle[rows, widest]
+    below, above = boxes.high.copy(), boxes.low.copy()
+    below[rows, widest], above[rows, widest] = cut, cut
+    halves = Interval.of(np.concatenate([boxes.low, above]), np.concatenate([below, boxes.high]))
+    return halves, np.concatenate([labels, labels])
+
+
+def _joined(pieces: Sequence[tuple[Interval, IntArray]], width: int) -> tuple[Interval, IntArray]:
+    """All boxes and labels of some pieces, one after the other."""
+    boxes = [item for item, _ in pieces if len(item.low)]
+    if not boxes:
+        return empty(width), np.zeros(0, dtype=np.intp)
+    return concatenate(boxes), np.concatenate([label for item, label in pieces if len(item.low)])
+
+
+def _distinct(
+    conditions: Conditions, proved: Sequence[tuple[Interval, Interval, IntArray]], width: int
+) -> tuple[Interval, IntArray, tuple[Interval, IntArray]]:
+    """Each zero once, and what may be one zero or two.
+
+    Two proofs are of one zero where the narrow box of one lies where the other's is the only one, and of two where the
+    narrow boxes have nothing in common.
+    """
+    images, labels = _joined([(item, label) for item, _, label in proved], width)
+    unique, _ = _joined([(item, label) for _, item, label in proved], width)
+    if not len(images.low):
+        return images, labels, (images, labels)
+    narrow = tightened(_equations(conditions, labels), images)
+    kept: list[int] = []
+    doubtful: list[int] = []
+    for k in range(len(narrow.low)):
+        rivals = [j for j in kept if labels[j] == labels[k] and not np.any(common(narrow[j], narrow[k])[1])]
+        if not rivals:
+            kept.append(k)
+        elif not any(_within(narrow[k], unique[j]) or _within(narrow[j], unique[k]) for j in rivals):
+            doubtful.append(k)
+    return narrow[kept], labels[kept], (narrow[doubtful], labels[doubtful])
+
+
+def _within(one: Interval, other: Interval) -> bool:
+    return bool(np.all(one.within(other)))
+
+
+def _clusters(boxes: Interval, labels: IntArray, near: FloatArray) -> tuple[Interval, IntArray]:
+    """Hulls of boxes that lie together."""
+    if len(boxes.low) > MOST_CLUSTERED:
+        hull = Interval.of(np.min(boxes.low, axis=0)[None], np.max(boxes.high, axis=0)[None])
+        return hull, np.array([labels[0] if np.all(labels == labels[0]) else -1], dtype=np.intp)
+    groups: list[tuple[FloatArray, FloatArray, int]] = []
+    for low, high, label in zip(boxes.low, boxes.high, labels.tolist(), strict=True):
+        touching = [g for g in groups if np.all(g[0] <= high + near) and np.all(low <= g[1] + near)]
+        groups = [g for g in groups if not any(g is other for other in touching)]
+        low = np.min([low, *(g[0] for g in touching)], axis=0)
+        high = np.max([high, *(g[1] for g in touching)], axis=0)
+        groups.append((low, high, label if all(g[2] == label for g in touching) else -1))
+    if not groups:
+        return boxes, labels
+    hulls = Interval.of(np.array([g[0] for g in groups]), np.array([g[1] for g in groups]))
+    return hulls, np.array([g[2] for g in groups], dtype=np.intp)

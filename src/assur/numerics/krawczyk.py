@@ -1,0 +1,125 @@
+"""Interval Newton's method with a preconditioner (Krawczyk): a box holds exactly one zero of n equations, or none.
+
+With m in the box X, Y any matrix and J(X) bounds of the derivative over X, every zero in X lies in
+
+    K(X) = m - Y F(m) + (I - Y J(X)) (X - m);
+
+if K(X) lies in the interior of X there is exactly one (R. Krawczyk 1969; R. E. Moore 1977). Y is the inverse of the
+middle of J(X), in floats: whatever its error, the statements hold.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.numerics.dual import Dual, DualIntervals
+from assur.numerics.intervals.interval import Interval, as_interval, common
+from assur.numerics.intervals.shapes import broadcast, stack
+from assur.numerics.number_types import Intervals
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+Equations = Callable[[Any, tuple[Any, ...]], Sequence[Any]]
+"""(namespace, n numbers of any type) -> n numbers that are to be zero, elementwise over a batch (N,)."""
+
+INFLATION = 0.1
+"""Part of its width by which a box is widened before it is tested: a zero on its border is then inside."""
+
+
+def image(equations: Equations, box: Interval) -> Interval:
+    """K(X) of boxes X (N, n): every zero in X is in it; not defined where the derivative has no bounds.
+
+    Example: the root of 2 in [1, 2].
+
+    >>> found = image(lambda ns, x: [x[0] * x[0] - 2], Interval.of([[1.0]], [[2.0]]))
+    >>> bool(found.within(Interval.of([[1.0]], [[2.0]]))[0, 0]), bool(found.contains(2**0.5)[0, 0])
+    (True, True)
+    """
+    middle = box.middle
+    size = middle.shape[-1]
+    here = stacked(equations(Intervals(), parts(Interval.of(middle))), len(middle))
+    slopes = derivative(equations, box)
+    centre = slopes.middle
+    sound = np.all(slopes.defined & np.isfinite(slopes.width), axis=(-2, -1))
+    singular = np.linalg.det(np.where(sound[:, None, None], centre, np.eye(size))) == 0
+    invertible = (sound & ~singular)[:, None, None]
+    inverse = np.linalg.inv(np.where(invertible, centre, np.eye(size)))
+    rest = np.eye(size) - _total(Interval.of(inverse[..., None]) * _rows(slopes[:, None]))
+    moved = _total(Interval.of(inverse) * here[:, None, :], axis=-1)
+    spread = _total(rest * _rows(box - middle)[:, None, :], axis=-1)
+    found = Interval.of(middle) - moved + spread
+    return Interval(found.low, found.high, found.defined & invertible[..., 0])
+
+
+def derivative(equations: Equations, box: Interval) -> Interval:
+    """Bounds (N, n, n) of the derivative over boxes (N, n): row by row the equations, column by column the unknowns.
+
+    >>> found = derivative(lambda ns, x: [x[0] * x[1], ns.sqrt(x[0])], Interval.of([[1.0, 2.0]], [[4.0, 3.0]]))
+    >>> found.low[0].round(6).tolist()[0], found.high[0].round(6).tolist()
+    ([2.0, 1.0], [[3.0, 4.0], [0.5, 0.0]])
+    """
+    count, size = box.shape
+    unit = np.eye(size)
+    numbers = tuple(Dual(part, Interval.of(unit[:, [k]])) for k, part in enumerate(parts(box)))
+    rows = []
+    for value in equations(DualIntervals(), numbers):
+        slope = as_interval(value.derivative if isinstance(value, Dual) else 0.0)
+        rows.append(broadcast(slope, (size, count)))
+    columns = stack(rows)  # (unknowns, N, equations)
+    return Interval(columns.low.transpose(1, 2, 0), columns.high.transpose(1, 2, 0), columns.defined.transpose(1, 2, 0))
+
+
+def proves(found: Interval, box: Interval) -> BoolArray:
+    """Where (N,) an image proves that its box holds exactly one zero."""
+    return np.asarray(np.all(found.within(box), axis=-1))
+
+
+def refutes(found: Interval, box: Interval) -> BoolArray:
+    """Where (N,) an image proves that its box holds no zero."""
+    apart = common(box, found)[1]
+    return np.asarray(np.any(apart, axis=-1) & np.all(found.defined, axis=-1))
+
+
+def inflated(box: Interval, floor: FloatArray | float = 0.0) -> Interval:
+    """Boxes (N, n) widened by a part of their width, and by `floor` at least."""
+    more = np.maximum(INFLATION * box.width, floor)
+    return Interval(box.low - more, box.high + more, box.defined)
+
+
+def tightened(equations: Equations, box: Interval, times: int = 4) -> Interval:
+    """Boxes (N, n) with one zero each, made as narrow as rounding lets them by taking the image again."""
+    for _ in range(times):
+        found, apart = common(image(equations, box), box)
+        usable = found.defined & ~apart
+        box = Interval(np.where(usable, found.low, box.low), np.where(usable, found.high, box.high), box.defined)
+    return box
+
+
+def stacked(numbers: Sequence[Any], count: int) -> Interval:
+    """Numbers (N,) one after the other as one interval (N, n)."""
+    return stack([broadcast(as_interval(number), (count,)) for number in numbers])
+
+
+def parts(box: Interval) -> tuple[Interval, ...]:
+    """The coordinates (N,) of boxes (N, n), an object of its own each."""
+    return tuple(box[..., k] for k in range(box.shape[-1]))
+
+
+def _rows(number: Interval) -> Interval:
+    """The same, definedness as wide as the bounds."""
+    return broadcast(number, number.shape)
+
+
+def _total(terms: Interval, axis: int = -2) -> Interval:
+    """Sum along an axis."""
+    terms = _rows(terms)
+    low, high = np.moveaxis(terms.low, axis, 0), np.moveaxis(terms.high, axis, 0)
+    defined = np.moveaxis(terms.defined, axis, 0)
+    total = Interval(low[0], high[0], defined[0])
+    for k in range(1, len(low)):
+        total = total + Interval(low[k], high[k], defined[k])
+    return total

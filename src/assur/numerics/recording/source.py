@@ -1,0 +1,162 @@
+"""The text of a loop: generated source that numba compiles.
+
+Elements are worked on in groups. The inputs and outputs of a group lie in one small buffer, row after row, so that the
+compiler knows that they do not overlap and vectorises the loop; from there they go to the answer.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from functools import lru_cache
+from pathlib import Path
+
+from assur.numerics.recording.tape import LOGICAL, Operation, Tape
+
+GROUP = 16
+"""Elements of a group."""
+
+_TEXT = {
+    "+": "{0} + {1}",
+    "-": "{0} - {1}",
+    "*": "{0} * {1}",
+    "/": "{0} / {1}",
+    "negative": "-{0}",
+    "magnitude": "abs({0})",
+    "root": "sqrt(0.0 if {0} < 0.0 else {0})",
+    ">=": "{0} >= {1}",
+    ">": "{0} > {1}",
+    "and": "{0} & {1}",
+    "not": "not {0}",
+}
+
+
+def source(tape: Tape) -> str:
+    """The loop as Python source for numba: `loop(given, uniform, numbers, truths, rows, rows, start, stop, ...)`.
+
+    >>> from assur.numerics.recording.tape import Recorder
+    >>> recorder = Recorder()
+    >>> x = recorder.varying("x")
+    >>> "v1 = v0 * v0" in source(recorder.tape({"y": x * x}))
+    True
+    """
+    places, varying = places_of(tape), len(tape.varying)
+    before, inside = _statements(tape)
+    for k, place in {tape.outputs[name]: place for name, place in places.items()}.items():
+        value = f"1.0 if v{k} else 0.0" if tape.operations[k].name in LOGICAL else f"v{k}"
+        inside.append(f"group[{place * GROUP} + i] = {value}")
+    height = varying + len(set(places.values()))
+    return _FRAME.format(
+        version=_storing_version(),
+        size=height * GROUP,
+        before="\n    ".join(before),
+        inside="\n            ".join(inside),
+        varying=varying,
+        count=GROUP,
+    )
+
+
+_FRAME = """\
+# stored by {version}
+from math import inf, nan, sqrt
+
+import numpy as np
+from numba import njit
+
+from assur.numerics.recording.storing import judged, moved, streamed
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def loop(given, width, uniform, numbers, truths, length, number_rows, truth_rows, part, streaming):
+    start, stop, shift = part
+    group = np.zeros({size})
+    odd = 0
+    {before}
+    for first in range(start, stop, {count}):
+        count = min({count}, stop - first)
+        for row in range({varying}):
+            if count == {count}:
+                moved(given, row * width + first, group, row * {count})
+            else:
+                for i in range(count):
+                    group[row * {count} + i] = given[row * width + first + i]
+        for i in range({count}):
+            {inside}
+        begin = shift + first
+        if count < {count}:
+            for row in range(len(number_rows)):
+                for i in range(count):
+                    numbers[row * length + begin + i] = group[number_rows[row] * {count} + i]
+            for row in range(len(truth_rows)):
+                for i in range(count):
+                    truths[row * length + begin + i] = group[truth_rows[row] * {count} + i] > 0.5
+        else:
+            if streaming:
+                for row in range(len(number_rows)):
+                    streamed(group, number_rows[row] * {count}, numbers, row * length + begin)
+            else:
+                for row in range(len(number_rows)):
+                    moved(group, number_rows[row] * {count}, numbers, row * length + begin)
+            for row in range(len(truth_rows)):
+                judged(group, truth_rows[row] * {count}, truths, row * length + begin)
+    return odd
+"""
+
+
+def _statements(tape: Tape) -> tuple[list[str], list[str]]:
+    """Lines before the loop, of what is the same for all elements, and lines inside."""
+    once = _uniform_entries(tape)
+    before, inside = [], []
+    varying, uniform = 0, 0
+    for k, item in enumerate(tape.operations):
+        if item.name == "varying":
+            inside += [f"v{k} = group[{varying * GROUP} + i]", f"odd += 0 if abs(v{k}) < inf else 1"]
+            varying += 1
+        elif item.name == "uniform":
+            before.append(f"v{k} = uniform[{uniform}]")
+            uniform += 1
+        elif item.name == "number":
+            before.append(f"v{k} = {item.number!r}")
+        else:
+            (before if k in once else inside).append(f"v{k} = {_text(item)}")
+    return before, inside
+
+
+def places_of(tape: Tape) -> dict[str, int]:
+    """Output -> row of a group: after the inputs, equal outputs in one row.
+
+    >>> from assur.numerics.recording.tape import Recorder
+    >>> recorder = Recorder()
+    >>> x = recorder.varying("x")
+    >>> places_of(recorder.tape({"a": x + 1, "b": x * x, "c": x + 1}))
+    {'a': 1, 'b': 2, 'c': 1}
+    """
+    order = {k: len(tape.varying) + place for place, k in enumerate(dict.fromkeys(tape.outputs.values()))}
+    return {name: order[k] for name, k in tape.outputs.items()}
+
+
+def _uniform_entries(tape: Tape) -> set[int]:
+    """Entries that are the same for all elements: worked out once, before the loop."""
+    once: set[int] = set()
+    for k, item in enumerate(tape.operations):
+        if item.name in ("uniform", "number") or (item.arguments and once.issuperset(item.arguments)):
+            once.add(k)
+    return once
+
+
+def _text(item: Operation) -> str:
+    return _TEXT[item.name].format(*(f"v{k}" for k in item.arguments))
+
+
+@lru_cache(maxsize=1)
+def _storing_version() -> str:
+    """Numba compares the file of a loop only; what the loop calls is told by this."""
+    return digest(Path(__file__).with_name("storing.py").read_text(encoding="utf-8"))
+
+
+def digest(text: str) -> str:
+    """A short name for a text.
+
+    >>> digest("a") == digest("a"), digest("a") == digest("b")
+    (True, False)
+    """
+    return hashlib.sha256(text.encode()).hexdigest()[:24]

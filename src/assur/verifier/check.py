@@ -1,0 +1,138 @@
+"""The check: walk through the tree of boxes, prove every leaf anew, and compare what follows with what is claimed.
+
+The proof is the tree, depth first: a digit halves the box across that coordinate, at the float 0.5 low + 0.5 high, the
+lower half first. Leaves: i inside, every margin >= 0 in all of the box; r the same and no factor zero; oNN outside,
+margin NN (hex) < 0 in all of it; b left open. So the leaves cover the box and do not overlap, whatever is written.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import re
+from collections import Counter
+from collections.abc import Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from flint import arb, ctx, fmpq
+
+from assur.verifier.bounds import UndefinedError, nonzero
+from assur.verifier.program import Program
+from assur.verifier.reading import MalformedError, RefusedError, names, number, read
+
+BITS = 128
+LEAVES = {"i": "inside", "r": "regular", "o": "outside", "b": "open"}
+CLAIMS = {"workspace": ("leaves", "volume", "regular_volume"), "box": ("leaves", "reached", "regular")}
+TOKEN = re.compile(r"[0-9]|[irb]|o[0-9a-f]{2}")
+Box = tuple[list[float], list[float]]
+
+
+def verify(data: bytes, folder: Path | None = None) -> dict[str, Any]:
+    """Check a certificate, and the hashes of the mechanism's files where their folder is given: the certificate read.
+
+    Errors:
+        MalformedError: it is no whole certificate.
+        RefusedError: a leaf or a claim does not hold, or it is that of another mechanism.
+    """
+    document = read(data)
+    precision, ctx.prec = ctx.prec, BITS
+    try:
+        _check(document, folder)
+    except (TypeError, ValueError, KeyError, IndexError, AttributeError, OverflowError) as error:
+        raise MalformedError(f"not in this format: {type(error).__name__}: {error}") from error
+    finally:
+        ctx.prec = precision
+    return document
+
+
+def _check(document: dict[str, Any], folder: Path | None) -> None:
+    statement, claims = document["statement"], document["claims"]
+    if folder and not statement["files"]:
+        raise RefusedError("it does not say for which files it was made")
+    for name, expected in statement["files"].items() if folder else ():
+        if Path(name).name != name or not (folder / name).is_file():
+            raise RefusedError(f"another mechanism: {folder} has no file {name}")
+        if hashlib.sha256((folder / name).read_bytes()).hexdigest() != expected:
+            raise RefusedError(f"another mechanism or version: {folder / name} is not the file it was made for")
+    coordinates, pairs = names(statement["coordinates"]), statement["box"]
+    low, high = ([number(pair[k]) for pair in pairs] for k in (0, 1))
+    if not all(a < b for a, b in zip(low, high, strict=True)) or not len(low) == len(coordinates) > 0:
+        raise ValueError("a box that is empty or reversed, or one of other coordinates")
+    proved = _proved(Program(document["program"], coordinates), coordinates, (low, high), document["proof"])
+    wanted = {name: proved[name] for name in CLAIMS[document["kind"]]}
+    if claims != wanted:
+        raise RefusedError(f"{claims} is claimed, {wanted} is proved")
+
+
+def _proved(program: Program, coordinates: list[str], whole: Box, proof: str) -> dict[str, Any]:
+    """Everything that the leaves prove together."""
+    tokens = TOKEN.findall(proof)
+    if sum(map(len, tokens)) != len(proof):
+        raise ValueError("the proof has signs that no proof has")
+    stack, count, signs = [whole], Counter[str](), set[tuple[int, bool]]()
+    volume = dict.fromkeys(LEAVES, fmpq(0))
+    for place, token in enumerate(tokens, 1):
+        if not stack:
+            raise ValueError(f"the proof goes on after its end, with part {place} of {len(tokens)}")
+        low, high = stack.pop()
+        if token.isdigit():
+            stack.extend(_halves(low, high, int(token)))
+            continue
+        if not _holds(program, low, high, token, signs):
+            box = ", ".join(f"{n} {a:.9g} .. {b:.9g}" for n, a, b in zip(coordinates, low, high, strict=True))
+            raise RefusedError(f"part {place} of {len(tokens)} does not hold: {LEAVES[token[0]]} for {box}")
+        count[token[0]] += 1
+        sides = (fmpq(*b.as_integer_ratio()) - fmpq(*a.as_integer_ratio()) for a, b in zip(low, high, strict=True))
+        volume[token[0]] += math.prod(sides, start=fmpq(1))
+    if stack:
+        raise ValueError(f"the proof is cut short: {len(stack)} boxes are without an answer")
+    inside = volume["i"] + volume["r"]
+    reached = "no" if count["o"] else "open" if count["b"] else "yes"
+    vanishes = reached == "yes" and any((k, not sign) in signs for k, sign in signs)  # between one sign and the other
+    return {
+        "leaves": {name: count[key] for key, name in LEAVES.items()},
+        "volume": [_below(inside).hex(), (-_below(-inside - volume["b"])).hex()],
+        "regular_volume": _below(volume["r"]).hex(),
+        "reached": reached,
+        "regular": "no" if vanishes else "yes" if reached == "yes" and not count["i"] else "open",
+    }
+
+
+def _halves(low: list[float], high: list[float], axis: int) -> tuple[Box, Box]:
+    """The upper half, and the lower one, which comes off the stack first."""
+    middle = 0.5 * low[axis] + 0.5 * high[axis]
+    if not low[axis] < middle < high[axis]:
+        raise ValueError("the proof halves a box that has no float inside")
+    after = slice(axis + 1, None)
+    return ([*low[:axis], middle, *low[after]], high), (low, [*high[:axis], middle, *high[after]])
+
+
+def _holds(
+    program: Program, low: Sequence[float], high: Sequence[float], token: str, signs: set[tuple[int, bool]]
+) -> bool:
+    """Whether a leaf is proved; signs of the factors of a regular one are noted."""
+    box = [(arb(a), arb(b)) for a, b in zip(low, high, strict=True)]
+    margins, divisors, factors = (
+        [k for _, k in group] for group in (program.margins, program.nonzero, program.factors)
+    )
+    try:
+        if token[0] == "o":
+            return bool(program.over(box, [margins[int(token[1:], 16)]], strict=False)[0][1] < 0)
+        if token[0] == "b":
+            return True
+        wanted = [*margins, *divisors, *(factors if token == "r" else ())]
+        values = dict(zip(wanted, program.over(box, wanted, strict=True), strict=True))
+    except UndefinedError:
+        return False
+    if token == "r":
+        signs.update((k, bool(values[k][0] > 0)) for k in factors)
+    return all(values[k][0] >= 0 for k in margins) and all(nonzero(values[k]) for k in wanted[len(margins) :])
+
+
+def _below(value: fmpq) -> float:
+    """The largest float that is not above an exact number."""
+    exact = Fraction(int(value.p), int(value.q))
+    found = float(exact)
+    return found if Fraction(found) <= exact else math.nextafter(found, -math.inf)

@@ -1,0 +1,309 @@
+"""Index maps: every index on one grid through a workspace, with its mean and its extremes, and why a value is missing.
+
+The distance from the nearest parallel singularity (`assur.singularity.distance`) stands beside the indices of
+`assur.performance.indices` where the mechanism has a closed form and its pose has lengths.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.status import Status
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import LENGTHS
+from assur.performance.indices import INDICES, Indices, indices, indices_at
+from assur.performance.scaling import Length
+from assur.results.json_text import plain
+from assur.singularity.distance import distance
+from assur.workspace.fields import at_points
+from assur.workspace.region import Workspace
+
+FloatArray = NDArray[np.float64]
+NODES = 60
+MOST_NODES = 2_000_000
+DISTANCE = "distance"
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """A value and the point of the workspace where it is, in the order of its coordinates."""
+
+    value: float
+    at: tuple[float, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class IndexMap:
+    """One index over a grid.
+
+    Attributes:
+        symbol, meaning, unit: of the index; the symbol in LaTeX, "" as the unit of a number.
+        bounded: whether it lies between 0 and 1.
+        values: one axis per coordinate; NaN where it does not exist. A distance is infinite where none was found within
+            the reach of the search.
+        mean: of the nodes at which it exists and is finite, all with the same weight; None where there is none.
+        least, most: among them; None where there is none. `assur.performance.overall` adds errors, over a whole region.
+    """
+
+    symbol: str
+    meaning: str
+    unit: str
+    bounded: bool
+    values: FloatArray
+    mean: float | None
+    least: Extreme | None
+    most: Extreme | None
+
+
+@dataclass(frozen=True, eq=False)
+class IndexMaps:
+    """Every index over one grid through a workspace.
+
+    Attributes:
+        mechanism, mode, how: of the workspace.
+        unit, angle: those of lengths and angles in `axes`, `held` and where the extremes are.
+        coordinates: those of the workspace, in the order in which the extremes tell where they are.
+        axes: (name, nodes) of each coordinate that varies here.
+        held: the other coordinates of the pose.
+        status: why a number is missing, `Status` per node; unreachable too where a stroke or a limit forbids the pose.
+        length: the characteristic length of `Indices`, None where none is.
+        reach: how far the distance was looked for; None where it is not among the maps.
+        factor: name of the parallel factor that vanishes nearest, "" where none was found; None without the distance.
+        maps: by the name of the index.
+    """
+
+    mechanism: str
+    mode: str
+    how: str
+    unit: str
+    angle: Literal["rad", "deg"]
+    coordinates: tuple[str, ...]
+    axes: tuple[tuple[str, FloatArray], ...]
+    held: Mapping[str, float]
+    status: NDArray[np.int8]
+    length: float | None
+    reach: float | None
+    factor: NDArray[np.str_] | None
+    maps: Mapping[str, IndexMap]
+
+    def __getitem__(self, name: str) -> FloatArray:
+        """The values of one index, or a clear refusal."""
+        if name not in self.maps:
+            raise UnknownNameError("index map", name, self.maps)
+        return self.maps[name].values
+
+    def in_degrees(self) -> IndexMaps:
+        """The same with every angle in degrees; indices keep their units."""
+        if self.angle == "deg":
+            return self
+        turn = {name: 1.0 if name in LENGTHS else 180 / np.pi for name in (*self.coordinates, *self.held)}
+
+        def there(found: Extreme | None) -> Extreme | None:
+            at = zip(self.coordinates, found.at if found else (), strict=False)
+            return found and Extreme(found.value, tuple(value * turn[name] for name, value in at))
+
+        return replace(
+            self,
+            angle="deg",
+            axes=tuple((name, nodes * turn[name]) for name, nodes in self.axes),
+            held={name: value * turn[name] for name, value in self.held.items()},
+            maps={k: replace(item, least=there(item.least), most=there(item.most)) for k, item in self.maps.items()},
+        )
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain numbers, with None for what does not exist."""
+        return {
+            "mechanism": self.mechanism,
+            "mode": self.mode,
+            "how": self.how,
+            "unit": self.unit,
+            "angle": self.angle,
+            "coordinates": list(self.coordinates),
+            "axes": {name: plain(nodes) for name, nodes in self.axes},
+            "held": plain(self.held),
+            "characteristic_length": self.length,
+            "reach": self.reach,
+            "status": _names(self.status).tolist(),
+            "nearest_factor": None if self.factor is None else self.factor.tolist(),
+            "maps": plain(self.maps),
+        }
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """What an .npz file holds: the nodes by coordinate, status names, and the values by index; nothing pickled.
+
+        A coordinate and an index never share a name.
+        """
+        held = {f"held_{name}": np.array(value) for name, value in self.held.items()}
+        units = {f"unit_{name}": np.array(item.unit) for name, item in self.maps.items()}
+        values = {name: item.values for name, item in self.maps.items()}
+        return {**dict(self.axes), **held, "status": _names(self.status), **values, **units}
+
+    def csv(self) -> str:
+        """One line per node: its coordinates, its status, every index; empty where a number does not exist."""
+        text = io.StringIO()
+        writer = csv.writer(text, lineterminator="\n")
+        units = [f"{name} [{item.unit}]" if item.unit else name for name, item in self.maps.items()]
+        where = [f"{name} [{self.unit if name in LENGTHS else self.angle}]" for name, _ in self.axes]
+        writer.writerow([*where, "status", *units])
+        writer.writerows(self._rows())
+        return text.getvalue()
+
+    def _rows(self) -> Iterator[list[Any]]:
+        nodes = np.stack(np.meshgrid(*(nodes for _, nodes in self.axes), indexing="ij"), axis=-1)
+        values = np.stack([item.values for item in self.maps.values()], axis=-1)
+        for point, status, row in zip(
+            nodes.reshape(-1, nodes.shape[-1]).tolist(),
+            _names(self.status).ravel().tolist(),
+            values.reshape(-1, values.shape[-1]).tolist(),
+            strict=True,
+        ):
+            yield [*point, status, *("" if np.isnan(value) else value for value in row)]
+
+
+def index_maps(
+    record: MechanismRecord,
+    region: Workspace,
+    plane: Sequence[str] | None = None,
+    held: Mapping[str, float] | None = None,
+    nodes: int = NODES,
+    characteristic_length: Length = None,
+    reach: float | None = None,
+) -> IndexMaps:
+    """Every index on a grid over the box of a workspace; NaN where a node lies outside the workspace.
+
+    Args:
+        record: the mechanism.
+        region: its workspace (`assur.workspace.region.workspace`), by closed form or followed.
+        plane: which of its coordinates vary, in the order of the axes; all of them by default.
+        held: values of the others, in lengths and rad; the middle of the box by default.
+        nodes: along each axis.
+        characteristic_length: as of `assur.performance.indices.indices`.
+        reach: how far the distance is looked for; the characteristic length of the mechanism by default.
+
+    Errors:
+        UsageError: fewer than 2 nodes along an axis or more than two million in all, a coordinate that is named twice
+            or both varies and is held, a length or a reach that is none.
+        UnknownNameError: a coordinate that the workspace does not have.
+
+    Example: the tripteron is isotropic wherever it gets, and nowhere singular.
+
+    >>> from assur.model.registry import load_record
+    >>> from assur.workspace.region import workspace
+    >>> record = load_record("tripteron")
+    >>> found = index_maps(record, workspace(record, resolution=8), ["x", "z"], nodes=5)
+    >>> found["condition"].shape, found.maps["condition"].least.value.__round__(9), sorted(found.held)
+    ((5, 5), 1.0, ['y'])
+    """
+    names, fixed = _plane(region, plane, held)
+    if isinstance(nodes, bool) or not isinstance(nodes, (int, np.integer)) or nodes < 2:
+        raise UsageError(f"nodes: {nodes!r} is not a whole number of at least 2")
+    if nodes ** len(names) > MOST_NODES:
+        raise UsageError(
+            f"nodes: {nodes} along {len(names)} coordinates are {nodes ** len(names)}, {MOST_NODES} are allowed",
+            hint="hold a coordinate, or take fewer",
+        )
+    box = region.box
+    axes = tuple((name, np.linspace(box.low[box.axis(name)], box.high[box.axis(name)], int(nodes))) for name in names)
+    shape = tuple(len(values) for _, values in axes)
+    wide = dict(zip(names, np.meshgrid(*(values for _, values in axes), indexing="ij"), strict=True))
+    points = np.stack([wide[name].ravel() if name in wide else np.full(nodes ** len(names), fixed[name])
+                       for name in box.names], axis=-1)  # fmt: skip
+    found, inside = _found(record, region, points, characteristic_length)
+    maps = {
+        name: _map(index.symbol, index.meaning, index.unit(found), index.power == 0, found[name], points, inside, shape)
+        for name, index in INDICES.items()
+    }
+    away, factor = None, None
+    if record.closed_form is not None and set(record.platform.pose) & set(LENGTHS):
+        away = distance(record, region.slice.poses(points[inside]), region.mode, reach)
+        factor = np.full(len(points), "", dtype=away.factor.dtype)
+        factor[inside] = away.factor
+        values = np.full(len(points), np.nan)
+        values[inside] = away.value
+        maps[DISTANCE] = _map(
+            "d", "distance from the nearest parallel singularity that was found, the orientation held",
+            record.unit, False, values, points, inside, shape,
+        )  # fmt: skip
+    return IndexMaps(
+        mechanism=record.name,
+        mode=region.mode,
+        how=region.how,
+        unit=record.unit,
+        angle="rad",
+        coordinates=box.names,
+        axes=axes,
+        held={**region.slice.held, **fixed},
+        status=np.where(inside, found.status, Status.unreachable).astype(np.int8).reshape(shape),
+        length=found.length,
+        reach=None if away is None else away.reach,
+        factor=None if factor is None else factor.reshape(shape),
+        maps=maps,
+    )
+
+
+def _plane(
+    region: Workspace, plane: Sequence[str] | None, held: Mapping[str, float] | None
+) -> tuple[tuple[str, ...], dict[str, float]]:
+    """Which coordinates vary, and the values of the others that the workspace leaves free."""
+    box, given = region.box, dict(held or {})
+    names = tuple(plane) if plane is not None else tuple(name for name in box.names if name not in given)
+    for name in (*names, *given):
+        box.axis(name)
+    if not names or len(set(names)) < len(names):
+        raise UsageError(f"map: {','.join(names) or 'nothing'} is not a choice of different coordinates")
+    both = [name for name in names if name in given]
+    if both:
+        raise UsageError(f"map: {both[0]} cannot vary and be held at {given[both[0]]:g}")
+    for name, value in given.items():
+        low, high = box.low[box.axis(name)], box.high[box.axis(name)]
+        if not low <= value <= high:
+            raise UsageError(f"map: {name} = {value:g} lies outside the box, {low:g} to {high:g}")
+    middle = {name: (low + high) / 2 for name, low, high in zip(box.names, box.low, box.high, strict=True)}
+    return names, {name: float(given.get(name, middle[name])) for name in box.names if name not in names}
+
+
+def _found(
+    record: MechanismRecord, region: Workspace, points: FloatArray, length: Length
+) -> tuple[Indices, NDArray[np.bool_]]:
+    """Every index at points (N, free coordinates), and whether they lie in the workspace."""
+    inside = np.ones(len(points), dtype=bool)
+    for margin in region.margins.values():
+        inside &= at_points(margin, len(region.box.names), points) >= 0
+    if record.closed_form is not None:
+        return indices(record, region.slice.poses(points), region.mode, length), inside
+    joints = region.joints(points)
+    joints[~inside] = np.nan
+    return indices_at(record, joints, length), inside
+
+
+def _map(
+    symbol: str,
+    meaning: str,
+    unit: str,
+    bounded: bool,
+    field: FloatArray,
+    points: FloatArray,
+    inside: NDArray[np.bool_],
+    shape: tuple[int, ...],
+) -> IndexMap:
+    values = np.where(inside, field, np.nan)
+    known = np.flatnonzero(np.isfinite(values))
+    mean, least, most = None, None, None
+    if len(known):
+        low, high = known[np.argmin(values[known])], known[np.argmax(values[known])]
+        mean = float(np.mean(values[known]))
+        least = Extreme(float(values[low]), tuple(points[low].tolist()))
+        most = Extreme(float(values[high]), tuple(points[high].tolist()))
+    return IndexMap(symbol, meaning, unit, bounded, values.reshape(shape), mean, least, most)
+
+
+def _names(status: NDArray[np.int8]) -> NDArray[np.str_]:
+    return np.array([item.name for item in Status])[status]

@@ -1,0 +1,72 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from assur.certificates.formulas import formulas
+from assur.certificates.leaves import BLOCK, Leaves
+from assur.model.registry import load_record
+from assur.workspace.certified.boxes import Boxes
+
+
+@pytest.fixture(scope="module")
+def leaves():
+    return Leaves(formulas(load_record("zeng2019")))
+
+
+def boxes(count, size, seed=3):
+    low = np.random.default_rng(seed).uniform([-110, -250, 180], [90, 250, 480], (count, 3)).T
+    return Boxes(low, low + size)
+
+
+def margins(x, z):
+    """Those of Eqs. (18)-(21), for b = 210, d = 40 and the rest as in the file, written down again."""
+    p = load_record("zeng2019").values
+    alpha, beta = (x + p.b - p.d) / p.l4, (x + p.d - p.b) / p.l6
+    w = z - p.l4 * np.sqrt(np.maximum(1 - alpha**2, 0)) - p.l1
+    v = z - p.l8 - p.l6 * np.sqrt(np.maximum(1 - beta**2, 0)) - p.l7 - p.l1
+    return np.array([1 - alpha**2, 1 - beta**2, p.l2**2 - w**2, p.l6**2 - v**2])
+
+
+def test_leaves_are_true_of_points_inside(leaves):
+    found = boxes(3000, 8.0)
+    tokens = leaves.tokens(found)
+    assert {"r", "b", "o00", "o02"} <= set(tokens.tolist())
+    rng = np.random.default_rng(4)
+    for _ in range(20):
+        x, _, z = found.low + rng.random(found.low.shape) * (found.high - found.low)
+        values = margins(x, z)
+        assert np.all(values[:, np.isin(tokens, ("i", "r"))] >= 0)
+        for k in range(4):
+            assert np.all(values[k, tokens == f"o{k:02x}"] < 0)
+
+
+def test_small_boxes_are_decided_but_near_the_boundary(leaves):
+    found = boxes(3000, 1e-3)
+    open_ = leaves.tokens(found) == "b"
+    assert np.mean(open_) < 0.01
+
+
+def test_blocks_make_no_difference(leaves):
+    found = boxes(BLOCK + 77, 5.0)
+    assert np.array_equal(leaves.tokens(found)[-77:], leaves.tokens(found[slice(BLOCK, None)]))
+
+
+def test_a_coordinate_without_influence_is_never_halved(leaves):
+    found = boxes(500, np.array([[5.0], [400.0], [5.0]]))
+    axes = leaves.axes(found, np.array([[200.0], [500.0], [300.0]]), np.array([[1.0], [np.inf], [1.0]]))
+    assert set(axes.tolist()) == {0, 2}
+
+
+def test_no_side_is_halved_below_the_least(leaves):
+    found = boxes(500, np.array([[5.0], [400.0], [5.0]]))
+    axes = leaves.axes(found, np.array([[200.0], [500.0], [300.0]]), np.array([[1.0], [np.inf], [6.0]]))
+    assert set(axes.tolist()) == {0}
+
+
+def test_signs_of_factors(leaves):
+    low = np.array([[-15.0], [0.0], [400.0]])
+    signs = dict(leaves.signs(Boxes(low, low + 1)))
+    assert signs["u2"] is True
+    assert signs["u1"] is False
+    assert len(leaves.signs(Boxes(low, low + 1))) == len(leaves.formulas.names("factors"))

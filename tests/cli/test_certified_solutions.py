@@ -1,0 +1,75 @@
+from __future__ import annotations
+
+import assur
+from assur.kinematics.certified.certify import certified_direct, certified_inverse
+from assur.kinematics.certified.result import answer
+
+INPUTS = ["162.6907", "-143.3209", "-24.6776"]
+POSE = ["-15.4714", "9.6849", "456.3315"]
+
+
+def floats(texts):
+    return [float(text) for text in texts]
+
+
+def test_direct_prints_what_the_library_proves(assur_cli):
+    run = assur_cli("direct", "zeng2019", *INPUTS, "--certify", "--json")
+    assert (run.code, run.err) == (0, "")
+    assert run.json == answer(certified_direct(assur.load("zeng2019"), floats(INPUTS)))
+    assert run.json["proved"]
+
+
+def test_inverse_prints_what_the_library_proves(assur_cli):
+    run = assur_cli("inverse", "zeng2019", *POSE, "--certify", "--json")
+    assert (run.code, run.err) == (0, "")
+    assert run.json == answer(certified_inverse(assur.load("zeng2019"), floats(POSE)))
+
+
+def test_a_person_reads_bounds_and_proofs(assur_cli):
+    run = assur_cli("direct", "zeng2019", *INPUTS, "--certify")
+    assert run.code == 0
+    text = " ".join(run.out.split())
+    assert "proved, 4 solutions and no other" in text
+    assert "proof 1: closed form over intervals, and Krawczyk on the legs" in text
+    assert "Complete for the reduced model" in text
+    assert "456.3315" in text
+
+
+def test_a_search_is_box_by_box(assur_cli):
+    run = assur_cli("direct", "zeng2019", *INPUTS, "--certify", "--method", "search")
+    assert run.code == 0
+    assert "branch and prune" in " ".join(run.out.split())
+
+
+def test_proved_that_there_is_none_exits_4_and_undecided_5(assur_cli):
+    none = assur_cli("direct", "zeng2019", "900", *INPUTS[1:], "--certify")
+    assert none.code == 4
+    assert "proved, no solution" in none.out
+    unsure = assur_cli("direct", "zeng2019", "70", "-70", "0", "--certify")
+    assert unsure.code == 5
+    assert "undecided in 1 place" in unsure.out
+    assert "B1B2 less C1C2" in unsure.out
+
+
+def test_on_the_joint_graph_others_are_not_excluded(assur_cli):
+    run = assur_cli("direct", "fivebar", "127", "53", "--certify", "--method", "loops")
+    assert run.code == 5
+    assert "2 solutions proved, whether there are others is not" in run.out
+
+
+def test_angles_are_in_degrees(assur_cli):
+    run = assur_cli("direct", "planar_3rrr", "80", "85", "90", "--certify", "--json").json
+    assert all(abs(item["pose"]["low"][2]) <= 180.1 for item in run["solutions"])
+    assert (
+        run["inputs"] == [80.0, 85.0, 90.0]
+        or max(abs(a - b) for a, b in zip(run["inputs"], [80, 85, 90], strict=True)) < 1e-9
+    )
+
+
+def test_what_cannot_be_certified_is_refused(assur_cli):
+    for words in (["--mode", "+++"], ["--crossed"]):
+        run = assur_cli("direct", "zeng2019", *INPUTS, "--certify", *words)
+        assert run.code == 2
+        assert "--certify" in run.err
+    run = assur_cli("inverse", "zeng2019", *POSE, "--certify", "--method", "search")
+    assert run.code == 2

@@ -1,0 +1,84 @@
+from __future__ import annotations
+
+import json
+import shutil
+
+import pytest
+
+from assur.certificates.certificate import certificate
+from assur.model.registry import load_record
+
+
+@pytest.fixture
+def path(tmp_path):
+    return certificate(load_record("zeng2019"), most=60).write(tmp_path / "c.json")
+
+
+def test_a_valid_one_is_verified(assur_cli, path):
+    run = assur_cli("verify", str(path), "--json")
+    assert run.code == 0
+    assert run.json["verified"] is True
+    assert run.json["mechanism_compared"] is True
+    assert run.json["claims"] == json.loads(path.read_text())["claims"]
+    shown = assur_cli("verify", str(path))
+    assert "proved: every leaf by ball arithmetic, volumes exact, in" in shown.out
+    assert "formulas: the mechanism's, recorded anew" in shown.out
+    assert "leaves: " in shown.out
+    assert max(map(len, shown.out.splitlines())) <= 80
+
+
+def test_a_damaged_one_is_refused(assur_cli, path):
+    path.write_text(path.read_text()[:-40])
+    run = assur_cli("verify", str(path))
+    assert run.code == 3
+    assert "not JSON, or cut short" in run.out
+    assert assur_cli("verify", str(path), "--json").json["verified"] is False
+
+
+def test_a_false_one_is_refused(assur_cli, tmp_path):
+    import hashlib
+
+    document = certificate(load_record("zeng2019"), most=60).to_json()
+    del document["sha256"]
+    document["proof"] = document["proof"].replace("b", "i")
+    text = json.dumps(document, sort_keys=True, separators=(",", ":"))
+    document["sha256"] = hashlib.sha256(text.encode()).hexdigest()
+    (tmp_path / "c.json").write_text(json.dumps(document))
+    run = assur_cli("verify", str(tmp_path / "c.json"))
+    assert run.code == 1
+    assert "does not hold: inside for x " in run.out
+
+
+def test_another_version_of_the_mechanism_is_refused(assur_cli, path, tmp_path):
+    folder = load_record("zeng2019").file.parent
+    for name in ("mechanism.toml", "closed_form.py"):
+        shutil.copy(folder / name, tmp_path)
+    mechanism = tmp_path / "mechanism.toml"
+    assert assur_cli("verify", str(path), "--mechanism", str(mechanism)).code == 0
+    mechanism.write_text(mechanism.read_text() + "\n# another version\n")
+    run = assur_cli("verify", str(path), "--mechanism", str(mechanism))
+    assert run.code == 1
+    assert "another mechanism or version: files: mechanism.toml not as they were" in " ".join(run.out.split())
+    run = assur_cli("verify", str(path), "--mechanism", "fivebar")
+    assert run.code == 1
+    assert "another mechanism or version: mechanism: zeng2019 there, fivebar here" in " ".join(run.out.split())
+
+
+def test_a_mechanism_that_is_not_at_hand_leaves_it_undecided(assur_cli, tmp_path):
+    folder = load_record("zeng2019").file.parent
+    for name in ("mechanism.toml", "closed_form.py"):
+        shutil.copy(folder / name, tmp_path)
+    mechanism = tmp_path / "mechanism.toml"
+    mechanism.write_text(mechanism.read_text().replace('"zeng2019"', '"of_my_own"', 1))
+    certificate(load_record(mechanism), most=20).write(tmp_path / "c.json")
+    run = assur_cli("verify", str(tmp_path / "c.json"))
+    assert run.code == 5
+    assert "not compared: the mechanism is not at hand" in run.out
+    assert assur_cli("verify", str(tmp_path / "c.json"), "--mechanism", str(mechanism)).code == 0
+    assert assur_cli("verify", str(tmp_path / "c.json"), "--mechanism", "zeng2021").code == 2
+
+
+def test_a_file_that_is_not_there_is_a_usage_error(assur_cli, tmp_path):
+    run = assur_cli("verify", str(tmp_path / "none.json"))
+    assert run.code == 2
+    assert "cannot read" in run.err

@@ -1,0 +1,159 @@
+"""`assur workspace` with proofs: the library's numbers, bad input refused, interruption."""
+
+from __future__ import annotations
+
+import json
+import math
+from fractions import Fraction
+
+import pytest
+
+import assur
+from assur.cli.certified_regions import bounds
+from assur.errors import UsageError
+from assur.workspace.certified import paving
+from assur.workspace.certified.largest import largest
+from assur.workspace.certified.proving import prove_box
+from assur.workspace.certified.region import certified_workspace
+
+ZENG = assur.load("zeng2019")
+AROUND = ("--around", "x=-40,y=0,z=400")
+
+
+def test_bounds_are_those_of_the_library(assur_cli):
+    data = assur_cli("workspace", "zeng2019", "--certify", "--gap", "1e-4", "--json").json
+    found = certified_workspace(ZENG, gap=1e-4)
+    assert data == {"mechanism": "zeng2019", **json.loads(json.dumps(found.to_json()))}
+    assert data["volume"][0] < 22_814_586.4 < data["volume"][1]
+    assert [item["z"] for item in data["sections"]] == [300.0, 350.0, 400.0, 450.0]
+
+
+def test_a_person_sees_bounds_of_volume_and_sections(assur_cli):
+    run = assur_cli("workspace", "zeng2019", "--certify", "--section", "400", "--box", "x=-50:50")
+    assert run.code == 0
+    assert "how: proved by interval arithmetic, gap" in run.out
+    assert "boxes over x, z:" in run.out
+    assert "least [mm^2]" in run.out
+    assert max(map(len, run.out.splitlines())) <= 80
+
+
+def test_a_size_in_place_of_a_gap(assur_cli):
+    data = assur_cli("workspace", "zeng2019", "--certify", "--finest", "10", "--json").json
+    assert data["gap"] is None
+    assert data["boxes"]["boundary"] > 50
+
+
+def test_angles_are_in_degrees(assur_cli):
+    words = ("--box", "phi=-10:10", "--box", "x=-20:20", "--box", "y=-20:20", "--gap", "0.1", "--json")
+    data = assur_cli("workspace", "planar_3rrr", "--certify", *words).json
+    assert data["box"][2] == pytest.approx([-10, 10])
+    turn = math.radians(10)
+    found = certified_workspace(assur.load("planar_3rrr"), box=[(-20, 20), (-20, 20), (-turn, turn)], gap=0.1)
+    assert data["volume"] == pytest.approx(list(found.volume))
+    held = assur_cli("workspace", "planar_3rrr", "--certify", "--at", "phi=5", "--json").json
+    assert held["held"] == pytest.approx({"phi": 5.0})
+
+
+@pytest.mark.parametrize(("heights", "status", "code"), [("380:400", "proved", 0), ("180:400", "refuted", 4)])
+def test_a_box_is_proved_or_refuted(assur_cli, heights, status, code):
+    run = assur_cli("workspace", "zeng2019", "--prove", f"x=-40:0,y=-50:50,z={heights}")
+    assert run.code == code
+    assert f"answer: {status}" in run.out
+    assert ("fails at: x = " in run.out) == (status == "refuted")
+    data = assur_cli("workspace", "zeng2019", "--prove", f"x=-40:0,y=-50:50,z={heights}", "--json").json
+    low, high = map(float, heights.split(":"))
+    found = prove_box(ZENG, [(-40, 0), (-50, 50), (low, high)])
+    assert data == {"mechanism": "zeng2019", **json.loads(json.dumps(found.to_json()))}
+
+
+def test_what_is_undecided_has_a_code_of_its_own(assur_cli):
+    run = assur_cli("workspace", "zeng2019", "--mode", "+++++", "--prove", "x=-40:0,y=-50:50,z=380:400")
+    assert run.code == 5
+    assert "answer: undecided" in run.out
+
+
+def test_the_largest_shapes(assur_cli):
+    data = assur_cli("workspace", "zeng2019", "--largest", "cylinder", "--ratio", "0.5", *AROUND, "--json").json
+    found = largest(ZENG, "cylinder", (-40, 0, 400), ratio=0.5)
+    assert data == {"mechanism": "zeng2019", **json.loads(json.dumps(found.to_json()))}
+    run = assur_cli("workspace", "zeng2019", "--largest", "cube", *AROUND)
+    assert run.code == 0
+    assert "proved up to: edge 45.2" in run.out
+    assert "because: M3 < 0: not reached" in run.out
+    nothing = assur_cli("workspace", "zeng2019", "--largest", "ball", "--around", "x=0,y=0,z=900")
+    assert nothing.code == 4
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--certify", "--gap", "0"), "--gap: 0 is not positive"),
+        (("--certify", "--gap", "x"), "--gap: 'x' is not a number"),
+        (("--certify", "--finest", "-1"), "--finest: -1 is not a positive length"),
+        (("--certify", "--gap", "1", "--finest", "1"), "give one of them"),
+        (("--certify", "--resolution", "9"), "belong to the estimate"),
+        (("--gap", "0.1"), "--gap is part of a proof"),
+        (("--prove", "x=5:5"), "turned round or empty"),
+        (("--prove", "x=9:5"), "turned round or empty"),
+        (("--prove", "q=1:5"), "unknown pose coordinate"),
+        (("--prove", "x"), "is not NAME=VALUE"),
+        (("--prove", "x=1:5", "--largest", "cube"), "two questions"),
+        (("--largest", "cube"), "about which point"),
+        (("--largest", "cube", "--around", "x=1"), "x given"),
+        (("--largest", "sphere", "--around", "x=1"), "sphere"),
+        (("--around", "x=1"), "--around is part of a proof"),
+        (("--certify", "--ratio", "2"), "--ratio belongs to --largest"),
+        (("--certify", "--section", "1000"), "outside the box"),
+    ],
+)
+def test_bad_input_is_refused(assur_cli, words, said):
+    run = assur_cli("workspace", "zeng2019", *words)
+    assert run.code == 2
+    assert run.out == ""
+    assert said in run.err
+
+
+def test_too_many_boxes_are_said_with_what_it_would_take(assur_cli, monkeypatch):
+    monkeypatch.setattr(paving, "MOST", 400)
+    run = assur_cli("workspace", "zeng2019", "--certify", "--gap", "1e-9")
+    assert run.code == 0
+    assert "note: stopped at" in run.out
+    assert "would take about" in " ".join(run.out.split())
+
+
+def test_after_ctrl_c_the_bounds_reached_are_printed(assur_cli, monkeypatch):
+    judged, calls = paving.judged, []
+
+    def interrupted(*given):
+        calls.append(given)
+        if len(calls) == 4:
+            raise KeyboardInterrupt
+        return judged(*given)
+
+    monkeypatch.setattr(paving, "judged", interrupted)
+    run = assur_cli("workspace", "zeng2019", "--certify", "--gap", "1e-6")
+    assert run.code == 0
+    assert "note: interrupted" in run.out
+    assert "volume: " in run.out
+    assert "section at" not in run.out
+
+
+def test_printed_bounds_are_rounded_outwards():
+    for low, high in ((0.1, 0.3), (22810123.414, 22824645.233), (1 - 1e-16, 1.0), (1e-300, 1.0), (5.0, 5.0)):
+        least, most = bounds(low, high)
+        assert Fraction(least) <= Fraction(low) <= Fraction(high) <= Fraction(most)
+        assert Fraction(most) - Fraction(least) <= (Fraction(high) - Fraction(low)) * Fraction(13, 10)
+
+
+def test_help_shows_examples_that_run(assur_cli):
+    text = assur_cli("workspace", "--help").out
+    lines = [line.strip() for line in text.splitlines() if line.strip().startswith("assur workspace zeng2019 --")]
+    proofs = [line for line in lines if "--certify" in line or "--prove" in line or "--largest" in line]
+    assert len(proofs) == 3
+    for line in proofs:
+        assert assur_cli(*line.split()[1:]).code == 0
+
+
+def test_the_library_raises_what_the_command_says():
+    with pytest.raises(UsageError):
+        certified_workspace(ZENG, gap=0.0)

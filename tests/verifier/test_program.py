@@ -1,0 +1,93 @@
+from __future__ import annotations
+
+import pytest
+from flint import arb
+
+from assur.verifier.bounds import UndefinedError
+from assur.verifier.program import Program
+
+ONE = (1.0).hex()
+HALF = (0.5).hex()
+
+
+def data(*operations, margins=(), factors=()):
+    return {
+        "operations": [["coordinate", "x"], ["number", HALF, ONE, "l"], *map(list, operations)],
+        "margins": [["m", len(operations) + 1], *margins],
+        "nonzero": [],
+        "factors": list(factors),
+    }
+
+
+def value(*operations, box=(2, 3), strict=True):
+    program = Program(data(*operations), ["x"])
+    found = program.over([(arb(box[0]), arb(box[1]))], [program.margins[0][1]], strict)[0]
+    return float(found[0]), float(found[1])
+
+
+def test_every_operation():
+    assert value(["+", 0, 1]) == (2.5, 4.0)
+    assert value(["-", 0, 1]) == (1.0, 2.5)
+    assert value(["*", 0, 1]) == (1.0, 3.0)
+    assert value(["/", 0, 1]) == (2.0, 6.0)
+    assert value(["negative", 0]) == (-3.0, -2.0)
+    assert value(["magnitude", 0], box=(-2, 3)) == (0.0, 3.0)
+    assert value(["root", 0], box=(4, 9)) == (2.0, 3.0)
+    assert value(["*", 0, 0], box=(-2, 3)) == (0.0, 9.0)
+    assert value(["cosine", 0], box=(3, 4))[0] == -1.0
+    assert value(["sine", 0], box=(1, 2))[1] == 1.0
+
+
+def test_what_has_no_value_proves_nothing():
+    with pytest.raises(UndefinedError):
+        value(["/", 1, 0], box=(-1, 1))
+    with pytest.raises(UndefinedError):
+        value(["/", 1, 0], box=(0, 1))
+    with pytest.raises(UndefinedError):
+        value(["root", 0], box=(-1, 4))
+    assert value(["root", 0], box=(-1, 4), strict=False) == (0.0, 2.0)
+
+
+def test_only_what_is_wanted_is_worked_out():
+    program = Program(data(["/", 1, 0], ["+", 0, 1]), ["x"])
+    assert [float(v) for v in program.over([(arb(-1), arb(1))], [3], True)[0]] == [-0.5, 2.0]
+
+
+@pytest.mark.parametrize(
+    "operation",
+    [
+        ["+", 0],
+        ["+", 0, 1, 1],
+        ["+", 0, 2],
+        ["+", 0, -1],
+        ["+", 0, 1.0],
+        ["+", 0, True],
+        ["+", "0", 1],
+        ["root"],
+        ["root", 0, 1],
+        ["power", 0, 1],
+        ["varying"],
+        [],
+        [["+"], 0, 1],
+        ["number", ONE, HALF, "reversed"],
+        ["number", ONE, "inf", ""],
+        ["number", "nan", "nan", ""],
+        ["number", "1.5", "1.5", ""],
+        ["number", "0x1p+0", "0x1p+0", ""],
+        ["number", 1.0, 1.0, ""],
+        ["number", "0x1p+99999", "0x1p+99999", ""],
+        ["number", ONE, ONE],
+        ["coordinate", "y"],
+        ["coordinate"],
+        ["coordinate", "x", "x"],
+    ],
+)
+def test_what_is_no_operation_is_refused(operation):
+    with pytest.raises((ValueError, TypeError, OverflowError)):
+        Program(data(operation), ["x"])
+
+
+@pytest.mark.parametrize("output", [["m", 1], ["n", 2], ["n", -1], ["n", True], ["n", 1.0], ["n"], ["n", 1, 1], [1, 1]])
+def test_what_is_no_output_is_refused(output):
+    with pytest.raises((ValueError, TypeError)):
+        Program(data(margins=[output]), ["x"])

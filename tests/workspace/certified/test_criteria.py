@@ -1,0 +1,118 @@
+"""Criteria over intervals: they enclose what the kernels give at every pose, in every mechanism with a closed form."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import mpmath
+import numpy as np
+import pytest
+
+import assur
+from assur.errors import UnknownNameError, UsageError
+from assur.numerics.intervals.interval import Interval, common
+from assur.workspace.bounds import bounds
+from assur.workspace.certified import criteria as module
+from assur.workspace.certified.criteria import criteria
+from assur.workspace.domain import box_of
+from assur.workspace.fields import factor_fields, margin_fields
+
+RNG = np.random.default_rng(2)
+NAMES = [name for name in assur.names() if assur.load(name).closed_form is not None]
+ZENG = assur.load("zeng2019")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_margins_and_factors_of_poses_lie_within_those_of_their_boxes(name):
+    record = assur.load(name)
+    asked = criteria(record, factors=("parallel",))
+    box = box_of(record, None, asked.slice.free)
+    low, high = np.array(box.low)[:, None], np.array(box.high)[:, None]
+    size = 0.02 * (high - low)
+    start = low + RNG.uniform(size=(len(low), 300)) * (high - low - size)
+    points = start + RNG.uniform(size=start.shape) * size
+    over = asked.over([Interval.of(a, b) for a, b in zip(start, start + size, strict=True)])
+    sloped = asked.sloped([Interval.of(a, b) for a, b in zip(start, start + size, strict=True)], list(start + size / 2))
+    mode = record.modes.default_working
+    fields = {**margin_fields(record, mode, None, asked.slice), **factor_fields(record, mode, asked.slice)}
+    reached = np.ones(300, dtype=bool)
+    for margin in asked.margins:
+        reached &= fields[margin](tuple(points)) >= 0
+    assert np.sum(reached) > 10
+    for output in (*asked.margins, *asked.names):
+        value = np.broadcast_to(fields[output](tuple(points)), (300,))
+        slack = 1e-9 * (1 + np.abs(value))
+        for number in (over[output], sloped[output].whole):
+            within = (number.low <= value + slack) & (value - slack <= number.high)
+            assert np.all(within[reached])
+
+
+def test_a_pose_that_is_not_reached_for_an_inner_radicand_is_never_certain():
+    asked = criteria(ZENG)
+    found = asked.over([Interval.of(85.0), Interval.of(0.0), Interval.of(400.0)])
+    assert found["n_alpha"].negative
+    assert found["M12"].defined  # the root inside is that of max(n_alpha, 0)
+
+
+def test_constants_of_strokes_are_enclosed_not_rounded():
+    record, constants = assur.load("planar_3rrr"), []
+    names = [item.name for item in record.inputs]
+
+    def keep(constant):
+        constants.append(constant)
+        return float(constant.middle)
+
+    bounds(record, {names[0]: (0.1, 0.7)}, keep)
+    bounds(ZENG, {"yA1": (0.1, 0.7)}, keep)
+    with mpmath.workdps(40):
+        first, last = mpmath.mpf(0.1), mpmath.mpf(0.7)
+        middle, half = (first + last) / 2, (last - first) / 2
+        wanted = [mpmath.cos(middle), mpmath.sin(middle), mpmath.cos(half), -first, last]
+        for constant, value in zip(constants, wanted, strict=True):
+            assert mpmath.mpf(float(constant.low)) <= value <= mpmath.mpf(float(constant.high))
+    assert all(float(constant.width) < 1e-14 for constant in constants)
+
+
+def test_a_held_angle_is_enclosed_not_rounded():
+    record = assur.load("planar_3rrr")
+    pose = {"x": 0.1, "y": 0.05}
+    point = [Interval.of(pose[name]) for name in ("x", "y")]
+    held = criteria(record, held={"phi": 0.3}).over(point)
+    free = criteria(record).over([*point, Interval.of(0.3)])
+    for name in held:
+        assert float(held[name].width) > 0
+        assert not np.any(common(held[name], free[name])[1])
+
+
+def test_what_is_asked_for():
+    asked = criteria(ZENG, factors=("parallel", "serial", "constraint"))
+    assert asked.factors["parallel"] == ("u1_minus_u2", "w", "v", "sin_alpha_minus_beta")
+    assert asked.factors["constraint"]
+    assert asked.nonsingular.regular == (*asked.regular, *asked.names)
+    assert asked.analytic
+    assert criteria(ZENG, strokes={"yA1": (-300, 300)}).used == (True, True, True)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_kernels_hold_no_number_that_was_rounded(monkeypatch, name):
+    """A third written as 1 / 3 would be rounded before intervals see it."""
+    tapes, true = [], module.folded
+
+    def kept(tape, uniform):
+        tapes.append(tape)
+        return true(tape, uniform)
+
+    monkeypatch.setattr(module, "folded", kept)
+    criteria(assur.load(name), factors=("parallel", "serial", "constraint"))
+    numbers = {item.number for item in tapes[0].operations if item.name == "number"}
+    assert numbers
+    assert all(number * 4 == round(number * 4) or abs(number) in (1e-30, 1e9) for number in numbers)
+
+
+def test_misuse():
+    with pytest.raises(UnknownNameError):
+        criteria(ZENG, mode="+")
+    with pytest.raises(UnknownNameError):
+        criteria(ZENG, held={"q": 1.0})
+    with pytest.raises(UsageError):
+        criteria(replace(ZENG, closed_form=None))

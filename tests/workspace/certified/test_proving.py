@@ -1,0 +1,101 @@
+"""Boxes that are asked: proofs, poses that fail, and what stays undecided, against the inverse problem."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import assur
+from assur.errors import UnknownNameError, UsageError
+from assur.workspace.certified.proving import prove_box
+
+RNG = np.random.default_rng(12)
+ZENG, DELTA = assur.load("zeng2019"), assur.load("delta_4s")
+
+
+def sampled(record, found, count=2000):
+    low, high = np.array(found.box.low), np.array(found.box.high)
+    poses = low + RNG.uniform(size=(count, len(low))) * (high - low)
+    return record.inverse(poses, found.mode)
+
+
+def factors_of(record, kinds):
+    return [item.name for item in record.closed_form.factor_list if item.kind in kinds]
+
+
+@pytest.mark.parametrize(
+    ("record", "box"),
+    [(ZENG, [(-40, 0), (-50, 50), (380, 400)]), (DELTA, [(-0.1, 0.1), (-0.1, 0.1), (-1.1, -0.9)])],
+    ids=["zeng2019", "delta_4s"],
+)
+def test_in_a_box_that_is_proved_no_factor_changes_its_sign(record, box):
+    found = prove_box(record, box)
+    assert (found.status, found.share, found.witness, len(found.doubtful)) == ("proved", 1.0, None, 0)
+    answer = sampled(record, found)
+    assert np.all(answer.exists[:, 0])
+    for name in factors_of(record, ("parallel", "serial")):
+        signs = np.sign(answer.factors[name][:, 0])
+        assert len(np.unique(signs)) == 1
+
+
+def test_a_box_that_leaves_the_reach_has_a_pose_that_is_not_reached():
+    found = prove_box(ZENG, {"x": (-40, 0), "y": (-50, 50), "z": (380, 470)}, what=["reached"])
+    assert found.status == "refuted"
+    pose = [found.witness.pose[name] for name in ("x", "y", "z")]
+    assert not ZENG.inverse(pose, "++-++").exists[0]
+    assert 0 < found.share < 1
+    for boxes, wanted in ((found.proved, True), (found.failed, False)):
+        middles = boxes.middles
+        poses = np.stack([middles[0], np.zeros(len(boxes)), middles[1]], axis=-1)
+        assert np.all(ZENG.inverse(poses, "++-++").exists[:, 0] == wanted)
+
+
+def test_a_box_with_a_singularity_is_refuted_though_all_of_it_is_reached():
+    box = {"x": (-40, 0), "y": (-50, 50), "z": (180, 400)}
+    assert prove_box(ZENG, box, what=["reached"]).status == "proved"
+    found = prove_box(ZENG, box)
+    assert found.status == "refuted"
+    assert len(found.failed) == 0
+    name = found.witness.why.split()[0]
+    here = ZENG.inverse([found.witness.pose[key] for key in ("x", "y", "z")], "++-++").factors[name][0]
+    others = sampled(ZENG, found).factors[name][:, 0]
+    assert np.any(others * here < 0)
+
+
+def test_undefined_is_not_proved_and_what_no_sign_tells_is_undecided():
+    """With u1 and u2 of one sign the platform moves by itself at every pose: the factor is zero, and no sign tells."""
+    found = prove_box(ZENG, [(-40, 0), (-50, 50), (380, 400)], mode="+++++", what=["parallel"])
+    assert found.status == "undecided"
+    assert len(found.proved) == 0
+
+
+def test_strokes_count_as_limits():
+    box = {"x": (-40, 0), "y": (-50, 50), "z": (380, 400)}
+    assert prove_box(ZENG, box, strokes={"yA1": (-50, 50)}).status == "refuted"
+    assert prove_box(ZENG, box, strokes={"yA1": (-900, 900)}).status == "proved"
+
+
+def test_as_json():
+    found = prove_box(ZENG, {"x": (-40, 0), "y": (-50, 50), "z": (180, 400)}).to_json()
+    assert found["status"] == "refuted"
+    assert found["boxes"]["coordinates"] == ["x", "z"]
+    assert len(found["boxes"]["largest_doubtful"][0]) == 2
+    assert found["boxes"]["doubtful"] >= len(found["boxes"]["largest_doubtful"])
+
+
+def test_ctrl_c_leaves_the_rest_undecided():
+    def interrupt(done, total):
+        raise KeyboardInterrupt
+
+    found = prove_box(ZENG, {"x": (-110, 90)}, what=["reached"], progress=interrupt)
+    assert found.stopped == "interrupted"
+    assert found.status != "proved"
+
+
+def test_misuse():
+    with pytest.raises(UsageError):
+        prove_box(ZENG, {"x": (5, 5)})
+    with pytest.raises(UnknownNameError):
+        prove_box(ZENG, {"q": (5, 6)})
+    with pytest.raises(UnknownNameError):
+        prove_box(ZENG, what=["safe"])
