@@ -36,6 +36,8 @@ from assur.topology.linkages.recognition import recognised
 from assur.topology.notation import parse_chains
 
 if TYPE_CHECKING:
+    from assur.kinematics.certified.certify import Way as ProofWay
+    from assur.kinematics.certified.result import CertifiedSolutions
     from assur.kinematics.paths.path import Path as Way
     from assur.performance.dexterity import Dexterity
     from assur.performance.indices import Indices
@@ -93,6 +95,18 @@ class Mechanism(MechanismRecord):
     def instantaneous(self, joint_values: ArrayLike) -> Instant:
         """First-order motion at joint values (..., n): see `assur.kinematics.rates.instantaneous.instantaneous`."""
         return instantaneous(self, joint_values)
+
+    def certified_direct(self, inputs: ArrayLike, way: ProofWay = "auto") -> CertifiedSolutions:
+        """The poses at inputs (n,), proved by intervals: see `assur.kinematics.certified.certify`."""
+        from assur.kinematics.certified.certify import certified_direct
+
+        return certified_direct(self, inputs, way)
+
+    def certified_inverse(self, pose: ArrayLike, way: ProofWay = "auto") -> CertifiedSolutions:
+        """The inputs at a pose (m,), proved by intervals: see `assur.kinematics.certified.certify`."""
+        from assur.kinematics.certified.certify import certified_inverse
+
+        return certified_inverse(self, pose, way)
 
     def workspace(self, mode: str | None = None, **options: Any) -> Workspace:
         """The workspace of a working mode: see `assur.workspace.region.workspace` for the options."""

@@ -8,6 +8,7 @@ import pytest
 import assur
 from assur.performance.indices import INDICES, indices
 from assur.performance.overall import overall
+from assur.singularity.distance import distance
 from assur.workspace.region import workspace
 
 POSE = ("-15.4714", "9.6849", "456.3315")
@@ -30,6 +31,19 @@ def test_a_person_sees_every_index_and_input(assur_cli):
     out = assur_cli("indices", "zeng2019", "--pose", *POSE).out
     for word in (*INDICES, "yA1", "yA2", "yA3", "units do not mix"):
         assert word in out
+
+
+def test_at_a_pose_the_distance_stands_beside_the_indices(assur_cli):
+    run = assur_cli("indices", "zeng2019", "--pose", *POSE, "--json")
+    found = distance(assur.load("zeng2019"), [float(text) for text in POSE])
+    assert run.json["distance"] == pytest.approx(float(found.value), rel=1e-12)
+    assert run.json["nearest_factor"] == str(found.factor)
+    assert run.json["nearest"] == pytest.approx(found.nearest.tolist())
+    assert "the nearest parallel singularity found" in " ".join(
+        assur_cli("indices", "zeng2019", "--pose", *POSE).out.split()
+    )
+    far = assur_cli("indices", "tripteron", "--pose", "0", "0", "0", "--json").json
+    assert (far["distance"], far["nearest"]) == (None, None)
 
 
 def test_angles_are_in_the_unit_of_the_file_and_the_length_is_stated(assur_cli):

@@ -6,8 +6,9 @@ import assur
 from assur.cli.main import application
 
 COMMANDS = (
-    *("list", "show", "check", "topology", "direct", "inverse", "follow", "singularity", "workspace", "audit"),
-    *("figures", "report", "new", "schema", "export", "crosscheck", "indices", "synthesize", "demo", "doctor"),
+    *("list", "show", "check", "topology", "direct", "inverse", "follow", "singularity", "workspace", "certify"),
+    *("verify", "audit", "figures", "report", "new", "schema", "export", "crosscheck", "indices", "synthesize"),
+    *("demo", "doctor"),
 )
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from assur.kinematics.certified.certify import Way
-    from assur.kinematics.certified.result import Certificate
+    from assur.kinematics.certified.result import CertifiedSolutions
     from assur.mechanism import Mechanism
 
 WAYS: dict[str, Way] = {"auto": "auto", "closed form": "closed form", "loops": "joint graph", "search": "boxes"}
@@ -37,7 +37,7 @@ def way_of(method: MethodName, mode: str | None, *, crossed: bool) -> Way:
     return WAYS[method]
 
 
-def outcome(record: Mechanism, found: Certificate) -> Outcome:
+def outcome(record: Mechanism, found: CertifiedSolutions) -> Outcome:
     """The outcome: exit code 4 where it is proved that there is no solution, 5 where something is undecided."""
     from assur.kinematics.certified.result import answer
 

@@ -57,10 +57,30 @@ def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) ->
         "mode": mode,
         "input_names": [item.name for item in record.inputs],
         **found.to_json(),
+        **_distance(record, pose, mode),
         "failures": lost,
     }
     units = _units(found)
     return Outcome(data, lambda: _pose_shown(record, data, units), EXIT_CODES.get(data["status"], 0))
+
+
+def _distance(record: Mechanism, pose: NDArray[Any], mode: str) -> dict[str, Any]:
+    """The distance from the nearest parallel singularity, where there is a closed form and a length in the pose."""
+    from assur.kinematics.answers.at_border import pose_at_border
+    from assur.model.pose import LENGTHS
+    from assur.results.json_text import plain
+    from assur.singularity.distance import distance
+
+    if record.closed_form is None or not set(record.platform.pose) & set(LENGTHS):
+        return {"distance": None, "nearest_factor": None, "nearest": None, "distance_reach": None}
+    found = distance(record, pose, mode)
+    there = str(found.factor)
+    return {
+        "distance": plain(float(found.value)),
+        "nearest_factor": there or None,
+        "nearest": plain(pose_at_border(record, found.nearest)) if there else None,
+        "distance_reach": found.reach,
+    }
 
 
 def over_workspace(record: Mechanism, asked: Question, points: str, length: Length, shared: Shared) -> Outcome:
@@ -114,6 +134,12 @@ def _pose_shown(record: Mechanism, data: dict[str, Any], units: dict[str, str]) 
         yield failures(data["failures"])
         return
     rows = [(name, f"{short(data[name])} {units[name]}".strip(), index.meaning) for name, index in INDICES.items()]
+    if data["distance"] is not None:
+        what = f"distance from {data['nearest_factor']} = 0, the nearest parallel singularity found"
+        rows.append(("distance", f"{short(data['distance'])} {record.unit}", what))
+    elif data["distance_reach"] is not None:
+        what = f"no parallel singularity was found within {short(data['distance_reach'])} {record.unit}"
+        rows.append(("distance", "", what))
     yield table(("index", "value", "what it is"), rows, left=("index", "what it is"))
     yield ""
     yield heading("transmission, input by input: 0 none, 1 all")
@@ -163,6 +189,7 @@ def _overall_shown(record: Mechanism, data: dict[str, Any], found: OverallIndice
 
 
 def length_words(record: Mechanism, length: float | None) -> str:
+    """What lengths are divided by, and why nothing where that is so."""
     from assur.performance.scaling import is_mixed
 
     if length is not None:

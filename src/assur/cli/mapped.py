@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from assur.cli import regions
 from assur.cli.indexed import Length, length_words
@@ -14,7 +14,7 @@ from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.paths import output_file
 from assur.cli.progress import progress
-from assur.cli.quantities import point_text, point_title, short, style_of
+from assur.cli.quantities import short, style_of
 from assur.errors import UnknownNameError, UsageError
 
 if TYPE_CHECKING:
@@ -138,15 +138,20 @@ def _shown(record: Mechanism, found: IndexMaps, written: Path | None) -> Iterabl
     inside = int(np.sum(np.isfinite(found["transmission"])))
     yield f"over {axes}{held}: {inside} of {found.status.size} nodes in the workspace"
     yield ""
-    rows: list[tuple[Any, ...]] = []
+    rows, places = [], []
     for name, item in found.maps.items():
-        if item.least is None or item.most is None or item.mean is None:
-            rows.append((name, item.unit, "none", "none", "", "none", ""))
-            continue
-        least, most = (point_text(style, names, end.at) for end in (item.least, item.most))
-        rows.append((name, item.unit, *map(short, (item.mean, item.least.value)), least, short(item.most.value), most))
-    where = point_title(style, names)
-    yield table(("index", "unit", "mean", "least", f"at {where}", "most", f"at {where}"), rows, left=("index", "unit"))
+        ends = [end for end in (item.least, item.most) if end is not None]
+        unit = f"{name} [{item.unit}]" if item.unit else name
+        rows.append((unit, *(short(value) for value in (item.mean, *(end.value for end in ends)))) if ends else
+                    (unit, "none", "none", "none"))  # fmt: skip
+        if ends:
+            places.append((name, *(", ".join(f"{value:.6g}" for value in end.at) for end in ends)))
+    yield table(("index", "mean", "least", "most"), rows, left=("index",))
+    if places:
+        yield ""
+        where = ", ".join(map(style.coordinate_title, names))
+        yield table((f"at {where}", "least", "most"), places, left=(f"at {where}",))
+    yield ""
     yield "means and extremes are those of the nodes; without --map they come with errors"
     if found.reach is not None:
         beyond = int(np.sum(np.isinf(found["distance"])))

@@ -23,7 +23,10 @@ from assur.workspace.index_maps import IndexMap, IndexMaps, index_maps
 
 FloatArray = NDArray[np.float64]
 ACROSS = 3
-NODES = 40
+NODES = 32
+UNBOUNDED = ("manipulability", "largest")
+"""They grow without bound towards a parallel singularity: their colours end at a quantile."""
+
 TALLEST = 50.0
 """Height of one map in mm, at most."""
 
@@ -67,11 +70,11 @@ def drawn(context: Context, found: IndexMaps) -> Drawing:
         if name in context.workspace.box.names
     )
     figure.text(left / PAGE, 1.0 - 3.5 / height, f"{plane_words(first, second)}{held}", fontsize=TEXT)
-    for k, (_, item) in enumerate(found.maps.items()):
+    for k, (name, item) in enumerate(found.maps.items()):
         x, y = (k % ACROSS) * cell + left, height - 5.0 - (k // ACROSS) * row - top - scale * tall
         axes = figure.add_axes((x / PAGE, y / height, scale * wide / PAGE, scale * tall / height))
         bar = figure.add_axes(((x + scale * wide + 2.0) / PAGE, y / height, 2.5 / PAGE, scale * tall / height))
-        _draw_one(context, axes, bar, found, item)
+        _draw_one(context, (axes, bar), found, name)
         unit = f" ({_powers(item.unit)})" if item.unit else ""
         figure.text(
             (x + scale * wide / 2) / PAGE,
@@ -83,19 +86,25 @@ def drawn(context: Context, found: IndexMaps) -> Drawing:
     return Drawing(figure, found.to_json())
 
 
-def _draw_one(context: Context, axes: Axes, bar: Axes, found: IndexMaps, item: IndexMap) -> None:
+def _draw_one(context: Context, pair: tuple[Axes, Axes], found: IndexMaps, name: str) -> None:
     (first, xs), (second, ys) = found.axes
+    (axes, bar), item = pair, found.maps[name]
     dress(context, axes, (first, second))
     axes.tick_params(color=GREY)
     known = item.values[np.isfinite(item.values)]
     path = outline(_polygons(context, found))
-    if not len(known) or path is None:
+    if path is None:
         bar.set_axis_off()
         return
-    colours = Normalize(0.0, _top(item, known))
-    shown = continued(np.where(np.isinf(item.values), colours.vmax or 1.0, item.values)).T
     border = PathPatch(path, facecolor="none", edgecolor=INK, linewidth=0.8, zorder=5)
     axes.add_patch(border)
+    if not len(known):
+        bar.set_axis_off()
+        axes.text(0.5, 0.5, "none found", transform=axes.transAxes, ha="center", va="center", fontsize=SMALL)
+        return
+    top = _top(name, item, known)
+    shown = continued(np.where(np.isinf(item.values), top, item.values)).T
+    colours = Normalize(0.0, top)
     image = axes.pcolormesh(xs, ys, shown, cmap=COLOURS, norm=colours, shading="gouraud")
     image.set_clip_path(border)
     image.set_rasterized(True)
@@ -103,9 +112,9 @@ def _draw_one(context: Context, axes: Axes, bar: Axes, found: IndexMaps, item: I
     bar.tick_params(labelsize=SMALL)
 
 
-def _top(item: IndexMap, known: FloatArray) -> float:
-    """Where the colours end: at 1, or at a quantile of what grows without bound."""
-    return 1.0 if item.bounded else float(np.quantile(known, SHOWN)) or 1.0
+def _top(name: str, item: IndexMap, known: FloatArray) -> float:
+    """Where the colours end."""
+    return 1.0 if item.bounded else float(np.quantile(known, SHOWN if name in UNBOUNDED else 1.0)) or 1.0
 
 
 def _polygons(context: Context, found: IndexMaps) -> list[FloatArray]:
@@ -128,8 +137,8 @@ def _powers(unit: str) -> str:
 def _caption(context: Context) -> str:
     found = whole(context)
     parts = [
-        f"Every index over one plane ({mode_words(context)}). Those without a unit lie between 0, singular, and 1, the"
-        f" best; the colours of the others end at their {100 * SHOWN:.0f} % quantile."
+        f"Every index over one plane ({mode_words(context)}). $1/\\kappa$, $1/\\kappa_F$, ITI, OTI and LTI lie between"
+        f" 0, singular, and 1; the colours of $w$ and $\\sigma_{{\\max}}$ end at their {100 * SHOWN:.0f} % quantile."
     ]
     if found.length is not None:
         parts.append(

@@ -84,7 +84,8 @@ def zeros(
         labels: (N,) such as a number of a choice of signs.
         scale: (n,) sizes of the unknowns, against which widths are judged.
         smallest: part of the scale below which a box is not halved any more.
-        most, total: so many boxes at most are open at once, and looked at, else all open ones are undecided.
+        most: so many boxes at most are open at once, else all of them are undecided.
+        total: so many are looked at, at most.
 
     Example: x^2 = 2, x y = 1, between -3 and 3.
 

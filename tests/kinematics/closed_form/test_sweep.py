@@ -248,3 +248,21 @@ def test_refuses_what_is_not_finite(zeng, bad):
     poses[1, 7] = bad
     with pytest.raises(UsageError, match="finite"):
         inverse_all_expanded_sweep(zeng, poses, block=4)
+
+
+def test_condition_index_is_that_of_the_velocity_map_by_svd(mechanism):
+    poses = poses_of(mechanism)
+    swept = inverse_sweep(mechanism, poses, want=("exists", "condition_index", "smallest", "det_jp", "det_jq"))
+    sizes = [np.abs(swept[name]) for name in ("det_jp", "det_jq")]
+    real = swept["exists"] & np.all([size > 1e-3 * size[swept["exists"]].max() for size in sizes], axis=0)
+    assert real.sum() > 20
+    here = mechanism.velocity_map(poses[:, real].T)
+    values = np.linalg.svd(np.linalg.solve(here.jp, here.jq), compute_uv=False)
+    np.testing.assert_allclose(swept["condition_index"][real], values[:, -1] / values[:, 0], rtol=1e-7)
+    np.testing.assert_allclose(swept["smallest"][real], values[:, -1], rtol=1e-7)
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3])
+def test_bits_do_not_depend_on_threads(zeng, threads):
+    for job, work in jobs(zeng).items():
+        assert _digest(work(block=999, threads=threads)) == _digest(work(block=COUNT)), job

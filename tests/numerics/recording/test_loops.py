@@ -125,3 +125,14 @@ def test_machine_code_is_kept_in_the_chosen_folder(tmp_path, monkeypatch):
     assert run([[2.0]], [])["y"][0] == 4 + 12345.678
     kept = [path.suffix for path in tmp_path.rglob("*") if path.is_file()]
     assert sorted(set(kept)) == [".nbc", ".nbi", ".py"]
+
+
+@pytest.mark.parametrize("count", [1, 255, 256, 1000])
+def test_many_outputs_are_worked_on_in_long_groups(count):
+    recorder = Recorder()
+    x = recorder.varying("x")
+    tape = recorder.tape({f"y{k}": x * k + 1 for k in range(30)} | {f"large{k}": x > k for k in range(3)})
+    given = np.random.default_rng(count).normal(size=(1, count))
+    found, wanted = compiled(tape)(given, []), tape.evaluate(given, [])
+    for name, values in wanted.items():
+        np.testing.assert_array_equal(found[name], values)

@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 
 import assur
+from assur.numerics.recording.tape import Recorder
 from assur.workspace.certified import planes
 from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.criteria import Criteria, criteria
 from assur.workspace.certified.planes import Frame, joined, judged
-from assur.workspace.domain import box_of
+from assur.workspace.domain import Box, box_of
 from assur.workspace.fields import margin_fields
+from assur.workspace.slices import Slice
 
 RNG = np.random.default_rng(8)
 SAMPLES = 500
@@ -113,3 +115,26 @@ def test_a_wrong_sign_and_what_is_undefined_taken_for_inside_are_noticed(monkeyp
     monkeypatch.setattr(Criteria, "over", wrong)
     with pytest.raises(AssertionError):
         test_sampled_shares_lie_within_the_bounds("zeng2019")
+
+
+def made_up(margin):
+    """Criteria over x of one margin, with a frame from -1 to 1."""
+    recorder = Recorder()
+    x = recorder.varying("x")
+    tape = recorder.tape({"m": margin(x)})
+    asked = Criteria(Slice(("x",), ("x",), {}), tape, (), ("m",), (), (), (), {})
+    return Frame(asked, Box(("x",), (-1.0,), (1.0,)), (True,))
+
+
+def test_a_margin_that_is_not_defined_somewhere_is_not_taken_for_inside():
+    """1 / x^2 is nowhere negative, but has no value at zero."""
+    boxes = Boxes(np.array([[-1.0, -1.0, 0.5]]), np.array([[1.0, 0.0, 1.0]]))
+    found = judged(made_up(lambda x: 1 / (x * x)), boxes)
+    assert found.inside.tolist() == [False, False, True]
+    assert not found.outside.any()
+    assert found.least[0] == found.least[1] == 0.0
+
+
+def test_where_a_margin_has_a_value_it_is_negative_so_that_nothing_is_reached():
+    boxes = Boxes(np.array([[-1.0, 0.5]]), np.array([[1.0, 1.0]]))
+    assert judged(made_up(lambda x: -1 / (x * x)), boxes).outside.tolist() == [True, True]

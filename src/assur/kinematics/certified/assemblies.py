@@ -19,7 +19,7 @@ from assur.kinematics import position
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.certified.given import number, turn
 from assur.kinematics.certified.joint_frames import JointFrames, Placed
-from assur.kinematics.certified.result import Certificate, Doubt, ProvedSolution
+from assur.kinematics.certified.result import CertifiedSolutions, Doubt, ProvedSolution
 from assur.kinematics.closure import characteristic_length, closing_system
 from assur.kinematics.modes import Problem
 from assur.kinematics.position import Method
@@ -100,7 +100,7 @@ class _Assemblies:
 
 def certified_assemblies(
     record: MechanismRecord, problem: Problem, given: FloatArray, method: Method = "auto"
-) -> Certificate:
+) -> CertifiedSolutions:
     """Which float answers to a problem (n,) or (m,) certainly are assemblies; that they are all is not proved.
 
     Errors:
@@ -132,7 +132,7 @@ def certified_assemblies(
     model: Literal["reduced", "joint_graph"] = "reduced" if answer.complete_for == "reduced" else "joint_graph"
     right = f"each assembly is proved on the joint graph, that there are no others only in floats ({answer.right})"
     listed = tuple(solutions[k] for k in sorted(solutions))
-    return Certificate(record, problem, given, listed, doubts, False, model, right)
+    return CertifiedSolutions(record, problem, given, listed, doubts, False, model, right)
 
 
 def _proved(

@@ -14,7 +14,7 @@ from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.certified.domain import HALF_TURN, pose_box
 from assur.kinematics.certified.legs import Legs
 from assur.kinematics.certified.proofs import sizes
-from assur.kinematics.certified.result import Certificate, Doubt, ProvedSolution
+from assur.kinematics.certified.result import CertifiedSolutions, Doubt, ProvedSolution
 from assur.kinematics.modes import mode_text
 from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
@@ -35,7 +35,7 @@ NEAR = 1e-7
 
 def direct_by_boxes(
     record: MechanismRecord, inputs: FloatArray, *, smallest: float = SMALLEST, most: int = MOST
-) -> Certificate:
+) -> CertifiedSolutions:
     """Every pose at printed inputs (n,), by branch and prune over the box that the links allow.
 
     Errors:
@@ -67,7 +67,7 @@ def direct_by_boxes(
     doubts += [Doubt("pose", poses[k].low, poses[k].high, "one pose or two, a whole turn apart") for k in sorted(twice)]
     form = closed_form_of(record)
     right = f"branch and prune over all poses that the links allow, {answer.examined} boxes, {count} working modes"
-    return Certificate(record, "direct", inputs, solutions, tuple(doubts), True, form.complete_for, right)
+    return CertifiedSolutions(record, "direct", inputs, solutions, tuple(doubts), True, form.complete_for, right)
 
 
 def _within_a_turn(names: tuple[str, ...], found: Zeros) -> tuple[Interval, set[int]]:

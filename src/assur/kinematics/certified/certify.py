@@ -13,7 +13,7 @@ from assur.errors import UnknownNameError, UsageError
 from assur.kinematics import border, position
 from assur.kinematics.certified.assemblies import certified_assemblies
 from assur.kinematics.certified.boxes import direct_by_boxes
-from assur.kinematics.certified.result import Certificate
+from assur.kinematics.certified.result import CertifiedSolutions
 from assur.kinematics.certified.roots import direct_by_roots
 from assur.kinematics.certified.signs import direct_by_signs, inverse_by_signs
 from assur.kinematics.certified.systems import direct_by_system
@@ -24,7 +24,7 @@ from assur.model.mechanism import MechanismRecord
 Way = Literal["auto", "closed form", "boxes", "joint graph"]
 
 
-def certified_direct(record: MechanismRecord, inputs: ArrayLike, way: Way = "auto") -> Certificate:
+def certified_direct(record: MechanismRecord, inputs: ArrayLike, way: Way = "auto") -> CertifiedSolutions:
     """Every pose at inputs (n,), in lengths and rad, each proved, and proved to be all; or where that is undecided.
 
     Args:
@@ -64,7 +64,7 @@ def certified_direct(record: MechanismRecord, inputs: ArrayLike, way: Way = "aut
     return direct_by_signs(record, given)
 
 
-def certified_inverse(record: MechanismRecord, pose: ArrayLike, way: Way = "auto") -> Certificate:
+def certified_inverse(record: MechanismRecord, pose: ArrayLike, way: Way = "auto") -> CertifiedSolutions:
     """All inputs at a pose (m,), in lengths and rad, each proved, and proved to be all; or where that is undecided.
 
     Args:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.certified.branches import Judged, grouped
 from assur.kinematics.certified.proofs import Proofs
-from assur.kinematics.certified.result import Certificate, Doubt, ProvedSolution
+from assur.kinematics.certified.result import CertifiedSolutions, Doubt, ProvedSolution
 from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
@@ -45,7 +45,7 @@ def matched(
     floats: SolutionSet,
     right: str,
     extra: Sequence[Doubt] = (),
-) -> Certificate:
+) -> CertifiedSolutions:
     """The certificate of a direct problem (n,) from both proofs; `extra` are doubts that no branch answers for."""
     found = candidates.branches
     names = record.platform.pose
@@ -75,7 +75,7 @@ def matched(
         doubts.append((-1, Doubt("pose", *_ends(known.pose), "the closed form and the legs disagree here")))
     form = closed_form_of(record)
     undecided = (*grouped(doubts), *extra)
-    return Certificate(
+    return CertifiedSolutions(
         record, "direct", inputs, tuple(solutions), undecided, True, form.complete_for, right, found.by
     )  # fmt: skip
 

@@ -64,7 +64,7 @@ class Doubt:
 
 
 @dataclass(frozen=True, eq=False)
-class Certificate:
+class CertifiedSolutions:
     """The proved answer to one direct or inverse problem, as far as it could be proved.
 
     Attributes:
@@ -113,7 +113,7 @@ class Certificate:
         return f"{count} proved, {where}"
 
 
-def answer(found: Certificate) -> dict[str, Any]:
+def answer(found: CertifiedSolutions) -> dict[str, Any]:
     """A certificate as plain data, angles in the mechanism's angle unit.
 
     Bounds are those inside; in degrees they are rounded to the nearest float.
@@ -144,7 +144,7 @@ def answer(found: Certificate) -> dict[str, Any]:
     }
 
 
-def _solution(found: Certificate, item: ProvedSolution) -> dict[str, Any]:
+def _solution(found: CertifiedSolutions, item: ProvedSolution) -> dict[str, Any]:
     record = found.record
     if found.problem == "direct":
         bounds = {"pose": _bounds(pose_at_border(record, item.pose.low), pose_at_border(record, item.pose.high))}

@@ -20,7 +20,7 @@ from assur.kinematics.certified.given import joint_inputs, parameters
 from assur.kinematics.certified.legs import Legs
 from assur.kinematics.certified.matching import Candidates, matched
 from assur.kinematics.certified.proofs import proofs
-from assur.kinematics.certified.result import Certificate, Doubt
+from assur.kinematics.certified.result import CertifiedSolutions, Doubt
 from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import Branch, Eliminant
 from assur.model.mechanism import MechanismRecord
@@ -35,7 +35,7 @@ TURNS = ((1, 0), (4, 3), (3, -4), (12, 5))
 """Turns by twice the angle of (c, s): in t = tan(angle/2) a root at infinity is at a finite place after one of them."""
 
 
-def direct_by_roots(record: MechanismRecord, eliminant: Eliminant, inputs: FloatArray) -> Certificate:
+def direct_by_roots(record: MechanismRecord, eliminant: Eliminant, inputs: FloatArray) -> CertifiedSolutions:
     """Every pose at printed inputs (n,), from the real roots of one polynomial for each choice of its signs."""
     given, p = joint_inputs(record, inputs), parameters(record)
     extra: list[Doubt] = []

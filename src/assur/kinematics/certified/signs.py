@@ -14,7 +14,7 @@ from assur.kinematics.certified.given import joint_inputs, parameters, pose_numb
 from assur.kinematics.certified.legs import Legs
 from assur.kinematics.certified.matching import Candidates, matched
 from assur.kinematics.certified.proofs import proofs
-from assur.kinematics.certified.result import Certificate, ProvedSolution
+from assur.kinematics.certified.result import CertifiedSolutions, ProvedSolution
 from assur.kinematics.modes import Problem, mode_text, sign_names
 from assur.kinematics.status import branch_kernel, closed_form_of
 from assur.model.mechanism import MechanismRecord
@@ -24,7 +24,7 @@ FloatArray = NDArray[np.float64]
 RIGHT = "the closed form, every branch of its roots over intervals"
 
 
-def direct_by_signs(record: MechanismRecord, inputs: FloatArray) -> Certificate:
+def direct_by_signs(record: MechanismRecord, inputs: FloatArray) -> CertifiedSolutions:
     """Every pose at printed inputs (n,); each is proved from the legs too, where they have signs."""
     signs, sign = _every(record, "direct")
     kernel, p, given = branch_kernel(record), parameters(record), joint_inputs(record, inputs)
@@ -36,7 +36,7 @@ def direct_by_signs(record: MechanismRecord, inputs: FloatArray) -> Certificate:
     return matched(record, inputs, candidates, proofs(Legs(record, inputs), floats), floats, RIGHT)
 
 
-def inverse_by_signs(record: MechanismRecord, pose: FloatArray) -> Certificate:
+def inverse_by_signs(record: MechanismRecord, pose: FloatArray) -> CertifiedSolutions:
     """All inputs at a pose (m,)."""
     signs, sign = _every(record, "inverse")
     form = closed_form_of(record)
@@ -54,7 +54,7 @@ def inverse_by_signs(record: MechanismRecord, pose: FloatArray) -> Certificate:
         )
         for k in np.flatnonzero(found.exists)
     )
-    return Certificate(
+    return CertifiedSolutions(
         record, "inverse", pose, solutions, grouped(found.doubts), True, form.complete_for, RIGHT, found.by
     )  # fmt: skip
 

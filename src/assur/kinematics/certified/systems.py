@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from assur.kinematics import position
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.certified.given import joint_inputs, number, parameters
-from assur.kinematics.certified.result import Certificate, Doubt, ProvedSolution
-from assur.kinematics.closed_form.systems import _ends as ends
+from assur.kinematics.certified.result import CertifiedSolutions, Doubt, ProvedSolution
+from assur.kinematics.closed_form.systems import ends
 from assur.kinematics.closure import characteristic_length
 from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import PolynomialSystem
@@ -62,7 +62,7 @@ class _Scaled:
         return tuple(Complex(*pair) for pair in zip(numbers[::2], numbers[1::2], strict=True))
 
 
-def direct_by_system(record: MechanismRecord, system: PolynomialSystem, inputs: FloatArray) -> Certificate:
+def direct_by_system(record: MechanismRecord, system: PolynomialSystem, inputs: FloatArray) -> CertifiedSolutions:
     """Every pose at printed inputs (n,): complete where as many solutions are proved as `system.degree`."""
     equations = _Scaled(record, system, inputs)
     points = ends(record, system, inputs[None])[0][0]
@@ -89,7 +89,7 @@ def direct_by_system(record: MechanismRecord, system: PolynomialSystem, inputs: 
     form = closed_form_of(record)
     right = f"{len(kept)} complex solutions of the system are proved, each in a box of its own, "
     right += f"of {system.degree} that there can be ({system.because})"
-    return Certificate(
+    return CertifiedSolutions(
         record, "direct", inputs, solutions, _missing(system, len(kept)), complete, form.complete_for, right
     )
 

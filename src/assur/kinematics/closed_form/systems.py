@@ -72,7 +72,7 @@ def solutions_of(
 ) -> SystemBranches:
     """Every solution of a polynomial system at inputs (..., n), or that of one mode."""
     flat = given.reshape(int(np.prod(given.shape[:-1], dtype=int)), given.shape[-1])
-    blocks = [_ends(record, system, flat[start : start + AT_ONCE]) for start in range(0, len(flat), AT_ONCE)]
+    blocks = [ends(record, system, flat[start : start + AT_ONCE]) for start in range(0, len(flat), AT_ONCE)]
     empty = np.zeros((0, system.degree, len(system.unknowns)), dtype=complex), np.zeros((0, system.degree), np.int8)
     x, end = (np.concatenate([empty[k], *(block[k] for block in blocks)]) for k in (0, 1))
     infinite = np.abs(system.finite(np.moveaxis(x, -1, 0))) <= INFINITE  # (N, K)
@@ -103,7 +103,7 @@ def solutions_of(
     )
 
 
-def _ends(
+def ends(
     record: MechanismRecord, system: PolynomialSystem, inputs: FloatArray
 ) -> tuple[ComplexArray, NDArray[np.int8]]:
     """Ends (N, K, n) of all paths at inputs (N, m), the largest unknown 1, and what they are (N, K)."""
@@ -111,10 +111,10 @@ def _ends(
     own = np.broadcast_to(dimensions(record), (len(inputs), len(record.parameters)))
     joint = np.stack([(inputs[:, k] - item.offset) * item.sign for k, item in enumerate(record.inputs)], axis=-1)
     target = np.concatenate([own, joint / characteristic_length(record)], axis=1)
-    ends = solve(family(record, system, start, target), solutions)
-    largest = np.take_along_axis(ends.x, np.argmax(np.abs(ends.x), axis=1)[:, None], axis=1)
+    found = solve(family(record, system, start, target), solutions)
+    largest = np.take_along_axis(found.x, np.argmax(np.abs(found.x), axis=1)[:, None], axis=1)
     shape = (len(inputs), len(solutions))
-    return (ends.x / largest).reshape(*shape, -1), ends.end.reshape(shape)
+    return (found.x / largest).reshape(*shape, -1), found.end.reshape(shape)
 
 
 def _order(branch: Branch, gap: FloatArray) -> NDArray[np.intp]:

@@ -13,7 +13,11 @@ from pathlib import Path
 from assur.numerics.recording.tape import LOGICAL, Operation, Tape
 
 GROUP = 16
-"""Elements of a group."""
+"""Elements of a group where there are few outputs, and elements that are moved at a time."""
+LONG, MANY = 256, 20
+"""Elements of a group where there are more outputs: each then goes on for a while in one page of memory."""
+PAD = 8
+"""Elements between rows of a long group, which would share few places in the cache if they began at powers of two."""
 
 _TEXT = {
     "+": "{0} + {1}",
@@ -40,18 +44,21 @@ def source(tape: Tape) -> str:
     True
     """
     places, varying = places_of(tape), len(tape.varying)
+    size, pitch = group_size(tape)
     before, inside = _statements(tape)
     for k, place in {tape.outputs[name]: place for name, place in places.items()}.items():
         value = f"1.0 if v{k} else 0.0" if tape.operations[k].name in LOGICAL else f"v{k}"
-        inside.append(f"group[{place * GROUP} + i] = {value}")
+        inside.append(f"group[{place * pitch} + i] = {value}")
     height = varying + len(set(places.values()))
     return _FRAME.format(
         version=_storing_version(),
-        size=height * GROUP,
+        size=height * pitch,
         before="\n    ".join(before),
         inside="\n            ".join(inside),
         varying=varying,
-        count=GROUP,
+        count=size,
+        pitch=pitch,
+        step=GROUP,
     )
 
 
@@ -73,43 +80,54 @@ def loop(given, width, uniform, numbers, truths, length, number_rows, truth_rows
     {before}
     for first in range(start, stop, {count}):
         count = min({count}, stop - first)
+        whole = count // {step} * {step}
         for row in range({varying}):
-            if count == {count}:
-                moved(given, row * width + first, group, row * {count})
-            else:
-                for i in range(count):
-                    group[row * {count} + i] = given[row * width + first + i]
+            for k in range(0, whole, {step}):
+                moved(given, row * width + first + k, group, row * {pitch} + k)
+            for i in range(whole, count):
+                group[row * {pitch} + i] = given[row * width + first + i]
         for i in range({count}):
             {inside}
         begin = shift + first
-        if count < {count}:
-            for row in range(len(number_rows)):
-                for i in range(count):
-                    numbers[row * length + begin + i] = group[number_rows[row] * {count} + i]
-            for row in range(len(truth_rows)):
-                for i in range(count):
-                    truths[row * length + begin + i] = group[truth_rows[row] * {count} + i] > 0.5
-        else:
+        for row in range(len(number_rows)):
+            at, to = number_rows[row] * {pitch}, row * length + begin
             if streaming:
-                for row in range(len(number_rows)):
-                    streamed(group, number_rows[row] * {count}, numbers, row * length + begin)
+                for k in range(0, whole, {step}):
+                    streamed(group, at + k, numbers, to + k)
             else:
-                for row in range(len(number_rows)):
-                    moved(group, number_rows[row] * {count}, numbers, row * length + begin)
-            for row in range(len(truth_rows)):
-                judged(group, truth_rows[row] * {count}, truths, row * length + begin)
+                for k in range(0, whole, {step}):
+                    moved(group, at + k, numbers, to + k)
+            for i in range(whole, count):
+                numbers[to + i] = group[at + i]
+        for row in range(len(truth_rows)):
+            at, to = truth_rows[row] * {pitch}, row * length + begin
+            for k in range(0, whole, {step}):
+                judged(group, at + k, truths, to + k)
+            for i in range(whole, count):
+                truths[to + i] = group[at + i] > 0.5
     return odd
 """
 
 
+def group_size(tape: Tape) -> tuple[int, int]:
+    """Elements of a group, and places from one row of its buffer to the next.
+
+    >>> from assur.numerics.recording.tape import Recorder
+    >>> recorder = Recorder()
+    >>> group_size(recorder.tape({"x": recorder.varying("x")}))
+    (16, 16)
+    """
+    return (GROUP, GROUP) if len(tape.outputs) <= MANY else (LONG, LONG + PAD)
+
+
 def _statements(tape: Tape) -> tuple[list[str], list[str]]:
     """Lines before the loop, of what is the same for all elements, and lines inside."""
-    once = _uniform_entries(tape)
+    once, pitch = _uniform_entries(tape), group_size(tape)[1]
     before, inside = [], []
     varying, uniform = 0, 0
     for k, item in enumerate(tape.operations):
         if item.name == "varying":
-            inside += [f"v{k} = group[{varying * GROUP} + i]", f"odd += 0 if abs(v{k}) < inf else 1"]
+            inside += [f"v{k} = group[{varying * pitch} + i]", f"odd += 0 if abs(v{k}) < inf else 1"]
             varying += 1
         elif item.name == "uniform":
             before.append(f"v{k} = uniform[{uniform}]")

@@ -1,0 +1,48 @@
+"""Signs of factors over boxes: what certainly holds at every pose of a box that is reached."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.numerics.intervals import rounding
+from assur.numerics.intervals.interval import Interval
+from assur.workspace.certified.boxes import Boxes
+from assur.workspace.certified.planes import BLOCK, Frame
+from assur.workspace.certified.sloped import ranged
+
+Signs = NDArray[np.int8]
+
+
+def factor_signs(frame: Frame, boxes: Boxes) -> Signs:
+    """Signs (N, f) of the factors in the order of `frame.criteria.names`; 0 where both, or zero, may occur.
+
+    Where a pose of the box is reached, each factor there has the sign that is given.
+
+    >>> from assur.model.registry import load_record
+    >>> from assur.workspace.certified.criteria import criteria
+    >>> from assur.workspace.domain import box_of
+    >>> record = load_record("fivebar")
+    >>> frame = Frame(criteria(record, "-+", factors=["parallel"]), box_of(record, None), (True, True))
+    >>> boxes = Boxes(np.array([[-10.0, -10.0], [150.0, 50.0]]), np.array([[10.0, 10.0], [160.0, 260.0]]))
+    >>> factor_signs(frame, boxes).tolist()
+    [[1], [0]]
+    """
+    names = frame.criteria.names
+    parts = [np.zeros((0, len(names)), dtype=np.int8)]
+    for k in range(0, len(boxes), BLOCK):
+        parts.append(_block(frame, boxes[k : k + BLOCK]))
+    return np.concatenate(parts)
+
+
+def _block(frame: Frame, boxes: Boxes) -> Signs:
+    middles = boxes.middles
+    reach = rounding.up_sum(np.maximum(boxes.high - middles, middles - boxes.low))
+    offsets = [Interval(-row, row, np.ones(len(boxes), dtype=bool)) for row in reach]
+    plain = frame.criteria.over(frame.whole(boxes.intervals))
+    found = frame.criteria.sloped(frame.whole(boxes.intervals), frame.middles(middles))
+    signs = np.zeros((len(boxes), len(frame.criteria.names)), dtype=np.int8)
+    for k, name in enumerate(frame.criteria.names):
+        for value in (plain[name], ranged(found[name], offsets)):
+            signs[:, k] = np.where(value.positive, 1, np.where(value.negative, -1, signs[:, k]))
+    return signs

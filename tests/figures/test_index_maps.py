@@ -1,0 +1,68 @@
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+import pytest
+
+import assur
+from assur import figures
+from assur.errors import UsageError
+from assur.figures.index_maps import INDEX_MAPS, drawn, whole
+from assur.figures.style import styled
+from assur.workspace.index_maps import index_maps
+from assur.workspace.region import workspace
+
+
+@lru_cache(maxsize=8)
+def shared(name, **box):
+    record = assur.load(name)
+    return figures.Context(record, workspace(record, resolution=12))
+
+
+@pytest.mark.parametrize("name", ["fivebar", "zeng2019", "planar_3rrr"])
+def test_every_index_has_a_map_on_the_same_axes(name):
+    context = shared(name)
+    drawing = figures.drawing(context.record, "indices", context)
+    found = whole(context)
+    assert found is whole(context)
+    assert drawing.data == found.to_json()
+    maps = [axes for axes in drawing.figure.axes if axes.get_xlabel()]
+    assert len(maps) == len(found.maps) == 9
+    assert len({(axes.get_xlim(), axes.get_ylim(), axes.get_xlabel(), axes.get_ylabel()) for axes in maps}) == 1
+    titles = [text.get_text() for text in drawing.figure.texts]
+    for item in found.maps.values():
+        assert any(f"${item.symbol}$" in title for title in titles)
+    for axes, item in zip(maps, found.maps.values(), strict=True):
+        coloured = [mesh for mesh in axes.collections if mesh.get_array() is not None]
+        assert len(coloured) == int(np.any(np.isfinite(item.values)))
+        if item.bounded:
+            assert coloured[0].get_clim() == (0.0, 1.0)
+        elif coloured:
+            assert coloured[0].get_clim()[1] <= item.most.value * (1 + 1e-12)
+
+
+def test_the_axes_may_be_in_any_order_and_the_border_follows():
+    context = shared("zeng2019")
+    found = index_maps(context.record, context.workspace, ("z", "x"), {"y": 0.0}, 9)
+    with styled():
+        figure = drawn(context, found).figure
+    axes = figure.axes[0]
+    assert axes.get_xlabel().startswith("$z$")
+    corners = axes.patches[0].get_path().get_extents()
+    box = context.workspace.box
+    assert box.low[2] - 1e-6 <= corners.x0 <= corners.x1 <= box.high[2] + 1e-6
+    assert box.low[0] - 1e-6 <= corners.y0 <= corners.y1 <= box.high[0] + 1e-6
+
+
+def test_what_is_not_a_plane_is_refused():
+    context = shared("fivebar")
+    with pytest.raises(UsageError, match="1 coordinates are not a plane"):
+        drawn(context, index_maps(context.record, context.workspace, ("x",), nodes=3))
+
+
+def test_the_caption_says_how_far_was_looked_and_what_lengths_are_divided_by():
+    plain, mixed = INDEX_MAPS.caption(shared("fivebar")), INDEX_MAPS.caption(shared("planar_3rrr"))
+    assert "within 194 mm" in plain
+    assert "characteristic length" not in plain
+    assert "characteristic length 200 mm" in mixed
