@@ -39,6 +39,7 @@ bench: $(VENV)/installed ## poses per second beside a hand-written C loop (needs
 	$(BIN)/python bench/bench.py
 	$(BIN)/python bench/topology.py
 	$(BIN)/python bench/kinematics.py
+	$(BIN)/python bench/compiled.py
 
 format: $(VENV)/installed-dev ## put the code into the form that `check` asks for
 	$(BIN)/ruff check --fix .

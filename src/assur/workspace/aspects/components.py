@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
+from scipy.sparse import coo_array, csr_array
+from scipy.sparse.csgraph import connected_components, dijkstra
 
 from assur.workspace.aspects.adjacency import contacts, shared_faces
 from assur.workspace.certified.boxes import Boxes, together
@@ -25,15 +26,24 @@ class Links:
         component: (N,) of each certain box, from 0; boxes of one are joined by faces.
         signs: (C, f) of the factors in each component.
         group: (C,) of each component, from 0; components of different groups are certainly not connected.
-        reached: (C, M) whether an aspect that holds the component may extend into an undecided box.
-        touching: (C, M) whether an undecided box touches the component.
+        reached: for each group the undecided boxes into which its aspects may extend.
+        graphs: for each group with several components the graph over components and undecided boxes that may join them.
     """
 
     component: IntArray
     signs: Signs
     group: IntArray
-    reached: BoolArray
-    touching: BoolArray
+    reached: tuple[IntArray, ...]
+    graphs: Mapping[int, csr_array]
+
+    def chains(self, component: int) -> BoolArray:
+        """Undecided boxes (M,) on one of the shortest chains that may join a component to another of its group."""
+        graph, count = self.graphs[int(self.group[component])], len(self.group)
+        others = np.flatnonzero(self.group == self.group[component])
+        here = dijkstra(graph, indices=component, unweighted=True)
+        there = dijkstra(graph, indices=others[others != component], unweighted=True, min_only=True)
+        least = np.min(here[others[others != component]])
+        return np.asarray((here + there == least)[count:]) & np.isfinite(least)
 
 
 def components(boxes: Boxes) -> IntArray:
@@ -60,37 +70,38 @@ def links(certain: Boxes, signs: Signs, undecided: Boxes, possible: Signs) -> Li
     components are apart unless a chain of such boxes, of which each touches the next, joins them.
     """
     own = components(certain)
-    count, number = len(certain), int(np.max(own, initial=-1)) + 1
+    number = int(np.max(own, initial=-1)) + 1
     of_component = np.zeros((number, signs.shape[1]), dtype=np.int8)
     of_component[own] = signs
-    pairs = contacts(together([certain, undecided]))
-    # nodes: the components, then the undecided boxes
-    node = np.concatenate([own, number + np.arange(len(undecided))])[pairs]
+    # nodes of the graphs: the components, then the undecided boxes
+    node = np.concatenate([own, number + np.arange(len(undecided))])[contacts(together([certain, undecided]))]
     node = node[node[:, 0] != node[:, 1]]
     allowed = np.concatenate([of_component, possible])
-    group = np.zeros(number, dtype=np.int64)
-    reached = np.zeros((number, len(undecided)), dtype=bool)
+    group, reached, graphs = np.zeros(number, dtype=np.int64), [], {}
     for value in np.unique(of_component, axis=0):
-        fits = np.all((allowed == value) | ((allowed == 0) & (np.arange(len(allowed)) >= number)[:, None]), axis=1)
+        fits = np.all((allowed == value) | (allowed == 0), axis=1)
         inner = node[fits[node].all(axis=1)]
         part = _parts(len(allowed), inner)
         mine = np.flatnonzero(fits[:number])
-        group[mine] = part[mine]
-        reached[mine] = (part[mine][:, None] == part[None, number:]) & fits[None, number:]
-    touching = np.zeros((number, len(undecided)), dtype=bool)
-    mixed = node[(node[:, 0] < number) & (node[:, 1] >= number)]
-    touching[mixed[:, 0], mixed[:, 1] - number] = True
-    if count == 0:
-        return Links(own, of_component, group, reached, touching)
-    # components of other signs never share a group, whatever their numbers are
-    _, group = np.unique(np.column_stack([of_component, group]), axis=0, return_inverse=True)
-    return Links(own, of_component, group.reshape(-1).astype(np.int64), reached, touching & reached)
+        for own_part in np.unique(part[mine]):
+            members = mine[part[mine] == own_part]
+            group[members] = len(reached)
+            if len(members) > 1:
+                # components that touch at a corner are one, but a path wants a face: cut what lies about the corner
+                inside = inner[(part[inner[:, 0]] == own_part) & np.any(inner >= number, axis=1)]
+                graphs[len(reached)] = _graph(len(allowed), inside)
+            reached.append(np.flatnonzero(fits[number:] & (part[number:] == own_part)))
+    return Links(own, of_component, group, tuple(reached), graphs)
+
+
+def _graph(count: int, pairs: IntArray) -> csr_array:
+    """The graph of so many nodes with these pairs for edges."""
+    both = np.concatenate([pairs, pairs[:, ::-1]])
+    return coo_array((np.ones(len(both)), (both[:, 0], both[:, 1])), shape=(count, count)).tocsr()
 
 
 def _parts(count: int, pairs: IntArray) -> IntArray:
     """The part (count,) of each node of a graph."""
-    ones = np.ones(len(pairs), dtype=bool)
-    graph = coo_array((ones, (pairs[:, 0], pairs[:, 1])), shape=(count, count))
-    _, labels = connected_components(graph.tocsr(), directed=False)
+    _, labels = connected_components(_graph(count, pairs), directed=False)
     _, first, inverse = np.unique(labels, return_index=True, return_inverse=True)
     return np.argsort(np.argsort(first)).astype(np.int64)[inverse.reshape(-1)]

@@ -1,0 +1,132 @@
+"""The search: a paving free of singularities, cut further where undecided boxes leave open what is connected."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.workspace.aspects.components import Links, links
+from assur.workspace.aspects.signs import Signs, factor_signs
+from assur.workspace.certified.boxes import Boxes, together
+from assur.workspace.certified.paving import Progress, Stopped, pave
+from assur.workspace.certified.planes import Frame, judged
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+
+ROUNDS = 24
+"""Times that boxes between components are cut at most."""
+
+DEEPER = 64.0
+"""Boxes between components are cut down to this part of the finest size."""
+
+AT_ONCE = 32
+"""Components about which boxes are cut at a time, the largest first."""
+
+STEPS = 1000
+
+
+@dataclass(frozen=True, eq=False)
+class Search:
+    """The boxes found, and how they are linked.
+
+    Attributes:
+        frame: the question, over the coordinates that are cut.
+        certain: boxes in which every pose is reached and no factor is zero, with its `signs` (N, f).
+        undecided: the others, of which some poses may be so, with the signs `possible` (M, f) there, or 0.
+        outside: boxes in which no pose is reached.
+        links: how the boxes are connected.
+        stopped: why it ended early; "" where it did not.
+    """
+
+    frame: Frame
+    certain: Boxes
+    signs: Signs
+    undecided: Boxes
+    possible: Signs
+    outside: Boxes
+    links: Links
+    stopped: Stopped = ""
+
+
+def search(frame: Frame, finest: Mapping[str, float], progress: Progress | None = None) -> Search:
+    """Pave the box of a frame down to extents by coordinate, and further where components may or may not meet.
+
+    Args:
+        frame: criteria with factors among what must not be zero, over a box.
+        finest: largest extent of an undecided box by coordinate, in length units and rad.
+        progress: called with (steps done, steps in all).
+    """
+    paving = pave(frame.criteria, frame.box, finest=finest, progress=_part(progress))
+    certain, undecided = paving.inside, paving.boundary
+    signs, possible = factor_signs(frame, certain), factor_signs(frame, undecided)
+    found = links(certain, signs, undecided, possible)
+    state = Search(frame, certain, signs, undecided, possible, paving.outside, found, paving.stopped)
+    least = np.array([finest[name] for name in paving.names]) / DEEPER
+    try:
+        for k in range(ROUNDS):
+            if progress is not None:
+                progress(STEPS + STEPS * k // ROUNDS, 2 * STEPS)
+            chosen = _between(state, least)
+            if not chosen.any():
+                break
+            state = _cut(state, chosen)
+    except KeyboardInterrupt:
+        state = replace(state, stopped="interrupted")
+    if progress is not None:
+        progress(2 * STEPS, 2 * STEPS)
+    return state
+
+
+def _between(state: Search, least: FloatArray) -> BoolArray:
+    """Undecided boxes (M,) on the shortest chains between components that are not told apart."""
+    found, boxes = state.links, state.undecided
+    sizes = np.bincount(found.component, state.certain.sizes.low, minlength=len(found.group))
+    smaller = [k for k in np.argsort(-sizes) if found.group[k] in found.graphs and not _largest(found, sizes, int(k))]
+    chosen = np.zeros(len(boxes), dtype=bool)
+    for k in smaller[:AT_ONCE]:
+        chosen |= found.chains(int(k))
+    return np.asarray(chosen & np.any(boxes.high - boxes.low > least[:, None], axis=0))
+
+
+def _largest(found: Links, sizes: FloatArray, component: int) -> bool:
+    """Whether a component is the first of the largest of its group."""
+    members = np.flatnonzero(found.group == found.group[component])
+    return int(members[np.argmax(sizes[members])]) == component
+
+
+def _cut(state: Search, chosen: BoolArray) -> Search:
+    """The state with chosen boxes halved once along each coordinate, and what follows from it."""
+    frame, parts = state.frame, state.undecided[chosen]
+    inside, outside, axes = [], [state.outside], len(parts.low)
+    for _ in range(axes):
+        known = judged(frame, parts, shares=False)
+        parts = parts.halved(known.axis)
+        known = judged(frame, parts, shares=False)
+        inside.append(parts[known.inside])
+        outside.append(parts[known.outside])
+        parts = parts[~known.inside & ~known.outside]
+    fresh = together(inside)
+    certain, undecided = together([state.certain, fresh]), together([state.undecided[~chosen], parts])
+    signs = np.concatenate([state.signs, factor_signs(frame, fresh)])
+    possible = np.concatenate([state.possible[~chosen], factor_signs(frame, parts)])
+    found = links(certain, signs, undecided, possible)
+    return replace(
+        state,
+        certain=certain,
+        signs=signs,
+        undecided=undecided,
+        possible=possible,
+        outside=together(outside),
+        links=found,
+    )
+
+
+def _part(progress: Progress | None) -> Progress | None:
+    """The paving is the first half of the work."""
+    if progress is None:
+        return None
+    return lambda done, total: progress(STEPS * done // total, 2 * STEPS)
