@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import csv
 import dataclasses
+import doctest
 import io
 import json
+import re
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,6 +21,15 @@ from assur.performance.indices import INDICES, indices, indices_at
 from assur.singularity.distance import distance
 from assur.workspace.index_maps import index_maps
 from assur.workspace.region import workspace
+
+PAGE = Path(__file__).parents[2] / "docs" / "indices.md"
+
+
+def test_the_page_runs_and_names_every_index():
+    failures, count = doctest.testfile(str(PAGE), module_relative=False)
+    assert (failures, count >= 8) == (0, True)
+    rows = re.findall(r"^\| `(\w+)` \|", PAGE.read_text(encoding="utf-8"), re.M)
+    assert rows == [*INDICES, "distance"]
 
 
 @cache

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from assur.cli import regions
 from assur.cli.indexed import Length, length_words
@@ -99,7 +99,7 @@ def _rest(record: Mechanism, names: Sequence[str], at: Sequence[str]) -> list[st
         if name not in home and name not in record.box:
             raise UsageError(f"--map: nothing says where {name} is held", hint=f"add --at {name}=0")
         value = home[name] if name in home else sum(record.box[name]) / 2
-        texts.append(f"{name}={value if name in LENGTHS else angle_at_border(record, value)!r}")
+        texts.append(f"{name}={float(value if name in LENGTHS else angle_at_border(record, value))!r}")
     return texts
 
 
@@ -120,8 +120,8 @@ def _write(path: Path, record: Mechanism, region: Workspace, found: IndexMaps, s
     elif ending == ".npz":
         import numpy as np
 
-        stream = io.BytesIO()
-        np.savez_compressed(stream, **shown.arrays())
+        stream, arrays = io.BytesIO(), dict[str, Any](shown.arrays())
+        np.savez_compressed(stream, **arrays)
         write_whole(path, stream.getvalue())
     else:
         write_whole(path, shown.csv() if ending == ".csv" else json_text(shown.to_json()) + "\n")

@@ -19,7 +19,8 @@ from assur.figures.plots import mode_words, no_workspace, outline
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import GREY, INK, PAGE, SMALL, TEXT, new_figure
 from assur.model.pose import LENGTHS
-from assur.workspace.index_maps import IndexMap, IndexMaps, index_maps
+from assur.performance.indices import INDICES
+from assur.workspace.index_maps import IndexMaps, index_maps
 
 FloatArray = NDArray[np.float64]
 ACROSS = 3
@@ -102,7 +103,7 @@ def _draw_one(context: Context, pair: tuple[Axes, Axes], found: IndexMaps, name:
         bar.set_axis_off()
         axes.text(0.5, 0.5, "none found", transform=axes.transAxes, ha="center", va="center", fontsize=SMALL)
         return
-    top = _top(name, item, known)
+    top = _top(name, known)
     shown = continued(np.where(np.isinf(item.values), top, item.values)).T
     colours = Normalize(0.0, top)
     image = axes.pcolormesh(xs, ys, shown, cmap=COLOURS, norm=colours, shading="gouraud")
@@ -112,9 +113,11 @@ def _draw_one(context: Context, pair: tuple[Axes, Axes], found: IndexMaps, name:
     bar.tick_params(labelsize=SMALL)
 
 
-def _top(name: str, item: IndexMap, known: FloatArray) -> float:
+def _top(name: str, known: FloatArray) -> float:
     """Where the colours end."""
-    return 1.0 if item.bounded else float(np.quantile(known, SHOWN if name in UNBOUNDED else 1.0)) or 1.0
+    if name in INDICES and INDICES[name].power == 0:
+        return 1.0
+    return float(np.quantile(known, SHOWN if name in UNBOUNDED else 1.0)) or 1.0
 
 
 def _polygons(context: Context, found: IndexMaps) -> list[FloatArray]:

@@ -29,11 +29,12 @@ RAYS = {1: 2, 2: 120, 3: 96}
 STEPS = 16
 """Pieces of a ray."""
 
-STARTS = (3, 1, 1)
-"""Crossings, the nearest on the rays, from which nearer ones are looked for: with rays in so many sets."""
+SETS = ((3, 4), (1, 2), (1, 0))
+"""Of each set of rays: how many of the nearest crossings, and of the rays that end in the smallest factors on the
+border, are starts of fans."""
 
-LURED, LURES = 3, 10
-"""Rays to the border, those with the smallest factors there, whose fans look for a crossing, and how often."""
+LURES = 10
+"""How often fans are thrown along the border."""
 
 ROUNDS, PIECES = 22, 4
 """How often a fan of rays in so many pieces is thrown; one that finds nothing nearer is halved."""
@@ -63,7 +64,7 @@ class Rays:
         ways = np.zeros((len(poses), len(self.columns)))
         todo = np.flatnonzero(there & np.isinf(away))
         rng = np.random.default_rng(7)
-        for starts in STARTS:  # each in the ball that remains
+        for starts in SETS:  # each in the ball that remains
             found, way = self.round(poses[todo], np.minimum(away[todo], reach), starts, rng)
             closer = found < away[todo]
             away[todo[closer]], ways[todo[closer]] = found[closer], way[closer]
@@ -74,7 +75,7 @@ class Rays:
         return np.where(there, away, np.nan), which, nearest
 
     def round(
-        self, poses: FloatArray, limit: FloatArray, starts: int, rng: np.random.Generator
+        self, poses: FloatArray, limit: FloatArray, starts: tuple[int, int], rng: np.random.Generator
     ) -> tuple[FloatArray, FloatArray]:
         """The nearest crossing (N,) within limits (N,), infinite where there is none, and the way (N, k) to it."""
         fixed, spacing = directions(len(self.columns))
@@ -82,7 +83,9 @@ class Rays:
         parts = [np.s_[first : first + CHUNK] for first in range(0, max(1, len(poses)), CHUNK)]
         found = [self.crossings(poses[part], fixed[None], 0 * limit[part], limit[part], STEPS) for part in parts]
         low, high, omen = (np.concatenate(side) for side in zip(*found, strict=True))
-        chosen = np.concatenate([np.argsort(low, axis=1)[:, :starts], np.argsort(omen, axis=1)[:, :LURED]], axis=1)
+        chosen = np.concatenate(
+            [np.argsort(low, axis=1)[:, : starts[0]], np.argsort(omen, axis=1)[:, : starts[1]]], axis=1
+        )
         rows, picked = np.repeat(np.arange(len(poses)), chosen.shape[1]), chosen.ravel()
         bracket, ways = (low[rows, picked], high[rows, picked]), fixed[picked]
         lured = np.flatnonzero(np.isinf(bracket[0]) & np.isfinite(omen[rows, picked]))

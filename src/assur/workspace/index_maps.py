@@ -30,6 +30,7 @@ FloatArray = NDArray[np.float64]
 NODES = 60
 MOST_NODES = 2_000_000
 DISTANCE = "distance"
+MEANING = "distance from the nearest parallel singularity that was found, the orientation held"
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,6 @@ class IndexMap:
 
     Attributes:
         symbol, meaning, unit: of the index; the symbol in LaTeX, "" as the unit of a number.
-        bounded: whether it lies between 0 and 1.
         values: one axis per coordinate; NaN where it does not exist. A distance is infinite where none was found within
             the reach of the search.
         mean: of the nodes at which it exists and is finite, all with the same weight; None where there is none.
@@ -56,7 +56,6 @@ class IndexMap:
     symbol: str
     meaning: str
     unit: str
-    bounded: bool
     values: FloatArray
     mean: float | None
     least: Extreme | None
@@ -216,22 +215,21 @@ def index_maps(
     wide = dict(zip(names, np.meshgrid(*(values for _, values in axes), indexing="ij"), strict=True))
     points = np.stack([wide[name].ravel() if name in wide else np.full(nodes ** len(names), fixed[name])
                        for name in box.names], axis=-1)  # fmt: skip
-    found, inside = _found(record, region, points, characteristic_length)
+    inside, found = _found(record, region, points, characteristic_length)
+
+    def spread(part: NDArray[Any], elsewhere: Any) -> NDArray[Any]:
+        whole = np.full(len(points), elsewhere, dtype=part.dtype)
+        whole[inside] = part
+        return whole
+
     maps = {
-        name: _map(index.symbol, index.meaning, index.unit(found), index.power == 0, found[name], points, inside, shape)
+        name: _map(index.symbol, index.meaning, index.unit(found), spread(found[name], np.nan), points, shape)
         for name, index in INDICES.items()
     }
-    away, factor = None, None
+    away = None
     if record.closed_form is not None and set(record.platform.pose) & set(LENGTHS):
         away = distance(record, region.slice.poses(points[inside]), region.mode, reach)
-        factor = np.full(len(points), "", dtype=away.factor.dtype)
-        factor[inside] = away.factor
-        values = np.full(len(points), np.nan)
-        values[inside] = away.value
-        maps[DISTANCE] = _map(
-            "d", "distance from the nearest parallel singularity that was found, the orientation held",
-            record.unit, False, values, points, inside, shape,
-        )  # fmt: skip
+        maps[DISTANCE] = _map("d", MEANING, record.unit, spread(away.value, np.nan), points, shape)
     return IndexMaps(
         mechanism=record.name,
         mode=region.mode,
@@ -241,10 +239,10 @@ def index_maps(
         coordinates=box.names,
         axes=axes,
         held={**region.slice.held, **fixed},
-        status=np.where(inside, found.status, Status.unreachable).astype(np.int8).reshape(shape),
+        status=spread(found.status, Status.unreachable).reshape(shape),
         length=found.length,
         reach=None if away is None else away.reach,
-        factor=None if factor is None else factor.reshape(shape),
+        factor=None if away is None else spread(away.factor, "").reshape(shape),
         maps=maps,
     )
 
@@ -272,29 +270,19 @@ def _plane(
 
 def _found(
     record: MechanismRecord, region: Workspace, points: FloatArray, length: Length
-) -> tuple[Indices, NDArray[np.bool_]]:
-    """Every index at points (N, free coordinates), and whether they lie in the workspace."""
+) -> tuple[NDArray[np.bool_], Indices]:
+    """Which points (N, free coordinates) lie in the workspace, and every index there."""
     inside = np.ones(len(points), dtype=bool)
     for margin in region.margins.values():
         inside &= at_points(margin, len(region.box.names), points) >= 0
     if record.closed_form is not None:
-        return indices(record, region.slice.poses(points), region.mode, length), inside
-    joints = region.joints(points)
-    joints[~inside] = np.nan
-    return indices_at(record, joints, length), inside
+        return inside, indices(record, region.slice.poses(points[inside]), region.mode, length)
+    return inside, indices_at(record, region.joints(points[inside]), length)
 
 
 def _map(
-    symbol: str,
-    meaning: str,
-    unit: str,
-    bounded: bool,
-    field: FloatArray,
-    points: FloatArray,
-    inside: NDArray[np.bool_],
-    shape: tuple[int, ...],
+    symbol: str, meaning: str, unit: str, values: FloatArray, points: FloatArray, shape: tuple[int, ...]
 ) -> IndexMap:
-    values = np.where(inside, field, np.nan)
     known = np.flatnonzero(np.isfinite(values))
     mean, least, most = None, None, None
     if len(known):
@@ -302,7 +290,7 @@ def _map(
         mean = float(np.mean(values[known]))
         least = Extreme(float(values[low]), tuple(points[low].tolist()))
         most = Extreme(float(values[high]), tuple(points[high].tolist()))
-    return IndexMap(symbol, meaning, unit, bounded, values.reshape(shape), mean, least, most)
+    return IndexMap(symbol, meaning, unit, values.reshape(shape), mean, least, most)
 
 
 def _names(status: NDArray[np.int8]) -> NDArray[np.str_]:

@@ -1,0 +1,264 @@
+"""Aspects of a working mode: the connected parts of its workspace without a parallel or serial singularity.
+
+What is said of them is proved: boxes joined by faces lie in one aspect, and aspects that differ in the sign of a factor,
+or that no chain of undecided boxes joins, are different ones. What neither proves is said to be not told apart. All
+of it holds inside the box that is looked at: two aspects may be one through poses outside.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from assur.errors import UsageError
+from assur.kinematics.closure import characteristic_length
+from assur.kinematics.modes import all_modes
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import is_angle
+from assur.numerics.intervals.interval import Interval, as_interval
+from assur.workspace.aspects.search import Search, search
+from assur.workspace.aspects.volumes import Pair, volumes
+from assur.workspace.bounds import Stroke
+from assur.workspace.certified.boxes import Boxes
+from assur.workspace.certified.criteria import criteria
+from assur.workspace.certified.paving import Progress, Stopped
+from assur.workspace.certified.planes import Frame
+from assur.workspace.certified.region import HOW, unit
+from assur.workspace.domain import Box, box_of
+from assur.workspace.slices import Slice, slice_at
+
+FloatArray = NDArray[np.float64]
+
+KINDS = ("parallel", "serial")
+PARTS = 64
+"""Into so many parts the box is cut along each coordinate, where nobody says how small."""
+
+
+@dataclass(frozen=True, eq=False)
+class Aspect:
+    """One aspect, or a connected part of one.
+
+    Attributes:
+        label: signs of the factors that name it, and a number where several share them, the largest first: "+-/1".
+        signs: factor -> 1 or -1, at every pose of it.
+        volume: proved bounds (low, high), in the unit of the `Aspects`.
+        boxes: certainly inside, joined by faces; over the coordinates that the paving has.
+        perhaps: labels of those that may be the same aspect: undecided boxes may join them.
+    """
+
+    label: str
+    signs: Mapping[str, int]
+    volume: Pair
+    boxes: Boxes = field(repr=False)
+    perhaps: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Aspects:
+    """The aspects of one working mode inside a box.
+
+    Attributes:
+        mechanism, mode, box: the question; `slice` says which coordinates vary and at what the others are held.
+        strokes: as given.
+        unit: of volumes: "mm^3"; "mm^2" where two coordinates vary.
+        naming: factors of which the signs make up a label: all parallel ones, and serial ones that take both signs.
+        aspects: the largest first.
+        names: coordinates of the boxes; nothing depends on the others.
+        finest: extents at which undecided boxes were no longer cut, by coordinate.
+        search: the boxes and how they are linked; `order` gives the place in `aspects` of each component.
+        stopped: why it ended early; "" where it did not.
+        how: how it is known.
+    """
+
+    mechanism: str
+    mode: str
+    box: Box
+    slice: Slice
+    strokes: Mapping[str, Stroke | None] | None
+    unit: str
+    naming: tuple[str, ...]
+    aspects: tuple[Aspect, ...]
+    names: tuple[str, ...]
+    finest: Mapping[str, float]
+    search: Search = field(repr=False)
+    order: tuple[int, ...] = field(repr=False)
+    stopped: Stopped = ""
+    how: str = HOW
+
+    def __len__(self) -> int:
+        return len(self.aspects)
+
+    def __getitem__(self, label: str) -> Aspect:
+        """The aspect of a label."""
+        for item in self.aspects:
+            if item.label == label:
+                return item
+        known = ", ".join(item.label for item in self.aspects) or "none"
+        raise UsageError(f"{self.mechanism} has no aspect {label} in mode {self.mode}; it has {known}")
+
+    @property
+    def told_apart(self) -> bool:
+        """Whether all aspects listed are certainly different ones."""
+        return not any(item.perhaps for item in self.aspects)
+
+    @property
+    def note(self) -> str:
+        """What is not proved; "" where everything listed is."""
+        size = ", ".join(f"{name} {value:.3g}" for name, value in self.finest.items() if name in self.names)
+        parts = [] if self.told_apart else [f"some are not told apart at this size ({size})"]
+        return "; ".join([*([self.stopped] if self.stopped else []), *parts])
+
+    def to_json(self) -> dict[str, Any]:
+        """The result as plain numbers, lists and None; boxes are counted."""
+        return {
+            "mechanism": self.mechanism,
+            "mode": self.mode,
+            "how": self.how,
+            "coordinates": list(self.box.names),
+            "box": self.box.intervals,
+            "held": dict(self.slice.held),
+            "unit": self.unit,
+            "naming": list(self.naming),
+            "aspects": [
+                {
+                    "label": item.label,
+                    "signs": dict(item.signs),
+                    "volume": list(item.volume),
+                    "boxes": len(item.boxes),
+                    "perhaps": list(item.perhaps),
+                }
+                for item in self.aspects
+            ],
+            "told_apart": self.told_apart,
+            "paved": list(self.names),
+            "finest": dict(self.finest),
+            "undecided": len(self.search.undecided),
+            "stopped": self.stopped,
+            "note": self.note,
+        }
+
+
+def aspects(
+    record: MechanismRecord,
+    mode: str | None = None,
+    box: Mapping[str, Sequence[float]] | ArrayLike | None = None,
+    strokes: Mapping[str, Stroke | None] | None = None,
+    held: Mapping[str, float] | None = None,
+    finest: float | Mapping[str, float] | None = None,
+    progress: Progress | None = None,
+) -> Aspects:
+    """The aspects of a working mode inside a box (P. Borrel, A. Liegeois 1986; for parallel mechanisms D. Chablat,
+    P. Wenger, Working modes and aspects in fully parallel manipulators, ICRA 1998).
+
+    Args:
+        record: the mechanism; it needs a closed form.
+        mode: signs of the working mode; the file's default where none is given.
+        box: (low, high) per coordinate that varies, in order or by name, in length units and rad.
+        strokes: input -> (low, high) as printed, or None for no limit; the file's for what is left out.
+        held: pose coordinates that stand still.
+        finest: extent at which undecided boxes are no longer cut, in length units; of angles that over the
+            characteristic length. Or by coordinate. By default a 64th of the box. Where components may or may not meet,
+            boxes are cut down to a 64th of it.
+        progress: called with (steps done, steps in all).
+
+    Returns:
+        The frozen result. An angle is not closed to a circle: -180 and 180 deg are ends of the box.
+
+    Errors:
+        UsageError: no closed form; a box, stroke or size that is none.
+
+    Example: in the mode -+ the five-bar's reach above the base is one aspect, in a larger box there are two.
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("fivebar")
+    >>> [item.label for item in aspects(record, "-+").aspects]
+    ['+']
+    >>> found = aspects(record, "-+", {"x": (-300, 300), "y": (-300, 300)})
+    >>> [item.label for item in found.aspects], found.naming, found.told_apart
+    (['+', '-'], ('sin_rods',), True)
+    """
+    poses = slice_at(record, held)
+    domain = box_of(record, box, poses.free)
+    asked = criteria(record, mode, strokes, held, KINDS).nonsingular
+    used = asked.used if any(asked.used) else (True, *asked.used[1:])
+    extents = _extents(record, domain, finest)
+    found = search(Frame(asked, domain, used), extents, progress)
+    length = as_interval(1.0)
+    for has, low, high in zip(used, domain.low, domain.high, strict=True):
+        length = length if has else length * (Interval.of(high) - low)
+    serial = asked.factors["serial"]
+    signs = found.links.signs
+    naming = tuple(name for k, name in enumerate(asked.names) if name not in serial or len(np.unique(signs[:, k])) > 1)
+    bounds = [_times(pair, length) for pair in volumes(found)]
+    order = sorted(range(len(bounds)), key=lambda k: (-bounds[k][0], k))
+    labels = _labels(asked.names, naming, signs, order)
+    return Aspects(
+        mechanism=record.name,
+        mode=mode or record.modes.default_working,
+        box=domain,
+        slice=poses,
+        strokes=strokes,
+        unit=unit(record, domain.names),
+        naming=naming,
+        aspects=tuple(
+            Aspect(
+                label=labels[k],
+                signs=dict(zip(asked.names, signs[k].tolist(), strict=True)),
+                volume=bounds[k],
+                boxes=found.certain[found.links.component == k],
+                perhaps=tuple(
+                    labels[other] for other in order if other != k and found.links.group[other] == found.links.group[k]
+                ),
+            )
+            for k in order
+        ),
+        names=tuple(name for name, has in zip(domain.names, used, strict=True) if has),
+        finest=extents,
+        search=found,
+        order=tuple(np.argsort(order).tolist()),
+        stopped=found.stopped,
+    )
+
+
+def aspects_of_all_modes(record: MechanismRecord, **options: Any) -> tuple[Aspects, ...]:
+    """The aspects of every working mode, with the options of `aspects`.
+
+    >>> from assur.model.registry import load_record
+    >>> found = aspects_of_all_modes(load_record("fivebar"), box={"x": (-300, 300), "y": (-300, 300)})
+    >>> [(item.mode, len(item)) for item in found]
+    [('++', 2), ('+-', 2), ('-+', 2), ('--', 2)]
+    """
+    return tuple(aspects(record, mode, **options) for mode in all_modes(record, "inverse"))
+
+
+def _extents(record: MechanismRecord, box: Box, finest: float | Mapping[str, float] | None) -> dict[str, float]:
+    """The finest extent by coordinate."""
+    extents = {name: (high - low) / PARTS for name, low, high in zip(box.names, box.low, box.high, strict=True)}
+    if finest is None:
+        return extents
+    if isinstance(finest, Mapping):
+        return {**extents, **finest}
+    turning = finest / characteristic_length(record)
+    return {name: turning if is_angle(name) else finest for name in box.names}
+
+
+def _times(pair: Pair, length: Interval) -> Pair:
+    total = Interval.of(*pair) * length
+    return max(float(total.low), 0.0), float(total.high)
+
+
+def _labels(names: Sequence[str], naming: Sequence[str], signs: NDArray[np.int8], order: Sequence[int]) -> list[str]:
+    """Labels by component: signs, and a number among those that share them, in the order given."""
+    columns = [names.index(name) for name in naming]
+    texts = ["".join("+" if sign > 0 else "-" for sign in row[columns]) for row in signs]
+    counts: dict[str, int] = {}
+    labels = list(texts)
+    for k in order:
+        counts[texts[k]] = counts.get(texts[k], 0) + 1
+        if texts.count(texts[k]) > 1:
+            labels[k] = f"{texts[k]}/{counts[texts[k]]}"
+    return labels
