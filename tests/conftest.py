@@ -1,11 +1,14 @@
-"""Tests marked `sim` run where MuJoCo is installed; elsewhere they are left out, and the run says so."""
+"""What all tests share: a cache of their own, and those marked `sim` only where MuJoCo is installed."""
 
 from __future__ import annotations
 
 import importlib.util
 import os
+from pathlib import Path
 
 import pytest
+
+os.environ.setdefault("ASSUR_CACHE", str(Path(__file__).parents[1] / "build" / "cache"))  # not the user's own
 
 PRESENT = importlib.util.find_spec("mujoco") is not None
 

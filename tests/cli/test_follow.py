@@ -23,7 +23,7 @@ def test_the_path_is_that_of_the_library(assur_cli):
 def test_a_stop_is_an_answer_with_its_reason(assur_cli):
     words = ("follow", "fivebar", "--from", "0", "200", "--to", "20", "400")
     run = assur_cli(*words, "--json")
-    assert run.code == 0
+    assert run.code == 6
     stop = run.json["stopped"]
     assert (stop["kind"], stop["factor"], stop["turns_back"]) == ("serial", "arm1", True)
     assert stop["share"] == run.json["shares"][-1]
@@ -31,6 +31,14 @@ def test_a_stop_is_an_answer_with_its_reason(assur_cli):
     assert "fivebar, path along poses: stopped, serial" in text
     assert "before a serial singularity" in text
     assert "arm1 -> 0: A1, B1, P are collinear" in text
+    assert f"a gap of {stop['gap']:.3g} mm remains" in text
+    assert "(without a unit: lengths in units of 194 mm)" in text
+
+
+def test_a_mechanism_without_working_signs_is_told_by_those_that_it_has(assur_cli):
+    run = assur_cli("follow", "three_upu", "--to", "1", "1", "170")
+    assert run.code == 0
+    assert "mode: assembly +, kept" in run.out
 
 
 def test_a_person_sees_a_dozen_points_of_a_path_from_home(assur_cli):

@@ -42,8 +42,10 @@ def test_at_a_pose_the_distance_stands_beside_the_indices(assur_cli):
     assert "the nearest parallel singularity found" in " ".join(
         assur_cli("indices", "zeng2019", "--pose", *POSE).out.split()
     )
-    far = assur_cli("indices", "tripteron", "--pose", "0", "0", "0", "--json").json
-    assert (far["distance"], far["nearest"]) == (None, None)
+    far = assur_cli("indices", "fivebar", "--pose", "0", "250")
+    assert "no parallel singularity was found within 194 mm" in " ".join(far.out.split())
+    far = assur_cli("indices", "fivebar", "--pose", "0", "250", "--json").json
+    assert (far["distance"], far["nearest"], far["distance_reach"]) == (None, None, 194.0)
 
 
 def test_angles_are_in_the_unit_of_the_file_and_the_length_is_stated(assur_cli):

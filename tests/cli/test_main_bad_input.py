@@ -1,4 +1,4 @@
-"""Bad input gets a clear error, the right exit code, and nothing on standard output."""
+"""Bad input gets a clear error and the right exit code; with --json it is one object on standard output too."""
 
 from __future__ import annotations
 
@@ -77,10 +77,27 @@ BAD = {
 
 
 @pytest.mark.parametrize("words", BAD)
-@pytest.mark.parametrize("json", [False, True])
-def test_a_clear_error(assur_cli, words, json):
-    run = assur_cli(*words.split(), *["--json"] * json)
+def test_a_clear_error(assur_cli, words):
+    run = assur_cli(*words.split())
     assert (run.code, run.out, run.err) == (2, "", f"error: {BAD[words]}\n")
+
+
+@pytest.mark.parametrize("words", BAD)
+def test_with_json_the_error_is_one_object_too(assur_cli, words):
+    run = assur_cli(*words.split(), "--json")
+    assert (run.code, run.err) == (2, f"error: {BAD[words]}\n")
+    message, _, hint = BAD[words].partition("\nhint: ")
+    assert run.json == {"error": {"message": message, "hint": hint, "exit_code": 2, "problems": []}}
+
+
+def test_with_json_the_problems_of_a_file_come_with_their_places(assur_cli, tmp_path):
+    path = tmp_path / "bad.toml"
+    path.write_text('format = 1\nname = 3\nunit = "mm"\ncolour = "red"\n')
+    run = assur_cli("direct", str(path), "1", "--json")
+    error = run.json["error"]
+    assert (run.code, error["exit_code"]) == (3, 3)
+    assert [(item["line"], item["path"]) for item in error["problems"]][:1] == [(2, "name")]
+    assert all(item["file"] == str(path) and item["allowed"] for item in error["problems"])
 
 
 def test_an_unknown_mode_lists_all_of_them(assur_cli):
@@ -152,8 +169,12 @@ def test_a_bug_of_ours_is_one_line_and_exits_70(assur_cli, monkeypatch, json):
     monkeypatch.setattr("assur.mechanism.Mechanism.direct", broken)
     words = ["direct", "zeng2019", "1", "2", "3", *["--json"] * json]
     run = assur_cli(*words)
-    assert (run.code, run.out) == (70, "")
+    assert run.code == 70
     assert run.err == "error: a bug in assur: ZeroDivisionError: a b\nhint: run with --debug\n"
+    if json:
+        assert run.json["error"]["message"] == "a bug in assur: ZeroDivisionError: a b"
+    else:
+        assert run.out == ""
     assert "Traceback" in assur_cli(*words, "--debug").err
 
 

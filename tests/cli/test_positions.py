@@ -108,3 +108,21 @@ def test_lines_fit_into_80_columns_and_have_no_colour_codes(assur_cli, words):
     out = assur_cli(*words).out
     assert max(map(len, out.splitlines())) <= 80
     assert "\x1b" not in out
+
+
+def test_the_headline_counts_solutions_by_status(assur_cli):
+    inputs = ["1", "0.645275", "1.086284", "1.503439", "1.281933", "0.771071"]
+    run = assur_cli("direct", "gough_stewart", *inputs)
+    each = [item["status"] for item in assur_cli("direct", "gough_stewart", *inputs, "--json").json["solutions"]]
+    assert (len(each), set(each)) == (40, {"regular", "near_singular"})
+    listed = f"({each.count('regular')} regular, {each.count('near_singular')} near_singular)"
+    assert run.out.startswith(f"gough_stewart, direct: near_singular at worst, 40 solutions {listed} among 40 branches")
+    assert "half round add no pose): all 40 complex solutions" in " ".join(run.out.split())
+
+
+def test_a_search_leaves_crossed_parallelograms_out_unless_asked(assur_cli):
+    run = assur_cli("direct", "zeng2019", *INPUTS, "--method", "search")
+    assert "~" not in run.out
+    text = " ".join(run.out.split())
+    assert "regular, 4 solutions" in text
+    assert "28 with crossed parallelograms were left out" in text

@@ -52,6 +52,14 @@ def test_without_a_pose_it_lists_factors_loci_and_examples(assur_cli, name):
 
 def test_a_person_sees_them_too(assur_cli):
     out = assur_cli("singularity", "fivebar").out
-    assert "parallel loci inside the workspace box, mode -+" in out
+    assert "parallel loci inside the workspace box, working mode -+" in out
     assert "sin_rods" in out
     assert "self_motion: gap_x = gap_y = 0" in out
+
+
+def test_a_mechanism_with_one_working_mode_says_so(assur_cli):
+    words = ("singularity", "three_upu", "--pose", "1", "2", "200")
+    assert "z = 200.0000 mm, its only working mode\n" in assur_cli(*words).out
+    run = assur_cli(*words, "--mode", "+")
+    assert (run.code, run.out) == (2, "")
+    assert "three_upu has only one working mode, which has no signs; found '+'" in run.err

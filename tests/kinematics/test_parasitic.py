@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.parasitic import all_coordinates, left_out, parasitic, parasitic_at
+from assur.kinematics.parasitic import all_coordinates, left_out, moving, parasitic, parasitic_at
 from assur.kinematics.pose import pose_of
+from assur.kinematics.position import inverse
 
 RECORD = assur.load("three_rps")
 
@@ -50,3 +51,24 @@ def test_the_coordinates_of_the_pose_are_among_all(name):
     found = all_coordinates(record, record.home_values)
     own = [found[key] for key in record.platform.pose]
     np.testing.assert_allclose(own, pose_of(record, record.home_values), atol=1e-12)
+
+
+@pytest.mark.parametrize("name", assur.names())
+def test_what_stands_still_near_home_stands_still_in_the_box(name):
+    """A route of its own: poses spread over the box, the inverse problem solved at each."""
+    record = assur.load(name)
+    quiet = [key for key in left_out(record) if key not in moving(record)]
+    if record.closed_form is None or record.closed_form.inverse is None or set(record.platform.pose) - set(record.box):
+        pytest.skip("no inverse problem in closed form over a box")
+    low, high = np.array([record.box[key] for key in record.platform.pose]).T
+    poses = np.random.default_rng(5).uniform(low, high, (12, len(low)))
+    found = parasitic(record, poses)
+    for key in quiet:
+        reached = found[key][np.isfinite(found[key])]
+        if key in ("x", "y", "z") or record.platform.orientation == "constant":
+            assert np.all(np.abs(reached - reached[:1]) < 1e-6), key
+
+
+def test_what_grows_with_a_product_is_seen_from_a_level_home():
+    level = replace(RECORD, home=inverse(RECORD, [250.0, 0.0, 0.0]).joints[0])
+    assert moving(level) == ("x", "y", "phi")

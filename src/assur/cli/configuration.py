@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
 from assur.cli.positions import EXIT_CODES, failures
-from assur.cli.quantities import count, pose_text, short, style_of
+from assur.cli.quantities import count, mode_words, pose_text, short, style_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -28,6 +28,7 @@ def verdict_data(record: Mechanism, pose: NDArray[Any], mode: str) -> dict[str, 
     from assur.kinematics.answers.at_border import answer, pose_at_border
     from assur.results.json_text import plain
 
+    why_not = answer(record.inverse(pose, mode))["failures"]
     verdict = record.singularity(pose, mode)
     return {
         "mechanism": record.name,
@@ -37,14 +38,14 @@ def verdict_data(record: Mechanism, pose: NDArray[Any], mode: str) -> dict[str, 
         "pose": plain(pose_at_border(record, pose)),
         "mode": mode,
         **plain(verdict),
-        "failures": answer(record.inverse(pose, mode))["failures"],
+        "failures": why_not,
     }
 
 
 def _shown(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
     near = ", near_singular" if data["near"] else ""
     yield heading(f"{data['mechanism']}, singularity: {data['kind']}{near}")
-    yield f"at {pose_text(style_of(record), data['coordinates'], data['pose'])}, working mode {data['mode']}"
+    yield f"at {pose_text(style_of(record), data['coordinates'], data['pose'])}, {mode_words(record, data['mode'])}"
     yield ""
     if data["failures"]:
         yield failures(data["failures"])

@@ -149,6 +149,7 @@ def workspace(ledger: Ledger, findings: Findings, shared: Plain) -> None:
         abs(found.volume - volume) <= SIGMAS * sigma + found.volume_error,
         f"{with_error(volume, sigma)} {found.unit}",
     )
+    _proved(ledger, findings, shared)
     inside = {locus.factor: locus.area for locus in found.loci}
     crossing = [name for name, area in inside.items() if area > 0]
     ledger.claim(
@@ -158,6 +159,33 @@ def workspace(ledger: Ledger, findings: Findings, shared: Plain) -> None:
     )
     if found.share is not None:
         ledger.show([f"{100 * found.share:.1f} % of the volume lie within {found.near:g} {record.unit} of one"])
+
+
+def _proved(ledger: Ledger, findings: Findings, shared: Plain) -> None:
+    """Proved bounds of the volume and of the sections, with the estimates by solids beside them."""
+    from assur.workspace.sections import section
+
+    with progress("workspace, proved", shared):
+        proof, cube = findings.bounds, findings.cube
+    if isinstance(proof, str) or isinstance(cube, str):
+        ledger.claim("bounds of the workspace are proved", holds=False, found=str(proof))
+        return
+    found = findings.workspace
+    pairs = [(found.volume, found.volume_error, proof.volume)]
+    for item, cut in zip(found.sections, proof.sections, strict=True):
+        coarser = section(findings.coarser, item.value, item.coordinate)
+        pairs.append((item.area, abs(item.area - coarser.area), cut.area))
+    low, high = proof.volume
+    ledger.claim(
+        f"the volume and the {len(pairs) - 1} sections lie within their errors of the bounds proved by intervals",
+        all(low - error <= value <= high + error for value, error, (low, high) in pairs),
+        f"volume {bounds(low, high)} {found.unit}, {proof.how}",
+    )
+    ledger.claim(
+        "about the printed pose a cube is proved to be reached and free of singularities",
+        cube.size > 0,
+        f"edge {bounds(cube.size, cube.refuted)} {findings.record.unit}",
+    )
 
 
 def _sampled(record: MechanismRecord, found: Workspace) -> tuple[float, float]:

@@ -41,12 +41,15 @@ def topology(ledger: Ledger, record: Mechanism) -> None:
 def direct(ledger: Ledger, record: Mechanism) -> None:
     """Every pose at the printed inputs."""
     from assur.kinematics.answers.at_border import inputs_from_border
+    from assur.kinematics.certified.certify import certified_direct
 
     entry = entry_of(record, "direct")
     ledger.section(f"Direct solutions ({entry.source})")
-    found = record.direct(inputs_from_border(record, [digits.value for digits in entry.given]))
+    given = inputs_from_border(record, [digits.value for digits in entry.given])
+    found = record.direct(given)
     ledger.show(lines(record, found))
     _closes(ledger, record, found)
+    _certified(ledger, found, certified_direct(record, given))
     gaps = [_nearest(record.inverse(item.pose, item.working_mode).inputs, item.inputs) for item in found]
     _comes_back(ledger, record, "the inverse problem at each pose gives the inputs back", gaps)
 
@@ -54,13 +57,16 @@ def direct(ledger: Ledger, record: Mechanism) -> None:
 def inverse(ledger: Ledger, record: Mechanism) -> None:
     """All inputs at the printed pose."""
     from assur.kinematics.answers.at_border import pose_from_border
+    from assur.kinematics.certified.certify import certified_inverse
     from assur.kinematics.status import Status
 
     entry = entry_of(record, "inverse")
     ledger.section(f"Inverse solutions ({entry.source})")
-    found = record.inverse(pose_from_border(record, [digits.value for digits in entry.given]))
+    given = pose_from_border(record, [digits.value for digits in entry.given])
+    found = record.inverse(given)
     ledger.show(lines(record, found))
     _closes(ledger, record, found)
+    _certified(ledger, found, certified_inverse(record, given))
     regular = [item for item in found if item.status <= Status.near_singular]
     gaps = [_nearest(record.direct(item.inputs).poses, item.pose) for item in regular]
     _comes_back(ledger, record, "the direct problem at each regular solution gives the pose back", gaps)
@@ -72,6 +78,15 @@ def inverse(ledger: Ledger, record: Mechanism) -> None:
             min(spans) > 0,
             f"{count(len(moving), 'solution')}, by {min(spans):.1f} {record.unit} or more, all loops closed on the way",
         )
+
+
+def _certified(ledger: Ledger, found: SolutionSet, proof: CertifiedSolutions) -> None:
+    """The certificate: that these are all."""
+    ledger.claim(
+        "interval arithmetic proves as many solutions, and that there is no other",
+        proof.proved and len(proof) == len(found),
+        proof.headline,
+    )
 
 
 def _rows(record: Mechanism, kinds: tuple[str, ...]) -> list[Row]:

@@ -43,8 +43,9 @@ def follow(
     """A path from point to point, straight in poses or in inputs, the mode kept.
 
     It stops before it would meet a singularity, the border of reach or a limit of
-    the file, and says which; it never jumps to another mode. Exit code 4: it is
-    proved that the mechanism does not reach --from; 5: undecided.
+    the file, and says which; it never jumps to another mode. Exit code 6: it
+    stopped before the end; 4: it is proved that the mechanism does not reach
+    --from; 5: undecided.
 
     For example:
         assur follow fivebar --from 0 200 --to 60 220

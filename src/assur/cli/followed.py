@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, Literal
 from assur.cli.numbers import numbers
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
-from assur.cli.quantities import count, fixed, short, style_of
+from assur.cli.positions import UNDECIDED
+from assur.cli.quantities import Style, count, fixed, short, style_of
 from assur.errors import UsageError
 
 if TYPE_CHECKING:
@@ -17,10 +18,13 @@ if TYPE_CHECKING:
 
     from assur.kinematics.answers.solution_set import SolutionSet
     from assur.kinematics.paths.course import Turns
-    from assur.kinematics.paths.path import Path
+    from assur.kinematics.paths.path import Path, Stop
     from assur.mechanism import Mechanism
 
 Along = Literal["pose", "inputs"]
+STOPPED = 6
+"""Exit code where a path stops before its end; 5 where nothing is seen that would stop it."""
+
 ROWS = 12
 """Points that a person sees; --json has all."""
 
@@ -57,7 +61,8 @@ def outcome(
         joints = found.joints[row]
     options: dict[str, Any] = {"poses" if along == "pose" else "inputs": goal}
     path = follow(record, joints, **options, turns=turns, use_limits=use_limits)
-    return Outcome(path.to_json(), lambda: _shown(record, path))
+    code = 0 if path.stopped is None else UNDECIDED if path.stopped.kind == "undecided" else STOPPED
+    return Outcome(path.to_json(), lambda: _shown(record, path), code)
 
 
 def _points(record: Mechanism, along: Along, texts: Sequence[str], option: str = "--to") -> NDArray[Any]:
@@ -88,14 +93,15 @@ def _nearest_home(record: Mechanism, found: SolutionSet, default: str) -> int | 
 
 
 def _shown(record: Mechanism, path: Path) -> Iterable[RenderableType]:
+    from assur.kinematics.closure import characteristic_length
+
     style, data = style_of(record), path.to_json()
     stop = path.stopped
     along = "poses" if path.prescribed == "poses" else "inputs"
     end = "the end was reached" if stop is None else f"stopped, {stop.kind}"
     yield heading(f"{record.name}, path along {along}: {end}")
     if stop is not None:
-        text = str(stop)
-        yield f"{text[:1].upper()}{text[1:]}."
+        yield _stop(stop, style)
     else:
         yield "No singularity was crossed."
     if path.remark:
@@ -112,8 +118,24 @@ def _shown(record: Mechanism, path: Path) -> Iterable[RenderableType]:
     yield table(("share [%]", *titles), rows)
     least = min(float(path.smallest[name].min()) for name in ("inputs", "poses"))
     yield f"{count(len(path), 'point')}; smallest singular value on the way, inputs or platform locked: {short(least)}"
-    before, after = (f"working {working or '-'}, assembly {assembly or '-'}" for working, assembly in path.modes)
-    yield f"mode: {before}, {'kept' if before == after else f'then {after}'}"
+    yield f"(without a unit: lengths in units of {short(characteristic_length(record))} {record.unit})"
+    before, after = (_mode(*signs) for signs in path.modes)
+    if before:
+        yield f"mode: {before}, {'kept' if before == after else f'then {after}'}"
+
+
+def _stop(stop: Stop, style: Style) -> str:
+    """Why a path stopped, as a sentence; its gap with a unit."""
+    text = str(stop)
+    if stop.gap:
+        gap = f"a gap of {stop.gap:.3g}"
+        text = text.replace(gap, f"{gap} {style.unit}")
+    return f"{text[:1].upper()}{text[1:]}."
+
+
+def _mode(working: str, assembly: str) -> str:
+    """Both modes in words, as far as the file names signs for them."""
+    return ", ".join(f"{kind} {signs}" for kind, signs in (("working", working), ("assembly", assembly)) if signs)
 
 
 def _picked(shares: Sequence[float]) -> list[int]:

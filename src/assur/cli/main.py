@@ -21,7 +21,8 @@ HELP = """From the topology of a parallel mechanism to its numbers, each with it
 
 Negative numbers need no tricks. Angles are in the unit that the mechanism's
 file states. Exit codes: 0 fine, 1 a claim of ours fails, 2 usage, 3 bad file,
-4 proved that no solution exists, 5 undecided, 70 a bug of ours.
+4 proved that no solution exists, 5 undecided, 6 a path that stopped short,
+70 a bug of ours.
 
 For example:
     assur direct zeng2019 162.6907 -143.3209 -24.6776
@@ -30,6 +31,7 @@ For example:
 
 def application() -> App:
     """The application with every command."""
+    from assur.cli.aspects import aspects
     from assur.cli.audit import audit
     from assur.cli.certify import certify
     from assur.cli.check import check
@@ -71,6 +73,7 @@ def application() -> App:
         follow,
         singularity,
         workspace,
+        aspects,
         certify,
         verify,
         indices,
@@ -89,12 +92,12 @@ def main(words: Sequence[str] | None = None) -> int:
     with contextlib.suppress(AttributeError):
         sys.stdout.reconfigure(errors="replace")  # type: ignore[union-attr]  # absent where a test took its place
     words = sys.argv[1:] if words is None else words
-    debug = "--debug" in words
+    debug, json = "--debug" in words, "--json" in words
     try:
         return _run(shielded(words))
     except AssurError as error:
         _traceback(debug)
-        complain(error)
+        complain(error, json=json)
         return error.exit_code
     except BrokenPipeError:
         return BROKEN_PIPE
@@ -104,7 +107,7 @@ def main(words: Sequence[str] | None = None) -> int:
     except Exception as error:  # whatever is left is our own bug, and a user gets one line
         _traceback(debug)
         what = " ".join(str(error).split())
-        sys.stderr.write(f"error: a bug in assur: {type(error).__name__}: {what}\nhint: run with --debug\n")
+        complain(AssurError(f"a bug in assur: {type(error).__name__}: {what}", hint="run with --debug"), json=json)
         return BUG
 
 

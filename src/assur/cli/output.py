@@ -7,9 +7,10 @@ import os
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Literal
 
-from assur.errors import AssurError, OutputError
+from assur.errors import AssurError, MechanismFileError, OutputError
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
@@ -55,7 +56,7 @@ def show(items: Iterable[RenderableType]) -> None:
     out = console()
     for item in items:
         with written():
-            out.print(item, soft_wrap=isinstance(item, Verbatim))
+            out.print(item, soft_wrap=isinstance(item, Verbatim), crop=False)
 
 
 @contextmanager
@@ -78,9 +79,17 @@ def forget_output() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def complain(error: AssurError) -> None:
-    """An error on standard error: what is wrong, then a hint."""
+def complain(error: AssurError, *, json: bool = False) -> None:
+    """An error on standard error: what is wrong, then a hint; with `json` as one object on standard output too."""
     sys.stderr.write(f"error: {error}\n")
+    if json:
+        from assur.results.json_text import json_text
+
+        problems = [asdict(item) for item in error.problems] if isinstance(error, MechanismFileError) else []
+        said = {"message": error.message, "hint": error.hint, "exit_code": error.exit_code, "problems": problems}
+        with contextlib.suppress(OSError):  # the error is that nothing can be written there
+            sys.stdout.write(json_text({"error": said}) + "\n")
+            sys.stdout.flush()
 
 
 def heading(text: str) -> RenderableType:
@@ -101,13 +110,14 @@ def table(
 ) -> Table:
     """A table; columns are set right except those in `left`, and those in `wrap` may be broken into lines.
 
-    Where nothing is said about breaking, the last of `left` may be.
+    Where nothing is said about breaking, the last of `left` may be. A number is never cut (`WholeTable`).
     """
     from rich import box
-    from rich.table import Table
     from rich.text import Text
 
-    found = Table(
+    from assur.cli.tables import WholeTable
+
+    found = WholeTable(
         title=Text(title, style="bold") if title else None,
         title_justify="left",
         box=box.SIMPLE_HEAD,

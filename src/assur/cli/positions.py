@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from assur.cli import parasitic
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
 from assur.cli.quantities import Style, count, point_text, point_title, pose_text, short, style_of, tiny
@@ -43,6 +45,7 @@ def _shown(record: Mechanism, data: dict[str, Any], branches: int) -> Iterable[R
     yield ""
     if data["solutions"]:
         yield _solutions(record, data, style)
+        yield from parasitic.shown_solutions(record, data["solutions"])
     if data["curves"]:
         yield from _curves(data, style)
     if data["failures"]:
@@ -58,7 +61,11 @@ def _headline(data: dict[str, Any], branches: int) -> str:
         return f"unreachable, no solution {among}"
     if data["curves"]:
         return f"self_motion, {count(len(data['curves']), 'curve')} of poses {among}"
-    return f"{data['status']}, {found} {among}"
+    status, listed = data["status"], Counter(item["status"] for item in data["solutions"])
+    if len(listed) == 1 or not listed:
+        return f"{status}, {found} {among}"
+    each = ", ".join(f"{number} {name}" for name, number in listed.most_common())
+    return f"{status} at worst, {found} ({each}) {among}"
 
 
 def _given(record: Mechanism, data: dict[str, Any], style: Style) -> str:
@@ -91,7 +98,8 @@ def _solutions(record: Mechanism, data: dict[str, Any], style: Style) -> Rendera
     ]
     marks = ["" if item["status"] == "regular" else "yellow" for item in data["solutions"]]
     columns = ("mode", *titles, other.partition("_")[0], "status", f"gap [{style.unit}]")
-    return table(columns, rows, left=("status",), styles=marks)
+    kept = [k for k in range(len(columns)) if k != len(columns) - 3 or any(row[k] for row in rows)]
+    return table([columns[k] for k in kept], [[row[k] for k in kept] for row in rows], left=("status",), styles=marks)
 
 
 def _curves(data: dict[str, Any], style: Style) -> Iterable[RenderableType]:
@@ -133,11 +141,12 @@ def _completeness(record: Mechanism, data: dict[str, Any]) -> str:
     if data["status"] == "undecided" and form is not None and data["right"].startswith("closed form"):
         return f"Undecided: the closed form of {model} degenerates here, and no curve of poses is known to it."
     right = data["right"]
+    how = f": {right}" if right.startswith("all ") else f", by {right}"
     if data["complete"]:
-        return f"Complete for {model}, by {right}."
+        return f"Complete for {model}{how}."
     if right.startswith("not proved"):
         return f"Whether these are all is {right}."
-    return f"Only this mode was asked for, of {model}, by {right}."
+    return f"Only this mode was asked for, of {model}{how}."
 
 
 def _modes(record: Mechanism, data: dict[str, Any]) -> Iterable[str]:
@@ -150,6 +159,8 @@ def _modes(record: Mechanism, data: dict[str, Any]) -> Iterable[str]:
     if any("/" in text for text in texts) or not signs:
         parts.append("a number among those that share the rest" if parts else "a number")
     yield f"mode: {', '.join(parts)}"
+    if data["home"]:
+        yield f"home: mode {', '.join(data['home'])}"
 
 
 def _signs(record: Mechanism, data: dict[str, Any]) -> str:

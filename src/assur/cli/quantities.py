@@ -113,6 +113,19 @@ def tiny(value: float | None) -> str:
     return "-" if value is None or not math.isfinite(value) else f"{value:.1e}"
 
 
+def mode_words(record: MechanismRecord, mode: str) -> str:
+    """A working mode in words, also where it has no signs.
+
+    >>> from assur.model.registry import load_record
+    >>> mode_words(load_record("fivebar"), "-+"), mode_words(load_record("three_upu"), "")
+    ('working mode -+', 'its only working mode')
+    """
+    if mode:
+        return f"working mode {mode}"
+    only = record.closed_form is not None and not record.modes.working
+    return "its only working mode" if only else "the working mode of home"
+
+
 def count(number: int, noun: str) -> str:
     """A number of things.
 

@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from assur.cli import parasitic
 from assur.cli.numbers import assignments, interval, number, whole_number
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.paths import output_file
 from assur.cli.progress import progress
-from assur.cli.quantities import is_length, short
+from assur.cli.quantities import is_length, mode_words, short
 from assur.errors import UnknownNameError, UsageError
 
 if TYPE_CHECKING:
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 
 Interval = tuple[float, float]
 ENDINGS = (".json", ".obj")
+SAME = 1e-9
+"""A region is its box where it lacks no more than this share of it."""
 
 
 @dataclass(frozen=True)
@@ -104,6 +107,7 @@ def _data(record: Mechanism, asked: Question, found: Workspace) -> dict[str, Any
     names = found.box.names
     lengths = {item.name: item.coordinate.kind == "length" for item in record.inputs}
     data = found.to_json()
+    limits = {item.name: item.stroke for item in record.inputs if item.stroke is not None} | asked.strokes
     box = [_outside(record, pair, is_length(name)) for name, pair in zip(names, data["box"], strict=True)]
     last, factor = names[-1], _factor(record, is_length(names[-1]))
     return {
@@ -113,7 +117,8 @@ def _data(record: Mechanism, asked: Question, found: Workspace) -> dict[str, Any
         "box": box,
         "sections": [{**item, last: item[last] / factor} for item in data["sections"]],
         "resolution": asked.resolution or default_resolution(record, found.slice),
-        "strokes": {name: _outside(record, pair, lengths[name]) for name, pair in asked.strokes.items()},
+        "strokes": {name: _outside(record, pair, lengths[name]) for name, pair in limits.items()},
+        "parasitic": parasitic.largest(record, found),
     }
 
 
@@ -183,11 +188,8 @@ def _content(path: Path, found: Workspace, data: dict[str, Any]) -> str:
 
 
 def _shown(record: Mechanism, data: dict[str, Any], written: Path | None) -> Iterable[RenderableType]:
-    from assur.kinematics.answers.at_border import power
-
     dimension = len(data["coordinates"])
-    mode = f"working mode {data['mode']}" if data["mode"] else "the working mode of home"
-    yield heading(f"{data['mechanism']}, workspace of {mode}")
+    yield heading(f"{data['mechanism']}, workspace of {mode_words(record, data['mode'])}")
     yield f"how: {data['how']}"
     yield f"box: {_intervals(record, dict(zip(data['coordinates'], data['box'], strict=True)))}"
     if data["held"]:
@@ -196,15 +198,32 @@ def _shown(record: Mechanism, data: dict[str, Any], written: Path | None) -> Ite
         yield f"strokes: {_intervals(record, data['strokes'])}"
     what = "volume" if dimension == 3 else "area"
     size = f"{with_error(data['volume'], data['volume_error'])} {data['unit']}"
-    yield f"{what}: {size} (error: difference to half the resolution)"
+    if _whole(record, data):
+        yield f"{what}: {data['volume']:.10g} {data['unit']}, all of the box: {_unlimited(data)}"
+    else:
+        yield f"{what}: {size} (error: difference to half the resolution)"
     yield ""
-    lengths = [is_length(name) for name in data["coordinates"]]
-    one = record.unit if all(lengths) else "" if any(lengths) else "rad"  # no one unit where lengths and angles mix
-    surface = f" [{power(one, dimension - 1)}]" if one and dimension > 1 else ""
-    yield from _sections(data, surface)
-    yield from _singular(record, data, surface)
+    yield from _sections(record, data)
+    yield from _singular(record, data)
+    if data["parasitic"]:
+        yield ""
+        yield from parasitic.shown_largest(record, data["parasitic"])
     if written is not None:
         yield f"written: {written}"
+
+
+def _whole(record: Mechanism, data: dict[str, Any]) -> bool:
+    """Whether the region is the box, as far as its grid can tell."""
+    factors = [_factor(record, is_length(name)) for name in data["coordinates"]]
+    box = math.prod((high - low) * factor for (low, high), factor in zip(data["box"], factors, strict=True))
+    return data["volume_error"] <= SAME * box and abs(data["volume"] - box) <= SAME * box
+
+
+def _unlimited(data: dict[str, Any]) -> str:
+    """What limits a region that fills its box."""
+    if not data["strokes"]:
+        return "no stroke limits it; --stroke LOW:HIGH does"
+    return "no limit is met in it; a larger --box may show one"
 
 
 def _intervals(record: Mechanism, pairs: dict[str, Sequence[float]]) -> str:
@@ -220,18 +239,41 @@ def _value(record: Mechanism, name: str, value: float) -> str:
     return f"{name} = {value:g} {record.unit if is_length(name) else record.angle}"
 
 
-def _sections(data: dict[str, Any], surface: str) -> Iterable[RenderableType]:
+def area_title(record: Mechanism, names: Sequence[str]) -> str:
+    """What stands over areas of surfaces in the space of some coordinates, with its unit.
+
+    Where lengths and angles mix, a surface has no one unit: its area is that with a length and a radian drawn alike.
+
+    >>> from assur.model.registry import load_record
+    >>> area_title(load_record("zeng2019"), ("x", "y", "z")), area_title(load_record("three_rps"), ("z", "theta", "psi"))
+    ('area [mm^2]', 'area [1 mm as 1 rad]')
+    """
+    from assur.kinematics.answers.at_border import power
+
+    lengths, dimension = [is_length(name) for name in names], len(names) - 1
+    if any(lengths) and not all(lengths):
+        return f"area [1 {record.unit} as 1 rad]"
+    unit = power(record.unit if all(lengths) else "rad", dimension)
+    return f"area [{unit}]" if unit else "area"
+
+
+def _sections(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
     if not data["sections"]:
         return
-    last = data["coordinates"][-1]
+    from assur.kinematics.answers.at_border import power
+
+    *others, last = data["coordinates"]
+    angles = sum(not is_length(name) for name in others)
+    powers = ((record.unit, len(others) - angles), ("rad", angles))
+    unit = " ".join(power(name, exponent) for name, exponent in powers if exponent)
     yield table(
-        (f"section at {last}", f"area{surface}"),
+        (f"section at {last}", f"area [{unit}]" if unit else "area"),
         [(f"{item[last]:g}", f"{item['area']:.7g}") for item in data["sections"]],
     )
     yield ""
 
 
-def _singular(record: Mechanism, data: dict[str, Any], surface: str) -> Iterable[RenderableType]:
+def _singular(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
     singular = data["parallel_singular"]
     rows = [
         (
@@ -242,7 +284,7 @@ def _singular(record: Mechanism, data: dict[str, Any], surface: str) -> Iterable
         for name, item in singular["factors"].items()
     ]
     yield heading("parallel singularities inside")
-    yield table(("factor", f"area{surface}", "zero where"), rows, left=("factor", "zero where"))
+    yield table(("factor", area_title(record, data["coordinates"]), "zero where"), rows, left=("factor", "zero where"))
     share, near = singular["share"], f"{singular['near']:g} {record.unit}"
     if not all(is_length(name) for name in data["coordinates"]):
         return  # no distance where angles vary

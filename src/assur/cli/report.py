@@ -25,7 +25,8 @@ def report(
 
     Formulas, tables beside the source's values, figures, errata, citations and
     versions, with nothing outside the file. An old file is replaced whole or
-    not at all.
+    not at all. Every volume, area and count says by what right it is known.
+    With --json: all single numbers, with their bounds.
 
     For example:
         assur report zeng2019 -o report.html
@@ -35,11 +36,11 @@ def report(
     from assur.cli.output import heading
     from assur.cli.paths import output_file
     from assur.cli.progress import progress
-    from assur.report import write_report
+    from assur.report import numbers_of, write_report
 
     path = output_file(output, ENDINGS)
     with progress("report", shared) as step:
-        write_report(record, path, step)
+        page = write_report(record, path, step)
     size = path.stat().st_size
-    data = {"mechanism": record.name, "file": str(path), "bytes": size}
+    data = {"mechanism": record.name, "file": str(path), "bytes": size, "numbers": numbers_of(page)}
     return Outcome(data, lambda: [heading(f"{record.name}, report"), f"written: {path} ({size / 1e6:.1f} MB)"])

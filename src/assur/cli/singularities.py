@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.progress import progress
-from assur.cli.quantities import point_text, point_title, short, style_of
+from assur.cli.quantities import mode_words, point_text, point_title, short, style_of
+from assur.cli.regions import area_title
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -109,9 +110,9 @@ def _shown(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
         for group in data[kind]:
             yield f"{kind}: {' = '.join(group)} = 0, {what}"
     yield ""
-    yield heading(f"parallel loci inside the workspace box, mode {data['mode']}")
+    yield heading(f"parallel loci inside the workspace box, {mode_words(record, data['mode'])}")
     yield table(
-        ("factor", f"area [{_area_unit(record)}]"),
+        ("factor", area_title(record, data["coordinates"])),
         [(item["factor"], _area(item)) for item in data["loci"]],
         left=("factor",),
     )
@@ -132,9 +133,3 @@ def _area(item: dict[str, Any]) -> str:
     if item["everywhere"]:
         return "the whole mode"
     return short(item["area"]) if item["area"] else "none"
-
-
-def _area_unit(record: Mechanism) -> str:
-    from assur.kinematics.answers.at_border import power
-
-    return power(record.unit, len(record.platform.pose) - 1)

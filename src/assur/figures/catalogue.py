@@ -16,6 +16,7 @@ from assur.figures.graph import GRAPH
 from assur.figures.index_maps import INDEX_MAPS
 from assur.figures.indices import MANIPULABILITY, TRANSMISSION
 from assur.figures.model import MODEL
+from assur.figures.parasitic import PARASITIC
 from assur.figures.planes import PLANES_FIGURE
 from assur.figures.projections import PROJECTIONS
 from assur.figures.region import WORKSPACE
@@ -43,6 +44,7 @@ ENTRIES: tuple[Entry, ...] = (
     WORKSPACE,
     PROJECTIONS,
     SECTIONS,
+    PARASITIC,
     DEXTERITY,
     LARGEST,
     SMALLEST,

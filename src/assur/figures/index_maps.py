@@ -152,7 +152,8 @@ def _caption(context: Context) -> str:
         item = found.maps["distance"]
         parts.append(
             f"${item.symbol}$ is the distance from the nearest parallel singularity that rays found within"
-            f" {found.reach:.4g} {context.record.unit}, the orientation held."
+            f" {found.reach:.4g} {context.record.unit}, the orientation held; where there is"
+            " none the colour is that of the largest."
         )
     return " ".join(parts)
 

@@ -14,6 +14,9 @@ FloatArray = NDArray[np.float64]
 ROUND = 36
 """Sides of what is round."""
 
+POINT = 1e-9
+"""Two points that are nearer than this share of a part's radius are one."""
+
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
@@ -70,8 +73,15 @@ def box(centre: FloatArray, sides: FloatArray, colour: str) -> Mesh:
 
 
 def cylinder(start: FloatArray, end: FloatArray, radius: float, colour: str) -> Mesh:
-    """A solid cylinder between two points (3,)."""
+    """A solid cylinder between two points (3,); a ball where they are one.
+
+    >>> point = np.ones(3)
+    >>> int(cylinder(point, point, 0.5, "#ffffff").patch.max())
+    0
+    """
     along = end - start
+    if np.linalg.norm(along) <= POINT * radius:
+        return ball(start, radius, colour)
     across, up = _frame(along)
     ring = _ring(ROUND)
     way = ring[:, :1] * across + ring[:, 1:] * up  # (k, 3)
@@ -79,9 +89,11 @@ def cylinder(start: FloatArray, end: FloatArray, radius: float, colour: str) -> 
 
 
 def bar(start: FloatArray, end: FloatArray, normal: FloatArray, radius: float, thickness: float, colour: str) -> Mesh:
-    """A flat bar with round ends about two points, its flat sides normal to a direction."""
+    """A flat bar with round ends about two points, its flat sides normal to a direction; a ball where they are one."""
     along = end - start
     length = float(np.linalg.norm(along))
+    if length <= POINT * radius:
+        return ball(start, radius, colour)
     along = along / length
     across = np.cross(normal, along)
     half = _ring(ROUND)

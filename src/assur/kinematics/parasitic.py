@@ -2,18 +2,28 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.kinematics import border
+from assur.kinematics.closure import assemble, characteristic_length
+from assur.kinematics.home import home_values
+from assur.kinematics.pose import pose_of
 from assur.kinematics.position import inverse
 from assur.kinematics.rates.motions import checked_joints
 from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import ANGLES, LENGTHS, has_quaternion
+from assur.model.pose import ANGLES, LENGTHS, has_quaternion, is_angle
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
+STEP = 0.05
+"""How far home is left to see what moves, in rad and characteristic lengths."""
+
+STILL = 1e-6
+"""What changes by less than this, in rad and characteristic lengths, stands still."""
 
 
 def left_out(record: MechanismRecord) -> tuple[str, ...]:
@@ -25,6 +35,34 @@ def left_out(record: MechanismRecord) -> tuple[str, ...]:
     """
     known = (*record.platform.pose, *(ANGLES if has_quaternion(record.platform.pose) else ()))
     return tuple(name for name in (*LENGTHS, *ANGLES) if name not in known)
+
+
+@lru_cache(maxsize=64)
+def moving(record: MechanismRecord) -> tuple[str, ...]:
+    """Names of those coordinates that the pose leaves out and that change when the platform leaves home.
+
+    Home is left by `STEP` along every coordinate of the pose and along both diagonals of every two, both ways, so that
+    what grows with a product or a square is seen too. A pose of lengths alone, of a platform that may turn, is that of
+    a point: how the link turns is not asked.
+
+    >>> from assur.model.registry import load_record
+    >>> moving(load_record("three_rps")), moving(load_record("planar_3rrr")), moving(load_record("fivebar"))
+    (('x', 'y', 'phi'), (), ())
+    """
+    names, pose = left_out(record), record.platform.pose
+    if record.platform.orientation == "any" and not has_quaternion(pose) and not any(map(is_angle, pose)):
+        names = tuple(name for name in names if not is_angle(name))
+    if not names:
+        return ()
+    home, length = home_values(record), characteristic_length(record)
+    unit = np.eye(len(pose))
+    pairs = [unit[i] + sign * unit[j] for i in range(len(pose)) for j in range(i) for sign in (1.0, -1.0)]
+    scale = np.array([1.0 if is_angle(name) else length for name in pose])
+    steps = STEP * scale * np.stack([way for one in (*unit, *pairs) for way in (one, -one)])
+    found = assemble(record, np.tile(home, (len(steps), 1)), poses=pose_of(record, home) + steps)
+    here, there = all_coordinates(record, home), all_coordinates(record, found.values[found.closed])
+    still = {name: STILL * (1.0 if is_angle(name) else length) for name in names}
+    return tuple(name for name in names if np.any(np.abs(there[name] - here[name]) > still[name]))
 
 
 def all_coordinates(record: MechanismRecord, joints: ArrayLike) -> dict[str, FloatArray]:

@@ -17,8 +17,10 @@ from assur.kinematics.closed_form.branches import Branches
 from assur.kinematics.closed_form.roots import roots_of
 from assur.kinematics.closed_form.systems import solutions_of
 from assur.kinematics.found import Found
+from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem, all_modes, mode_signs, sign_axes, sign_names
-from assur.kinematics.ordered.loops import solve_by_loops
+from assur.kinematics.near_home import nearest_first
+from assur.kinematics.ordered.loops import crossed_parallelograms, solve_by_loops
 from assur.kinematics.search import search
 from assur.kinematics.soundness.check import check
 from assur.kinematics.status import branch_kernel, closed_form_of
@@ -48,8 +50,8 @@ def direct(
             it says so, or "search" from many starts, never known to be complete. By default the
             closed form where there is one, else the loops where they are complete, else a search. A single problem
             that the roots of a polynomial leave open goes to the loops too.
-        crossed: whether parallelograms may cross over; a mode says which do ("+++~Pa1"). A search lists crossed ones
-            too without being asked.
+        crossed: whether parallelograms may cross over; a mode says which do ("+++~Pa1"). Otherwise such assemblies are
+            left out, and the answer says how many a search met; unless home is one of them.
 
     Errors:
         UsageError: inputs that are not n finite numbers, a closed form that there is not.
@@ -138,6 +140,10 @@ def _branches(record: MechanismRecord, problem: Problem, given: FloatArray, mode
     """Every branch of a kernel, or the one of a mode."""
     form = closed_form_of(record)
     names = sign_names(record, problem)
+    if mode and not names:
+        raise UsageError(
+            f"{record.name} has only one {_kind(problem)}, which has no signs; found '{mode}'", hint="leave the mode out"
+        )
     if mode is None:
         sign, shape = sign_axes(names), (2,) * len(names)
         asked = [mode_signs(record, problem, text) for text in all_modes(record, problem)]
@@ -163,7 +169,7 @@ def _on_joint_graph(
     most = max((len(item.joints) for item in found), default=0)
     joints = np.full((len(found), most, len(record.coordinates)), np.nan)
     for row, item in zip(joints, found, strict=True):
-        row[: len(item.joints)] = item.joints
+        row[: len(item.joints)] = item.joints[nearest_first(record, item.joints)]
     batch = given.shape[:-1]
     return Found(
         record,
@@ -199,7 +205,14 @@ def _assemblies(
             return _Assemblies(turn.joints, turn.complete, turn.right, np.nan, not crossed)
     found = search(record, problem, given)
     reason = f"not proved: a search from {found.starts} starts, of which number {found.last_new} found the last new one"
-    return _Assemblies(found.joints, False, reason, found.nearest, False)
+    if crossed or not record.generalised or crossed_parallelograms(record, home_values(record)):
+        return _Assemblies(found.joints, False, reason, found.nearest, False)
+    kept = found.joints[[not crossed_parallelograms(record, row) for row in found.joints]]
+    left_out = len(found.joints) - len(kept)
+    if left_out:
+        reason += f"; {left_out} with crossed parallelograms {'was' if left_out == 1 else 'were'} left out"
+    nearest = np.nan if left_out and not len(kept) else found.nearest  # a crossed one closes: no gap is to be told
+    return _Assemblies(kept, False, reason, nearest, True)
 
 
 def _numbered_mode(record: MechanismRecord, problem: Problem, mode: str | None) -> str:
@@ -210,6 +223,9 @@ def _numbered_mode(record: MechanismRecord, problem: Problem, mode: str | None) 
     crossed, number = r"(~[\w.]+)*", r"([1-9]\d*)"
     if not re.fullmatch(rf"[-+0]{{{count}}}{crossed}(/{number})?" if count else rf"{crossed}/?{number}?", mode):
         signs = all_modes(record, problem) if count else ("1", "2")
-        kind = "assembly mode" if problem == "direct" else "working mode"
-        raise UnknownNameError(f"{kind} of {record.name}", mode, signs, hint="a number may follow, as in +/2")
+        raise UnknownNameError(f"{_kind(problem)} of {record.name}", mode, signs, hint="a number may follow, as in +/2")
     return mode
+
+
+def _kind(problem: Problem) -> str:
+    return "assembly mode" if problem == "direct" else "working mode"

@@ -14,11 +14,13 @@ from assur.audit import audit as auditing
 from assur.audit.reference import Reference, read_reference
 from assur.audit.rows import Audit, Row
 from assur.audit.tables import Table
-from assur.errors import AssurError, MechanismFileError, UsageError
+from assur.errors import UsageError
 from assur.figures import Context
 from assur.kinematics.answers.at_border import inputs_from_border, pose_from_border
 from assur.kinematics.answers.solution import Solution
 from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.certified.certify import certified_direct, certified_inverse
+from assur.kinematics.certified.result import CertifiedSolutions
 from assur.kinematics.closure import characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
@@ -33,23 +35,18 @@ from assur.performance.dexterity import GlobalIndex, global_condition_index
 from assur.report.formulas.reading import Reading, reading
 from assur.report.numbers import Style, style_of
 from assur.report.pictures import pictures
+from assur.report.proofs import REFUSED, attempt, cube, workspace_bounds
 from assur.results.kinds import Picture
 from assur.singularity.examples import SingularExample
 from assur.singularity.verdict import Verdict, verdict_at
 from assur.topology.facts import Topology
+from assur.workspace.certified.largest import LargestShape
+from assur.workspace.certified.region import CertifiedWorkspace
+from assur.workspace.grid import grid_over
+from assur.workspace.reach import Reach, reach
 from assur.workspace.region import RESOLUTION, Workspace, workspace
 
 FloatArray = NDArray[np.float64]
-REFUSED = (UsageError, MechanismFileError)
-"""What says that an analysis does not apply to a mechanism, or not to its file as it is."""
-
-
-def reason(error: AssurError) -> str:
-    """Why an analysis was refused, in one line, without a path of this machine."""
-    if isinstance(error, MechanismFileError):
-        first = error.problems[0]
-        return f"{first.path}: {first.found}"
-    return error.message
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,6 +201,14 @@ class Findings:
         """All inputs at this pose."""
         return inverse(self.record, self.pose)
 
+    @cached_property
+    def proved(self) -> dict[Problem, CertifiedSolutions | str]:
+        """What is proved of both answers, each a certificate or why there is none."""
+        return {
+            "direct": attempt(lambda: certified_direct(self.record, self.inputs)),
+            "inverse": attempt(lambda: certified_inverse(self.record, self.pose)),
+        }
+
     @property
     def joints(self) -> FloatArray:
         """Joint values (n,) of the configuration that the report is about."""
@@ -234,6 +239,22 @@ class Findings:
     def workspace(self) -> Workspace:
         """The workspace of the default working mode in the file's box."""
         return workspace(self.record, resolution=self.resolution)
+
+    @cached_property
+    def coarser(self) -> Reach:
+        """The same region at half the resolution, for the errors of areas."""
+        region = self.workspace
+        return reach(region.margins, {}, grid_over(region.box, self.resolution // 2))
+
+    @cached_property
+    def bounds(self) -> CertifiedWorkspace | str:
+        """Proved bounds of its volume and of its sections, or why there are none."""
+        return attempt(lambda: workspace_bounds(self.record))
+
+    @cached_property
+    def cube(self) -> LargestShape | str:
+        """The largest cube about this configuration that is proved free of singularities, or why there is none."""
+        return attempt(lambda: cube(self.record, self.solution))
 
     @cached_property
     def global_index(self) -> GlobalIndex:

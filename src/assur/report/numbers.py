@@ -5,14 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 
 from assur.kinematics.closure import characteristic_length
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, is_angle
+from assur.workspace.certified.region import unit
 
 NOTHING = "–"
 SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 THIN = "\u202f"
+ROUNDING = 1e-9
+"""An error below this share of its value is that of rounding and is not shown."""
 
 
 @dataclass(frozen=True)
@@ -79,9 +83,7 @@ def extent_unit(record: MechanismRecord, names: Sequence[str]) -> str:
     >>> extent_unit(load_record("zeng2019"), ("x", "z")), extent_unit(load_record("zeng2019"), ("x", "phi"))
     ('mm²', 'mm rad')
     """
-    angles = sum(map(is_angle, names))
-    powers = ((record.unit, len(names) - angles), ("rad", angles))
-    return " ".join(shown_unit(f"{unit}^{power}" if power > 1 else unit) for unit, power in powers if power)
+    return " ".join(map(shown_unit, unit(record, names).split()))
 
 
 def fixed(value: float | None, decimals: int) -> str:
@@ -122,11 +124,29 @@ def with_error(value: float, error: float) -> str:
     >>> with_error(22813484.36, 3684.24), with_error(0.142353, 0.00019)
     ('22\u202f813\u202f500 ± 3700', '0.14235 ± 0.00019')
     """
-    if error <= 0.0 or not math.isfinite(error):
+    if error <= ROUNDING * abs(value) or not math.isfinite(error):
         return short(value)
     decimals = 1 - math.floor(math.log10(error))
     both = (f"{round(number, decimals):.{max(0, decimals)}f}" for number in (value, error))
     return " ± ".join(minus(grouped(text)) for text in both)
+
+
+def bounds(low: float, high: float) -> str:
+    r"""Proved bounds to two digits of their distance, rounded outwards so that they stay bounds.
+
+    >>> bounds(22814087.41, 22816107.86), bounds(0.1125, 0.1125), bounds(2.82893, 2.85454)
+    ('22\u202f814\u202f000 to 22\u202f816\u202f200', '0.1125', '2.828 to 2.855')
+    """
+    if not (math.isfinite(low) and math.isfinite(high)):
+        return NOTHING
+    if low == high:
+        return short(low)
+    place = Decimal(1).scaleb(math.floor(math.log10(high - low)) - 1)
+    texts = []
+    for end, rounding in ((low, ROUND_FLOOR), (high, ROUND_CEILING)):
+        rounded = (Decimal(end) / place).to_integral_value(rounding) * place
+        texts.append(minus(grouped(f"{rounded:f}")))
+    return " to ".join(texts)
 
 
 def grouped(text: str) -> str:

@@ -53,7 +53,7 @@ SEPARATOR = " · "
 
 _ENTRY = re.compile(r"(?<=\bsee )[A-Z]\d+\b|(?<=\bevidence of )[A-Z]\d+\b|^[A-Z]\d+$")
 _SIGNS = re.compile(r"[+-][+0-]*|[+0-]*[+-]")
-_NUMBER = re.compile(r"[−-]?[\d\u202f]+(\.\d+)?(·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?( ± .*)?|–")
+_NUMBER = re.compile(r"[−-]?[\d\u202f]+(\.\d+)?(·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?( (±|to) .*)?|–")
 _ARXIV = re.compile(r"arXiv:(\d{4}\.\d{4,5})")
 
 
@@ -180,9 +180,9 @@ def slug(text: str) -> str:
 
 
 def scalar_text(item: Scalar) -> str:
-    """Value of a scalar, to the second digit of its error."""
+    """Value of a scalar, to the second digit of its error; where it has only bounds, these."""
     if item.value is None:
-        return numbers.NOTHING
+        return numbers.NOTHING if item.low is None or item.high is None else numbers.bounds(item.low, item.high)
     return _parts(item)[0]
 
 

@@ -7,10 +7,12 @@ import itertools
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import assur
 from assur.model.mechanism import MechanismRecord
-from assur.report.findings import REFUSED, Findings, reason
+from assur.report.findings import Findings
+from assur.report.proofs import REFUSED, reason
 from assur.report.render import Page, page_html
 from assur.report.sections.auditing import auditing
 from assur.report.sections.basis import basis
@@ -24,7 +26,8 @@ from assur.report.sections.summary import summary
 from assur.report.sections.topology import topology
 from assur.report.sections.velocity import velocity
 from assur.results.files import write_whole
-from assur.results.kinds import Facts, Picture, Result, Section
+from assur.results.json_text import plain
+from assur.results.kinds import Facts, Picture, Result, Scalar, Section
 from assur.workspace.region import default_resolution
 
 Progress = Callable[[int, int], None]
@@ -47,7 +50,7 @@ SECTIONS: tuple[tuple[str, Callable[[Findings], Section]], ...] = (
 """In the order of a paper; adding one is one line."""
 
 
-ANALYSES = ("audit", "workspace", "examples")
+ANALYSES = ("audit", "workspace", "examples", "proved", "bounds", "cube")
 """What takes long, and is made before the sections that share it."""
 
 
@@ -101,9 +104,34 @@ def report_page(findings: Findings, progress: Progress | None = None) -> Page:
 
 def write_report(
     record: MechanismRecord, path: str | Path, progress: Progress | None = None, *, figures: bool = True
-) -> Path:
+) -> Page:
     """Write the report; the file is there whole or, with an `OutputError`, what was there before still is."""
-    return write_whole(path, report_html(record, progress=progress, figures=figures))
+    page = report_page(Findings(record, default_resolution(record), figures), progress)
+    write_whole(path, page_html(page))
+    return page
+
+
+def numbers_of(page: Page) -> list[dict[str, Any]]:
+    """Every single number of a report as plain data: where it stands, its bounds, and by what right it is known.
+
+    >>> from assur.results.kinds import Scalar
+    >>> page = Page("", "", "", (Section("S", results=[Scalar("links", 4.0, "", "exact: counted")]),))
+    >>> [(item["section"], item["name"], item["known_by"]) for item in numbers_of(page)]
+    [('S', 'links', 'exact: counted')]
+    """
+    return [
+        {"section": title, **plain(item)}
+        for title, results in _sections(page.sections)
+        for item in results
+        if isinstance(item, Scalar)
+    ]
+
+
+def _sections(sections: Iterable[Section]) -> Iterator[tuple[str, list[Result]]]:
+    """(title, results) of every section, those inside others too."""
+    for section in sections:
+        yield section.title, [item for item in section.results if not isinstance(item, Section)]
+        yield from _sections(item for item in section.results if isinstance(item, Section))
 
 
 def _ticker(total: int, progress: Progress | None) -> Callable[[], None]:

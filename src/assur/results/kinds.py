@@ -10,16 +10,35 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 
+PROVED = "proved by interval arithmetic"
+EXACT = "exact: counted"
+RANK = "rank by singular values"
+TWO_RESOLUTIONS = "estimate: difference of two resolutions"
+FLOATING = "floating point"
+RIGHTS = ("proved", "exact", "rank", "estimate", "floating point", "not proved")
+"""With one of these begins how a number is known."""
+
 
 @dataclass(frozen=True)
 class Scalar:
-    """One number with its unit, an estimate of its error, and how it is known ("closed form", "rank", "exact")."""
+    """One number with its unit and by what right it is known.
+
+    Attributes:
+        name, value, unit: what it is; the value is None where it does not exist, or where only bounds are known.
+        known_by: by what right, beginning with one of `RIGHTS`.
+        error: estimate of its error, in its unit.
+        low, high: proved bounds, None where there are none; both the value itself of a count that is proved.
+        note: what else there is to say: of what it is the number, what agrees with it.
+    """
 
     name: str
     value: float | None
     unit: str = ""
     known_by: str = ""
     error: float | None = None
+    low: float | None = None
+    high: float | None = None
+    note: str = ""
 
 
 @dataclass(frozen=True)
@@ -65,6 +84,9 @@ class Table:
 
     folded: bool = False
     """Whether only the title need be seen at first."""
+
+    known_by: str = ""
+    """By what right its numbers are known, beginning with one of `RIGHTS`; of volumes, areas and counts always."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,7 +29,7 @@ RAYS = {1: 2, 2: 120, 3: 96}
 STEPS = 16
 """Pieces of a ray."""
 
-SETS = ((3, 4), (1, 2), (1, 0))
+SETS = ((3, 3), (1, 3), (1, 3))
 """Of each set of rays: how many of the nearest crossings, and of the rays that end in the smallest factors on the
 border, are starts of fans."""
 

@@ -21,6 +21,7 @@ from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.singularity.loci import Locus, parallel_loci
 from assur.workspace.bounds import Stroke
+from assur.workspace.certified.region import unit
 from assur.workspace.domain import Box, box_of
 from assur.workspace.fields import Field, at_points
 from assur.workspace.followed import FollowedField
@@ -221,7 +222,7 @@ def workspace(
         mode=mode,
         box=domain,
         slice=poses,
-        unit=_unit(record, domain.names),
+        unit=unit(record, domain.names),
         volume=region.volume,
         volume_error=abs(region.volume - coarser.volume),
         sections=tuple(section(region, value, domain.names[-1]) for value in values),
@@ -256,10 +257,3 @@ def _share(region: Reach, loci: Sequence[Locus], near: float) -> float | None:
     surfaces = [triangles_of(locus.vertices, locus.faces) for locus in loci if len(locus.faces)]
     close = near_volume(region, surfaces, near) if surfaces else 0.0
     return None if close is None else close / volume
-
-
-def _unit(record: MechanismRecord, names: Sequence[str]) -> str:
-    angles = sum(map(is_angle, names))
-    lengths = len(names) - angles
-    powers = [(record.unit, lengths), ("rad", angles)]
-    return " ".join(unit if power == 1 else f"{unit}^{power}" for unit, power in powers if power)

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from assur.kinematics import border
 from assur.kinematics.answers.solution import Solution
 from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.near_home import is_home
+from assur.kinematics.parasitic import all_coordinates, moving
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
@@ -42,6 +44,7 @@ def answer(found: SolutionSet) -> dict[str, Any]:
         "complete_for": found.complete_for,
         "right": found.right,
         "solutions": [_solution(record, found, item) for item in found],
+        "home": [str(label) for label in found.labels[found.exists][is_home(record, found.joints[found.exists])]],
         "curves": [
             {
                 "parameter": curve.parameter,
@@ -71,7 +74,22 @@ def _solution(record: MechanismRecord, found: SolutionSet, item: Solution) -> di
     else:
         own = {"inputs": plain(inputs_at_border(record, item.inputs))}
         other = {"assembly_mode": item.assembly_mode}
-    return {**own, "mode": item.mode, **other, "residual": plain(item.residual), "status": item.status.name}
+    return {
+        **own,
+        "mode": item.mode,
+        **other,
+        "residual": plain(item.residual),
+        "status": item.status.name,
+        "parasitic": _parasitic(record, item),
+    }
+
+
+def _parasitic(record: MechanismRecord, item: Solution) -> dict[str, Any]:
+    """Those of the platform's coordinates that the pose leaves out and that move."""
+    if not (names := moving(record)):
+        return {}
+    found = all_coordinates(record, np.array(list(item.joints.values())))
+    return {name: plain(angle_at_border(record, found[name]) if is_angle(name) else found[name]) for name in names}
 
 
 def angle_at_border(record: MechanismRecord, angle: Any) -> Any:

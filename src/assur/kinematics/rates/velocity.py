@@ -182,7 +182,8 @@ def branch_at(record: MechanismRecord, poses: ArrayLike, mode: str | None, ns: A
     given = border.checked_poses(record, poses)
     components = border.pose_components(record, given.reshape(-1, given.shape[-1]))
     form = closed_form_of(record)
-    return given, form.inverse(ns, record.values, components, mode_kernel_signs(record, "inverse", mode))
+    with np.errstate(divide="ignore", invalid="ignore"):  # where a margin degenerates; it says so
+        return given, form.inverse(ns, record.values, components, mode_kernel_signs(record, "inverse", mode))
 
 
 def _coordinate_rates(record: MechanismRecord, poses: FloatArray, velocity: FloatArray) -> FloatArray:

@@ -9,7 +9,7 @@ from assur.audit.rows import Audit, Erratum, Row
 from assur.report.findings import Findings
 from assur.report.numbers import short
 from assur.report.sections.printed import computed, number, quantity, verdict
-from assur.results.kinds import Facts, Scalar, Section, Table
+from assur.results.kinds import EXACT, Facts, Scalar, Section, Table
 
 SHOWN = ("where", "quantity", "printed", "computed", "off by", "verdict", "what is behind it")
 
@@ -25,9 +25,9 @@ def auditing(found: Findings) -> Section:
         else "The reference data of this mechanism are derived, not printed: every row is a claim of ours."
     )
     scalars = [
-        Scalar("agree", float(audit.ok), f"of {len(audit.rows)} rows", "verdict ok"),
-        Scalar("wrong", float(audit.wrong), f"of {len(audit.rows)} rows", "each names its erratum"),
-        Scalar("missing", float(audit.missing), f"of {len(audit.rows)} rows", "should have been listed"),
+        Scalar("agree", float(audit.ok), f"of {len(audit.rows)} rows", EXACT, note="verdict ok"),
+        Scalar("wrong", float(audit.wrong), f"of {len(audit.rows)} rows", EXACT, note="each names its erratum"),
+        Scalar("missing", float(audit.missing), f"of {len(audit.rows)} rows", EXACT, note="should have been listed"),
     ]
     wrong = [row for row in audit.rows if row.verdict != "ok"]
     tables = [_table(found, "Rows that do not agree", wrong, SHOWN)] if wrong else []

@@ -22,9 +22,11 @@ TOPOLOGICAL = (
 )
 CLOSED_FORM = (
     ("poses and inputs", "closed form, every branch", "closure of the whole joint graph, residual listed"),
+    ("numbers of solutions", "closed form, every branch", "the closed form over intervals: these and no other"),
     ("velocity", "Jp v = Jq q̇ of the closed form", "determinants as products of factors; differences, in the tests"),
     ("singularities", "factors of the determinants", "rank of the closure of the joint graph"),
     ("volume, areas", "solids of signed margins, intersected", "the same at half the resolution"),
+    ("bounds of volume and areas", "boxes proved inside or outside by intervals", "the estimate by solids, compared"),
     ("global condition index", "quasi-random mean", "spread of eight independent shifts"),
     ("formulas", "the kernels, read over symbols", "the joint graph, in the tests"),
 )

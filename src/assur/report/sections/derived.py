@@ -7,7 +7,7 @@ import re
 from assur.report.findings import Findings
 from assur.report.formulas.latex import latex_mathml
 from assur.report.formulas.mathml import display, inline
-from assur.results.kinds import Cell, Facts, Formula, Formulas, Result, Scalar, Section, Table
+from assur.results.kinds import RANK, Cell, Facts, Formula, Formulas, Result, Scalar, Section, Table
 from assur.topology.answers import refusals, replacements_by_kind
 from assur.topology.counting.decoupling import Decoupling
 from assur.topology.facts import Topology
@@ -17,6 +17,8 @@ from assur.topology.rules.derivation import Derivation
 KNOWN = {"both": "rules and twists", "twists": "twists alone"}
 _DECIMALS = re.compile(r"-?\d+\.\d{5,}")
 COLLAPSED = "parallelograms as one joint"
+WHOLE = "the whole joint graph"
+TWISTS = "rank of twists; the rules do not decide everything"
 
 
 def derived(found: Findings) -> Section:
@@ -38,16 +40,16 @@ def derived(found: Findings) -> Section:
 
 
 def _numbers(topology: Topology) -> list[Scalar]:
-    routes = "rules and twists agree" if topology.routes_agree else "twists; the rules do not decide everything"
+    routes = "exact: rules, and rank of twists agrees" if topology.routes_agree else TWISTS
     redundant = topology.redundant_constraints
     degree = None if topology.coupling_degree is None else float(topology.coupling_degree)
     internal = f", {topology.internal_freedoms} of them internal" if topology.internal_freedoms else ""
     return [
         Scalar("dimension of the POC set", float(topology.poc.dim), "", routes),
-        Scalar("degrees of freedom F", float(topology.dof), "", f"Eq. (3){internal}"),
-        Scalar("coupling degree κ", degree, "", "least of all orders of loops, Eq. (6)"),
-        Scalar("redundant constraints", float(redundant.collapsed), "", COLLAPSED),
-        Scalar("redundant constraints, all joints", float(redundant.joint_graph), "", "the whole joint graph"),
+        Scalar("degrees of freedom F", float(topology.dof), "", routes, note=f"Eq. (3){internal}"),
+        Scalar("coupling degree κ", degree, "", routes, note="least of all orders of loops, Eq. (6)"),
+        Scalar("redundant constraints", float(redundant.collapsed), "", routes, note=COLLAPSED),
+        Scalar("redundant constraints, all joints", float(redundant.joint_graph), "", RANK, note=WHOLE),
     ]
 
 

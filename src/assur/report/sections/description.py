@@ -10,7 +10,7 @@ from assur.report.findings import Findings
 from assur.report.formulas.latex import latex_mathml, name_mathml
 from assur.report.formulas.mathml import inline
 from assur.report.numbers import count, short, shown_unit
-from assur.results.kinds import Formula, Result, Scalar, Section, Table
+from assur.results.kinds import EXACT, Formula, Result, Scalar, Section, Table
 
 
 def description(found: Findings) -> Section:
@@ -49,14 +49,15 @@ def _counts(found: Findings) -> list[Scalar]:
         types[joint.type.name] = types.get(joint.type.name, 0) + 1
     kinds = ", ".join(f"{number} {name}" for name, number in types.items())
     return [
-        Scalar("links", float(len(record.links)), "", "base included"),
-        Scalar("joints", float(len(record.joints)), "", kinds),
-        Scalar("independent loops", float(len(graph.cut)), "", "joints − links + 1"),
+        Scalar("links", float(len(record.links)), "", EXACT, note="base included"),
+        Scalar("joints", float(len(record.joints)), "", EXACT, note=kinds),
+        Scalar("independent loops", float(len(graph.cut)), "", EXACT, note="joints − links + 1"),
         Scalar(
             "actuated joints",
             float(len(record.inputs)),
             "",
-            ", ".join(i.coordinate.joint for i in record.inputs),
+            EXACT,
+            note=", ".join(i.coordinate.joint for i in record.inputs),
         ),
     ]
 

@@ -10,8 +10,9 @@ from assur.performance.dexterity import dexterity
 from assur.performance.indices import INDICES, indices_at
 from assur.report.findings import Findings
 from assur.report.numbers import short
-from assur.results.kinds import Scalar, Section, Table
+from assur.results.kinds import FLOATING, Scalar, Section, Table
 
+SPREAD = "estimate: spread of eight independent shifts"
 COUNT = 4096
 SEED = 5
 SHARES = (0, 10, 25, 50, 75, 90, 100)
@@ -34,17 +35,18 @@ def performance(found: Findings) -> Section:
         said += " Lengths and angles are mixed here, so these numbers depend on the unit of length."
     factors = here.velocity_factors
     left_out = f"; {index.singular} left out as singular" if index.singular else ""
-    known = f"{index.points} quasi-random points, error by eight independent shifts{left_out}"
+    points = f"{index.points} quasi-random points{left_out}"
     scalars = [
         Scalar(
             "local condition index here",
             _number(here.condition_index),
             "",
-            "in the configuration of this report",
+            FLOATING,
+            note="in the configuration of this report",
         ),
-        Scalar("fastest direction", _number(factors[0]), "", "largest velocity factor"),
-        Scalar("slowest direction", _number(factors[-1]), "", "smallest velocity factor"),
-        Scalar("global condition index", index.value, "", known, index.error),
+        Scalar("fastest direction", _number(factors[0]), "", FLOATING, note="largest velocity factor"),
+        Scalar("slowest direction", _number(factors[-1]), "", FLOATING, note="smallest velocity factor"),
+        Scalar("global condition index", index.value, "", SPREAD, index.error, note=points),
     ]
     return Section("Dexterity", said, [*scalars, *found.picture(*PICTURES), *_spread(found)])
 
@@ -59,7 +61,7 @@ def _of_the_joint_graph(found: Findings) -> Section:
     if here.length is not None:
         said += f" Lengths are divided by the characteristic length {short(here.length)} {found.record.unit}."
     scalars = [
-        Scalar(name.replace("_", " "), _number(here[name]), item.unit(here), item.meaning)
+        Scalar(name.replace("_", " "), _number(here[name]), item.unit(here), FLOATING, note=item.meaning)
         for name, item in INDICES.items()
     ]
     return Section("Dexterity", said, [*scalars, *found.picture(*PICTURES)])

@@ -12,7 +12,7 @@ from assur.model.closed_form import Eliminant, PolynomialSystem
 from assur.numerics import polynomials
 from assur.report.findings import Findings
 from assur.report.numbers import count, short
-from assur.results.kinds import Cell, Table
+from assur.results.kinds import FLOATING, Cell, Table
 
 DIGITS = 8
 REAL = 1e-6
@@ -31,8 +31,8 @@ def polynomial_words(found: Findings, eliminant: Eliminant) -> str:
     meant = next((item.meaning for item in found.form.quantity_list if item.name == name and item.meaning), "")
     said = f"{unknown} ({meant})" if meant else unknown
     return (
-        f"The direct problem ends in {which} of degree {degree} in {said}, so that there are at most "
-        f"{eliminant.degree} poses. All complex roots are found; here they give {count(len(found.direct), 'pose')}."
+        f"The direct problem ends in {which} of degree {degree}, counted on its coefficients, in {said}, "
+        f"so that there are at most {eliminant.degree} poses. All complex roots are found; here they give {count(len(found.direct), 'pose')}."
     )
 
 
@@ -52,13 +52,15 @@ def polynomial(found: Findings, eliminant: Eliminant) -> list[Table]:
     scaled = [values / np.max(np.abs(values), initial=1e-300) for _, values in parts]
     heads = ("power", *(f"coefficient {label}".strip() for label, _ in parts))
     rows = tuple((str(k), *(short(float(v), DIGITS) for v in row)) for k, row in enumerate(zip(*scaled, strict=True)))
-    coefficients = Table("Coefficients of the polynomial", heads, rows, "The largest is made 1.", folded=True)
+    coefficients = Table(
+        "Coefficients of the polynomial", heads, rows, "The largest is made 1.", folded=True, known_by=FLOATING
+    )
     angle = (f"{eliminant.unknown} [°]",) if _angular(eliminant) else ()
     columns = ("root", "real part", "imaginary part", *angle)
     listed = tuple(row for label, values in parts for row in _roots(eliminant, label, values))
     of_what = "the tangent of half of the angle" if _angular(eliminant) else "the unknown itself"
     caption = f"Of {of_what}. Real roots come first; a double one is one pose."
-    return [coefficients, Table("Roots of the polynomial", columns, listed, caption, folded=True)]
+    return [coefficients, Table("Roots of the polynomial", columns, listed, caption, folded=True, known_by=FLOATING)]
 
 
 def polynomials_at(found: Findings, eliminant: Eliminant) -> list[tuple[str, NDArray[np.float64]]]:

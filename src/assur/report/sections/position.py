@@ -19,6 +19,7 @@ from assur.report.formulas.reading import Line
 from assur.report.numbers import Style, count, input_angles, pose_angles, pose_words, short, shown_unit
 from assur.report.sections.polynomial import polynomial, polynomial_words, system_words
 from assur.report.sections.printed import solutions_beside
+from assur.report.sections.proved import proof_words, right
 from assur.results.kinds import Formula, Formulas, Result, Section, Table
 
 READ = (
@@ -93,6 +94,7 @@ def _direct(found: Findings) -> Section:
     table = found.table("direct")
     origin = f"those of {table.source}" if table else "those of the assembled home configuration"
     said = f"Poses from inputs. At the inputs {given} ({origin}) {among(found, 'direct')}."
+    said += f"\n\n{proof_words(found, 'direct')}"
     kernel = found.kernel("direct")
     results: list[Result] = list(found.picture("flow"))
     if isinstance(kernel, Eliminant):
@@ -109,6 +111,7 @@ def _direct(found: Findings) -> Section:
 def _inverse(found: Findings) -> Section:
     given = pose_words(found.record, found.style, pose_at_border(found.record, found.pose).tolist())
     said = f"Inputs from a pose. At the pose {given} {among(found, 'inverse')}."
+    said += f"\n\n{proof_words(found, 'inverse')}"
     results = [*(_formulas(found, "inverse") if found.kernel("inverse") else ()), _solutions(found, "inverse")]
     return Section("Inverse problem", said, [*results, *_beside(found, "inverse")])
 
@@ -244,7 +247,8 @@ def _solutions(found: Findings, problem: Problem) -> Table:
         f"{told}"
     )
     marks = tuple("" if item.status <= Status.near_singular else "singular" for item in answer)
-    return Table(f"Solutions of the {problem} problem", columns, rows, caption, marks)
+    known = right(found, problem)[0]
+    return Table(f"Solutions of the {problem} problem", columns, rows, caption, marks, known_by=known)
 
 
 def _values(

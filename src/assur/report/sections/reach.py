@@ -3,16 +3,30 @@
 from __future__ import annotations
 
 import itertools
+import math
+from dataclasses import replace
 
 from assur.kinematics.answers.at_border import angle_at_border
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.report.findings import Findings
-from assur.report.numbers import extent_unit, fixed, short, shown_unit
+from assur.report.numbers import bounds, extent_unit, fixed, short, shown_unit, with_error
 from assur.report.sections.singularities import written
-from assur.results.kinds import Result, Scalar, Section, Table
+from assur.results.kinds import PROVED, TWO_RESOLUTIONS, Cell, Result, Scalar, Section, Table
 from assur.singularity.loci import Locus, parallel_factors
+from assur.workspace.projections import projection
 from assur.workspace.region import Workspace
+from assur.workspace.sections import section
+
+AGAINST = "AGAINST the proved bounds"
+SHARE = "estimate: by a solid about the surface, its error not estimated"
+ENDINGS = {
+    "": "",
+    "no limit": "; nothing fails within the farthest size that is looked at",
+    "undecided": "; what limits it is not decided",
+    "interrupted": "; interrupted",
+}
+"""Why there is no larger one, where no pose that fails was found."""
 
 
 def reach(found: Findings) -> Section:
@@ -29,23 +43,96 @@ def reach(found: Findings) -> Section:
     mode = f"the working mode {region.mode}" if region.mode else "the mechanism"
     said = (
         f"The poses of the box {_box(region, record)} that {mode} reaches{held_words(region, record)}, {limits}. "
-        f"{how} The error is the difference to the same calculation at half the resolution."
+        f"{how} The error is the difference to the same calculation at half the resolution.{_proof_words(found)}"
     )
-    unit = extent_unit(record, region.box.names)
-    known = f"{found.resolution} cells along each coordinate"
-    results: list[Result] = [Scalar(size_name(region), region.volume, unit, known, region.volume_error)]
-    if region.share is not None:
-        near = f"within {region.near:g} {record.unit} of a parallel-singular surface"
-        results.append(Scalar("share near a singularity", round(100 * region.share, 1), "%", near))
-    results += [
+    results: list[Result] = [
+        *extents(found),
+        *share(found),
+        *largest_cube(found),
         *found.picture("workspace"),
         *_loci(found),
         *found.picture("projections"),
-        *_projections(region, record),
+        *_projections(found),
         *found.picture("sections"),
-        *_sections(region, record),
+        *_sections(found),
     ]
     return Section("Workspace", said, results)
+
+
+def _proof_words(found: Findings) -> str:
+    """Whether bounds are proved, and why not; whether a cube is."""
+    proof, why = found.bounds, found.cube
+    said = (
+        f" No bounds are proved: {proof}."
+        if isinstance(proof, str)
+        else " The bounds do not come from solids: boxes are proved to lie inside or outside by interval arithmetic, "
+        "for the dimensions, strokes and box exactly as they stand."
+    )
+    return f"{said} No region free of singularities is proved: {why}." if isinstance(why, str) else said
+
+
+def extents(found: Findings) -> list[Scalar]:
+    """The volume by every route, the best known first: proved bounds, then the estimate by solids."""
+    region, proof = found.workspace, found.bounds
+    name, unit = size_name(region), extent_unit(found.record, region.box.names)
+    cells = f"{found.resolution} cells along each coordinate"
+    estimate = Scalar(name, region.volume, unit, TWO_RESOLUTIONS, region.volume_error, note=cells)
+    if isinstance(proof, str):
+        return [estimate]
+    low, high = proof.volume
+    agrees = agreement(region.volume, region.volume_error, proof.volume)
+    return [
+        Scalar(name, None, unit, PROVED, low=low, high=high, note=proof.note),
+        replace(estimate, name=f"{name} by solids", note=f"{cells}; {agrees}"),
+    ]
+
+
+def agreement(value: float, error: float, bounds: tuple[float, float]) -> str:
+    """How an estimate lies to proved bounds.
+
+    >>> agreement(1.0, 0.1, (0.9, 1.2)), agreement(1.25, 0.1, (0.9, 1.2)), agreement(2.0, 0.1, (0.9, 1.2))
+    ('inside the proved bounds', 'within its error of the proved bounds', 'AGAINST the proved bounds')
+    """
+    low, high = bounds
+    if low <= value <= high:
+        return "inside the proved bounds"
+    near = low - error <= value <= high + error
+    return "within its error of the proved bounds" if near else AGAINST
+
+
+def share(found: Findings) -> list[Scalar]:
+    """How much of the volume is near a parallel singularity, where that can be said."""
+    region = found.workspace
+    if region.share is None:
+        return []
+    near = f"within {region.near:g} {shown_unit(found.record.unit)} of a parallel-singular surface"
+    return [Scalar("share near a singularity", round(100 * region.share, 1), "%", SHARE, note=near)]
+
+
+def largest_cube(found: Findings) -> list[Scalar]:
+    """The largest cube about the configuration of this report that is proved free of singularities."""
+    cube, record = found.cube, found.record
+    if isinstance(cube, str):
+        return []
+    names = cube.shape.names
+    shape = ("interval", "square", "cube")[len(names) - 1]
+    at = ", ".join(f"{name} = {_at(record, name, value)}" for name, value in zip(names, cube.shape.centre, strict=True))
+    held = ", ".join(f"{name} = {_at(record, name, value)}" for name, value in cube.held.items())
+    mode = f", mode {cube.mode}" if cube.mode else ""
+    about = f"about {at}{f' with {held} held' if held else ''}{mode}: every pose is reached and none is singular"
+    ends = f"; the next larger ones hold a pose where {cube.witness.why}" if cube.witness else ENDINGS[cube.stopped]
+    known = math.isfinite(cube.refuted)
+    return [
+        Scalar(
+            f"edge of the largest {shape} free of singularities",
+            None if known else cube.size,
+            shown_unit(record.unit),
+            PROVED,
+            low=cube.size,
+            high=cube.refuted if known else None,
+            note=about + ends,
+        )
+    ]
 
 
 def size_name(region: Workspace) -> str:
@@ -99,7 +186,7 @@ def _loci(found: Findings) -> list[Table]:
     title = "Parallel singularities inside the workspace"
     where = "surface" if len(names) == 3 else "curve"
     caption = "" if mixed else f"Size of the {where} on which each factor vanishes."
-    return [Table(title, ("factor", "zero where", size), rows, caption)]
+    return [Table(title, ("factor", "zero where", size), rows, caption, known_by=TWO_RESOLUTIONS)]
 
 
 def _size(locus: Locus, *, mixed: bool) -> str:
@@ -108,24 +195,36 @@ def _size(locus: Locus, *, mixed: bool) -> str:
         return "everywhere"
     if not locus.area:
         return "nowhere inside"
-    return "on a surface" if mixed else short(locus.area, 5)
+    return "on a surface" if mixed else with_error(locus.area, locus.area_error)
 
 
-def _projections(region: Workspace, record: MechanismRecord) -> list[Table]:
+def _projections(found: Findings) -> list[Table]:
+    region, record = found.workspace, found.record
     if len(region.box.names) != 3 or region.volume == 0.0:
         return []
-    planes = list(itertools.combinations(region.box.names, 2))
-    rows = tuple(
-        (f"{first}–{second}", short(region.projection(first, second).area, 6), extent_unit(record, (first, second)))
-        for first, second in planes
-    )
-    return [Table("Projections", ("plane", "area", "unit"), rows)]
+    rows = []
+    for plane in itertools.combinations(region.box.names, 2):
+        area = region.projection(*plane).area
+        error = abs(area - projection(found.coarser, plane).area)
+        rows.append(("–".join(plane), with_error(area, error), extent_unit(record, plane)))
+    return [Table("Projections", ("plane", "area", "unit"), tuple(rows), known_by=TWO_RESOLUTIONS)]
 
 
-def _sections(region: Workspace, record: MechanismRecord) -> list[Table]:
+def _sections(found: Findings) -> list[Table]:
+    """Areas of the cuts: proved bounds and the estimate beside each other, where both are known."""
+    region, record = found.workspace, found.record
     if not region.sections:
         return []
     name = region.sections[0].coordinate
     size = extent_unit(record, [other for other in region.box.names if other != name])
-    rows = tuple((_at(record, name, item.value), short(item.area, 6)) for item in region.sections)
-    return [Table(f"Sections across {name}", (name, f"area [{size}]"), rows)]
+    proof = found.bounds
+    proved = {} if isinstance(proof, str) else {item.value: item.area for item in proof.sections}
+    rows: list[tuple[Cell, ...]] = []
+    for item in region.sections:
+        error = abs(item.area - section(found.coarser, item.value, name).area)
+        row = (_at(record, name, item.value), with_error(item.area, error))
+        both = proved.get(item.value)
+        rows.append((*row, bounds(*both), agreement(item.area, error, both)) if both else (*row, "", ""))
+    columns = (name, f"area by solids [{size}]", f"area, proved bounds [{size}]", "the estimate is")
+    known = f"{PROVED}; by solids {TWO_RESOLUTIONS}" if proved else TWO_RESOLUTIONS
+    return [Table(f"Sections across {name}", columns, tuple(rows), known_by=known)]

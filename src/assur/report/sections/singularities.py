@@ -10,7 +10,7 @@ from assur.report.findings import Findings
 from assur.report.formulas.latex import latex_mathml, name_mathml
 from assur.report.formulas.mathml import inline
 from assur.report.numbers import input_angles, pose_angles, short, shown_unit
-from assur.results.kinds import Cell, Facts, Formula, Result, Scalar, Section, Table
+from assur.results.kinds import FLOATING, Cell, Facts, Formula, Result, Scalar, Section, Table
 from assur.singularity.verdict import generic_rank
 
 KINDS = {
@@ -70,7 +70,7 @@ def _judged(found: Findings) -> Section:
     items += [
         ("degrees of freedom", f"{here.freedoms}, {internal} of them internal" if internal else f"{here.freedoms}")
     ]
-    measures = [Scalar(name, value, "", MEASURES[name]) for name, value in here.relative.items()]
+    measures = [Scalar(name, value, "", FLOATING, note=MEASURES[name]) for name, value in here.relative.items()]
     parts: list[Result] = [Facts("The verdict", tuple(items)), *measures]
     parts += found.picture("serial", "parallel", "singular")
     if all(name in found.record.box for name in found.record.platform.pose) and found.examples:

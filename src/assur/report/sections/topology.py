@@ -16,7 +16,7 @@ from assur.report.formulas.mathml import display
 from assur.report.numbers import count, short
 from assur.report.sections.derived import derived
 from assur.report.sections.printed import computed, number, quantity, verdict
-from assur.results.kinds import Formula, Formulas, Result, Scalar, Section, Table
+from assur.results.kinds import EXACT, RANK, Formula, Formulas, Result, Scalar, Section, Table
 
 EQUATIONS = (
     (r"M_b=\bigcup_i M_{J_i}", "POC set of the end link of a branch: the union of those of its joints", ""),
@@ -79,10 +79,10 @@ def _mobility(found: Findings) -> Section:
     internal = int(instantaneous(record, found.home).ranks.internal)
     spins = f"; {internal} of them internal, which move neither platform nor inputs" if internal else ""
     scalars = [
-        Scalar("loop equations", float(6 * loops), "", f"6 for each of {count(loops, 'loop')}"),
-        Scalar("rank", float(free.rank), "", gap),
-        Scalar("degrees of freedom", float(free.freedoms), "", f"joint coordinates − rank{spins}"),
-        Scalar("redundant constraints", float(free.redundant), "", "loop equations − rank"),
+        Scalar("loop equations", float(6 * loops), "", EXACT, note=f"6 for each of {count(loops, 'loop')}"),
+        Scalar("rank", float(free.rank), "", RANK, note=gap),
+        Scalar("degrees of freedom", float(free.freedoms), "", RANK, note=f"joint coordinates − rank{spins}"),
+        Scalar("redundant constraints", float(free.redundant), "", RANK, note="loop equations − rank"),
     ]
     return Section("Mobility by rank", text, scalars)
 

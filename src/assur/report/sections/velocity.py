@@ -13,7 +13,7 @@ from assur.report.findings import Findings
 from assur.report.formulas.latex import bracket, latex_mathml, name_mathml
 from assur.report.formulas.mathml import APPLY, THIN, TIMES, display, equation, matrix_mathml
 from assur.report.numbers import pose_words, short
-from assur.results.kinds import Formula, Formulas, Matrix, Result, Scalar, Section
+from assur.results.kinds import FLOATING, Formula, Formulas, Matrix, Result, Scalar, Section
 
 JP, JQ = "<msub><mi>J</mi><mi>p</mi></msub>", "<msub><mi>J</mi><mi>q</mi></msub>"
 RATE = {"wx": "ωx", "wy": "ωy", "wz": "ωz"}
@@ -87,9 +87,9 @@ def _here(found: Findings, record: MechanismRecord) -> Section:
         matrices.append(Matrix("J = Jp⁻¹ Jq", here.matrix, rates, inputs))
     condition = float(here.condition)
     scalars = [
-        Scalar("det Jp", float(here.det_jp), "", _product(found, "parallel")),
-        Scalar("det Jq", float(here.det_jq), "", _product(found, "serial")),
-        Scalar("condition number", condition if math.isfinite(condition) else None, "", _norm(record)),
+        Scalar("det Jp", float(here.det_jp), "", FLOATING, note=_product(found, "parallel")),
+        Scalar("det Jq", float(here.det_jq), "", FLOATING, note=_product(found, "serial")),
+        Scalar("condition number", condition if math.isfinite(condition) else None, "", FLOATING, note=_norm(record)),
     ]
     return Section("In numbers", said, [*matrices, *scalars])
 

@@ -1,8 +1,8 @@
 """Aspects of a working mode: the connected parts of its workspace without a parallel or serial singularity.
 
-What is said of them is proved: boxes joined by faces lie in one aspect, and aspects that differ in the sign of a factor,
-or that no chain of undecided boxes joins, are different ones. What neither proves is said to be not told apart. All
-of it holds inside the box that is looked at: two aspects may be one through poses outside.
+What is said of them is proved: boxes joined by faces lie in one aspect, and aspects that differ in the sign of a
+factor, or that no chain of undecided boxes joins, are different ones. What neither proves is not told apart, and said
+to be. All of it holds inside the box that is looked at: two aspects may be one through poses outside.
 """
 
 from __future__ import annotations
@@ -20,6 +20,8 @@ from assur.kinematics.modes import all_modes
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.numerics.intervals.interval import Interval, as_interval
+from assur.workspace.aspects.path import AspectPath, path_between
+from assur.workspace.aspects.places import Place, place, point_of
 from assur.workspace.aspects.search import Search, search
 from assur.workspace.aspects.volumes import Pair, volumes
 from assur.workspace.bounds import Stroke
@@ -99,6 +101,35 @@ class Aspects:
                 return item
         known = ", ".join(item.label for item in self.aspects) or "none"
         raise UsageError(f"{self.mechanism} has no aspect {label} in mode {self.mode}; it has {known}")
+
+    def of(self, pose: Mapping[str, float] | Sequence[float] | FloatArray) -> Place:
+        """Where a pose is: values in the order of the coordinates that vary, or by name; lengths and rad.
+
+        >>> from assur.model.registry import load_record
+        >>> found = aspects(load_record("fivebar"), "-+")
+        >>> found.of([0.0, 200.0]).aspect, found.of([150.0, 260.0]).why
+        ('+', 'reach1 < 0: not reached')
+        """
+        return place(self.search, self._labels, point_of(self.box, pose))
+
+    def path(
+        self,
+        start: Mapping[str, float] | Sequence[float] | FloatArray,
+        end: Mapping[str, float] | Sequence[float] | FloatArray,
+    ) -> AspectPath:
+        """Whether two poses lie in one aspect, and a path between them of which every pose is proved.
+
+        >>> from assur.model.registry import load_record
+        >>> found = aspects(load_record("fivebar"), "-+", {"x": (-300, 300), "y": (-300, 300)})
+        >>> found.path([0.0, 200.0], [0.0, -200.0]).status
+        'connected'
+        """
+        return path_between(self.search, self._labels, self.names, point_of(self.box, start), point_of(self.box, end))
+
+    @property
+    def _labels(self) -> list[str]:
+        """Labels by component."""
+        return [self.aspects[k].label for k in self.order]
 
     @property
     def told_apart(self) -> bool:

@@ -40,10 +40,12 @@ class Links:
         """Undecided boxes (M,) on one of the shortest chains that may join a component to another of its group."""
         graph, count = self.graphs[int(self.group[component])], len(self.group)
         others = np.flatnonzero(self.group == self.group[component])
-        here = dijkstra(graph, indices=component, unweighted=True)
-        there = dijkstra(graph, indices=others[others != component], unweighted=True, min_only=True)
-        least = np.min(here[others[others != component]])
-        return np.asarray((here + there == least)[count:]) & np.isfinite(least)
+        rest = others[others != component]
+        here = dijkstra(graph, indices=np.array([component]), unweighted=True)[0]
+        there = dijkstra(graph, indices=rest, unweighted=True, min_only=True)
+        least = float(np.min(here[rest]))
+        found: BoolArray = (here + there == least)[count:] & np.isfinite(least)
+        return found
 
 
 def components(boxes: Boxes) -> IntArray:
@@ -77,7 +79,9 @@ def links(certain: Boxes, signs: Signs, undecided: Boxes, possible: Signs) -> Li
     node = np.concatenate([own, number + np.arange(len(undecided))])[contacts(together([certain, undecided]))]
     node = node[node[:, 0] != node[:, 1]]
     allowed = np.concatenate([of_component, possible])
-    group, reached, graphs = np.zeros(number, dtype=np.int64), [], {}
+    group = np.zeros(number, dtype=np.int64)
+    reached: list[IntArray] = []
+    graphs: dict[int, csr_array] = {}
     for value in np.unique(of_component, axis=0):
         fits = np.all((allowed == value) | (allowed == 0), axis=1)
         inner = node[fits[node].all(axis=1)]

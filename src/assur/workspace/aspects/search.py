@@ -84,7 +84,8 @@ def search(frame: Frame, finest: Mapping[str, float], progress: Progress | None 
 def _between(state: Search, least: FloatArray) -> BoolArray:
     """Undecided boxes (M,) on the shortest chains between components that are not told apart."""
     found, boxes = state.links, state.undecided
-    sizes = np.bincount(found.component, state.certain.sizes.low, minlength=len(found.group))
+    weights = state.certain.sizes.low
+    sizes = np.asarray(np.bincount(found.component, weights, minlength=len(found.group)), dtype=float)
     smaller = [k for k in np.argsort(-sizes) if found.group[k] in found.graphs and not _largest(found, sizes, int(k))]
     chosen = np.zeros(len(boxes), dtype=bool)
     for k in smaller[:AT_ONCE]:

@@ -29,10 +29,8 @@ def factor_signs(frame: Frame, boxes: Boxes) -> Signs:
     [[1], [0]]
     """
     names = frame.criteria.names
-    parts = [np.zeros((0, len(names)), dtype=np.int8)]
-    for k in range(0, len(boxes), BLOCK):
-        parts.append(_block(frame, boxes[k : k + BLOCK]))
-    return np.concatenate(parts)
+    none = np.zeros((0, len(names)), dtype=np.int8)
+    return np.concatenate([none, *(_block(frame, boxes[k : k + BLOCK]) for k in range(0, len(boxes), BLOCK))])
 
 
 def _block(frame: Frame, boxes: Boxes) -> Signs:

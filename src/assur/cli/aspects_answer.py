@@ -1,0 +1,281 @@
+"""What `assur aspects` is asked, and how its answer reads."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from assur.cli import regions
+from assur.cli.certified_regions import bounds
+from assur.cli.numbers import assignments, number, numbers
+from assur.cli.options import Outcome, Shared
+from assur.cli.output import heading, table
+from assur.cli.paths import output_file
+from assur.cli.progress import progress
+from assur.cli.quantities import is_length
+from assur.errors import UsageError
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from assur.mechanism import Mechanism
+    from assur.workspace.aspects.aspects import Aspects
+    from assur.workspace.aspects.checking import PathCheck
+    from assur.workspace.aspects.path import AspectPath
+    from assur.workspace.aspects.places import Place
+
+APART = 4
+"""Exit code where two poses are proved to lie in different aspects, or one is not reached."""
+
+UNDECIDED = 5
+
+PICTURES = (".svg", ".png", ".pdf")
+
+LISTED = 20
+"""Aspects that a person sees, the largest first; --json has all."""
+
+VERTICES = 12
+"""Vertices of a path that a person sees."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """The words, as typed."""
+
+    mode: str | None
+    box: Sequence[str]
+    stroke: Sequence[str]
+    at: Sequence[str]
+    finest: str | None
+    start: str | None
+    end: str | None
+    output: str | None
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """The aspects of each mode, and of one mode the path or the place asked for."""
+
+    modes: tuple[Aspects, ...]
+    path: AspectPath | None = None
+    check: PathCheck | None = None
+    place: Place | None = None
+
+
+def outcome(record: Mechanism, asked: Asked, shared: Shared) -> Outcome:
+    """The aspects, as data and for a person; drawn or written where a file is named."""
+    written = _target(asked)
+    answer = _answer(record, asked, shared)
+    data = _data(record, answer)
+    if written is not None:
+        _write(written, record, answer, data)
+    return Outcome(data, lambda: _shown(record, answer, data, written), exit_code=_exit_code(answer))
+
+
+def _target(asked: Asked) -> Path | None:
+    if asked.end is not None and asked.start is None:
+        raise UsageError("--to: from where?", hint="add --from")
+    if asked.mode == "all" and asked.start is not None:
+        raise UsageError("--from is about one working mode", hint="name it in place of all")
+    if asked.output is None:
+        return None
+    path = output_file(asked.output, (*PICTURES, ".json"))
+    if asked.mode == "all" and path.suffix.lower() in PICTURES:
+        raise UsageError("a picture shows one working mode", hint="name it in place of all, or write a .json file")
+    return path
+
+
+def _answer(record: Mechanism, asked: Asked, shared: Shared) -> Answer:
+    from assur.kinematics.modes import all_modes
+    from assur.workspace.aspects.aspects import aspects
+    from assur.workspace.aspects.checking import check_path
+
+    mode = None if asked.mode == "all" else asked.mode
+    words = regions.question(record, mode, asked.box, asked.stroke, None, (), None, asked.at)
+    finest = None if asked.finest is None else number(asked.finest, "--finest")
+    modes = all_modes(record, "inverse") if asked.mode == "all" else (words.mode,)
+    found = []
+    for name in modes:
+        with progress(f"aspects {name}".strip(), shared) as step:
+            found.append(aspects(record, name, words.box, words.strokes, words.held, finest, step))
+    if asked.start is None:
+        return Answer(tuple(found))
+    first = found[0]
+    start = _pose(record, asked.start, "--from", first.box.names)
+    if asked.end is None:
+        return Answer(tuple(found), place=first.of(start))
+    path = first.path(start, _pose(record, asked.end, "--to", first.box.names))
+    check = check_path(record, first, path) if path.status == "connected" else None
+    return Answer(tuple(found), path, check)
+
+
+def _pose(record: Mechanism, text: str, option: str, names: Sequence[str]) -> list[float]:
+    """The pose that is meant, in lengths and rad."""
+    parts = text.split(",")
+    if "=" in text:
+        given = assignments(parts, option, ",".join(f"{name}=0" for name in names))
+        wrong = set(given) ^ set(names)
+        if wrong:
+            raise UsageError(f"{option}: {', '.join(given)} given, {', '.join(names)} wanted")
+        parts = [given[name] for name in names]
+    values = numbers(parts, names, option)
+    return [value * _factor(record, name) for name, value in zip(names, values, strict=True)]
+
+
+def _exit_code(answer: Answer) -> int:
+    if answer.place is not None:
+        return {"inside": 0, "undecided": UNDECIDED}.get(answer.place.status, APART)
+    if answer.path is None:
+        return 0
+    if answer.check is not None and not answer.check.passed:
+        return 1
+    return {"connected": 0, "undecided": UNDECIDED}.get(answer.path.status, APART)
+
+
+def _data(record: Mechanism, answer: Answer) -> dict[str, Any]:
+    if len(answer.modes) > 1:
+        return {"mechanism": record.name, "modes": [_outside(record, item.to_json()) for item in answer.modes]}
+    data = _outside(record, answer.modes[0].to_json())
+    if answer.path is not None:
+        data["path"] = _path_outside(record, answer.path.to_json())
+        data["path"]["check"] = None if answer.check is None else answer.check.to_json()
+    if answer.place is not None:
+        place = answer.place
+        data["place"] = {
+            "status": place.status,
+            "aspect": place.aspect,
+            "signs": dict(place.signs),
+            "why": place.why,
+        }
+    return data
+
+
+def _outside(record: Mechanism, data: dict[str, Any]) -> dict[str, Any]:
+    """The same with angles of poses in the mechanism's angle unit; volumes keep their unit, which they say."""
+    pairs = zip(data["coordinates"], data["box"], strict=True)
+    return {
+        **data,
+        "box": [[end / _factor(record, name) for end in pair] for name, pair in pairs],
+        "held": {name: value / _factor(record, name) for name, value in data["held"].items()},
+        "finest": {name: value / _factor(record, name) for name, value in data["finest"].items()},
+    }
+
+
+def _path_outside(record: Mechanism, data: dict[str, Any]) -> dict[str, Any]:
+    def row(names: Sequence[str], values: Sequence[float]) -> list[float]:
+        return [value / _factor(record, name) for name, value in zip(names, values, strict=True)]
+
+    names, paved = data["coordinates"], data["paved"]
+    boxes = [
+        [[end / _factor(record, name) for end in pair] for name, pair in zip(paved, box, strict=True)]
+        for box in data["boxes"]
+    ]
+    return {**data, "points": [row(names, values) for values in data["points"]], "boxes": boxes}
+
+
+def _factor(record: Mechanism, name: str) -> float:
+    return math.pi / 180 if record.angle == "deg" and not is_length(name) else 1.0
+
+
+def _write(path: Path, record: Mechanism, answer: Answer, data: Mapping[str, Any]) -> None:
+    from assur.results.files import write_whole
+    from assur.results.json_text import json_text
+
+    ending = path.suffix.lower()
+    if ending == ".json":
+        write_whole(path, json_text(data) + "\n")
+        return
+    from assur.figures.aspects import drawn
+    from assur.figures.context import Context
+    from assur.figures.encode import encoded
+    from assur.figures.style import styled
+
+    connected = answer.path if answer.path is not None and answer.path.status == "connected" else None
+    with styled():
+        figure = drawn(Context(record), answer.modes[0], connected).figure
+    write_whole(path, encoded(figure, ending[1:]))
+
+
+def _shown(
+    record: Mechanism, answer: Answer, data: Mapping[str, Any], written: Path | None
+) -> Iterable[RenderableType]:
+    if len(answer.modes) > 1:
+        yield from _modes(record, answer.modes)
+    else:
+        yield from _mode(record, answer.modes[0], data)
+    if answer.place is not None:
+        place = answer.place
+        yield ""
+        yield f"the pose lies in aspect {place.aspect}" if place.status == "inside" else f"the pose: {place.why}"
+    if answer.path is not None:
+        yield ""
+        yield from _way(record, answer.path, answer.check, data["path"])
+    if written is not None:
+        yield f"written: {written}"
+
+
+def _modes(record: Mechanism, found: Sequence[Aspects]) -> Iterable[RenderableType]:
+    yield heading(f"{record.name}, aspects of every working mode")
+    rows = []
+    for item in found:
+        labels = ", ".join(part.label for part in item.aspects[:8]) + (", .." if len(item) > 8 else "")
+        rows.append((item.mode or "-", str(len(item)), labels or "none", item.note))
+    yield table(("mode", "aspects", "labels", "note"), rows, left=("labels", "note"))
+    yield f"labels: signs of {', '.join(found[0].naming)}"
+
+
+def _mode(record: Mechanism, found: Aspects, data: Mapping[str, Any]) -> Iterable[RenderableType]:
+    of_mode = f" of working mode {found.mode}" if found.mode else ""
+    yield heading(f"{record.name}, aspects{of_mode}: {len(found)}")
+    parts = [
+        f"{name} {low:g} .. {high:g} {_unit(record, name)}"
+        for name, (low, high) in zip(data["coordinates"], data["box"], strict=True)
+    ]
+    yield f"box: {', '.join(parts)}"
+    if data["held"]:
+        held = (f"{name} = {value:g} {_unit(record, name)}" for name, value in data["held"].items())
+        yield f"held: {', '.join(held)}"
+    if not len(found):
+        yield "none: no box of this size is reached and free of singularities"
+    else:
+        rows = [
+            (item.label, *bounds(*item.volume), str(len(item.boxes)), ", ".join(item.perhaps) or "-")
+            for item in found.aspects[:LISTED]
+        ]
+        titles = ("aspect", f"least [{found.unit}]", f"most [{found.unit}]", "boxes", "not told apart from")
+        yield table(titles, rows, left=("aspect", "not told apart from"))
+        if len(found) > LISTED:
+            yield f"and {len(found) - LISTED} smaller ones"
+        yield f"aspect: signs of {', '.join(found.naming)}"
+    yield f"how: {found.how}, over {', '.join(found.names)}; {data['undecided']} boxes are undecided"
+    if found.note:
+        yield f"note: {found.note}"
+
+
+def _way(
+    record: Mechanism, path: AspectPath, check: PathCheck | None, data: Mapping[str, Any]
+) -> Iterable[RenderableType]:
+    word = {"connected": "one aspect", "separated": "two aspects", "undecided": "undecided", "outside": "no"}
+    label = f", {path.start.aspect}" if path.status == "connected" else ""
+    yield heading(f"from one pose to the other: {word[path.status]}{label}")
+    if path.why:
+        yield path.why
+    if path.status != "connected":
+        return
+    points = data["points"]
+    step = max(1, -(-(len(points) - 1) // (VERTICES - 1)))
+    shown = [*range(0, len(points) - 1, step), len(points) - 1]
+    titles = [f"{name} [{_unit(record, name)}]" for name in path.coordinates]
+    yield table(("vertex", *titles), [(str(k + 1), *(f"{value:.7g}" for value in points[k])) for k in shown])
+    yield f"certificate: each of the {len(path.boxes)} pieces lies in a box that is proved"
+    if check is not None:
+        moved = {True: "; followed on the joint graph", False: f"; not followed: {check.stopped}", None: ""}
+        holds = "reached, with the same signs, " if check.reached and check.kept else "NOT so "
+        yield f"check: {holds}at {check.samples} poses by the closed form{moved[check.followed]}"
+
+
+def _unit(record: Mechanism, name: str) -> str:
+    return record.unit if is_length(name) else record.angle

@@ -1,0 +1,207 @@
+"""The aspects of a working mode: a plane, or cuts through space, in which each aspect has its colour and its label."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
+from matplotlib.ticker import FixedLocator, FuncFormatter
+from numpy.typing import NDArray
+
+from assur.errors import UsageError
+from assur.figures.context import Context
+from assur.figures.coordinates import angle_ticks, axis_title, symbol, value_words
+from assur.figures.spec import Drawing
+from assur.figures.style import INK, PALE, PAPER, SERIES, SMALL, TEXT, new_figure
+from assur.model.pose import is_angle
+from assur.workspace.aspects.aspects import Aspect, Aspects
+from assur.workspace.aspects.path import AspectPath
+from assur.workspace.certified.boxes import Boxes
+
+FloatArray = NDArray[np.float64]
+
+CUTS = 4
+"""Sections through space where the mechanism's file names none."""
+
+HATCHES = ("", "////", "\\\\\\\\", "....", "xxxx")
+"""Beyond the colours aspects are told apart by these, and always by their labels."""
+
+LARGE = 0.4
+"""Rectangles of this share of the largest one's width are large enough for a label."""
+
+LEFT, BOTTOM, TITLE, TOP, GAP, PANEL = 14.0, 11.0, 8.0, 12.0, 6.0, 70.0
+"""Margins, the room for a title below a panel, that between panels and the width of one, in mm."""
+
+
+def drawn(context: Context, found: Aspects, path: AspectPath | None = None) -> Drawing:
+    """The figure of the aspects, with a path between two poses where one is given and the aspects lie in a plane.
+
+    Errors:
+        UsageError: only one coordinate matters.
+
+    >>> from assur.model.registry import load_record
+    >>> from assur.figures.style import styled
+    >>> from assur.workspace.aspects.aspects import aspects
+    >>> record = load_record("fivebar")
+    >>> with styled():
+    ...     drawn(Context(record), aspects(record)).data["aspects"][0]["label"]
+    '+'
+    """
+    if len(found.names) < 2:
+        raise UsageError(f"only {found.names[0]} matters for these aspects; a picture needs two coordinates")
+    across, upward = found.names[:2]
+    cuts = _cuts(context, found)
+    columns, rows = min(2, len(cuts)), -(-len(cuts) // 2)
+    tall = PANEL * _aspect(found, across, upward)
+    width = LEFT + columns * PANEL + (columns - 1) * (GAP + LEFT) + 4.0
+    below = BOTTOM + (TITLE if len(found.names) > 2 else 0.0)
+    height = TOP + 3.5 * ((len(found.aspects) + 4) // 4) + rows * (tall + below)
+    figure = new_figure(width, height)
+    for k, value in enumerate(cuts):
+        start = LEFT + (k % columns) * (PANEL + GAP + LEFT)
+        low = (rows - 1 - k // columns) * (tall + below) + below
+        axes = figure.add_axes((start / width, low / height, PANEL / width, tall / height))
+        _panel(axes, found, value)
+        if path is not None and value is None:
+            _way(axes, path)
+        _dress(context, axes, found, (across, upward))
+        if value is not None:
+            title = f"({chr(97 + k)}) {symbol(found.names[2])} = {value_words(context, found.names[2], value)}"
+            figure.text((start + PANEL / 2) / width, (low - 14.0) / height, title, ha="center", fontsize=TEXT)
+    signs = f"signs of {', '.join(found.naming)}" if found.naming else None
+    figure.legend(
+        handles=_legend(found, path if cuts == [None] else None),
+        loc="upper center",
+        ncols=4,
+        title=signs,
+        title_fontsize=SMALL,
+    )
+    return Drawing(figure, _data(found, cuts, path))
+
+
+def caption(context: Context, found: Aspects) -> str:
+    """What the figure shows, in words."""
+    signs = ", ".join(found.naming) or "no factor"
+    held = ", ".join(
+        f"{symbol(name)} = {value_words(context, name, value)}" for name, value in found.slice.held.items()
+    )
+    return (
+        f"Aspects of the working mode {found.mode}{f' with {held}' if held else ''}: parts without a parallel or serial"
+        f" singularity, named by the signs of {signs}. In each colour every pose is proved; grey is undecided."
+    )
+
+
+def _cuts(context: Context, found: Aspects) -> list[float | None]:
+    """Where the third coordinate is cut; None in a plane."""
+    if len(found.names) == 2:
+        return [None]
+    last = found.names[2]
+    k = found.box.axis(last)
+    low, high = found.box.low[k], found.box.high[k]
+    own = context.record.sections if last == context.record.platform.pose[-1] else ()
+    inside = [float(value) for value in own if low < value < high]
+    return [*inside] or [float(value) for value in np.linspace(low, high, CUTS + 2)[1:-1]]
+
+
+def _aspect(found: Aspects, across: str, upward: str) -> float:
+    """Height of a panel over its width: true to scale where both are lengths."""
+    low, high = found.box.low, found.box.high
+    spans = [high[found.box.axis(name)] - low[found.box.axis(name)] for name in (across, upward)]
+    return float(np.clip(spans[1] / spans[0], 0.3, 1.6)) if is_angle(across) == is_angle(upward) else 1.0
+
+
+def _panel(axes: Axes, found: Aspects, value: float | None) -> None:
+    for rectangles, style in [
+        (_rectangles(found.search.undecided, value), {"facecolor": PALE, "edgecolor": PALE}),
+        *((_rectangles(item.boxes, value), _style(k)) for k, item in enumerate(found.aspects)),
+    ]:
+        axes.add_collection(PolyCollection(list(rectangles), linewidth=0.15, **style))
+    for item in found.aspects:
+        _letter(axes, item, _rectangles(item.boxes, value))
+
+
+def _style(k: int) -> dict[str, Any]:
+    colour = SERIES[k % len(SERIES)]
+    hatch = HATCHES[min(k // len(SERIES), len(HATCHES) - 1)]
+    return {"facecolor": colour, "edgecolor": PAPER if hatch else colour, "hatch": hatch or None, "alpha": 0.75}
+
+
+def _rectangles(boxes: Boxes, value: float | None) -> FloatArray:
+    """Corners (n, 4, 2) of the boxes in the plane, of boxes in space of those that the cut meets."""
+    if value is not None:
+        boxes = boxes[(boxes.low[2] <= value) & (value < boxes.high[2])]
+    (left, low), (right, high) = boxes.low[:2], boxes.high[:2]
+    return np.stack([np.stack(pair, axis=-1) for pair in ((left, low), (right, low), (right, high), (left, high))], 1)
+
+
+def _letter(axes: Axes, item: Aspect, rectangles: FloatArray) -> None:
+    """The label in one of the aspect's largest rectangles, that nearest to its middle."""
+    if not len(rectangles):
+        return
+    spans = rectangles[:, 2] - rectangles[:, 0]
+    middles, sizes = rectangles.mean(axis=1), np.min(spans, axis=1)
+    centre = np.average(middles, axis=0, weights=np.prod(spans, axis=1))
+    large = np.flatnonzero(sizes > LARGE * np.max(sizes))
+    at = middles[large][np.argmin(np.sum((middles[large] - centre) ** 2, axis=1))]
+    halo = [withStroke(linewidth=2.0, foreground=PAPER)]
+    axes.text(*at, _words(item.label), ha="center", va="center", fontsize=TEXT, color=INK, path_effects=halo, zorder=6)
+
+
+def _words(label: str) -> str:
+    """A label whose signs stay apart.
+
+    >>> _words("-+/2")
+    '− + / 2'
+    """
+    return " ".join(label.replace("-", "−"))
+
+
+def _way(axes: Axes, path: AspectPath) -> None:
+    keep = [path.coordinates.index(name) for name in path.names[:2]]
+    line = path.points[:, keep]
+    halo = [withStroke(linewidth=3.0, foreground=PAPER)]
+    axes.plot(*line.T, color=INK, linewidth=1.3, path_effects=halo, zorder=5)
+    axes.plot(*line[[0, -1]].T, "o", color=INK, markersize=3.5, zorder=6)
+
+
+def _dress(context: Context, axes: Axes, found: Aspects, names: tuple[str, str]) -> None:
+    for name, axis in zip(names, (axes.xaxis, axes.yaxis), strict=True):
+        k = found.box.axis(name)
+        low, high = found.box.low[k], found.box.high[k]
+        axis.set_view_interval(low, high, ignore=True)
+        axis.set_label_text(axis_title(context, name))
+        if is_angle(name) and context.record.angle == "deg":
+            axis.set_major_locator(FixedLocator([float(np.radians(tick)) for tick in angle_ticks(low, high)]))
+            axis.set_major_formatter(FuncFormatter(lambda value, _: f"{np.degrees(value):.0f}".replace("-", "−")))
+
+
+def _legend(found: Aspects, path: AspectPath | None) -> list[Any]:
+    handles: list[Any] = [
+        Patch(label=_words(item.label), **_style(k)) for k, item in enumerate(found.aspects)
+    ]
+    handles.append(Patch(facecolor=PALE, label="undecided"))
+    if path is not None:
+        handles.append(Line2D([], [], color=INK, marker="o", markersize=3.5, label="path"))
+    return handles
+
+
+def _data(found: Aspects, cuts: list[float | None], path: AspectPath | None) -> dict[str, Any]:
+    def listed(boxes: Boxes) -> list[Any]:
+        return [_rectangles(boxes, value) for value in cuts]
+
+    return {
+        "mode": found.mode,
+        "plane": list(found.names[:2]),
+        "cuts": cuts,
+        "aspects": [
+            {"label": item.label, "volume": list(item.volume), "rectangles": listed(item.boxes)}
+            for item in found.aspects
+        ],
+        "undecided": listed(found.search.undecided),
+        "path": None if path is None else path.points,
+    }

@@ -1,0 +1,77 @@
+"""What is proved of the answers to both problems: their number, that there is no other, and within what bounds."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.certified.result import CertifiedSolutions, ProvedSolution
+from assur.kinematics.modes import Problem
+from assur.model.pose import QUATERNION
+from assur.report.findings import Findings
+from assur.report.numbers import input_angles, pose_angles, short, shown_unit
+from assur.results.kinds import FLOATING, PROVED
+
+FloatArray = NDArray[np.float64]
+
+
+def right(found: Findings, problem: Problem) -> tuple[str, float | None, float | None]:
+    """By what right the number of solutions is known, and its bounds: None where there is none."""
+    answer = found.direct if problem == "direct" else found.inverse
+    proof = found.proved[problem]
+    if isinstance(proof, str):
+        return (f"{FLOATING}, every branch" if answer.complete else "not proved to be all"), None, None
+    count = float(len(proof))
+    if not proof.proved and not proof.undecided and answer.complete and len(proof) == len(answer):
+        return f"{PROVED} one by one; that there is no other, in {FLOATING}", count, None
+    if not proof.proved:
+        return f"not proved to be all: {proof.headline}", count, None
+    if len(proof) != len(answer):
+        return f"not proved: {len(answer)} in floating point, but {proof.headline}", count, count
+    return f"{PROVED}: these and no other", count, count
+
+
+def proof_words(found: Findings, problem: Problem) -> str:
+    """What the certificate says, and how far the solutions in floating point are from it."""
+    proof = found.proved[problem]
+    if isinstance(proof, str):
+        return f"Nothing is proved of these solutions: {proof}."
+    headline = proof.headline.replace("proved, ", "proved: ", 1) if proof.proved else proof.headline
+    model = "joint graph" if proof.complete_for == "joint_graph" else "reduced model"
+    of_what = f" of the {model}" if proof.proved else ""
+    said = f"{headline[0].upper()}{headline[1:]}{of_what}. By what right: {proof.right}."
+    doubts = "; ".join(f"{item.name}: {item.meaning}" for item in proof.undecided)
+    if doubts:
+        said += f" Undecided: {doubts}."
+    return f"{said} {_widths(found, problem, proof)}" if len(proof) else said
+
+
+def _widths(found: Findings, problem: Problem, proof: CertifiedSolutions) -> str:
+    unit = f"{shown_unit(found.record.unit)} or rad"
+    answer = found.direct if problem == "direct" else found.inverse
+    width = short(max(item.width for item in proof), 2)
+    said = f"Each is the only one within bounds at most {width} {unit} wide"
+    if not len(answer):
+        return f"{said}; in floating point none was found."
+    farthest = max(
+        min(_apart(found, problem, item.pose if problem == "direct" else item.inputs, one) for one in proof)
+        for item in answer
+    )
+    distance = f"at most {short(farthest, 2)} {unit} off them" if farthest else "within them"
+    return f"{said}; the solutions in floating point lie {distance}."
+
+
+def _apart(found: Findings, problem: Problem, values: FloatArray, proved: ProvedSolution) -> float:
+    """How far values (k,) lie outside proved bounds; angles but for whole turns, quaternions but for their sign."""
+    record = found.record
+    bounds = proved.pose if problem == "direct" else proved.inputs
+    angles = np.array(pose_angles(record) if problem == "direct" else input_angles(record))
+    middle, half = 0.5 * (bounds.low + bounds.high), 0.5 * bounds.width
+    names = record.platform.pose if problem == "direct" else ()
+    turned = np.array([-1.0 if name in QUATERNION else 1.0 for name in names]) if names else np.ones(len(values))
+    away = []
+    for sign in (np.ones(len(values)), turned):
+        difference = sign * values - middle
+        difference = np.where(angles, np.remainder(difference + np.pi, 2 * np.pi) - np.pi, difference)
+        away.append(float(np.max(np.maximum(np.abs(difference) - half, 0.0), initial=0.0)))
+    return min(away)

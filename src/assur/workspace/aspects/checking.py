@@ -1,0 +1,113 @@
+"""Checking a path without intervals: the closed form at many of its poses, and following it over the joint graph."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import UsageError
+from assur.kinematics.paths.following import follow
+from assur.kinematics.position import inverse
+from assur.model.mechanism import MechanismRecord
+from assur.workspace.aspects.aspects import Aspects
+from assur.workspace.aspects.path import AspectPath
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PathCheck:
+    """What a check of a path found.
+
+    Attributes:
+        covered: every piece lies in its box, compared exactly.
+        samples: poses at which the closed form was asked.
+        reached: it reaches all of them, within the strokes that were given.
+        kept: every factor has one sign at all of them.
+        followed: the joint graph can be moved along the path; None where that was not tried.
+        stopped: what stopped it; "" where nothing did.
+    """
+
+    covered: bool
+    samples: int
+    reached: bool
+    kept: bool
+    followed: bool | None
+    stopped: str
+
+    @property
+    def passed(self) -> bool:
+        """Whether nothing speaks against the path."""
+        return self.covered and self.reached and self.kept and self.followed is not False
+
+    def to_json(self) -> dict[str, Any]:
+        """The result as plain values."""
+        return {**vars(self), "passed": self.passed}
+
+
+def check_path(
+    record: MechanismRecord, found: Aspects, path: AspectPath, samples: int = 16, follow_it: bool = True
+) -> PathCheck:
+    """Check a path at so many poses of each piece, and by following it with all joints.
+
+    Errors:
+        UsageError: there is no path.
+
+    >>> from assur.model.registry import load_record
+    >>> from assur.workspace.aspects.aspects import aspects
+    >>> record = load_record("fivebar")
+    >>> found = aspects(record, "-+")
+    >>> check_path(record, found, found.path([-60.0, 150.0], [60.0, 220.0])).passed
+    True
+    """
+    if path.status != "connected":
+        raise UsageError(f"no path to check: {path.why}")
+    points = _sampled(path.points, samples)
+    answer = inverse(record, found.slice.poses(points), found.mode)
+    exists = answer.exists.any(axis=-1)
+    place = np.argmax(answer.exists, axis=-1)[:, None]
+    reached = bool(exists.all()) and _within(
+        record, found, np.take_along_axis(answer.inputs, place[..., None], 1)[:, 0]
+    )
+    signs = [np.sign(np.take_along_axis(answer.factors[name], place, 1)) for name in found.aspects[0].signs]
+    kept = all(bool(np.all(row == row[0]) and row[0] != 0) for row in signs)
+    followed, stopped = _followed(record, found, path) if follow_it and exists[0] else (None, "")
+    return PathCheck(covered(path), len(points), reached, kept, followed, stopped)
+
+
+def covered(path: AspectPath) -> bool:
+    """Whether both ends of every piece lie in its box, which being convex then holds the piece."""
+    keep = [path.coordinates.index(name) for name in path.names]
+    points = path.points[:, keep].T
+    low, high = path.boxes.low, path.boxes.high
+    if points.shape[1] != len(path.boxes) + 1:
+        return False
+    return all(bool(np.all((low <= end) & (end <= high))) for end in (points[:, :-1], points[:, 1:]))
+
+
+def _sampled(points: FloatArray, count: int) -> FloatArray:
+    """Points (n, free) on a polyline, so many on each piece, and its end."""
+    share = np.arange(count)[None, :, None] / count
+    inner = points[:-1, None] + share * (points[1:, None] - points[:-1, None])
+    return np.concatenate([inner.reshape(-1, points.shape[1]), points[-1:]])
+
+
+def _within(record: MechanismRecord, found: Aspects, inputs: FloatArray) -> bool:
+    """Whether inputs (N, n) keep to the strokes that were given."""
+    for k, item in enumerate(record.inputs):
+        stroke = (found.strokes or {}).get(item.name)
+        if stroke is not None and not np.all((inputs[:, k] >= stroke[0]) & (inputs[:, k] <= stroke[1])):
+            return False
+    return True
+
+
+def _followed(record: MechanismRecord, found: Aspects, path: AspectPath) -> tuple[bool, str]:
+    """Whether every joint can be moved along, and what stops it."""
+    poses = found.slice.poses(path.points)
+    start = next(iter(inverse(record, poses[0], found.mode)))
+    values = list(start.joints.values())
+    way = follow(record, values, poses=poses[1:], turns="given", use_limits=found.strokes is None)
+    return way.stopped is None, "" if way.stopped is None else str(way.stopped)

@@ -1,0 +1,40 @@
+"""The order of solutions does not depend on that in which they were found, and home is the first of its pose."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import assur
+from assur.kinematics.home import home_values
+from assur.kinematics.near_home import distances, is_home, nearest_first
+from assur.kinematics.pose import pose_of
+from assur.kinematics.position import inverse
+
+NAMES = ["fivebar", "three_upu", "three_rps", "planar_3rrr"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_home_is_the_first_inverse_solution_at_its_pose(name):
+    record = assur.load(name)
+    found = inverse(record, pose_of(record, home_values(record)), method="search")
+    assert len(found) > 1
+    joints = found.joints[found.exists]
+    assert is_home(record, joints).tolist() == [True] + [False] * (len(joints) - 1)
+    assert np.all(np.diff(distances(record, joints)) > -1e-5)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_order_is_that_of_the_solutions_and_not_of_their_finding(name):
+    record = assur.load(name)
+    found = inverse(record, pose_of(record, home_values(record)), method="search")
+    joints = found.joints[found.exists]
+    rng = np.random.default_rng(1)
+    for _ in range(3):
+        mixed = joints[rng.permutation(len(joints))] + 1e-10 * rng.standard_normal(joints.shape)
+        np.testing.assert_allclose(mixed[nearest_first(record, mixed)], joints, atol=1e-8)
+
+
+def test_no_solutions_have_no_order():
+    record = assur.load("fivebar")
+    assert nearest_first(record, np.empty((0, len(record.coordinates)))).tolist() == []

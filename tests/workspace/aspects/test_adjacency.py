@@ -1,0 +1,95 @@
+"""Adjacency against every pair compared: random halvings of one box, on a line, in a plane and in space."""
+
+from __future__ import annotations
+
+import itertools
+import time
+
+import numpy as np
+import pytest
+
+from assur.workspace.aspects import adjacency
+from assur.workspace.aspects.adjacency import contacts, shared_faces
+from assur.workspace.certified.boxes import Boxes, together
+
+LOW, HIGH = np.array([-1.1, 0.3, 2.7]), np.array([0.7, 5.1, 3.3])
+
+
+def halved(size, count, rng):
+    """About `count` boxes of any shape from one, some of which are taken out."""
+    boxes = Boxes(LOW[:size, None].copy(), HIGH[:size, None].copy())
+    while len(boxes) < count:
+        chosen = rng.random(len(boxes)) < 0.5
+        if chosen.any():
+            axes = rng.integers(0, size, int(chosen.sum()))
+            boxes = together([boxes[~chosen], boxes[chosen].halved(axes)])
+    return boxes[rng.random(len(boxes)) < 0.8]
+
+
+def overlap(boxes, i, j):
+    return np.minimum(boxes.high[:, i], boxes.high[:, j]) - np.maximum(boxes.low[:, i], boxes.low[:, j])
+
+
+def faces_by_pairs(boxes):
+    found = set()
+    for i, j in itertools.permutations(range(len(boxes)), 2):
+        common = overlap(boxes, i, j)
+        flat = np.flatnonzero(common == 0)
+        if np.all(common >= 0) and len(flat) == 1 and boxes.high[flat[0], i] == boxes.low[flat[0], j]:
+            found.add((i, j, int(flat[0])))
+    return found
+
+
+def touching_by_pairs(boxes):
+    pairs = itertools.combinations(range(len(boxes)), 2)
+    return {(i, j) for i, j in pairs if np.all(overlap(boxes, i, j) >= 0)}
+
+
+@pytest.mark.parametrize("size", [1, 2, 3])
+@pytest.mark.parametrize("seed", range(4))
+def test_faces_and_contacts_are_those_of_every_pair(size, seed):
+    boxes = halved(size, 120, np.random.default_rng(seed))
+    pairs, axes = shared_faces(boxes)
+    assert {(*pair, axis) for pair, axis in zip(pairs.tolist(), axes.tolist(), strict=True)} == faces_by_pairs(boxes)
+    assert len(pairs) == len(faces_by_pairs(boxes))
+    assert set(map(tuple, contacts(boxes).tolist())) == touching_by_pairs(boxes)
+    assert len(contacts(boxes)) == len(touching_by_pairs(boxes))
+
+
+@pytest.mark.parametrize("size", [2, 3])
+def test_a_common_corner_or_edge_is_no_face(size):
+    corner = Boxes(np.array([[0.0, 1.0]] * size), np.array([[1.0, 2.0]] * size))
+    assert len(shared_faces(corner)[0]) == 0
+    assert contacts(corner).tolist() == [[0, 1]]
+
+
+def test_taking_contacts_for_faces_would_be_seen():
+    """The mutation that the component of boxes must not survive: corners counted as faces."""
+    boxes = halved(2, 120, np.random.default_rng(1))
+    mutated, _ = adjacency._meeting(boxes, 1)
+    assert set(map(tuple, np.sort(mutated, axis=1).tolist())) != {(min(i, j), max(i, j)) for i, j, _ in
+                                                                 faces_by_pairs(boxes)}  # fmt: skip
+
+
+def test_boxes_a_float_apart_do_not_meet():
+    gap = np.nextafter(1.0, 2.0)
+    boxes = Boxes(np.array([[0.0, gap], [0.0, 0.0]]), np.array([[1.0, 2.0], [1.0, 1.0]]))
+    assert len(shared_faces(boxes)[0]) == 0
+    assert len(contacts(boxes)) == 0
+
+
+def test_no_boxes_and_one_box():
+    none = Boxes(np.zeros((3, 0)), np.zeros((3, 0)))
+    one = Boxes(np.zeros((3, 1)), np.ones((3, 1)))
+    for boxes in (none, one):
+        assert shared_faces(boxes)[0].shape == (0, 2)
+        assert contacts(boxes).shape == (0, 2)
+
+
+def test_a_grid_of_a_hundred_thousand_boxes_takes_seconds():
+    whole = Boxes(np.zeros((3, 1)), np.ones((3, 1)))
+    boxes = whole.divided([48, 48, 48])
+    start = time.perf_counter()
+    pairs, _ = shared_faces(boxes)
+    assert len(pairs) == 3 * 47 * 48 * 48
+    assert time.perf_counter() - start < 5.0

@@ -1,0 +1,68 @@
+"""The search: what it finds at one size it does not take back at a smaller one, and it may be interrupted."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from assur.model.registry import load_record
+from assur.workspace.aspects import search as module
+from assur.workspace.aspects.search import search
+from assur.workspace.certified.criteria import criteria
+from assur.workspace.certified.planes import Frame
+from assur.workspace.domain import box_of
+
+
+def frame_of(name, mode=None, box=None, held=None):
+    record = load_record(name)
+    asked = criteria(record, mode, held=held, factors=("parallel", "serial")).nonsingular
+    return Frame(asked, box_of(record, box, asked.slice.free), asked.used)
+
+
+FIVEBAR = {"x": (-300.0, 300.0), "y": (-300.0, 300.0)}
+
+
+def test_boxes_fill_the_box_once():
+    found = search(frame_of("fivebar", "-+", FIVEBAR), {"x": 10.0, "y": 10.0})
+    total = sum(float(np.sum(part.sizes.high)) for part in (found.certain, found.undecided, found.outside))
+    assert total == pytest.approx(600.0 * 600.0, rel=1e-12)
+
+
+def test_every_certain_box_has_a_sign_of_every_factor():
+    found = search(frame_of("planar_3rpr", held={"phi": 0.3}), {"x": 1.0, "y": 1.0})
+    assert np.all(found.signs != 0)
+    assert len(found.signs) == len(found.certain) > 100
+
+
+def test_components_that_only_looked_apart_are_joined_by_cutting_between_them(monkeypatch):
+    """The two aspects of the 3-RPR: at this size four parts are seen first."""
+    frame = frame_of("planar_3rpr")
+    finest = {
+        name: (high - low) / 32 for name, low, high in zip(frame.box.names, frame.box.low, frame.box.high, strict=True)
+    }
+    found = search(frame, finest)
+    monkeypatch.setattr(module, "ROUNDS", 0)
+    before = search(frame, finest)
+    assert len(before.links.group) > len(found.links.group) == 2
+    assert len(set(before.links.group.tolist())) == len(set(found.links.group.tolist())) == 2
+
+
+def test_an_interruption_keeps_what_is_done(monkeypatch):
+    calls = []
+
+    def interrupted(state, chosen):
+        calls.append(1)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(module, "_cut", interrupted)
+    frame = frame_of("planar_3rpr")
+    found = search(frame, {"x": 1.25, "y": 1.25, "phi": 0.2})
+    assert (found.stopped, calls) == ("interrupted", [1])
+    assert len(found.links.group) > 2
+
+
+def test_progress_ends_at_the_whole():
+    steps = []
+    search(frame_of("fivebar", "-+", FIVEBAR), {"x": 10.0, "y": 10.0}, lambda *step: steps.append(step))
+    assert steps[-1][0] == steps[-1][1]
+    assert all(a <= b for (a, _), (b, _) in zip(steps, steps[1:], strict=False))
