@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import time
 
 import pytest
 
@@ -24,3 +25,16 @@ def test_only_a_person_at_a_terminal_sees_one(monkeypatch, stream, json, seen):
     with progress("thinking", Plain(json=json)) as step:
         step(1, 2)
     assert ("thinking" in stream.getvalue()) is seen
+
+
+@pytest.mark.parametrize(("json", "lines"), [(False, 1), (True, 0)])
+def test_elsewhere_one_line_says_that_it_takes_long(monkeypatch, json, lines):
+    stream = io.StringIO()
+    monkeypatch.setattr("sys.stderr", stream)
+    monkeypatch.setattr("assur.cli.progress.LONG", 0.01)
+    with progress("thinking", Plain(json=json)):
+        end = time.monotonic() + (0.05 if json else 5.0)
+        while not stream.getvalue() and time.monotonic() < end:
+            time.sleep(0.01)
+    assert stream.getvalue().count("\n") == lines
+    assert stream.getvalue().startswith("thinking: still at work" if lines else "")

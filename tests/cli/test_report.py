@@ -9,7 +9,12 @@ def test_one_file_that_needs_nothing_else(assur_cli, tmp_path):
     path = tmp_path / "r.html"
     run = assur_cli("report", "fivebar", "-o", str(path), "--json")
     assert (run.code, run.err) == (0, "")
-    assert run.json == {"mechanism": "fivebar", "file": str(path), "bytes": path.stat().st_size}
+    told = run.json
+    numbers = told.pop("numbers")
+    assert told == {"mechanism": "fivebar", "file": str(path), "bytes": path.stat().st_size}
+    area = next(item for item in numbers if item["name"] == "workspace area")
+    assert area["known_by"] == "proved by interval arithmetic"
+    assert 0 < area["low"] < area["high"] < 1.001 * area["low"]
     text = path.read_text()
     assert "fivebar" in text
     assert outside_needs(text) == []

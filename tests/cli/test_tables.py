@@ -14,7 +14,13 @@ from assur.cli.output import show, table
 
 COLUMNS = ["mode", *(f"q{k} [mm]" for k in range(9)), "status", "meaning", "gap [mm]"]
 ROWS = [
-    [f"+{k}", *(f"{-1234.567891 - 100 * k - j:.6f}" for j in range(9)), "near_singular", "points too far apart", "1.2e-15"]
+    [
+        f"+{k}",
+        *(f"{-1234.567891 - 100 * k - j:.6f}" for j in range(9)),
+        "near_singular",
+        "points too far apart",
+        "1.2e-15",
+    ]
     for k in range(3)
 ]
 WORDS = {word for row in (COLUMNS, *ROWS) for cell in row for word in cell.split()}

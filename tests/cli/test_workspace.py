@@ -89,5 +89,21 @@ def test_sizes_have_the_unit_of_what_varies(assur_cli):
     assert "mm]" not in angles.out
     assert "share within" not in angles.out
     mixed = assur_cli("workspace", "planar_3rrr", "--resolution", "8").out
-    assert "area [" not in mixed
+    assert "area [1 mm as 1 rad]" in mixed
     assert "area [mm^2]" in assur_cli("workspace", "zeng2019", "--resolution", "8").out
+
+
+def test_a_region_that_is_its_whole_box_is_said_to_be(assur_cli):
+    small = ("--box", "x=-10:10", "--box", "y=-10:10", "--box", "z=380:400")
+    run = assur_cli("workspace", "zeng2019", "--resolution", "8", *small)
+    assert "volume: 8000 mm^3, all of the box: no stroke limits it" in " ".join(run.out.split())
+    wide = assur_cli("workspace", "zeng2019", "--resolution", "8", *small, "--stroke", "-900:900")
+    assert "all of the box: no limit is met in it" in " ".join(wide.out.split())
+    part = assur_cli("workspace", "zeng2019", "--resolution", "8")
+    assert "all of the box" not in part.out
+
+
+def test_the_strokes_of_the_file_are_told(assur_cli):
+    data = assur_cli("workspace", "three_upu", "--resolution", "8", "--json").json
+    record = assur.load("three_upu")
+    assert data["strokes"] == {item.name: list(item.stroke) for item in record.inputs}

@@ -9,8 +9,8 @@ from fractions import Fraction
 import pytest
 
 import assur
-from assur.cli.certified_regions import bounds
 from assur.errors import UsageError
+from assur.results.outward import outward as bounds
 from assur.workspace.certified import paving
 from assur.workspace.certified.largest import largest
 from assur.workspace.certified.proving import prove_box

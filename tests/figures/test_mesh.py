@@ -64,3 +64,13 @@ def test_a_surface_is_smooth_but_for_its_creases():
     cube = mesh.box(np.zeros(3), np.eye(3), "#000000").corners
     vertices, index = np.unique(cube.reshape(-1, 3), axis=0, return_inverse=True)
     assert len(mesh.creases(vertices, index.reshape(-1, 3))) == 12
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-12])
+def test_between_two_points_that_are_one_there_is_a_ball(gap):
+    """A leg that has no length in one configuration is still drawn."""
+    end = START + gap * SKEW
+    ball = mesh.ball(START, 0.5, "#808080")
+    for found in (mesh.cylinder(START, end, 0.5, "#808080"), mesh.bar(START, end, ACROSS, 0.5, 0.2, "#808080")):
+        np.testing.assert_allclose(found.corners, ball.corners)
+        assert np.all(np.isfinite(found.normals))

@@ -1,8 +1,13 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+import assur
+from assur.figures.companion import Companion
 from assur.figures.mesh import rgb
+from assur.figures.skeleton import skeleton
 from assur.figures.solids import link_layers, model, unit
 
 
@@ -37,3 +42,26 @@ def test_bars_are_as_long_as_the_joint_graph_says(every):
         rods = [item for item in every.skeleton.rods if item.link == rod.link]
         if len(rods) == 1:
             assert np.max((own - rod.points[0]) @ along) <= rod.size + 1.2 * size
+
+
+def test_a_leg_of_no_length_is_drawn():
+    """The sliders of drafts stand at zero at home: the two ends of what a leg leaves open are one point."""
+    record = assur.load("three_upu")
+    values = record.home_values.copy()
+    sliders = [item.coordinate.index for item in record.inputs]
+    values[sliders] = 0.0
+    short = skeleton(record, Companion(), values)
+    assert any(mark.telescopes and np.array_equal(mark.at, mark.rail) for mark in short.marks)
+    found = model(short, Companion())
+    assert np.all(np.isfinite(found.corners))
+    np.testing.assert_allclose(np.linalg.norm(found.normals, axis=2), 1.0, atol=1e-9)
+
+
+def test_a_mechanism_in_one_point_has_a_size():
+    record = assur.load("fivebar")
+    whole = skeleton(record, Companion(), record.home_values)
+    point = replace(whole, rods=(), plates=(), marks=tuple(replace(mark, at=np.zeros(3)) for mark in whole.marks))
+    assert unit(point) > 0.0
+    mesh = model(point, Companion())
+    assert np.all(np.isfinite(mesh.corners))
+    assert np.all(np.ptp(mesh.corners.reshape(-1, 3), axis=0) > 0.0)

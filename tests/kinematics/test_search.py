@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from pathlib import Path
 
@@ -34,6 +35,18 @@ def test_the_four_poses_of_the_paper_are_among_the_assemblies_of_the_joint_graph
     assert (len(parallel), parallel.complete_for, found.complete_for) == (len(claimed), "reduced", "joint_graph")
     assert f"; {left_out} with crossed parallelograms were left out" in parallel.right
     assert left_out == sum("~" in solution.mode for solution in found)
+
+
+def test_where_a_parallelogram_is_crossed_at_home_none_is_left_out(monkeypatch):
+    """The file is then another mechanism, whose platform turns: its own check would say so first."""
+    monkeypatch.setattr("assur.kinematics.position.check", lambda _: None)
+    paper = assur.load("zeng2019")
+    found = paper.direct(TABLE_1, method="search", crossed=True)
+    crossed = next(k for k, label in enumerate(found.labels) if "~" in label)
+    other = dataclasses.replace(paper, closed_form=None, home=found.joints[crossed])
+    again = other.direct(TABLE_1, method="search")
+    assert (again.complete_for, "left out" in again.right) == ("joint_graph", False)
+    assert any("~" in label for label in again.labels)
 
 
 def test_assemblies_of_one_sign_text_get_numbers():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -42,6 +43,14 @@ def fourbar():
 def delta():
     """A mechanism in space without closed form and without reference data."""
     return assur.load(Path(__file__).parents[1] / "model" / "file" / "delta.toml")
+
+
+@pytest.fixture(scope="session")
+def fivebar_graph(tmp_path_factory):
+    """The file of the five-bar alone, without its closed form and its reference data."""
+    folder = tmp_path_factory.mktemp("graph")
+    own = Path(assur.__file__).parent / "mechanisms" / "fivebar" / "mechanism.toml"
+    return assur.load(shutil.copy(own, folder / "fivebar.toml"))
 
 
 class Document(HTMLParser):

@@ -15,10 +15,13 @@ import assur
 from assur import figures
 from assur.errors import OutputError
 from assur.kinematics.border import inputs_of
-from assur.report import report_html, write_report
+from assur.report import numbers_of, report_html, write_report
 from assur.report.findings import Findings
 from assur.report.render import page_html
 from assur.report.report import SECTIONS, report_page
+from assur.report.sections.reach import AGAINST, reach
+from assur.results.kinds import RIGHTS, Scalar, Section, Table
+from assur.workspace.certified.proving import prove_box
 
 OUTSIDE = re.compile(r"url\(|@import|<script|<link|<iframe|<object|\bsrcset=|javascript:", re.IGNORECASE)
 
@@ -131,10 +134,100 @@ def test_printed_digits_stand_as_printed(findings, document):
             ]
 
 
-def test_the_volume_is_that_of_the_workspace(findings, html):
-    shown = re.search(r"<dt>workspace volume</dt><dd><span class=\"value\">([^<]*)</span>", html)[1]
+def scalars(page):
+    """Every scalar of a page, those of sections inside sections too."""
+    waiting = list(page.sections)
+    while waiting:
+        for item in waiting.pop(0).results:
+            if isinstance(item, Section):
+                waiting.append(item)
+            elif isinstance(item, Scalar):
+                yield item
+
+
+def tables(page):
+    waiting = list(page.sections)
+    while waiting:
+        for item in waiting.pop(0).results:
+            if isinstance(item, Section):
+                waiting.append(item)
+            elif isinstance(item, Table):
+                yield item
+
+
+def without_right(page):
+    """Names of the numbers of which a page does not say by what right they are known."""
+    found = [item.name for item in scalars(page) if not item.known_by.startswith(RIGHTS)]
+    return found + [
+        table.title
+        for table in tables(page)
+        if any(re.match(r"(area|length|volume|inside)\b", column) for column in table.columns)
+        and not table.known_by.startswith(RIGHTS)
+    ]
+
+
+def test_every_number_says_by_what_right_it_is_known(page):
+    assert len(list(scalars(page))) > 25
+    assert sum("area" in " ".join(table.columns) for table in tables(page)) == 3
+    assert without_right(page) == []
+
+
+def test_a_number_without_a_right_is_found(page):
+    bare = dataclasses.replace(
+        page, sections=(Section("S", results=[Scalar("volume", 1.0), Table("T", ("area [mm²]",), (("1",),))]),)
+    )
+    assert without_right(bare) == ["volume", "T"]
+
+
+def test_the_volume_is_that_of_the_workspace(findings, html, page):
+    shown = re.search(r"<dt>volume by solids</dt><dd><span class=\"value\">([^<]*)</span>", html)[1]
     number = float(shown.replace("\u202f", ""))
     assert abs(number - findings.workspace.volume) <= 0.05 * findings.workspace.volume_error
+    low, high = (float(text) for text in workspace_bounds_shown(html))
+    assert low <= findings.bounds.volume[0] < findings.bounds.volume[1] <= high
+    assert low < 22_814_586.4 < high < 1.0002 * low  # 500 mm times the area by quadrature of the two circles
+    (told,) = [item for item in numbers_of(page) if item["name"] == "workspace volume"]
+    assert (told["low"], told["high"]) == findings.bounds.volume
+    assert told["known_by"] == "proved by interval arithmetic"
+
+
+def workspace_bounds_shown(html):
+    shown = re.search(r"<dt>workspace volume</dt><dd><span class=\"value\">([^<]*)</span>", html)[1]
+    return shown.replace("\u202f", "").split(" to ")
+
+
+def test_the_papers_four_sections_have_proved_bounds(findings, document):
+    rows = document.tables["Sections across z"][1:]
+    assert len(rows) == len(findings.record.sections) == 4
+    for (_, cells), item in zip(rows, findings.workspace.sections, strict=True):
+        low, high = (float(text) for text in cells[2].replace("\u202f", "").split(" to "))
+        area, error = (float(text) for text in f"{cells[1]} ± 0".replace("\u202f", "").split(" ± ")[:2])
+        assert float(cells[0].split()[0]) == item.value
+        assert low - error <= area <= high + error
+        assert 0 < high - low < 1e-4 * low
+        assert "proved bounds" in cells[3]
+        assert AGAINST not in cells[3]
+
+
+def test_the_solutions_are_proved_and_that_there_is_no_other(findings, page, document):
+    text = " ".join(document.words["p"].split())
+    assert "Proved: 4 solutions and no other" in text
+    assert "Proved: 8 solutions and no other" in text
+    told = {item["name"]: item for item in numbers_of(page)}
+    for problem, count in (("direct", 4), ("inverse", 8)):
+        item = told[f"real {problem} solutions"]
+        assert item["value"] == item["low"] == item["high"] == count == len(findings.proved[problem])
+
+
+def test_the_largest_cube_is_reached_and_regular(findings, page):
+    (told,) = [item for item in numbers_of(page) if item["name"].startswith("edge of the largest")]
+    assert 0 < told["low"] <= told["high"] <= 1.02 * told["low"]
+    centre = findings.solution.pose
+    box = {
+        name: (value - 0.49 * told["low"], value + 0.49 * told["low"])
+        for name, value in zip("xyz", centre, strict=True)
+    }
+    assert prove_box(findings.record, box, mode=findings.solution.working_mode).status == "proved"
 
 
 # ---- any mechanism -----------------------------------------------------------------------------------------
@@ -151,6 +244,34 @@ def test_without_closed_form_and_reference_data(bare, read):
     told = bare.partition("Sections that this report does not have")[2].partition("</dl>")[0]
     assert re.findall(r"<dt>(.*?)</dt>", told) == [title for title, _ in SECTIONS if title not in shown]
     assert "Audit of the source" not in shown
+
+
+def test_without_closed_form_it_says_what_is_not_proved(fivebar_graph):
+    found = Findings(fivebar_graph, 12, illustrated=False)
+    page = report_page(found)
+    assert without_right(page) == []
+    html = page_html(page)
+    assert "No bounds are proved: fivebar has no closed form." in html
+    assert "No region free of singularities is proved: fivebar has no closed form." in html
+    told = {item["name"]: item for item in numbers_of(page)}
+    assert told["workspace area"]["known_by"] == "estimate: difference of two resolutions"
+    count = told["real direct solutions"]
+    assert (count["value"], count["low"], count["high"]) == (2, 2, None)
+    assert "one by one" in count["known_by"]
+
+
+def test_a_quaternion_has_no_cube_and_the_report_says_so():
+    found = Findings(assur.load("gough_stewart"), 8, illustrated=False)
+    assert found.cube == "the orientation of its pose is a quaternion, about which no cube is looked for"
+
+
+@pytest.mark.parametrize("name", ["planar_3rrr", "delta_4s"])
+def test_an_estimate_by_solids_agrees_with_the_proved_bounds(name):
+    found = Findings(assur.load(name), 24, illustrated=False)
+    section = reach(found)
+    (_, solids) = section.results[:2]
+    assert "proved bounds" in solids.note
+    assert AGAINST not in str(section.results)
 
 
 @pytest.mark.slow
@@ -236,7 +357,7 @@ def test_every_figure_is_there(findings, read, monkeypatch):
     """Drawing is tested with the figures; here each is a small empty one."""
     monkeypatch.setattr(figures, "draw", lambda *_: Figure(figsize=(1, 1)))
     drawn = Findings(findings.record, findings.resolution, illustrated=True)
-    for name in ("audit", "workspace", "examples"):  # as computed before
+    for name in ("audit", "workspace", "examples", "proved", "bounds", "cube", "coarser"):  # as computed before
         drawn.__dict__[name] = getattr(findings, name)
     page = read(page_html(report_page(drawn)))
     shown = {attributes["id"] for tag, attributes in page.tags if tag == "figure" and "id" in attributes}
@@ -263,9 +384,8 @@ def test_a_column_in_which_nothing_stands_is_left_out(document):
 
 def test_writing_reports_every_step(fourbar, tmp_path):
     steps = []
-    path = write_report(
-        fourbar, tmp_path / "report.html", lambda done, total: steps.append((done, total)), figures=False
-    )
+    path = tmp_path / "report.html"
+    write_report(fourbar, path, lambda done, total: steps.append((done, total)), figures=False)
     total = steps[-1][1]
     assert steps == [(done, total) for done in range(1, total + 1)]
     assert path.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")

@@ -30,7 +30,7 @@ def aspects(
     at: Held = (),
     finest: Annotated[
         str | None,
-        Parameter(metavar="LENGTH", help="Size at which boxes are no longer cut; a 64th of the box if left out."),
+        Parameter(metavar="LENGTH", help="Size at which boxes are no longer cut; a share of the box if left out."),
     ] = None,
     start: Annotated[
         str | None,

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from assur.cli import regions
-from assur.cli.certified_regions import bounds
 from assur.cli.numbers import assignments, number, numbers
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
@@ -17,6 +16,7 @@ from assur.cli.paths import output_file
 from assur.cli.progress import progress
 from assur.cli.quantities import is_length
 from assur.errors import UsageError
+from assur.results.outward import outward as bounds
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

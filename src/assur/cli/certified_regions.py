@@ -13,6 +13,7 @@ from assur.cli.output import heading, table
 from assur.cli.progress import progress
 from assur.cli.quantities import is_length
 from assur.errors import UnknownNameError, UsageError
+from assur.results.outward import outward
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -90,7 +91,7 @@ def _shown_volume(record: Mechanism, found: CertifiedWorkspace, data: Mapping[st
     if data["held"]:
         yield f"held: {_values(record, data['held'])}"
     what = ("length", "area", "volume")[len(found.box.names) - 1]
-    low, high = bounds(*found.volume)
+    low, high = outward(*found.volume)
     yield f"{what}: {low} .. {high} {found.unit}"
     gap = "" if found.gap_reached is None else f", gap {found.gap_reached:.2g}"
     yield f"how: {found.how}{gap}"
@@ -104,7 +105,7 @@ def _shown_volume(record: Mechanism, found: CertifiedWorkspace, data: Mapping[st
         yield ""
         yield table(
             (f"section at {last}", f"least [{found.sections[0].unit}]", f"most [{found.sections[0].unit}]"),
-            [(f"{item[last]:g}", *bounds(*item["area"])) for item in data["sections"]],
+            [(f"{item[last]:g}", *outward(*item["area"])) for item in data["sections"]],
         )
         for item in data["sections"]:
             if item["stopped"]:
@@ -247,23 +248,3 @@ def _pairs(record: Mechanism, names: Sequence[str], pairs: Sequence[Sequence[flo
 def _values(record: Mechanism, values: Mapping[str, float]) -> str:
     units = {name: record.unit if is_length(name) else record.angle for name in values}
     return ", ".join(f"{name} = {value:.7g} {units[name]}" for name, value in values.items())
-
-
-def bounds(low: float, high: float) -> tuple[str, str]:
-    """Proved bounds as text, rounded outwards to the second digit of their difference.
-
-    >>> bounds(22810123.414, 22824645.233), bounds(0.0, 0.0)
-    (('22810000', '22825000'), ('0', '0'))
-    """
-    if not high > low:
-        return f"{low:.17g}", f"{high:.17g}"
-    from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
-
-    with localcontext() as context:
-        context.prec = 1100  # enough for any two floats
-        step = Decimal(1).scaleb((Decimal(high) - Decimal(low)).adjusted() - 1)
-        least = (Decimal(low) / step).to_integral_value(ROUND_FLOOR) * step
-        most = (Decimal(high) / step).to_integral_value(ROUND_CEILING) * step
-        if step.adjusted() < -15:
-            return str(least.normalize()), str(most.normalize())
-        return f"{least:f}", f"{most:f}"

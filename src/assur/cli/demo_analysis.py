@@ -163,6 +163,7 @@ def workspace(ledger: Ledger, findings: Findings, shared: Plain) -> None:
 
 def _proved(ledger: Ledger, findings: Findings, shared: Plain) -> None:
     """Proved bounds of the volume and of the sections, with the estimates by solids beside them."""
+    from assur.results.outward import outward
     from assur.workspace.sections import section
 
     with progress("workspace, proved", shared):
@@ -179,12 +180,12 @@ def _proved(ledger: Ledger, findings: Findings, shared: Plain) -> None:
     ledger.claim(
         f"the volume and the {len(pairs) - 1} sections lie within their errors of the bounds proved by intervals",
         all(low - error <= value <= high + error for value, error, (low, high) in pairs),
-        f"volume {bounds(low, high)} {found.unit}, {proof.how}",
+        f"volume {' to '.join(outward(low, high))} {found.unit}, {proof.how}",
     )
     ledger.claim(
-        "about the printed pose a cube is proved to be reached and free of singularities",
+        "about the configuration of the printed inputs a cube is proved to be reached and free of singularities",
         cube.size > 0,
-        f"edge {bounds(cube.size, cube.refuted)} {findings.record.unit}",
+        f"edge {' to '.join(outward(cube.size, cube.refuted))} {findings.record.unit}",
     )
 
 

@@ -12,6 +12,7 @@ from assur.cli.quantities import count
 if TYPE_CHECKING:
     from assur.audit.rows import Row
     from assur.kinematics.answers.solution_set import SolutionSet
+    from assur.kinematics.certified.result import CertifiedSolutions
     from assur.mechanism import Mechanism
 
 BACK = 1e-9

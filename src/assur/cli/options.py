@@ -57,7 +57,8 @@ class Plain:
     """Options of every command."""
 
     json: Annotated[
-        bool, Parameter(help="Print one JSON object and nothing else, an error too. Numbers that do not exist are null.")
+        bool,
+        Parameter(help="Print one JSON object and nothing else, an error too. Numbers that do not exist are null."),
     ] = False
     debug: Annotated[bool, Parameter(help="Show the traceback of an error.")] = False
 

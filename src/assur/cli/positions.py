@@ -159,7 +159,7 @@ def _modes(record: Mechanism, data: dict[str, Any]) -> Iterable[str]:
     if any("/" in text for text in texts) or not signs:
         parts.append("a number among those that share the rest" if parts else "a number")
     yield f"mode: {', '.join(parts)}"
-    if data["home"]:
+    if any(data["home"]):
         yield f"home: mode {', '.join(data['home'])}"
 
 

@@ -1,8 +1,9 @@
-"""Progress bars on standard error, for what takes over a second; none where no person looks."""
+"""Progress on standard error: a bar on a terminal, one line elsewhere where it takes long, nothing with --json."""
 
 from __future__ import annotations
 
 import sys
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
@@ -15,12 +16,19 @@ if TYPE_CHECKING:
 Step = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
 
+LONG = 20.0
+"""Seconds after which a line says that the command is at work, where there is no bar."""
+
 
 @contextmanager
 def progress(label: str, shared: Plain) -> Iterator[Step]:
     """A bar while the block runs, which goes when it ends; it pulses until the first step is reported."""
-    if shared.json or not sys.stderr.isatty():
+    if shared.json:
         yield _nothing
+        return
+    if not sys.stderr.isatty():
+        with _line(f"{label}: still at work after {LONG:g} s\n"):
+            yield _nothing
         return
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
@@ -32,6 +40,18 @@ def progress(label: str, shared: Plain) -> Iterator[Step]:
             bars.update(bar, completed=done, total=total)
 
         yield step
+
+
+@contextmanager
+def _line(text: str) -> Iterator[None]:
+    """One line on standard error when the block has taken long."""
+    timer = threading.Timer(LONG, sys.stderr.write, (text,))
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
 
 
 def _nothing(done: int, total: int) -> None:

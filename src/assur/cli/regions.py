@@ -216,7 +216,7 @@ def _whole(record: Mechanism, data: dict[str, Any]) -> bool:
     """Whether the region is the box, as far as its grid can tell."""
     factors = [_factor(record, is_length(name)) for name in data["coordinates"]]
     box = math.prod((high - low) * factor for (low, high), factor in zip(data["box"], factors, strict=True))
-    return data["volume_error"] <= SAME * box and abs(data["volume"] - box) <= SAME * box
+    return bool(data["volume_error"] <= SAME * box and abs(data["volume"] - box) <= SAME * box)
 
 
 def _unlimited(data: dict[str, Any]) -> str:
@@ -245,7 +245,8 @@ def area_title(record: Mechanism, names: Sequence[str]) -> str:
     Where lengths and angles mix, a surface has no one unit: its area is that with a length and a radian drawn alike.
 
     >>> from assur.model.registry import load_record
-    >>> area_title(load_record("zeng2019"), ("x", "y", "z")), area_title(load_record("three_rps"), ("z", "theta", "psi"))
+    >>> record = load_record("three_rps")
+    >>> area_title(record, ("x", "y", "z")), area_title(record, ("z", "theta", "psi"))
     ('area [mm^2]', 'area [1 mm as 1 rad]')
     """
     from assur.kinematics.answers.at_border import power

@@ -28,8 +28,8 @@ def outcome(record: Mechanism, mode: str, shared: Shared) -> Outcome:
 
     with progress("loci in the workspace", shared) as step:
         region = workspace(record, mode, resolution=RESOLUTION if record.closed_form else None, progress=step)
-    with progress("example configurations", shared):
-        examples = [_example(record, item) for item in singular_examples(record)]
+    with progress("example configurations", shared) as step:
+        examples = [_example(record, item) for item in singular_examples(record, progress=step)]
     data = {
         "mechanism": record.name,
         "unit": record.unit,
@@ -100,12 +100,15 @@ def _example(record: Mechanism, example: Any) -> dict[str, Any]:
 
 def _shown(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
     style = style_of(record)
-    yield heading(f"{data['mechanism']}, singularities: where one of these is zero")
-    yield table(
-        ("factor", "kind", "zero where"),
-        [(item["name"], item["kind"], item["meaning"]) for item in data["factors"]],
-        left=("factor", "kind", "zero where"),
-    )
+    if data["factors"]:
+        yield heading(f"{data['mechanism']}, singularities: where one of these is zero")
+        yield table(
+            ("factor", "kind", "zero where"),
+            [(item["name"], item["kind"], item["meaning"]) for item in data["factors"]],
+            left=("factor", "kind", "zero where"),
+        )
+    else:
+        yield heading(f"{data['mechanism']}, singularities: no closed form, so no factors")
     for kind, what in (("constraint", "the joint graph loses rank"), ("self_motion", "the platform moves alone")):
         for group in data[kind]:
             yield f"{kind}: {' = '.join(group)} = 0, {what}"

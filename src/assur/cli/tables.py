@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Sequence
 
 from rich.console import Console, ConsoleOptions, RenderResult
 from rich.table import Table
@@ -40,7 +40,9 @@ class WholeTable(Table):
                 show_edge=False,
                 header_style=self.header_style,
             )
-            wrapped = [[_wrapped(text, size, console) for text in cells[k]] for k, size in zip(block, widths, strict=True)]
+            wrapped = [
+                [_wrapped(text, size, console) for text in cells[k]] for k, size in zip(block, widths, strict=True)
+            ]
             for k, texts in zip(block, wrapped, strict=True):
                 part.add_column(texts[0], justify=self.columns[k].justify, no_wrap=True)
             for row, *texts in zip(self.rows, *(texts[1:] for texts in wrapped), strict=True):
@@ -49,7 +51,7 @@ class WholeTable(Table):
             yield from console.render(part, options.update(width=wide, max_width=wide) if wide > width else options)
 
 
-def _texts(header: object, cells: Iterator[object] | Sequence[object]) -> list[Text]:
+def _texts(header: object, cells: Iterable[object]) -> list[Text]:
     """The header and the cells of a column."""
     return [item if isinstance(item, Text) else Text(str(item)) for item in (header, *cells)]
 

@@ -149,7 +149,17 @@ def _letter(axes: Axes, item: Aspect, rectangles: FloatArray) -> None:
     large = np.flatnonzero(sizes > LARGE * np.max(sizes))
     at = middles[large][np.argmin(np.sum((middles[large] - centre) ** 2, axis=1))]
     halo = [withStroke(linewidth=2.0, foreground=PAPER)]
-    axes.text(*at, _words(item.label), ha="center", va="center", fontsize=TEXT, color=INK, path_effects=halo, zorder=6)
+    axes.text(
+        float(at[0]),
+        float(at[1]),
+        _words(item.label),
+        ha="center",
+        va="center",
+        fontsize=TEXT,
+        color=INK,
+        path_effects=halo,
+        zorder=6,
+    )
 
 
 def _words(label: str) -> str:
@@ -181,9 +191,7 @@ def _dress(context: Context, axes: Axes, found: Aspects, names: tuple[str, str])
 
 
 def _legend(found: Aspects, path: AspectPath | None) -> list[Any]:
-    handles: list[Any] = [
-        Patch(label=_words(item.label), **_style(k)) for k, item in enumerate(found.aspects)
-    ]
+    handles: list[Any] = [Patch(label=_words(item.label), **_style(k)) for k, item in enumerate(found.aspects)]
     handles.append(Patch(facecolor=PALE, label="undecided"))
     if path is not None:
         handles.append(Line2D([], [], color=INK, marker="o", markersize=3.5, label="path"))

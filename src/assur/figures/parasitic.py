@@ -59,7 +59,8 @@ def maps(context: Context) -> Maps:
 def _maps(context: Context) -> Maps:
     region, (first, second, third, level) = context.workspace, _plane(context)
     box = region.box
-    nodes = {name: np.linspace(*box.intervals[box.axis(name)], NODES) for name in (first, second)}
+    spans = {name: box.intervals[box.axis(name)] for name in (first, second)}
+    nodes = {name: np.linspace(low, high, NODES) for name, (low, high) in spans.items()}
     grid = dict(zip((first, second), np.meshgrid(nodes[first], nodes[second], indexing="ij"), strict=True))
     columns = [grid[name] if name in grid else np.full((NODES, NODES), level) for name in box.names]
     points = np.stack(columns, axis=-1).reshape(-1, len(columns))

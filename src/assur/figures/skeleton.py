@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from assur.figures.companion import Companion
 from assur.figures.companion import length as formula_value
+from assur.kinematics.closure import characteristic_length
 from assur.model.joint_graph import Frame, frames
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.topology.joints import CYLINDRICAL, PRISMATIC, UNIVERSAL
@@ -104,8 +105,8 @@ class Skeleton:
 
     @property
     def size(self) -> float:
-        """Longest side of the box about all points."""
-        return float(np.max(np.ptp(self.cloud, axis=0)))
+        """Longest side of the box about all points; of a mechanism in one point its characteristic length."""
+        return float(np.max(np.ptp(self.cloud, axis=0))) or characteristic_length(self.record)
 
     @property
     def chains(self) -> tuple[str, ...]:

@@ -25,7 +25,7 @@ from assur.kinematics.loop_state import move, state_names, state_of
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.recording.elimination import NOTHING, solved
-from assur.numerics.recording.folding import Folding
+from assur.numerics.recording.folding import Folded, Folding
 from assur.numerics.recording.loops import Loop, compiled
 from assur.numerics.recording.tape import Tape
 
@@ -33,23 +33,22 @@ FloatArray = NDArray[np.float64]
 
 Engine = Literal["auto", "numpy", "compiled"]
 
-NO_ROWS = np.empty(0, dtype=np.intp)
 BLOCK = 1024
 """Configurations that are closed at a time: their numbers stay in the cache."""
 MAX_STEPS = 8
 """Newton steps before a start is given to damped least squares."""
 TOLERANCE = 1e-13
 """Newton's steps end where all gaps are at most this times the characteristic length."""
+ENOUGH = 1e-12
+"""A start whose gaps are larger after all steps is given to damped least squares, which ends there."""
 REPAID = 500_000
 """Starts from which making machine code, which takes seconds, is repaid."""
-ENOUGH = 1e-12
-"""A start whose gaps are larger after them is given to damped least squares, which ends there."""
 WALKERS, WALKS = 8, 3
-"""Assemblies around home at which pivots are chosen: so many, after so many steps."""
-DIGITS = 11
-"""Significant digits of an entry of the derivative that is the same at all of them."""
+"""Assemblies around home at which pivots are chosen: so many at a time, so many times."""
 STRIDE = 0.1
 """Step from one of them to the next, in rad and in characteristic lengths."""
+DIGITS = 11
+"""Significant digits of an entry of the derivative that is the same at all of them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +90,7 @@ class CompiledClosure:
         if start.shape[-1:] != (count,):
             raise UsageError(f"joint values of shape {start.shape}; {count} of them are wanted")
         flat = np.array(start, dtype=float).reshape(int(np.prod(start.shape[:-1])), count)
-        step = self._step(engine, len(flat))
+        step = self.stepper(engine, len(flat))
         values, gaps, steps = np.ascontiguousarray(flat.T), np.full(len(flat), np.inf), 0
         for first in range(0, len(flat), BLOCK):
             block = slice(first, first + BLOCK)
@@ -107,7 +106,7 @@ class CompiledClosure:
         shape = start.shape[:-1]
         return Assembly(answer.reshape(start.shape), gaps.reshape(shape), closed.reshape(shape), steps)
 
-    def _step(self, engine: Engine, count: int) -> Callable[[FloatArray, FloatArray], None]:
+    def stepper(self, engine: Engine, count: int) -> Callable[[FloatArray, FloatArray], None]:
         """What writes the outputs (m, b) of a state (k, b)."""
         if engine not in get_args(Engine):
             raise UnknownNameError("engine of a closure", engine, get_args(Engine))
@@ -121,7 +120,10 @@ class CompiledClosure:
             row[:] = value
 
     def _compiled(self, state: FloatArray, answer: FloatArray) -> None:
-        rows = np.array([self.loop.places[name] for name in self.tape.outputs], dtype=np.intp), NO_ROWS
+        rows = (
+            np.array([self.loop.places[name] for name in self.tape.outputs], dtype=np.intp),
+            np.empty(0, dtype=np.intp),
+        )
         truths = np.empty((0, answer.shape[1]), dtype=bool)
         self.loop.fill(state, self.numbers, (answer, truths), rows, (0, answer.shape[1]))
 
@@ -137,9 +139,11 @@ class CompiledClosure:
             while True:
                 step(state, answer)
                 gaps = self._largest(answer[len(moving) :])
-                if made == MAX_STEPS or np.all(gaps <= bound):
+                apart = ~(gaps <= bound)
+                if made == MAX_STEPS or not apart.any():
                     break
-                state[moving] = answer[: len(moving)]
+                for row, moved in zip(moving, answer, strict=False):
+                    np.copyto(state[row], moved, where=apart)  # the others stay, whatever their neighbours need
                 made += 1
             move(self.record, values, begun, state, set(moving))
         return values, gaps, made
@@ -175,7 +179,7 @@ def compiled_closure(
 
     Errors:
         UsageError: a helical joint; part of a ball joint held; no joint values of these indices; no loops; no assembly
-            around which pivots can be chosen, or only singular ones.
+            around which pivots can be chosen, or only singular ones; `around` of another shape.
 
     Example: the direct problem of a five-bar, a little away from home; a compiled loop needs numba.
 
@@ -190,14 +194,19 @@ def compiled_closure(
     fixed = _checked(record, held)
     folding = Folding()
     equations = LoopEquations(record, folding)
-    samples = assemblies_around(record, home_values(record) if around is None else around, fixed)
+    given = home_values(record) if around is None else around
+    if given.shape != (len(record.coordinates),):
+        raise UsageError(
+            f"around: joint values of shape {given.shape}; one assembly ({len(record.coordinates)},) is wanted"
+        )
+    samples = assemblies_around(record, given, fixed)
     entries, matrices = _derivative(equations, samples, fixed)
     changes = solved(entries, [-gap for gap in equations.gaps], matrices)
     moved = equations.moved(changes)
     outputs = {name: part for k, own in moved.items() for name, part in zip(state_names(record)[k], own, strict=True)}
     for k, squares in enumerate(equations.squares):
         named = {f"distance{k}": squares[0], f"rotation{k}": squares[1]}
-        outputs |= {name: square for name, square in named.items() if not isinstance(square, float)}
+        outputs |= {name: square for name, square in named.items() if isinstance(square, Folded) or square != 0.0}
     return CompiledClosure(record, fixed, folding.tape(outputs), folding.numbers, tuple(sorted(changes)))
 
 
@@ -235,7 +244,8 @@ def assemblies_around(record: MechanismRecord, start: FloatArray, held: Sequence
         found.append(closed.values[closed.closed])
     samples = np.concatenate(found)
     if not len(samples):
-        raise UsageError(f"{record.name}: no assembly near the one that was given", hint="give another by around")
+        where = f"{record.name}: no assembly near the one that was given"
+        raise UsageError(where, hint="give another by around, or hold no more joint values than there are freedoms")
     return samples
 
 

@@ -142,7 +142,8 @@ def _branches(record: MechanismRecord, problem: Problem, given: FloatArray, mode
     names = sign_names(record, problem)
     if mode and not names:
         raise UsageError(
-            f"{record.name} has only one {_kind(problem)}, which has no signs; found '{mode}'", hint="leave the mode out"
+            f"{record.name} has only one {_kind(problem)}, which has no signs; found '{mode}'",
+            hint="leave the mode out",
         )
     if mode is None:
         sign, shape = sign_axes(names), (2,) * len(names)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 
 from assur.kinematics.closure import characteristic_length
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, is_angle
+from assur.results.outward import outward
 from assur.workspace.certified.region import unit
 
 NOTHING = "–"
@@ -132,7 +132,7 @@ def with_error(value: float, error: float) -> str:
 
 
 def bounds(low: float, high: float) -> str:
-    r"""Proved bounds to two digits of their distance, rounded outwards so that they stay bounds.
+    r"""Proved bounds to the second digit of their difference, rounded outwards so that they stay bounds.
 
     >>> bounds(22814087.41, 22816107.86), bounds(0.1125, 0.1125), bounds(2.82893, 2.85454)
     ('22\u202f814\u202f000 to 22\u202f816\u202f200', '0.1125', '2.828 to 2.855')
@@ -141,12 +141,7 @@ def bounds(low: float, high: float) -> str:
         return NOTHING
     if low == high:
         return short(low)
-    place = Decimal(1).scaleb(math.floor(math.log10(high - low)) - 1)
-    texts = []
-    for end, rounding in ((low, ROUND_FLOOR), (high, ROUND_CEILING)):
-        rounded = (Decimal(end) / place).to_integral_value(rounding) * place
-        texts.append(minus(grouped(f"{rounded:f}")))
-    return " to ".join(texts)
+    return " to ".join(minus(text if "E" in text else grouped(text)) for text in outward(low, high))
 
 
 def grouped(text: str) -> str:

@@ -35,7 +35,10 @@ SEGMENTS = 60
 BISECTIONS = 70
 GROWTH = 3.0
 PATHS = 8
-"""Paths that are followed from home, as many in the box as in the wider one."""
+"""Paths that are followed from home at most, as many in the box as in the wider one."""
+
+AGAIN = 4
+"""A box is left when so many paths in a row met nothing new."""
 
 STOPPED = 1e-12
 """Share of a path within which it stops before a singularity, which is then within what counts as one."""
@@ -76,12 +79,15 @@ class _Samples:
         return np.asarray(np.sum(rest, axis=0))
 
 
-def singular_examples(record: MechanismRecord, seed: int = 0) -> tuple[SingularExample, ...]:
+def singular_examples(
+    record: MechanismRecord, seed: int = 0, progress: Callable[[int, int], None] | None = None
+) -> tuple[SingularExample, ...]:
     """One example per factor: the pose at its zero at which the fewest others vanish, the default mode first.
 
     Poses are drawn from the workspace box of the file, and where a factor never vanishes there, from a box
     three times as wide. A factor that vanishes in neither has no example. Without a closed form there is one example
-    per kind that is met (input, output, closure) on straight paths from home to such poses.
+    per kind that is met (input, output, closure) on straight paths from home to such poses, and `progress`, where
+    given, is called with (paths done, paths at most).
 
     >>> from assur.model.registry import load_record
     >>> [example.factor.name for example in singular_examples(load_record("zeng2019"))][:4]
@@ -96,7 +102,7 @@ def singular_examples(record: MechanismRecord, seed: int = 0) -> tuple[SingularE
     low, high = np.array([record.box[name] for name in record.platform.pose]).T
     rng = np.random.default_rng(seed)
     if record.closed_form is None:
-        return _met_on_paths(record, low, high, rng)
+        return _met_on_paths(record, low, high, rng, progress)
     middle, half = (low + high) / 2, (high - low) / 2
     spans = [(middle - grown * half, middle + grown * half) for grown in (1, GROWTH)]
     boxes = [in_range(record, rng.uniform(*span, (SAMPLES, len(low)))) for span in spans]
@@ -120,14 +126,23 @@ def _sought(form: ClosedForm) -> list[Factor]:
 
 
 def _met_on_paths(
-    record: MechanismRecord, low: FloatArray, high: FloatArray, rng: np.random.Generator
+    record: MechanismRecord,
+    low: FloatArray,
+    high: FloatArray,
+    rng: np.random.Generator,
+    progress: Callable[[int, int], None] | None,
 ) -> tuple[SingularExample, ...]:
     """The first configuration of each kind before which a path from home to a pose by chance stops."""
     home = home_values(record)
     middle, half = (low + high) / 2, (high - low) / 2
     best: dict[str, SingularExample] = {}
+    last = {1.0: -1, GROWTH: PATHS - 1}
     for k in range(2 * PATHS):
-        grown = 1 if k < PATHS else GROWTH
+        grown = 1.0 if k < PATHS else GROWTH
+        if k - last[grown] > AGAIN:
+            continue
+        if progress is not None:
+            progress(k, 2 * PATHS)
         target = in_range(record, rng.uniform(middle - grown * half, middle + grown * half))
         stop = follow(record, home, poses=target, use_limits=False, tolerance=STOPPED).stopped
         if stop is None or stop.kind not in MET or stop.kind in best:
@@ -135,7 +150,7 @@ def _met_on_paths(
         status = Status(int(classify_at(record, stop.joints)))
         if status not in (Status.regular, Status.near_singular):
             in_box = bool(np.all((stop.pose >= low) & (stop.pose <= high)))
-            mode = record.modes.default_working
+            mode, last[grown] = record.modes.default_working, k
             best[stop.kind] = SingularExample(MET[stop.kind], mode, stop.pose, stop.inputs, stop.joints, status, in_box)
         if len(best) == len(MET):
             break

@@ -15,10 +15,9 @@ OPERATORS = (operator.add, operator.sub, operator.mul, operator.truediv)
 
 
 @pytest.mark.parametrize("work", OPERATORS)
-@pytest.mark.parametrize(("plain", "first"), itertools.product(PLAIN, (True, False)))
+@pytest.mark.parametrize(("plain", "first"), list(itertools.product(PLAIN, (True, False))))
 def test_a_number_and_a_plain_one_on_either_side(work, plain, first):
-    if work is operator.truediv and first and plain == 0.0:
-        pytest.skip("x / 0 is for the loop to refuse")
+    plain = plain or (3.0 if work is operator.truediv and first else 0.0)  # x / 0 has no meaning
     folding = Folding()
     x = folding.varying("x")
     value = work(x, plain) if first else work(plain, x)

@@ -22,6 +22,10 @@ from assur.workspace.slices import slice_at
 FIVEBAR = load_record("fivebar")
 ZENG = load_record("zeng2019")
 WIDE = {"x": (-300.0, 300.0), "y": (-300.0, 300.0)}
+PART = {"phi": (0.0, 1.2)}
+COARSE = {"x": 2.5, "y": 2.5, "phi": 0.15}
+"""Of the 3-RPR: where and at what size two parts of each sign are seen first, and necks between them later."""
+
 CELLS = 400
 
 SLICES = [
@@ -33,7 +37,7 @@ SLICES = [
     pytest.param(
         "linear_delta_4r", None, {"x": (-250.0, 250.0), "y": (-250.0, 250.0)}, None, {"z": -300.0}, id="delta"
     ),
-    pytest.param("fivebar", "-+", WIDE, {"A1": (-0.5, 2.0)}, None, id="fivebar with a stroke"),
+    pytest.param("fivebar", "-+", WIDE, {"theta1": (-0.5, 2.0)}, None, id="fivebar with a stroke"),
 ]
 
 
@@ -83,15 +87,17 @@ def test_aspects_are_the_parts_that_a_flood_fill_finds(name, mode, box, strokes,
 
 
 def test_the_parallel_singularity_parts_a_working_mode_of_the_five_bar():
-    """sin_rods = 0, the rods in line: in a box about all of it, two aspects for each working mode."""
-    for found in aspects_of_all_modes(FIVEBAR, box=WIDE):
-        assert found.naming == ("sin_rods",)
-        assert sorted(item.label for item in found.aspects) == ["+", "-"]
-        assert found.told_apart
-    first, second = (aspects(FIVEBAR, mode, WIDE) for mode in ("-+", "+-"))
-    for item in first.aspects:  # the mechanism is its own mirror image: y -> -y changes all signs
-        other = second["-" if item.label == "+" else "+"]
-        assert item.volume == pytest.approx(other.volume, rel=1e-9)
+    """sin_rods = 0, the rods in line. With elbows to one side it cuts two crescents off, else it halves the reach."""
+    found = {item.mode: item for item in aspects_of_all_modes(FIVEBAR, box=WIDE)}
+    assert {item.naming for item in found.values()} == {("sin_rods",)}
+    assert all(item.told_apart for item in found.values())
+    labels = {mode: [part.label for part in item.aspects] for mode, item in found.items()}
+    assert labels == {"++": ["-", "+"], "+-": ["-", "+/1", "+/2"], "-+": ["+", "-/1", "-/2"], "--": ["+", "-"]}
+    mirrored = str.maketrans("+-", "-+")
+    for first, second in (("-+", "+-"), ("++", "--")):  # y -> -y changes every sign
+        for item in found[first].aspects:
+            other = found[second][item.label.translate(mirrored)]
+            assert item.volume == pytest.approx(other.volume, rel=1e-9)
 
 
 def test_volumes_of_aspects_make_up_the_workspace():
@@ -121,21 +127,17 @@ def test_coordinates_on_which_nothing_depends_are_not_cut():
 
 
 def test_the_two_aspects_of_a_3rpr_are_proved_in_space():
-    found = aspects(load_record("planar_3rpr"), finest={"x": 1.25, "y": 1.25, "phi": 0.2})
+    found = aspects(load_record("planar_3rpr"), box=PART, finest=COARSE)
     assert sorted(item.label for item in found.aspects) == ["+", "-"]
     assert found.told_apart
 
 
-def test_what_is_not_proved_is_said():
-    """A size at which the two parts of one sign are neither joined nor parted."""
-    before = search_module.ROUNDS
-    search_module.ROUNDS = 0
-    try:
-        found = aspects(load_record("planar_3rpr"), finest={"x": 1.25, "y": 1.25, "phi": 0.2})
-    finally:
-        search_module.ROUNDS = before
+def test_what_is_not_proved_is_said(monkeypatch):
+    """Without a further cut the two parts of one sign are neither joined nor parted."""
+    monkeypatch.setattr(search_module, "ROUNDS", 0)
+    found = aspects(load_record("planar_3rpr"), box=PART, finest=COARSE)
     assert not found.told_apart
-    assert found["+/1"].perhaps[0] == "+/2"
+    assert found["+/1"].perhaps == ("+/2",)
     assert "not told apart" in found.note
     assert found["+/1"].volume[1] == pytest.approx(found["+/2"].volume[1], rel=1e-12)
 
@@ -157,14 +159,14 @@ def test_corners_counted_for_faces_are_noticed(monkeypatch):
 
 def test_signs_unlooked_at_would_be_noticed(monkeypatch):
     """Mutation: without the factors among what must not be zero, aspects run together."""
-    whole = aspects(FIVEBAR, "-+", WIDE)
+    whole = aspects(FIVEBAR, "-+", WIDE, finest=9.375)
     monkeypatch.setattr("assur.workspace.certified.criteria.Criteria.nonsingular", property(lambda self: self))
-    assert any(0 in item.signs.values() for item in aspects(FIVEBAR, "-+", WIDE).aspects)
+    assert any(0 in item.signs.values() for item in aspects(FIVEBAR, "-+", WIDE, finest=9.375).aspects)
     assert all(0 not in item.signs.values() for item in whole.aspects)
 
 
 def test_the_result_is_plain_data():
-    data = aspects(FIVEBAR, "-+", WIDE).to_json()
+    data = aspects(FIVEBAR, "-+", WIDE, finest=9.375).to_json()
     assert json.loads(json.dumps(data)) == data
     assert [item["label"] for item in data["aspects"]] == ["+", "-"]
     assert data["how"] == "proved by interval arithmetic"
@@ -189,4 +191,4 @@ def test_misuse_is_refused(options, word):
 
 def test_an_unknown_label_is_refused_with_those_there_are():
     with pytest.raises(UsageError, match=r"no aspect \* in mode -\+; it has \+, -"):
-        aspects(FIVEBAR, "-+", WIDE)["*"]
+        aspects(FIVEBAR, "-+", WIDE, finest=9.375)["*"]

@@ -13,7 +13,7 @@ from assur.workspace.aspects.aspects import aspects
 from assur.workspace.aspects.checking import check_path
 
 RECORD = load_record("fivebar")
-FOUND = aspects(RECORD, "-+", {"x": (-300.0, 300.0), "y": (-300.0, 300.0)})
+FOUND = aspects(RECORD, "-+", {"x": (-300.0, 300.0), "y": (-300.0, 300.0)}, finest=9.375)
 PATH = FOUND.path([0.0, 200.0], [0.0, -200.0])
 
 
@@ -42,7 +42,7 @@ def test_a_path_through_a_singularity_fails():
 
 
 def test_a_path_beyond_the_strokes_fails():
-    narrow = replace(FOUND, strokes={"A1": (0.0, 0.001)})
+    narrow = replace(FOUND, strokes={"theta1": (0.0, 0.001)})
     assert not check_path(RECORD, narrow, PATH, follow_it=False).reached
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from dataclasses import replace
 
@@ -14,7 +15,7 @@ from assur.workspace.aspects.checking import check_path, covered
 from assur.workspace.certified.planes import judged
 
 FIVEBAR = load_record("fivebar")
-FOUND = aspects(FIVEBAR, "-+", {"x": (-300.0, 300.0), "y": (-300.0, 300.0)})
+FOUND = aspects(FIVEBAR, "-+", {"x": (-300.0, 300.0), "y": (-300.0, 300.0)}, finest=9.375)
 ZENG = load_record("zeng2019")
 
 CASES = [
@@ -47,7 +48,7 @@ def test_every_pair_of_poses_of_an_aspect_is_joined():
     for item in FOUND.aspects:
         chosen = rng.integers(0, len(item.boxes), 6)
         poses = item.boxes.middles[:, chosen].T
-        for start, end in zip(poses[:-1], poses[1:], strict=True):
+        for start, end in itertools.pairwise(poses):
             path = FOUND.path(start, end)
             assert path.status == "connected"
             assert covered(path)
@@ -78,7 +79,7 @@ def test_the_same_signs_in_two_aspects_are_refused_too():
 
 def test_parts_that_are_not_told_apart_are_undecided(monkeypatch):
     monkeypatch.setattr("assur.workspace.aspects.search.ROUNDS", 0)
-    found = aspects(load_record("planar_3rpr"), finest={"x": 1.25, "y": 1.25, "phi": 0.2})
+    found = aspects(load_record("planar_3rpr"), box={"phi": (0.0, 1.2)}, finest={"x": 2.5, "y": 2.5, "phi": 0.15})
     one, two = (found[label].boxes.middles[:, 0] for label in ("+/1", "+/2"))
     path = found.path(one, two)
     assert (path.status, path.why) == ("undecided", "undecided boxes may join the two parts; look with a smaller size")

@@ -14,7 +14,7 @@ from assur.workspace.aspects.places import holding, point_of, straight
 from assur.workspace.domain import Box
 
 RECORD = load_record("fivebar")
-FOUND = aspects(RECORD, "-+", {"x": (-300.0, 300.0), "y": (-300.0, 300.0)})
+FOUND = aspects(RECORD, "-+", {"x": (-300.0, 300.0), "y": (-300.0, 300.0)}, finest=9.375)
 TOP = math.sqrt((RECORD.values.l1 + RECORD.values.l2) ** 2 - RECORD.values.g**2)
 """y of P on the axis of symmetry with crank and rod in line."""
 

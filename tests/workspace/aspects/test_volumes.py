@@ -1,4 +1,4 @@
-"""Volumes of aspects against a triangle and against Monte Carlo."""
+"""Volumes of aspects against the share of spread poses."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def test_parts_that_may_be_one_share_the_upper_bound(monkeypatch):
     record = load_record("planar_3rpr")
     asked = criteria(record, factors=("parallel", "serial")).nonsingular
     monkeypatch.setattr("assur.workspace.aspects.search.ROUNDS", 0)
-    found = search(Frame(asked, box_of(record, None), asked.used), {"x": 1.25, "y": 1.25, "phi": 0.2})
+    found = search(Frame(asked, box_of(record, {"phi": (0.0, 1.2)}), asked.used), {"x": 2.5, "y": 2.5, "phi": 0.15})
     bounds = volumes(found)
     for k in range(len(bounds)):
         for other in np.flatnonzero(found.links.group == found.links.group[k]):

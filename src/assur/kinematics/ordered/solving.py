@@ -41,7 +41,7 @@ class Set:
 
 @dataclass(frozen=True, eq=False)
 class Solved:
-    """Unknowns (K, 1 + c) made real, the first 1; by how much that bent them (K,); the sets; how many roots there were."""
+    """Unknowns (K, 1 + c) made real, the first 1; by how much that bent them (K,); the sets; how many roots."""
 
     unknowns: ComplexArray
     bent: NDArray[np.float64]

@@ -86,7 +86,9 @@ class _Work:
         places = list(self.entries)
         bound = min(LARGE, max(least[place] for place in places))
         if bound <= NOTHING:
-            raise UsageError("no pivot is other than zero at every sample", hint="sample the matrix where it is regular")
+            raise UsageError(
+                "no pivot is other than zero at every sample", hint="sample the matrix where it is regular"
+            )
         fit = [place for place in places if least[place] >= bound]
         plain = {place: isinstance(self.entries[place], float) for place in fit}
         row, column = min(

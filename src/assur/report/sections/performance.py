@@ -16,7 +16,7 @@ SPREAD = "estimate: spread of eight independent shifts"
 COUNT = 4096
 SEED = 5
 SHARES = (0, 10, 25, 50, 75, 90, 100)
-PICTURES = ("dexterity", "fastest", "slowest", "transmission", "manipulability")
+PICTURES = ("dexterity", "fastest", "slowest", "transmission", "manipulability", "indices")
 
 
 def performance(found: Findings) -> Section:

@@ -32,7 +32,8 @@ def polynomial_words(found: Findings, eliminant: Eliminant) -> str:
     said = f"{unknown} ({meant})" if meant else unknown
     return (
         f"The direct problem ends in {which} of degree {degree}, counted on its coefficients, in {said}, "
-        f"so that there are at most {eliminant.degree} poses. All complex roots are found; here they give {count(len(found.direct), 'pose')}."
+        f"so that there are at most {eliminant.degree} poses. All complex roots are found; here they give "
+        f"{count(len(found.direct), 'pose')}."
     )
 
 

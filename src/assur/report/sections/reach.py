@@ -20,6 +20,7 @@ from assur.workspace.sections import section
 
 AGAINST = "AGAINST the proved bounds"
 SHARE = "estimate: by a solid about the surface, its error not estimated"
+NOWHERE = "; that a factor is zero nowhere inside is not proved: it keeps its sign at every node of the cells"
 ENDINGS = {
     "": "",
     "no limit": "; nothing fails within the farthest size that is looked at",
@@ -186,7 +187,13 @@ def _loci(found: Findings) -> list[Table]:
     title = "Parallel singularities inside the workspace"
     where = "surface" if len(names) == 3 else "curve"
     caption = "" if mixed else f"Size of the {where} on which each factor vanishes."
-    return [Table(title, ("factor", "zero where", size), rows, caption, known_by=TWO_RESOLUTIONS)]
+    return [Table(title, ("factor", "zero where", size), rows, caption, known_by=_right_of_loci(region))]
+
+
+def _right_of_loci(region: Workspace) -> str:
+    """By what right the sizes of loci are known; that one is nowhere is what the cells see."""
+    nowhere = any(not locus.area and not locus.everywhere for locus in region.loci)
+    return f"{TWO_RESOLUTIONS}{NOWHERE if nowhere else ''}"
 
 
 def _size(locus: Locus, *, mixed: bool) -> str:

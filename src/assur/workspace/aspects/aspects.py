@@ -36,8 +36,8 @@ from assur.workspace.slices import Slice, slice_at
 FloatArray = NDArray[np.float64]
 
 KINDS = ("parallel", "serial")
-PARTS = 64
-"""Into so many parts the box is cut along each coordinate, where nobody says how small."""
+PARTS = (1024, 256, 64)
+"""Into so many parts boxes are cut along each of one, two or three coordinates, where nobody says how small."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,17 +192,18 @@ def aspects(
         strokes: input -> (low, high) as printed, or None for no limit; the file's for what is left out.
         held: pose coordinates that stand still.
         finest: extent at which undecided boxes are no longer cut, in length units; of angles that over the
-            characteristic length. Or by coordinate. By default a 64th of the box. Where components may or may not meet,
-            boxes are cut down to a 64th of it.
+            characteristic length. Or by coordinate. By default a 256th of the box, in space a 64th. Where
+            components may or may not meet, boxes are cut down to a 64th of it.
         progress: called with (steps done, steps in all).
 
     Returns:
-        The frozen result. An angle is not closed to a circle: -180 and 180 deg are ends of the box.
+        The frozen result. What is listed is proved to be there; undecided boxes may hold further, small ones. An
+        angle is not closed to a circle: -180 and 180 deg are ends of the box.
 
     Errors:
         UsageError: no closed form; a box, stroke or size that is none.
 
-    Example: in the mode -+ the five-bar's reach above the base is one aspect, in a larger box there are two.
+    Example: in the mode -+ the five-bar's reach above the base is one aspect, in a larger box there are three.
 
     >>> from assur.model.registry import load_record
     >>> record = load_record("fivebar")
@@ -210,13 +211,13 @@ def aspects(
     ['+']
     >>> found = aspects(record, "-+", {"x": (-300, 300), "y": (-300, 300)})
     >>> [item.label for item in found.aspects], found.naming, found.told_apart
-    (['+', '-'], ('sin_rods',), True)
+    (['+', '-/1', '-/2'], ('sin_rods',), True)
     """
     poses = slice_at(record, held)
     domain = box_of(record, box, poses.free)
     asked = criteria(record, mode, strokes, held, KINDS).nonsingular
     used = asked.used if any(asked.used) else (True, *asked.used[1:])
-    extents = _extents(record, domain, finest)
+    extents = _extents(record, domain, finest, PARTS[sum(used) - 1])
     found = search(Frame(asked, domain, used), extents, progress)
     length = as_interval(1.0)
     for has, low, high in zip(used, domain.low, domain.high, strict=True):
@@ -261,14 +262,16 @@ def aspects_of_all_modes(record: MechanismRecord, **options: Any) -> tuple[Aspec
     >>> from assur.model.registry import load_record
     >>> found = aspects_of_all_modes(load_record("fivebar"), box={"x": (-300, 300), "y": (-300, 300)})
     >>> [(item.mode, len(item)) for item in found]
-    [('++', 2), ('+-', 2), ('-+', 2), ('--', 2)]
+    [('++', 2), ('+-', 3), ('-+', 3), ('--', 2)]
     """
     return tuple(aspects(record, mode, **options) for mode in all_modes(record, "inverse"))
 
 
-def _extents(record: MechanismRecord, box: Box, finest: float | Mapping[str, float] | None) -> dict[str, float]:
-    """The finest extent by coordinate."""
-    extents = {name: (high - low) / PARTS for name, low, high in zip(box.names, box.low, box.high, strict=True)}
+def _extents(
+    record: MechanismRecord, box: Box, finest: float | Mapping[str, float] | None, parts: int
+) -> dict[str, float]:
+    """The finest extent by coordinate; a part of the box where nothing is said."""
+    extents = {name: (high - low) / parts for name, low, high in zip(box.names, box.low, box.high, strict=True)}
     if finest is None:
         return extents
     if isinstance(finest, Mapping):

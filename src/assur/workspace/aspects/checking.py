@@ -72,8 +72,8 @@ def check_path(
     reached = bool(exists.all()) and _within(
         record, found, np.take_along_axis(answer.inputs, place[..., None], 1)[:, 0]
     )
-    signs = [np.sign(np.take_along_axis(answer.factors[name], place, 1)) for name in found.aspects[0].signs]
-    kept = all(bool(np.all(row == row[0]) and row[0] != 0) for row in signs)
+    values = [np.take_along_axis(answer.factors[name], place, 1) for name in found.aspects[0].signs]
+    kept = all(bool(np.all(row > 0) or np.all(row < 0)) for row in values)
     followed, stopped = _followed(record, found, path) if follow_it and exists[0] else (None, "")
     return PathCheck(covered(path), len(points), reached, kept, followed, stopped)
 

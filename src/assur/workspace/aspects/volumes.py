@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.numerics.intervals import rounding
-from assur.numerics.intervals.interval import Interval, as_interval
+from assur.numerics.intervals.interval import as_interval
 from assur.workspace.aspects.search import Search
 from assur.workspace.aspects.signs import Signs
 from assur.workspace.certified import cuts
@@ -25,27 +26,29 @@ def volumes(state: Search) -> list[Pair]:
     The lower one counts the component's boxes. The upper one adds the components that are not told apart from it, and
     of undecided boxes the part where margins are not negative and factors have the aspect's signs.
     """
-    found, boxes = state.links, state.undecided
-    sizes = state.certain.sizes
+    found, sizes = state.links, state.certain.sizes
     rows = [np.flatnonzero(found.component == k) for k in range(len(found.group))]
     own = [(math.fsum(sizes.low[row]), math.fsum(sizes.high[row])) for row in rows]
-    bounds = []
-    for k, group in enumerate(found.group):
-        reached = found.reached[group]
-        most = math.fsum(_most(state.frame, boxes[reached], found.signs[k]))
-        together = math.fsum(own[other][1] for other in np.flatnonzero(found.group == group))
-        total = as_interval(together) + Interval.of(0.0, float(rounding.up(most)))
-        bounds.append((max(float(rounding.down(own[k][0])), 0.0), float(rounding.up(total.high))))
-    return bounds
+    most = [_most_of(state, group, [pair[1] for pair in own]) for group in range(len(found.reached))]
+    return [
+        (max(float(rounding.down(low)), 0.0), most[group]) for (low, _), group in zip(own, found.group, strict=True)
+    ]
+
+
+def _most_of(state: Search, group: int, sizes: Sequence[float]) -> float:
+    """Upper bound of the volume of a group: its components, of at most these sizes, and what undecided boxes add."""
+    members = np.flatnonzero(state.links.group == group)
+    boxes = state.undecided[state.links.reached[group]]
+    signs = state.links.signs[members[0]]
+    parts = [_most(state.frame, boxes[k : k + BLOCK], signs) for k in range(0, len(boxes), BLOCK)]
+    added = math.fsum(value for part in parts for value in part)
+    total = math.fsum([*(float(rounding.up(sizes[int(k)])) for k in members), float(rounding.up(added))])
+    return float(rounding.up(total))
 
 
 def _most(frame: Frame, boxes: Boxes, signs: Signs) -> FloatArray:
     """Upper bounds (N,) of the volume, in each box, of what is reached with given signs (f,) of the factors."""
-    parts = [np.zeros(0)]
-    for k in range(0, len(boxes), BLOCK):
-        block = boxes[k : k + BLOCK]
-        parts.append(np.minimum(judged(frame, block).most, _signed(frame, block, signs)))
-    return np.concatenate(parts)
+    return np.minimum(judged(frame, boxes).most, _signed(frame, boxes, signs))
 
 
 def _signed(frame: Frame, boxes: Boxes, signs: Signs) -> FloatArray:

@@ -1,0 +1,70 @@
+"""The figure of aspects shows the boxes of the result, in colours that stay apart and with labels."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from matplotlib.collections import PolyCollection
+
+from assur.errors import UsageError
+from assur.figures.aspects import caption, drawn
+from assur.figures.context import Context
+from assur.figures.style import styled
+from assur.model.registry import load_record
+from assur.workspace.aspects.aspects import aspects
+
+
+def figure(name, path=None, **options):
+    record = load_record(name)
+    found = aspects(record, **options)
+    with styled():
+        return found, drawn(Context(record), found, found.path(*path) if path else None)
+
+
+def area(rectangles):
+    return float(np.sum(np.prod(rectangles[:, 2] - rectangles[:, 0], axis=1)))
+
+
+def test_each_aspect_is_drawn_with_the_area_of_its_boxes():
+    found, drawing = figure("zeng2019", finest=4.0)
+    for item, data in zip(found.aspects, drawing.data["aspects"], strict=True):
+        assert data["label"] == item.label
+        assert area(data["rectangles"][0]) * 500.0 == pytest.approx(item.volume[0], rel=1e-9)
+    axes = drawing.figure.axes[0]
+    drawn_areas = [part for part in axes.collections if isinstance(part, PolyCollection)]
+    assert len(drawn_areas) == 1 + len(found.aspects)
+    assert len({tuple(part.get_facecolor()[0]) for part in drawn_areas}) == 1 + len(found.aspects)
+    assert [text.get_text().replace(" ", "").replace("−", "-") for text in axes.texts] == [
+        item.label for item in found.aspects
+    ]
+    assert axes.get_xlim() == pytest.approx((-110.0, 90.0))
+
+
+def test_space_is_cut_and_each_cut_shows_what_lies_in_it():
+    found, drawing = figure("linear_delta_4r", finest=40.0)
+    assert drawing.data["cuts"] == list(load_record("linear_delta_4r").sections)
+    assert len(drawing.figure.axes) == len(drawing.data["cuts"]) == 3
+    boxes = found.aspects[0].boxes
+    for value, rectangles in zip(drawing.data["cuts"], drawing.data["aspects"][0]["rectangles"], strict=True):
+        within = (boxes.low[2] <= value) & (value < boxes.high[2])
+        sizes = np.prod((boxes.high - boxes.low)[:2], axis=0)
+        assert area(rectangles) == pytest.approx(float(np.sum(sizes[within])), rel=1e-12)
+
+
+def test_a_path_is_drawn_in_a_plane():
+    found, drawing = figure("fivebar", ([0, 200], [50, 150]), finest=9.0)
+    line = drawing.figure.axes[0].lines[0].get_xydata()
+    assert np.array_equal(line, drawing.data["path"])
+    assert len(found.aspects) == 1
+
+
+def test_the_caption_names_the_signs():
+    record = load_record("fivebar")
+    text = caption(Context(record), aspects(record, finest=20.0))
+    assert "named by the signs of sin_rods" in text
+    assert "grey is undecided" in text
+
+
+def test_one_coordinate_is_no_picture():
+    with pytest.raises(UsageError, match="a picture needs two"):
+        figure("fivebar", held={"x": 0.0})
