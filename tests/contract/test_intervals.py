@@ -11,6 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+import assur
 from assur.kinematics.modes import all_modes, mode_signs, sign_names
 from assur.model.closed_form import Branch, Eliminant, PolynomialSystem
 from assur.model.pose import is_angle
@@ -21,6 +22,8 @@ from assur.numerics.number_types import Floats, Intervals
 
 WIDTHS = (0.0, 1e-3, 1e-1)
 """Widths of the boxes, over that of the mechanism's workspace box; over a turn for an angle of an input."""
+
+WITH_DIRECT = [name for name in assur.names() if assur.load(name).closed_form.direct is not None]
 
 
 def _leaves(value, path=()):
@@ -142,10 +145,9 @@ def test_every_float_answer_at_a_pose_in_the_box_lies_inside(mechanism, poses, w
             assert np.quantile(list(widths.values()), 0.8) < 1e-9, max(widths, key=widths.get)
 
 
+@pytest.mark.parametrize("mechanism", WITH_DIRECT, indirect=True)
 @pytest.mark.parametrize("width", WIDTHS)
 def test_every_float_answer_at_inputs_in_the_box_lies_inside(mechanism, regular, width):
-    if mechanism.closed_form.direct is None:
-        pytest.skip("no kernel for the direct problem")
     values = np.array([inputs for _, _, inputs, _ in regular[:40]])
     poses = np.array([pose for pose, _, _, _ in regular[:40]])
     angles = [item.coordinate.kind == "angle" for item in mechanism.inputs]

@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.errors import UnknownNameError
+from assur.errors import UnknownNameError, UsageError
 from assur.model.mechanism import MechanismRecord
 
 Problem = Literal["direct", "inverse"]
@@ -40,9 +40,13 @@ def mode_signs(record: MechanismRecord, problem: Problem, mode: str) -> tuple[in
     (1, 1, -1, 1, 1)
     """
     choices = all_modes(record, problem)
+    kind = "assembly mode" if problem == "direct" else "working mode"
+    if mode and not sign_names(record, problem):
+        raise UsageError(
+            f"{record.name} has only one {kind}, which has no signs; found '{mode}'", hint="leave the mode out"
+        )
     if mode not in choices:
         names = ", ".join(sign_names(record, problem))
-        kind = "assembly mode" if problem == "direct" else "working mode"
         raise UnknownNameError(f"{kind} of {record.name}", mode, choices, hint=f"one sign + or - for each of: {names}")
     return tuple(1 if symbol == "+" else -1 for symbol in mode)
 

@@ -140,11 +140,6 @@ def _branches(record: MechanismRecord, problem: Problem, given: FloatArray, mode
     """Every branch of a kernel, or the one of a mode."""
     form = closed_form_of(record)
     names = sign_names(record, problem)
-    if mode and not names:
-        raise UsageError(
-            f"{record.name} has only one {_kind(problem)}, which has no signs; found '{mode}'",
-            hint="leave the mode out",
-        )
     if mode is None:
         sign, shape = sign_axes(names), (2,) * len(names)
         asked = [mode_signs(record, problem, text) for text in all_modes(record, problem)]

@@ -12,8 +12,9 @@ from assur.model.pose import is_angle
 from assur.report.findings import Findings
 from assur.report.numbers import bounds, extent_unit, fixed, short, shown_unit, with_error
 from assur.report.sections.singularities import written
-from assur.results.kinds import PROVED, TWO_RESOLUTIONS, Cell, Result, Scalar, Section, Table
+from assur.results.kinds import FLOATING, PROVED, TWO_RESOLUTIONS, Cell, Result, Scalar, Section, Table
 from assur.singularity.loci import Locus, parallel_factors
+from assur.workspace.parasitic import largest_parasitic
 from assur.workspace.projections import projection
 from assur.workspace.region import Workspace
 from assur.workspace.sections import section
@@ -56,6 +57,8 @@ def reach(found: Findings) -> Section:
         *_projections(found),
         *found.picture("sections"),
         *_sections(found),
+        *found.picture("parasitic"),
+        *_parasitic(found),
     ]
     return Section("Workspace", said, results)
 
@@ -235,3 +238,20 @@ def _sections(found: Findings) -> list[Table]:
     columns = (name, f"area by solids [{size}]", f"area, proved bounds [{size}]", "the estimate is")
     known = f"{PROVED}; by solids {TWO_RESOLUTIONS}" if proved else TWO_RESOLUTIONS
     return [Table(f"Sections across {name}", columns, tuple(rows), known_by=known)]
+
+
+def _parasitic(found: Findings) -> list[Table]:
+    """Of the coordinates that the pose leaves out and that move along: the largest values over the region."""
+    record = found.record
+    rows = tuple(
+        (
+            name,
+            _at(record, name, item.value),
+            ", ".join(f"{key} = {_at(record, key, value)}" for key, value in item.at.items()),
+        )
+        for name, item in largest_parasitic(record, found.workspace).items()
+    )
+    caption = "Coordinates that the pose leaves out and that move along with it: the largest sizes that were seen."
+    return (
+        [Table("Parasitic motion", ("coordinate", "largest", "at"), rows, caption, known_by=FLOATING)] if rows else []
+    )

@@ -36,7 +36,7 @@ def inputs_for(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mod
         )
     if asked.needed > found.poc.dim:
         raise UsageError(
-            f"{asked.needed} joints must be driven, but the platform has {found.poc.dim} freedoms, {found.poc}: limbs "
+            f"{asked.needed} joints must be driven, but the platform has dimension {found.poc.dim}, {found.poc}: limbs "
             "move while the platform stands still, so that no pose tells where the mechanism is",
             hint="leave joints out of a limb, or add a limb",
         )

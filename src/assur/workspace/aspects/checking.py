@@ -67,14 +67,14 @@ def check_path(
         raise UsageError(f"no path to check: {path.why}")
     points = _sampled(path.points, samples)
     answer = inverse(record, found.slice.poses(points), found.mode)
-    exists = answer.exists.any(axis=-1)
+    exists = np.asarray(np.any(answer.exists, axis=-1))
     place = np.argmax(answer.exists, axis=-1)[:, None]
     reached = bool(exists.all()) and _within(
         record, found, np.take_along_axis(answer.inputs, place[..., None], 1)[:, 0]
     )
     values = [np.take_along_axis(answer.factors[name], place, 1) for name in found.aspects[0].signs]
     kept = all(bool(np.all(row > 0) or np.all(row < 0)) for row in values)
-    followed, stopped = _followed(record, found, path) if follow_it and exists[0] else (None, "")
+    followed, stopped = _followed(record, found, path) if follow_it and exists.all() else (None, "")
     return PathCheck(covered(path), len(points), reached, kept, followed, stopped)
 
 
