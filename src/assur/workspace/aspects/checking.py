@@ -74,7 +74,7 @@ def check_path(
     )
     values = [np.take_along_axis(answer.factors[name], place, 1) for name in found.aspects[0].signs]
     kept = all(bool(np.all(row > 0) or np.all(row < 0)) for row in values)
-    followed, stopped = _followed(record, found, path) if follow_it and exists.all() else (None, "")
+    followed, stopped = _followed(record, found, path) if follow_it and bool(exists[0]) else (None, "")
     return PathCheck(covered(path), len(points), reached, kept, followed, stopped)
 
 
