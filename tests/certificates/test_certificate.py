@@ -242,3 +242,10 @@ def test_an_operation_without_value_taken_for_defined_is_caught(monkeypatch):
     monkeypatch.setattr(interval.Interval, "__truediv__", careless)
     monkeypatch.setattr(Interval, "nonzero", property(lambda value: np.ones_like(value.defined)))
     assert refused(record, most=300)
+
+
+def test_carried_on_with_fewer_leaves_than_there_are_it_grows_no_more():
+    record = load_record("zeng2019")
+    first = certificate(record, most=300, gap=1e-9)
+    again = certificate(record, most=290, gap=1e-9, start=first.to_json())
+    assert again.claims["leaves"] == first.claims["leaves"]

@@ -88,3 +88,7 @@ def test_radii_that_are_too_small_are_noticed(monkeypatch):
     own = module._radii
     monkeypatch.setattr(module, "_radii", lambda coefficients, points: 1e-3 * own(coefficients, points))
     assert not held_exactly()
+
+
+def test_radii_without_bound_leave_it_undecided():
+    assert not root_discs(Interval.of([0.0] * 8 + [1e-300])).decided

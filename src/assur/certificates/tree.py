@@ -84,7 +84,7 @@ class Limits:
         reached = float(np.sum(tree.shares[leaf & np.isin(tree.tokens, (INSIDE, REGULAR))]))
         wide = np.any(tree.boxes.high - tree.boxes.low > self.least, axis=0)
         may = np.flatnonzero(leaf & np.isin(tree.tokens, self.unsettled) & wide)
-        left, room = float(np.sum(tree.shares[may])), self.most - int(np.sum(leaf))
+        left, room = float(np.sum(tree.shares[may])), max(self.most - int(np.sum(leaf)), 0)
         if left <= self.gap * reached:
             return may[:0]
         order = may[np.argsort(-tree.shares[may], kind="stable")]

@@ -136,7 +136,7 @@ def _shown_box(record: Mechanism, found: ProvedBox, data: Mapping[str, Any]) -> 
     yield "question: is every pose reached within limits, and none singular?"
     yield f"answer: {found.status}"
     if found.status != "proved":
-        yield f"proved for {100 * found.share:.4g} % of it"
+        yield f"proved for {_floored(100 * found.share)} % of it"
     if found.witness is not None:
         yield f"fails at: {_values(record, data['witness']['pose'])}"
         yield f"because: {found.witness.why}"
@@ -181,14 +181,23 @@ def _shown_largest(record: Mechanism, found: LargestShape, data: Mapping[str, An
         yield f"held: {_values(record, data['held'])}"
     yield "inside: every pose is reached within limits, and none is singular"
     side = "edge" if name == "cube" else "diameter"
-    more = "" if found.height is None else f", height {found.height:.7g} {record.unit}"
-    yield f"proved up to: {side} {found.size:.7g} {record.unit}{more}"
+    more = "" if found.height is None else f", height {_floored(found.height)} {record.unit}"
+    yield f"proved up to: {side} {_floored(found.size)} {record.unit}{more}"
     if found.witness is not None:
-        yield f"not beyond: {side} {found.refuted:.7g} {record.unit}"
+        yield f"not beyond: {side} {outward(found.size, found.refuted)[1]} {record.unit}"
         yield f"fails at: {_values(record, data['witness']['pose'])}"
         yield f"because: {found.witness.why}"
     if found.stopped:
         yield f"note: {NOTES[found.stopped]}"
+
+
+def _floored(size: float) -> str:
+    """A proved size as text that is not above it.
+
+    >>> _floored(73.82812500007303)
+    '73.82812'
+    """
+    return outward(size, size * (1 + 1e-6))[0]
 
 
 NOTES = {

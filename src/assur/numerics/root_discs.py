@@ -62,6 +62,8 @@ def root_discs(coefficients: Interval) -> RootDiscs:
         return RootDiscs(nothing, nothing, decided=False)
     points = _apart(points)
     radius = _radii(coefficients, points)
+    if not np.all(np.isfinite(radius)):
+        return RootDiscs(nothing, nothing, decided=False)
     x, y = Interval.of(points.real), Interval.of(points.imag)
     touching = ~_less_than(radius, abs(y))
     gap = _distance(x, y)

@@ -6,9 +6,14 @@ import numpy as np
 import pytest
 
 import assur
+from assur.kinematics import position
 from assur.kinematics.certified import signs
+from assur.kinematics.certified.branches import Judged
 from assur.kinematics.certified.certify import certified_direct
+from assur.kinematics.certified.matching import Candidates, matched
 from assur.kinematics.certified.proofs import Proofs
+from assur.kinematics.certified.result import Doubt
+from assur.model.registry import load_record
 from assur.numerics.intervals.interval import Interval
 
 TABLE_1 = [162.6907, -143.3209, -24.6776]
@@ -55,3 +60,30 @@ def test_both_proofs_are_intersected(with_proofs):
     for narrow, wide in zip(both, alone, strict=True):
         assert np.all((narrow.pose.low >= wide.pose.low) & (narrow.pose.high <= wide.pose.high))
         assert narrow.how == "closed form over intervals, and Krawczyk on the legs"
+
+
+def test_a_branch_whose_bounds_hold_two_proved_poses_does_not_hide_one():
+    """One branch that exists, with bounds about both poses that the legs prove, and one that may merge."""
+    record, inputs = load_record("fivebar"), np.array([2.2, 0.9])
+    poses = Interval.of([[0.0, 0.0], [1.0, 1.0]], [[0.1, 0.1], [1.1, 1.1]])
+    alone = Interval.of([[-0.1, -0.1], [0.9, 0.9]], [[0.2, 0.2], [1.2, 1.2]])
+    doubt = Doubt("m", np.array([-1.0]), np.array([1.0]), "may merge")
+    branches = Judged(
+        Interval.of([[-1.0, -1.0], [-9.0, -9.0]], [[2.0, 2.0], [9.0, 9.0]]),
+        Interval.of(np.zeros((2, 2))),
+        np.array([True, False]),
+        np.array([False, False]),
+        np.array([False, True]),
+        ((1, doubt),),
+        {},
+    )
+    found = matched(
+        record,
+        inputs,
+        Candidates(branches, ("+", "-"), ("-+", "-+")),
+        Proofs(poses, alone, np.array([0, 1])),
+        position.direct(record, inputs),
+        "",
+    )
+    assert (len(found.solutions), found.proved) == (2, True)
+    assert found.headline == "proved, 2 solutions and no other"

@@ -138,3 +138,11 @@ def test_the_standard_s_vectors(name, vectors):
 def test_a_mutation_is_noticed(name, broken, monkeypatch, angles):
     monkeypatch.setattr(functions, name, broken)
     assert escapes(angles) > 0
+
+
+@pytest.mark.parametrize("angle", [141994952969023.25, -141994952969023.25, 1.6e74, 2.0**20 + 1])
+def test_far_angles_where_the_library_errs_more_have_no_bounds_but_one(angle):
+    """At the first the library's cosine is wrong by 248 times the stated error."""
+    for function, bounds in zip((mpmath.cos, mpmath.sin), cosine_sine(Interval.of(angle)), strict=True):
+        assert bounds.low <= exact(function, angle) <= bounds.high
+        assert (bounds.low, bounds.high) == (-1.0, 1.0)

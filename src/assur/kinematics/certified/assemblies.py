@@ -23,6 +23,7 @@ from assur.kinematics.certified.result import CertifiedSolutions, Doubt, ProvedS
 from assur.kinematics.closure import characteristic_length, closing_system
 from assur.kinematics.modes import Problem
 from assur.kinematics.position import Method
+from assur.kinematics.search import distinct, in_one_turn
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, QUATERNION, is_angle
@@ -114,6 +115,8 @@ def certified_assemblies(
     """
     answer = (position.direct if problem == "direct" else position.inverse)(record, given, method=method)
     rows = np.flatnonzero(answer.exists)
+    if len(rows):  # a configuration that was found twice counts once
+        rows = rows[distinct(record, in_one_turn(record, answer.joints[rows]))]
     every = _Assemblies(record, problem, given, answer.joints[rows])
     solutions: dict[int, ProvedSolution] = {}
     tried: list[list[int]] = []

@@ -14,12 +14,10 @@ from numpy.typing import NDArray
 
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.certified.branches import Judged, grouped
-from assur.kinematics.certified.proofs import Proofs
+from assur.kinematics.certified.proofs import Proofs, turned
 from assur.kinematics.certified.result import CertifiedSolutions, Doubt, ProvedSolution
 from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import is_angle
-from assur.numerics.intervals.functions import TURN
 from assur.numerics.intervals.interval import Interval, common
 
 FloatArray = NDArray[np.float64]
@@ -49,8 +47,8 @@ def matched(
     """The certificate of a direct problem (n,) from both proofs; `extra` are doubts that no branch answers for."""
     found = candidates.branches
     names = record.platform.pose
-    turned = {int(k): _turned(names, found.pose[k], known.pose) for k in np.flatnonzero(~found.absent)}
-    rivals = {k: _meeting(found.pose[k], bounds) for k, bounds in turned.items()}
+    near = {int(k): turned(names, found.pose[k], known.pose) for k in np.flatnonzero(~found.absent)}
+    rivals = {k: _meeting(found.pose[k], bounds) for k, bounds in near.items()}
     possible = int(np.sum(~found.absent))
     settled = len(known.rows) == possible and not extra and not np.any(~found.exists & ~found.absent & ~found.merging)
     solutions: list[ProvedSolution] = []
@@ -58,8 +56,8 @@ def matched(
     for k in np.flatnonzero(found.exists).tolist():
         bounds, how = found.pose[k], FORM
         one = rivals[k][0] if len(rivals[k]) == 1 else -1
-        if one >= 0 and (settled or bool(np.all(bounds.within(_turned(names, bounds, known.alone)[one])))):
-            bounds, how = common(bounds, turned[k][one])[0], BOTH
+        if one >= 0 and (settled or bool(np.all(bounds.within(turned(names, bounds, known.alone)[one])))):
+            bounds, how = common(bounds, near[k][one])[0], BOTH
             taken.add(one)
         solutions.append(_solution(inputs, bounds, candidates.modes[k], candidates.working[k], how))
     held = {j for k in np.flatnonzero(found.exists).tolist() for j in rivals[k]}
@@ -69,8 +67,11 @@ def matched(
         row = int(known.rows[j])
         labels = str(floats.labels[row]), str(floats.other_labels[row])
         solutions.append(_solution(inputs, known.pose[j], *labels, LEGS))
-    if settled:
+    if settled:  # as many are proved from the legs as there are branches at all
         doubts = []
+        if len(solutions) != possible:  # bounds of a branch that hold several poses count one alone
+            labels = [(str(floats.labels[row]), str(floats.other_labels[row])) for row in known.rows]
+            solutions = [_solution(inputs, known.pose[j], *names_of, LEGS) for j, names_of in enumerate(labels)]
     if len(solutions) > possible or len(known.rows) > possible:
         doubts.append((-1, Doubt("pose", *_ends(known.pose), "the closed form and the legs disagree here")))
     form = closed_form_of(record)
@@ -87,19 +88,6 @@ def _meeting(bounds: Interval, known: Interval) -> list[int]:
 
 def _solution(inputs: FloatArray, pose: Interval, mode: str, working: str, how: str) -> ProvedSolution:
     return ProvedSolution(pose, Interval.of(inputs), mode, working, mode, how)
-
-
-def _turned(names: tuple[str, ...], bounds: Interval, known: Interval) -> Interval:
-    """Poses (K, m) with their angles moved by whole turns to where the bounds (m,) of a branch are."""
-    for k, name in enumerate(names):
-        turns = np.round((bounds.middle[k] - known.middle[:, k]) / TURN.middle) if is_angle(name) else 0.0
-        if np.any(turns):
-            column = known[:, k] + TURN * turns
-            low, high = known.low.copy(), known.high.copy()
-            low[:, k] = np.where(turns == 0, low[:, k], column.low)
-            high[:, k] = np.where(turns == 0, high[:, k], column.high)
-            known = Interval.of(low, high)
-    return known
 
 
 def _ends(bounds: Interval) -> tuple[FloatArray, FloatArray]:

@@ -14,6 +14,7 @@ from assur.kinematics.modes import mode_signs, sign_names
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import has_quaternion, is_angle
 from assur.numerics.branch_and_prune import certain
+from assur.numerics.intervals.functions import TURN
 from assur.numerics.intervals.interval import Interval
 from assur.numerics.intervals.shapes import empty
 from assur.numerics.krawczyk import image, proves
@@ -71,10 +72,25 @@ def proofs(legs: Legs, found: SolutionSet) -> Proofs:
         low[open_[one]], high[open_[one]], half[open_[one]] = picture.low[one], picture.high[one], size[one]
     kept: list[int] = []
     for k in np.flatnonzero(half[:, 0] > 0).tolist():
-        if all(np.any((high[k] < low[j]) | (high[j] < low[k])) for j in kept):
+        own = Interval.of(low[k], high[k])
+        others = turned(record.platform.pose, own, Interval.of(low[kept], high[kept]))
+        if np.all(np.any((own.high < others.low) | (others.high < own.low), axis=-1)):
             kept.append(k)
     alone = Interval.of(centre[kept] - half[kept], centre[kept] + half[kept])
     return Proofs(Interval.of(low[kept], high[kept]), alone, rows[kept])
+
+
+def turned(names: tuple[str, ...], bounds: Interval, known: Interval) -> Interval:
+    """Poses (K, m) with their angles moved by whole turns to where the bounds (m,) of another pose are."""
+    for k, name in enumerate(names):
+        turns = np.round((bounds.middle[k] - known.middle[:, k]) / TURN.middle) if is_angle(name) else 0.0
+        if np.any(turns):
+            column = known[:, k] + TURN * turns
+            low, high = known.low.copy(), known.high.copy()
+            low[:, k] = np.where(turns == 0, low[:, k], column.low)
+            high[:, k] = np.where(turns == 0, high[:, k], column.high)
+            known = Interval.of(low, high)
+    return known
 
 
 def _label(record: MechanismRecord, mode: str) -> int:
