@@ -63,15 +63,11 @@ def matched(
     held = {j for k in np.flatnonzero(found.exists).tolist() for j in rivals[k]}
     left = [j for j in range(len(known.rows)) if j not in taken | held]
     doubts = list(found.doubts)
-    for j in left:
-        row = int(known.rows[j])
-        labels = str(floats.labels[row]), str(floats.other_labels[row])
-        solutions.append(_solution(inputs, known.pose[j], *labels, LEGS))
+    solutions.extend(_of_legs(inputs, known, j, floats) for j in left)
     if settled:  # as many are proved from the legs as there are branches at all
         doubts = []
         if len(solutions) != possible:  # bounds of a branch that hold several poses count one alone
-            labels = [(str(floats.labels[row]), str(floats.other_labels[row])) for row in known.rows]
-            solutions = [_solution(inputs, known.pose[j], *names_of, LEGS) for j, names_of in enumerate(labels)]
+            solutions = [_of_legs(inputs, known, j, floats) for j in range(possible)]
     if len(solutions) > possible or len(known.rows) > possible:
         doubts.append((-1, Doubt("pose", *_ends(known.pose), "the closed form and the legs disagree here")))
     form = closed_form_of(record)
@@ -84,6 +80,12 @@ def matched(
 def _meeting(bounds: Interval, known: Interval) -> list[int]:
     """Which of the proved poses (K, m) may be the one in these bounds (m,)."""
     return [j for j in range(len(known.low)) if not np.any(common(known[j], bounds)[1])]
+
+
+def _of_legs(inputs: FloatArray, known: Proofs, j: int, floats: SolutionSet) -> ProvedSolution:
+    """The solution that is proved from the legs alone, with the modes of the float answer."""
+    row = int(known.rows[j])
+    return _solution(inputs, known.pose[j], str(floats.labels[row]), str(floats.other_labels[row]), LEGS)
 
 
 def _solution(inputs: FloatArray, pose: Interval, mode: str, working: str, how: str) -> ProvedSolution:
