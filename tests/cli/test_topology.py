@@ -182,9 +182,12 @@ BAD = {
 @pytest.mark.parametrize("json", [False, True])
 def test_a_clear_error(assur_cli, message, json):
     run = assur_cli("topology", *BAD[message], *["--json"] * json)
-    assert (run.code, run.out) == (2, "")
+    assert run.code == 2
     assert run.err.startswith(f"error: {message}")
     assert "Traceback" not in run.err
+    assert bool(run.out) == json
+    if json:
+        assert run.json["error"]["message"].startswith(message)
 
 
 @pytest.mark.parametrize(

@@ -54,7 +54,7 @@ def test_a_mode_with_u1_equal_to_u2_is_singular_everywhere(mode):
     assert [locus.factor for locus in found.loci if locus.everywhere] == ["u1_minus_u2"]
     assert found.share == 1.0
     assert found.to_json()["parallel_singular"]["factors"]["u1_minus_u2"] == {
-        "meaning": found.loci[0].meaning, "area": None, "faces": 0, "everywhere": True,
+        "meaning": found.loci[0].meaning, "area": None, "area_error": None, "faces": 0, "everywhere": True,
     }  # fmt: skip
 
 
