@@ -195,7 +195,7 @@ def _floored(size: float) -> str:
     """A proved size as text that is not above it.
 
     >>> _floored(73.82812500007303)
-    '73.82812'
+    '73.828125'
     """
     return outward(size, size * (1 + 1e-6))[0]
 
