@@ -23,7 +23,7 @@ from assur.numerics.intervals.functions import cosine_sine
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.recording.tape import MEANING, Recorded, Recorder, Tape
 from assur.workspace.bounds import Stroke, bounds
-from assur.workspace.slices import Slice, slice_at
+from assur.workspace.slices import Slice, quaternion_of, slice_at
 
 BoolArray = NDArray[np.bool_]
 GROUPS = ("margins", "nonzero", "factors")
@@ -163,16 +163,5 @@ def _pose(recorder: Recorder, poses: Slice, given: Any) -> tuple[Any, ...]:
             value = (recorder.apply("cosine", angle), recorder.apply("sine", angle))
         values[name] = value
     if has_quaternion(poses.pose):
-        values |= zip(QUATERNION, _quaternion(*(values[name] for name in ANGLES)), strict=True)
+        values |= zip(QUATERNION, quaternion_of(*(values[name] for name in ANGLES)), strict=True)
     return tuple(values[name] for name in poses.pose)
-
-
-def _quaternion(phi: Any, theta: Any, psi: Any) -> tuple[Any, ...]:
-    """Unit quaternion of Rz(phi) Ry(theta) Rx(psi) from (cosine, sine) of half of each angle, scalar first."""
-    (c1, s1), (c2, s2), (c3, s3) = phi, theta, psi
-    return (
-        c1 * c2 * c3 + s1 * s2 * s3,
-        c1 * c2 * s3 - s1 * s2 * c3,
-        c1 * s2 * c3 + s1 * c2 * s3,
-        s1 * c2 * c3 - c1 * s2 * s3,
-    )

@@ -55,7 +55,8 @@ class Slice:
     def _values(self, columns: Columns) -> dict[str, Any]:
         values: dict[str, Any] = {**self.held, **dict(zip(self.free, columns, strict=True))}
         if has_quaternion(self.pose):
-            values |= zip(QUATERNION, _quaternion(*(values[name] for name in ANGLES)), strict=True)
+            halves = (values[name] / 2 for name in ANGLES)
+            values |= zip(QUATERNION, quaternion_of(*((np.cos(half), np.sin(half)) for half in halves)), strict=True)
         return values
 
 
@@ -105,9 +106,13 @@ def _home_angles(record: MechanismRecord) -> dict[str, float]:
     return {name: value for name, value in pose.items() if name not in LENGTHS}
 
 
-def _quaternion(phi: Any, theta: Any, psi: Any) -> tuple[Any, ...]:
-    """Unit quaternion of Rz(phi) Ry(theta) Rx(psi), scalar first."""
-    (c1, s1), (c2, s2), (c3, s3) = ((np.cos(angle / 2), np.sin(angle / 2)) for angle in (phi, theta, psi))
+def quaternion_of(phi: Any, theta: Any, psi: Any) -> tuple[Any, ...]:
+    """Unit quaternion of Rz(phi) Ry(theta) Rx(psi) from (cosine, sine) of half of each angle, scalar first.
+
+    >>> quaternion_of((1, 0), (1, 0), (0, 1))
+    (0, 1, 0, 0)
+    """
+    (c1, s1), (c2, s2), (c3, s3) = phi, theta, psi
     return (
         c1 * c2 * c3 + s1 * s2 * s3,
         c1 * c2 * s3 - s1 * s2 * c3,

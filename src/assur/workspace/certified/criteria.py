@@ -25,7 +25,7 @@ from assur.numerics.recording.tape import Recorded, Recorder, Tape
 from assur.workspace.bounds import Stroke, bounds
 from assur.workspace.certified.programs import folded, with_radicands
 from assur.workspace.certified.sloped import ClampedIntervals, Sloped, SlopedNumbers, coordinate, turn
-from assur.workspace.slices import Slice, slice_at
+from assur.workspace.slices import Slice, quaternion_of, slice_at
 
 FloatArray = NDArray[np.float64]
 
@@ -220,16 +220,5 @@ def _pose(recorder: Recorder, poses: Slice, given: Any) -> tuple[Any, ...]:
             cosine, sine = cosine_sine(Interval.of(poses.held[name]) / _parts_of_a_turn(poses))
             values[name] = (given(f"cos {name}", cosine), given(f"sin {name}", sine))
     if has_quaternion(poses.pose):
-        values |= zip(QUATERNION, _quaternion(*(values[name] for name in ANGLES)), strict=True)
+        values |= zip(QUATERNION, quaternion_of(*(values[name] for name in ANGLES)), strict=True)
     return tuple(values[name] for name in poses.pose)
-
-
-def _quaternion(phi: Any, theta: Any, psi: Any) -> tuple[Any, ...]:
-    """Unit quaternion of Rz(phi) Ry(theta) Rx(psi) from (cosine, sine) of half of each angle, scalar first."""
-    (c1, s1), (c2, s2), (c3, s3) = phi, theta, psi
-    return (
-        c1 * c2 * c3 + s1 * s2 * s3,
-        c1 * c2 * s3 - s1 * s2 * c3,
-        c1 * s2 * c3 + s1 * c2 * s3,
-        s1 * c2 * c3 - c1 * s2 * s3,
-    )
