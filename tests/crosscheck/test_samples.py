@@ -7,9 +7,11 @@ import dataclasses
 import numpy as np
 
 import assur
+from assur.crosscheck import samples
 from assur.crosscheck.samples import configurations
 from assur.kinematics.closure import characteristic_length, closure_error
 from assur.kinematics.pose import pose_of
+from assur.kinematics.position import inverse
 
 
 def check(record, found):
@@ -44,3 +46,11 @@ def test_without_a_box_poses_are_near_home():
     assert len(poses) >= 3
     home = pose_of(record, assur.load("fivebar").home_values)
     assert all(np.linalg.norm(np.array(pose) - home) < characteristic_length(record) for pose in poses)
+
+
+def test_without_a_closed_form_one_round_is_enough(monkeypatch):
+    record = dataclasses.replace(assur.load("fivebar"), closed_form=None)
+    rounds = []
+    monkeypatch.setattr(samples, "inverse", lambda *given: rounds.append(given) or inverse(*given))
+    check(record, configurations(record, 3, np.random.default_rng(0)))
+    assert len(rounds) == 1

@@ -41,13 +41,15 @@ def crosscheck(
     """
     record = shared.mechanism(mechanism)
     from assur.cli.numbers import whole_number
+    from assur.cli.progress import progress
     from assur.crosscheck.crosscheck import crosscheck
     from assur.errors import UsageError
 
     poses, start = whole_number(samples, "--samples"), whole_number(seed, "--seed")
     if poses < 1 or start < 0:
         raise UsageError(f"--samples {poses}, --seed {start}: at least 1 pose, and a seed that is not negative")
-    found = crosscheck(record, engine, samples=poses, seed=start)
+    with progress("crosscheck", shared):
+        found = crosscheck(record, engine, samples=poses, seed=start)
     return Outcome(found.to_json(), lambda: _shown(found), 0 if found.holds else CLAIM_FAILS)
 
 

@@ -19,7 +19,7 @@ from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
 SPREAD = 0.2
-"""How far poses are spread about home, in rad and in characteristic lengths, where a file names no box."""
+"""How far joints are spread about home, in rad and in characteristic lengths, where there is no closed form or box."""
 
 ROUNDS = 20
 
@@ -71,9 +71,12 @@ def _one_of(items: list[Configuration], rng: np.random.Generator) -> Configurati
 
 
 def _poses(record: MechanismRecord, samples: int, rng: np.random.Generator) -> FloatArray:
-    """Random poses (at most samples, m): from the file's box, else of assemblies near home."""
+    """Random poses (at most samples, m): from the file's box, else of assemblies near home, which are all reached.
+
+    Without a closed form a pose out of reach costs a whole search for every assembly that it could have had.
+    """
     pose = record.platform.pose
-    if all(name in record.box for name in pose):
+    if record.closed_form is not None and all(name in record.box for name in pose):
         low, high = np.array([record.box[name] for name in pose]).T
         return border.checked_poses(record, rng.uniform(low, high, size=(samples, len(pose))))
     length = characteristic_length(record)
