@@ -7,6 +7,8 @@ import pytest
 
 import assur
 from assur import figures
+from assur.kinematics.answers.at_border import inputs_at_border
+from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import closure_error
 from assur.workspace.region import workspace
 
@@ -58,3 +60,12 @@ def test_singular_examples_without_closed_form_are_drawn_where_they_were_met():
         (item,) = figures.drawing(bare.record, example.factor.kind, bare).data["examples"]
         np.testing.assert_array_equal(item["pose"], example.pose)
         assert closure_error(bare.record, example.joints) < 1e-6 * bare.skeleton.size
+
+
+def test_the_file_configuration_is_reached(every):
+    inputs = every.companion.inputs
+    if inputs:
+        drawn = inputs_at_border(every.record, inputs_of(every.record, every.home))
+        angles = [item.coordinate.kind == "angle" for item in every.record.inputs]
+        turn = np.where(angles, 360.0 if every.record.angle == "deg" else 2 * np.pi, 1e9)
+        np.testing.assert_allclose((drawn - inputs + turn / 2) % turn, turn / 2, atol=1e-8)

@@ -26,7 +26,7 @@ def test_an_arc_turns_by_its_angle_about_the_joint_from_where_the_value_is_zero(
 
 
 def test_the_zero_direction_stands_still_when_only_that_joint_moves(every):
-    from assur.figures.skeleton import skeleton as skeleton_at
+    from assur.scene.skeleton import skeleton as skeleton_at
 
     for arc in arcs(every.skeleton, 10.0):
         coordinate = every.record.angles.get(arc.name) or next(

@@ -6,8 +6,8 @@ import pytest
 from matplotlib.mathtext import MathTextParser
 
 import assur
-from assur.figures.companion import companion
 from assur.figures.letters import letter
+from assur.scene.companion import companion
 
 PARSER = MathTextParser("path")
 

@@ -3,8 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assur.figures.companion import length
 from assur.model.points import point
+from assur.scene.companion import length
 
 pytestmark = pytest.mark.parametrize("context", ["zeng2019"], indirect=True)
 """The one whose file names angles about two axes, and a measure."""

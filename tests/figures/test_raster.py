@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assur.figures import mesh, raster
-from assur.figures.camera import oblique, orthographic
+from assur.figures import raster
 from assur.figures.canvas import View
+from assur.scene import mesh
+from assur.scene.camera import oblique, orthographic
 
 
 def slow(flat, near, width, height):

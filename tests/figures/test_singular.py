@@ -7,11 +7,11 @@ import pytest
 
 from assur.figures.meaning import named
 from assur.figures.singular import shown
-from assur.figures.skeleton import skeleton
 from assur.kinematics.closure import closure_error
 from assur.kinematics.position import inverse
 from assur.kinematics.status import FACTOR_TOLERANCE, relative_factors
 from assur.model.points import point
+from assur.scene.skeleton import skeleton
 
 
 def test_every_example_is_drawn_once(context, data):

@@ -5,8 +5,8 @@ import itertools
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from assur.figures.skeleton import link_point
 from assur.model.points import point
+from assur.scene.skeleton import link_point
 
 
 def test_joints_are_where_the_joint_graph_has_them(every, data_of_every):

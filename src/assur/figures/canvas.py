@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, FancyArrowPatch, Polygon
 from numpy.typing import NDArray
 
-from assur.figures.camera import Camera
 from assur.figures.style import GREY, INK, MILLIMETRE, PAPER, new_figure
+from assur.scene.camera import Camera
 
 FloatArray = NDArray[np.float64]
 POINTS = 72 * MILLIMETRE
@@ -121,7 +121,7 @@ def fitted(camera: Camera, cloud: FloatArray, width: float, tallest: float, marg
 
     A cloud in one point is in the middle of the canvas, a unit of length being a quarter of its height.
 
-    >>> from assur.figures.camera import plane
+    >>> from assur.scene.camera import plane
     >>> view, page = fitted(plane("x", "y"), np.array([[0.0, 0, 0], [2, 1, 0]]), width=40, tallest=90, margin=10)
     >>> (page.figure.get_size_inches() / MILLIMETRE).round(9).tolist(), (view(np.zeros(3)) / POINTS).round(9).tolist()
     ([40.0, 30.0], [10.0, 10.0])

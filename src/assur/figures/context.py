@@ -13,10 +13,7 @@ from numpy.typing import NDArray
 
 from assur import mechanism
 from assur.errors import UsageError
-from assur.figures.camera import Camera, plane
-from assur.figures.companion import Companion, companion
 from assur.figures.near import near_solid
-from assur.figures.skeleton import Skeleton, skeleton
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
@@ -25,6 +22,9 @@ from assur.model.mechanism import MechanismRecord
 from assur.model.registry import with_parameters
 from assur.performance.dexterity import GlobalIndex, global_condition_index
 from assur.performance.indices import Indices, indices, indices_at
+from assur.scene.camera import Camera, plane
+from assur.scene.companion import Companion, companion
+from assur.scene.skeleton import Skeleton, skeleton
 from assur.singularity.examples import SingularExample, singular_examples
 from assur.topology.facts import Topology
 from assur.workspace.region import Workspace, workspace

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from assur.figures.canvas import Canvas, View, guide
 from assur.figures.letters import mathematics
 from assur.figures.placing import Letters
-from assur.figures.skeleton import Mark, Skeleton
 from assur.figures.style import BLUE, INK, RED, TEXT
 from assur.figures.symbols import direction
 from assur.model.joint_graph import Frame
 from assur.numerics import rotations
+from assur.scene.skeleton import Mark, Skeleton
 
 FloatArray = NDArray[np.float64]
 SAMPLES = 48
@@ -43,8 +43,8 @@ class Arc:
 def arcs(skeleton: Skeleton, radius: float) -> list[Arc]:
     r"""An arc for each of the source's angles, and for each driven joint that turns.
 
-    >>> from assur.figures.companion import companion
-    >>> from assur.figures.skeleton import skeleton
+    >>> from assur.scene.companion import companion
+    >>> from assur.scene.skeleton import skeleton
     >>> from assur.kinematics.home import home_values
     >>> from assur.model.registry import load_record
     >>> record = load_record("zeng2019")

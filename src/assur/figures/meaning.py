@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.figures.letters import letter
-from assur.figures.skeleton import Skeleton
+from assur.scene.skeleton import Skeleton
 
 FloatArray = NDArray[np.float64]
 _WORD = re.compile(r"[A-Za-z0-9'.]+")
@@ -34,8 +34,8 @@ class Named:
 def named(text: str, skeleton: Skeleton) -> Named:
     """Find the points, lines and links of a text.
 
-    >>> from assur.figures.companion import companion
-    >>> from assur.figures.skeleton import skeleton
+    >>> from assur.scene.companion import companion
+    >>> from assur.scene.skeleton import skeleton
     >>> from assur.kinematics.home import home_values
     >>> from assur.model.registry import load_record
     >>> record = load_record("zeng2019")

@@ -7,17 +7,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.figures.camera import oblique
 from assur.figures.canvas import View, fitted
 from assur.figures.context import Context
 from assur.figures.dimensions import arcs, draw_arcs, draw_frame, draw_measures, formula_text
 from assur.figures.letters import PRIME, letter
 from assur.figures.placing import Letters
-from assur.figures.skeleton import Skeleton
-from assur.figures.sketch import Pen, chain_colours, cloud_of, draw_bodies, draw_ground, hull, rails
+from assur.figures.sketch import Pen, chain_colours, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, Entry, always
 from assur.figures.style import GREY, TEXT
 from assur.model.mechanism import MechanismRecord
+from assur.scene.camera import oblique
+from assur.scene.hull import hull
+from assur.scene.rails import rails
+from assur.scene.skeleton import Skeleton
 from assur.topology.joints import PRISMATIC
 
 FloatArray = NDArray[np.float64]

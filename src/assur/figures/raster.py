@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.figures.canvas import View
-from assur.figures.mesh import Mesh
+from assur.scene.mesh import Mesh
 
 FloatArray = NDArray[np.float64]
 Floats = NDArray[np.float32]

@@ -9,11 +9,9 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from assur.figures.axes3d import draw_axes, draw_box
-from assur.figures.camera import orthographic
 from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
 from assur.figures.context import Context
 from assur.figures.coordinates import axis_title, drawn_span, dress, shown, stretch
-from assur.figures.mesh import Mesh, creases, joined, surface
 from assur.figures.plots import (
     CLOSE,
     FREE,
@@ -33,6 +31,8 @@ from assur.figures.singular import condition
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import DOTS_PER_INCH, GREY, PAGE, SMALL, TEXT, mm, new_figure
 from assur.model.pose import is_angle
+from assur.scene.camera import orthographic
+from assur.scene.mesh import Mesh, creases, joined, surface
 from assur.workspace.projections import shadow
 from assur.workspace.region import Workspace
 from assur.workspace.solids import mesh as mesh_of

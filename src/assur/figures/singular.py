@@ -11,22 +11,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.figures.camera import Camera
 from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
 from assur.figures.context import Context
 from assur.figures.letters import letter, mathematics
 from assur.figures.meaning import Named, accented, named, typeset
-from assur.figures.mesh import Mesh
 from assur.figures.placing import Letters
-from assur.figures.skeleton import Skeleton, skeleton
 from assur.figures.solid import model_camera, paste, triad
-from assur.figures.solids import model
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import LETTER, PAGE, PAPER, RED, SMALL, TEXT
 from assur.kinematics.position import inverse
 from assur.kinematics.status import FACTOR_TOLERANCE, Status, relative_factors
 from assur.model.closed_form import Factor
 from assur.model.pose import LENGTHS, is_angle
+from assur.scene.camera import Camera
+from assur.scene.mesh import Mesh
+from assur.scene.parts import model
+from assur.scene.skeleton import Skeleton, skeleton
 from assur.singularity.examples import SingularExample
 
 FloatArray = NDArray[np.float64]

@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.figures.canvas import Canvas, View
-from assur.figures.companion import Companion
 from assur.figures.placing import Letters
-from assur.figures.skeleton import Mark, Skeleton, rail_half
 from assur.figures.style import BLUE, GREEN, INK, PAPER, PINK, RED, SKY
 from assur.figures.symbols import ground_pivot, ground_rail, joint_symbol
+from assur.scene.companion import Companion
+from assur.scene.hull import hull
+from assur.scene.rails import rails
+from assur.scene.skeleton import Mark, Skeleton
 
 FloatArray = NDArray[np.float64]
 BROWN = "#8c564b"
@@ -97,19 +99,6 @@ def _points_of(skeleton: Skeleton, link: str) -> list[FloatArray]:
     return rods + [plate.points for plate in skeleton.plates if plate.link == link]
 
 
-def rails(skeleton: Skeleton, companion: Companion) -> list[tuple[FloatArray, FloatArray]]:
-    """Ends (3,) of the rails on the base, each once though several sliders may run on it."""
-    marks = [mark for mark in skeleton.marks if mark.grounded and mark.slides]
-    half = rail_half(skeleton.record, companion, marks) if marks else 0.0
-    half = max([half, *(1.06 * float(np.linalg.norm(mark.at - mark.rail)) for mark in marks)])
-    found: list[tuple[FloatArray, FloatArray]] = []
-    for mark in marks:
-        start, end = mark.rail - half * mark.axes[0], mark.rail + half * mark.axes[0]
-        if not any(np.allclose(np.sort([start, end], axis=0), np.sort(rail, axis=0)) for rail in found):
-            found.append((start, end))
-    return found
-
-
 def cloud_of(skeleton: Skeleton, companion: Companion) -> FloatArray:
     """Every point (k, 3) that must be on the page, ends of the rails included."""
     ends = [point for rail in rails(skeleton, companion) for point in rail]
@@ -120,25 +109,6 @@ def sliders_on_one_place(marks: tuple[Mark, ...]) -> bool:
     """Whether two sliding joints are drawn at one place."""
     places = [mark.at for mark in marks if mark.slides]
     return any(np.allclose(a, b) for k, a in enumerate(places) for b in places[:k])
-
-
-def hull(points: FloatArray) -> FloatArray:
-    """Convex hull (k, 2) of points on the page, by a chain along x."""
-    ordered = points[np.lexsort((points[:, 1], points[:, 0]))]
-    return np.array([*_half_hull(ordered), *_half_hull(ordered[::-1])])
-
-
-def _half_hull(points: FloatArray) -> list[FloatArray]:
-    chain: list[FloatArray] = []
-    for point in points:
-        while len(chain) > 1 and _turn(chain[-2], chain[-1], point) <= 0:
-            chain.pop()
-        chain.append(point)
-    return chain[:-1]
-
-
-def _turn(a: FloatArray, b: FloatArray, c: FloatArray) -> float:
-    return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
 
 
 def _step(ends: FloatArray, share: float) -> FloatArray:

@@ -7,15 +7,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.figures.camera import Camera, orthographic
 from assur.figures.canvas import Canvas, View, fitted
 from assur.figures.context import Context
-from assur.figures.mesh import Mesh
 from assur.figures.raster import picture
-from assur.figures.skeleton import Skeleton
-from assur.figures.solids import model
 from assur.figures.spec import Drawing, Entry, always
 from assur.figures.style import BLUE, DOTS_PER_INCH, SMALL
+from assur.scene.camera import Camera, orthographic
+from assur.scene.mesh import Mesh
+from assur.scene.parts import model
+from assur.scene.skeleton import Skeleton
 
 FloatArray = NDArray[np.float64]
 

@@ -9,17 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.figures.camera import oblique, plane
 from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
 from assur.figures.context import Context
 from assur.figures.letters import mathematics
 from assur.figures.placing import Letters
-from assur.figures.skeleton import Skeleton, skeleton
 from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import BLUE, GREEN, INK, ORANGE, PAGE, PINK, RED, SKY, SMALL, TEXT
 from assur.kinematics.answers.solution import Solution
 from assur.model.pose import QUATERNION, is_angle
+from assur.scene.camera import oblique, plane
+from assur.scene.skeleton import Skeleton, skeleton
 
 FloatArray = NDArray[np.float64]
 TALLEST = 105.0

@@ -8,16 +8,17 @@ import numpy as np
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from assur.figures.camera import oblique
 from assur.figures.canvas import Canvas, View, fitted
 from assur.figures.context import Context
 from assur.figures.letters import letter, mathematics, words
 from assur.figures.placing import Letters
-from assur.figures.skeleton import Rod, Skeleton
-from assur.figures.sketch import CHAINS, Pen, chain_colours, cloud_of, draw_bodies, draw_ground, rails
+from assur.figures.sketch import CHAINS, Pen, chain_colours, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, Entry, always
 from assur.figures.style import GREY, INK, SMALL, TEXT
 from assur.figures.symbols import direction
+from assur.scene.camera import oblique
+from assur.scene.rails import rails
+from assur.scene.skeleton import Rod, Skeleton
 
 FloatArray = NDArray[np.float64]
 

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.figures.canvas import Canvas, View, guide
-from assur.figures.skeleton import Mark
 from assur.figures.style import INK, ORANGE, PAPER
+from assur.scene.skeleton import Mark
 from assur.topology.joints import PRISMATIC, SPHERICAL
 
 FloatArray = NDArray[np.float64]

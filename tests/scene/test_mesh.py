@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assur.figures import mesh
+from assur.scene import mesh
 
 SKEW = np.array([0.3, -0.5, 0.8]) / np.linalg.norm([0.3, -0.5, 0.8])
 ACROSS = np.cross(SKEW, [1.0, 0, 0]) / np.linalg.norm(np.cross(SKEW, [1.0, 0, 0]))

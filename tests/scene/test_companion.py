@@ -6,11 +6,9 @@ import numpy as np
 import pytest
 
 from assur.errors import MechanismFileError
-from assur.figures.companion import Companion, companion, length
-from assur.figures.skeleton import skeleton
-from assur.kinematics.answers.at_border import inputs_at_border
-from assur.kinematics.border import inputs_of
 from assur.kinematics.position import inverse
+from assur.scene.companion import Companion, companion, length
+from assur.scene.skeleton import skeleton
 
 
 def test_bars_are_as_long_as_they_claim_in_every_configuration(every):
@@ -27,17 +25,8 @@ def test_bars_are_as_long_as_they_claim_in_every_configuration(every):
                 assert rod.size == pytest.approx(length(record, rod.length), rel=1e-9, abs=1e-9)
 
 
-def test_the_file_configuration_is_reached(every):
-    inputs = every.companion.inputs
-    if inputs:
-        drawn = inputs_at_border(every.record, inputs_of(every.record, every.home))
-        angles = [item.coordinate.kind == "angle" for item in every.record.inputs]
-        turn = np.where(angles, 360.0 if every.record.angle == "deg" else 2 * np.pi, 1e9)
-        np.testing.assert_allclose((drawn - inputs + turn / 2) % turn, turn / 2, atol=1e-8)
-
-
-def test_without_a_file_everything_is_default(context):
-    assert companion(dataclasses.replace(context.record, folder=None)) == Companion()
+def test_without_a_file_everything_is_default(every):
+    assert companion(dataclasses.replace(every.record, folder=None)) == Companion()
 
 
 BAD = """
@@ -54,10 +43,10 @@ model = { kind = "perspective" }
 """
 
 
-def test_every_fault_of_a_file_is_reported_with_its_line(context, tmp_path):
+def test_every_fault_of_a_file_is_reported_with_its_line(every, tmp_path):
     (tmp_path / "figures.toml").write_text(BAD)
     with pytest.raises(MechanismFileError) as caught:
-        companion(dataclasses.replace(context.record, folder=tmp_path))
+        companion(dataclasses.replace(every.record, folder=tmp_path))
     text = str(caught.value)
     assert "figures.toml:3: colour: unknown key 'colour'; there is: bars, chains" in text
     assert "figures.toml:7: bars[0].ends" in text
@@ -73,10 +62,10 @@ serial = "nonsense"
 """
 
 
-def test_names_that_do_not_exist_are_reported(context, tmp_path):
+def test_names_that_do_not_exist_are_reported(every, tmp_path):
     (tmp_path / "figures.toml").write_text(NAMES)
     with pytest.raises(MechanismFileError) as caught:
-        companion(dataclasses.replace(context.record, folder=tmp_path))
+        companion(dataclasses.replace(every.record, folder=tmp_path))
     text = str(caught.value)
     for part in ("inputs", "rail", "'bsae'", "'Q1'", "'Q2'", "bars[0].length", "'nonsense'"):
         assert part in text

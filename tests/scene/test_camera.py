@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assur.figures.camera import oblique, orthographic, plane
+from assur.scene.camera import oblique, orthographic, plane
 
 CAMERAS = [
     orthographic(35, 22),

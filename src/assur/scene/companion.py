@@ -10,11 +10,11 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from assur.errors import MechanismFileError, UnknownNameError
-from assur.figures.camera import Camera, oblique, orthographic
 from assur.model.file.faults import Faults
 from assur.model.file.toml_source import TomlSource, read_toml
 from assur.model.formula import FormulaError, parse
 from assur.model.mechanism import MechanismRecord
+from assur.scene.camera import Camera, oblique, orthographic
 
 FILE = "figures.toml"
 

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.figures.companion import Companion
-from assur.figures.companion import length as formula_value
 from assur.kinematics.closure import characteristic_length
 from assur.model.joint_graph import Frame, frames
 from assur.model.mechanism import Joint, MechanismRecord
+from assur.scene.companion import Companion
 from assur.topology.joints import CYLINDRICAL, PRISMATIC, UNIVERSAL
 
 FloatArray = NDArray[np.float64]
@@ -132,7 +131,7 @@ def skeleton(record: MechanismRecord, companion: Companion, values: FloatArray) 
     """The skeleton at joint values (n,).
 
     >>> from assur.model.registry import load_record
-    >>> from assur.figures.companion import Companion
+    >>> from assur.scene.companion import Companion
     >>> from assur.kinematics.home import home_values
     >>> record = load_record("fivebar")
     >>> [rod.link for rod in skeleton(record, Companion(), home_values(record)).rods]
@@ -227,12 +226,3 @@ def _extremes(points: FloatArray) -> tuple[int, int]:
     gaps = np.linalg.norm(points[:, None] - points[None], axis=2)
     first, last = np.unravel_index(np.argmax(gaps), gaps.shape)
     return int(first), int(last)
-
-
-def rail_half(record: MechanismRecord, companion: Companion, marks: list[Mark]) -> float:
-    """Half the length of a drawn rail: the companion's, else what the sliders and their strokes need."""
-    if companion.rail:
-        return formula_value(record, companion.rail)
-    strokes = [max(map(abs, item.stroke)) for item in record.inputs if item.stroke]
-    reach = [float(np.linalg.norm(mark.at - mark.rail)) for mark in marks]
-    return 1.2 * max([*strokes, *reach, 1.0])

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 
 import assur
-from assur.figures.companion import Companion
-from assur.figures.mesh import rgb
-from assur.figures.skeleton import skeleton
-from assur.figures.solids import link_layers, model, unit
+from assur.scene.companion import Companion
+from assur.scene.mesh import rgb
+from assur.scene.parts import link_layers, model, parts, unit
+from assur.scene.skeleton import link_point, skeleton
 
 
 def test_links_that_are_hinged_together_lie_in_different_layers(every):
@@ -65,3 +65,27 @@ def test_a_mechanism_in_one_point_has_a_size():
     mesh = model(point, Companion())
     assert np.all(np.isfinite(mesh.corners))
     assert np.all(np.ptp(mesh.corners.reshape(-1, 3), axis=0) > 0.0)
+
+
+def test_parts_go_with_their_links(every):
+    """Placed at other joint values, pins, balls and rods are where the skeleton of those has joints and rods."""
+    home, record = every.skeleton, every.record
+    moved = skeleton(record, every.companion, home.values + 0.05)
+    near = 1e-9 * max(home.size, 1.0)
+    for item in parts(home, every.companion):
+        shape = item.shape.moved(*moved.frames[item.link])
+        words = item.name.split()
+        if words[-1] in ("pin", "ball"):
+            middle = shape.centre if words[-1] == "ball" else (shape.start + shape.end) / 2
+            there = link_point(record, moved.frames, item.link, words[0])
+            np.testing.assert_allclose(middle, there, atol=near)
+        elif words[0] == "bar" and len(words) == 3 and shape.kind == "cylinder":
+            ends = [rod.points for rod in moved.rods if rod.link == item.link and list(rod.ends) == words[1:]]
+            assert any(np.allclose([shape.start, shape.end], points, atol=near) for points in ends)
+
+
+def test_every_part_is_of_a_link_and_every_joint_has_one(every):
+    solids = parts(every.skeleton, every.companion)
+    assert {item.link for item in solids} <= set(every.record.links)
+    for joint in every.record.joints:
+        assert any(item.name.startswith(joint) for item in solids), joint

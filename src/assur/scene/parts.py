@@ -1,0 +1,257 @@
+"""Parts: every link of a mechanism as bars, pins, sliders, rails and plates, in the link's own frame.
+
+Links that meet in a hinge lie in different layers along its axis (tongue, fork, wider fork), so that none
+runs through another. Sizes other than those of the joint graph are drawn only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.scene.companion import Companion
+from assur.scene.hull import hull
+from assur.scene.mesh import Mesh, joined
+from assur.scene.rails import rails
+from assur.scene.shapes import Ball, Bar, Box, Cylinder, Shape, Slab
+from assur.scene.skeleton import Mark, Rod, Skeleton
+from assur.topology.joints import SPHERICAL
+
+FloatArray = NDArray[np.float64]
+STEEL = "#9aa3ab"
+DARK = "#5d656c"
+PLATE = "#d5d8da"
+DRIVE = "#e0a020"
+STAGE = "#e6cf6a"
+LINKS = ("#5b9bc8", "#4fb591", "#d98a5f", "#c98bb0", "#8cc3e6", "#b59a7d")
+PLAIN = "#b4bac0"
+FLAT = 0.1
+"""A platform whose outline has less than this share of the square of its length is drawn as a bar."""
+
+DEEP = 0.2
+"""A platform that is thicker than this share of its length is drawn by its bars alone."""
+
+TUBE, ROD = 0.62, 0.9
+"""Lengths of the two parts of a leg that grows longer, as shares of its length."""
+
+LAYERS = ((0.0,), (-0.95, 0.95), (-1.8, 1.8))
+THICK = (1.0, 0.7, 0.7)
+"""Middles of the plates of a tongue, a fork and a wider fork, and their thickness, in units of `unit`."""
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """One solid of a link.
+
+    Attributes:
+        name: what it is: the joint's name and its role, as "A1 pin", or "bar B1 C1".
+        link: the link that carries it.
+        shape: in the frame of that link, in the mechanism's unit.
+        colour: "#rrggbb".
+    """
+
+    name: str
+    link: str
+    shape: Shape
+    colour: str
+
+
+def unit(skeleton: Skeleton) -> float:
+    """The length that drawn thicknesses are multiples of."""
+    return 0.018 * skeleton.size
+
+
+def parts(skeleton: Skeleton, companion: Companion, accents: Mapping[str, str] | None = None) -> tuple[Part, ...]:
+    """Every solid, as it is made for this configuration; `accents` gives links another colour than their chain's.
+
+    >>> from assur.kinematics.home import home_values
+    >>> from assur.model.registry import load_record
+    >>> from assur.scene.skeleton import skeleton
+    >>> record = load_record("fivebar")
+    >>> found = parts(skeleton(record, Companion(), home_values(record)), Companion())
+    >>> [item.name for item in found if item.link == "crank1"]
+    ['bar A1 B1', 'B1 pin']
+    """
+    found = []
+    for item in _placed(skeleton, companion, {**_chain_colours(skeleton), **(accents or {})}):
+        rotation, origin = skeleton.frames[item.link]
+        found.append(Part(item.name, item.link, item.shape.moved(rotation.T, -rotation.T @ origin), item.colour))
+    return tuple(found)
+
+
+def model(skeleton: Skeleton, companion: Companion, accents: Mapping[str, str] | None = None) -> Mesh:
+    """The whole mechanism as one mesh in the base frame."""
+    return placed(parts(skeleton, companion, accents), skeleton)
+
+
+def placed(solids: tuple[Part, ...], skeleton: Skeleton) -> Mesh:
+    """Parts as one mesh in the base frame, where this configuration has their links."""
+    return joined([item.shape.moved(*skeleton.frames[item.link]).mesh(item.colour) for item in solids])
+
+
+def _placed(skeleton: Skeleton, companion: Companion, colours: Mapping[str, str]) -> Iterator[Part]:
+    """Every part with its shape still in the base frame."""
+    layers = link_layers(skeleton)
+    for rod in skeleton.rods:
+        if rod.size > 0:
+            yield from _rod(skeleton, rod, layers[rod.link], colours.get(rod.link, PLAIN))
+    for plate in skeleton.plates:
+        colour = colours.get(plate.link, PLAIN)
+        for k, a in enumerate(plate.points):
+            for j, b in enumerate(plate.points[:k]):
+                shape = Cylinder(a, b, 0.7 * unit(skeleton))
+                yield Part(f"bar {j + 1} {k + 1} of {plate.link}", plate.link, shape, colour)
+    for mark in skeleton.marks:
+        yield from _joint(skeleton, mark, layers)
+    yield from _stage(skeleton, colours.get(skeleton.record.platform.link, STAGE))
+    yield from _base(skeleton, companion)
+
+
+def link_layers(skeleton: Skeleton) -> dict[str, int]:
+    """Link -> its layer, another one than those of the links that it is hinged to."""
+    hinges = [mark.joint for mark in skeleton.marks if not mark.slides]
+    found: dict[str, int] = {}
+    for link in skeleton.record.links:
+        others = {
+            joint.child if joint.parent == link else joint.parent
+            for joint in hinges
+            if link in (joint.parent, joint.child)
+        }
+        used = {found[other] for other in others if other in found and other != skeleton.record.base}
+        found[link] = next((k for k in range(len(LAYERS)) if k not in used), 0)
+    return found
+
+
+def _chain_colours(skeleton: Skeleton) -> dict[str, str]:
+    order = {name: LINKS[k % len(LINKS)] for k, name in enumerate(skeleton.chains)}
+    colours = {link: order[chain] for link, chain in skeleton.chain_of().items()}
+    return {**colours, skeleton.record.platform.link: STAGE}
+
+
+def _rod(skeleton: Skeleton, rod: Rod, layer: int, colour: str) -> Iterator[Part]:
+    """Flat bars normal to the hinges at its ends, or a round rod where it has none across it."""
+    size, name = unit(skeleton), f"bar {' '.join(rod.ends)}"
+    start, end = rod.points
+    normal = _hinge_normal(skeleton, rod)
+    if normal is None:
+        yield Part(name, rod.link, Cylinder(start, end, 0.75 * size), colour)
+        return
+    for shift in LAYERS[layer]:
+        aside = shift * size * normal
+        shape = Bar(start + aside, end + aside, normal, 1.15 * size, THICK[layer] * size)
+        yield Part(name, rod.link, shape, colour)
+
+
+def _hinge_normal(skeleton: Skeleton, rod: Rod) -> FloatArray | None:
+    along = (rod.points[1] - rod.points[0]) / rod.size
+    for mark in skeleton.marks:
+        meets = np.min(np.linalg.norm(rod.points - mark.at, axis=1)) < 1e-9 * skeleton.size
+        own = rod.link in (mark.joint.parent, mark.joint.child)
+        if own and meets and not mark.slides and len(mark.axes) and abs(float(mark.axes[0] @ along)) < 1e-9:
+            return np.asarray(mark.axes[0])
+    return None
+
+
+def _joint(skeleton: Skeleton, mark: Mark, layers: Mapping[str, int]) -> Iterator[Part]:
+    size, joint = unit(skeleton), mark.joint
+    if joint.type is SPHERICAL:
+        yield Part(f"{joint.name} ball", joint.child, Ball(mark.at, 1.4 * size), DARK)
+        return
+    if mark.slides:
+        yield from _slider(mark, size)
+    else:
+        reach = (max(max(LAYERS[layers[link]]) for link in (joint.parent, joint.child)) + 0.75) * size
+        colour = DRIVE if mark.driven else DARK
+        for axis, link in zip(mark.axes, (joint.parent, joint.child), strict=False):
+            yield Part(
+                f"{joint.name} pin", link, Cylinder(mark.at - reach * axis, mark.at + reach * axis, 0.7 * size), colour
+            )
+    if mark.grounded and not mark.slides and abs(float(mark.axes[0][2])) > 0.9:
+        foot = Cylinder(mark.at - [0, 0, 4.0 * size], mark.at - [0, 0, 1.2 * size], 1.9 * size)
+        yield Part(f"{joint.name} pillar", skeleton.record.base, foot, DRIVE if mark.driven else DARK)
+
+
+def _slider(mark: Mark, size: float) -> Iterator[Part]:
+    """A carriage on its rail; of a leg that grows longer a tube, a rod in it and a collar at the tube's end."""
+    joint, axis = mark.joint, mark.axes[0]
+    across, up = _across(axis)
+    colour = DRIVE if mark.driven else PLAIN
+    where, link, name = mark.at, joint.child, "carriage"
+    if mark.telescopes:
+        way = mark.at - mark.rail
+        where, link, name = mark.rail + TUBE * way, joint.parent, "collar"
+        yield Part(f"{joint.name} tube", joint.parent, Cylinder(mark.rail, where, 0.8 * size), STEEL)
+        yield Part(f"{joint.name} rod", joint.child, Cylinder(mark.at - ROD * way, mark.at, 0.5 * size), STEEL)
+    sides = size * np.array([2.6 * axis, 1.9 * across, 1.15 * up])
+    yield Part(f"{joint.name} {name}", link, Box(where + 0.1 * size * up, sides), colour)
+
+
+def _across(axis: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Unit vectors across an axis, the second as far upwards as can be."""
+    up = np.array([0.0, 0.0, 1.0]) if abs(axis[2]) < 0.9 else np.array([1.0, 0.0, 0.0])
+    up = up - (up @ axis) * axis
+    up = up / np.linalg.norm(up)
+    return np.cross(up, axis), up
+
+
+def _stage(skeleton: Skeleton, colour: str) -> Iterator[Part]:
+    """A plate on a platform of three or more joints that lie almost in a plane across its Z axis."""
+    link = skeleton.record.platform.link
+    rotation, origin = skeleton.frames[link]
+    points = [rod.points for rod in skeleton.rods if rod.link == link] + [
+        p.points for p in skeleton.plates if p.link == link
+    ]
+    joints = [mark for mark in skeleton.marks if link in (mark.joint.parent, mark.joint.child)]
+    if len(joints) < 3 or not points:
+        return
+    size = unit(skeleton)
+    local = (np.concatenate(points) - origin) @ rotation
+    if np.ptp(local[:, 2]) > DEEP * np.max(np.ptp(local, axis=0)):
+        return
+    level = float(local[:, 2].max()) + 1.3 * size
+    corners = _outline(local[:, :2], 2.4 * size)
+    if len(corners):
+        raised = np.column_stack([corners, np.full(len(corners), level)])
+        yield Part("plate", link, Slab(origin + raised @ rotation.T, 0.8 * size * rotation[:, 2]), colour)
+        return
+    margin = np.array([1.2 * size, 3.4 * size, 0.0])
+    low, high = local.min(axis=0) - margin, local.max(axis=0) + margin
+    low[2], high[2] = level, level + 0.8 * size
+    shape = Box(origin + rotation @ ((low + high) / 2), np.diag((high - low) / 2) @ rotation.T)
+    yield Part("plate", link, shape, colour)
+
+
+def _outline(points: FloatArray, margin: float) -> FloatArray:
+    """Convex hull (k, 2) of points, moved out by a margin; empty (0, 2) where they lie almost on a line."""
+    corners = hull(points)
+    along, across = np.roll(corners, -1, axis=0), np.ptp(points, axis=0)
+    area = 0.5 * abs(float(np.sum(corners[:, 0] * along[:, 1] - corners[:, 1] * along[:, 0])))
+    if len(corners) < 3 or area < FLAT * float(np.max(across)) ** 2:
+        return np.zeros((0, 2))
+    outwards = corners - corners.mean(axis=0)
+    return np.asarray(corners + margin * outwards / np.linalg.norm(outwards, axis=1, keepdims=True))
+
+
+def _base(skeleton: Skeleton, companion: Companion) -> Iterator[Part]:
+    """A plate under everything that stands on the base, and the rails."""
+    size, base = unit(skeleton), skeleton.record.base
+    found = rails(skeleton, companion)
+    feet = [mark.at for mark in skeleton.marks if mark.grounded and not mark.slides]
+    for k, (start, end) in enumerate(found, 1):
+        axis = (end - start) / np.linalg.norm(end - start)
+        across, up = _across(axis)
+        sides = np.array([(end - start) / 2, 0.8 * size * across, 0.95 * size * up])
+        yield Part(f"rail {k}", base, Box((start + end) / 2 - 0.65 * size * up, sides), STEEL)
+        feet += [start, end]
+    if not feet:
+        return
+    drop = 1.6 if found else 4.0
+    if np.min(skeleton.cloud[:, 2]) < np.min(feet, axis=0)[2] - drop * size:
+        return  # a plate would hide what is below it
+    low, high = np.min(feet, axis=0) - 3.2 * size, np.max(feet, axis=0) + 3.2 * size
+    high[2] = np.min(feet, axis=0)[2] - drop * size
+    low[2] = high[2] - 1.3 * size
+    yield Part("base plate", base, Box((low + high) / 2, np.diag((high - low) / 2)), PLATE)

@@ -1,0 +1,26 @@
+"""Every registered mechanism with its skeleton at home."""
+
+from __future__ import annotations
+
+from functools import cache
+from types import SimpleNamespace
+
+import pytest
+
+import assur
+from assur.kinematics.home import home_values
+from assur.scene.companion import companion
+from assur.scene.skeleton import skeleton
+
+
+@cache
+def at_home(name):
+    record = assur.load(name)
+    names = companion(record)
+    return SimpleNamespace(record=record, companion=names, skeleton=skeleton(record, names, home_values(record)))
+
+
+@pytest.fixture(params=assur.names())
+def every(request):
+    """A mechanism's record, companion and skeleton at home."""
+    return at_home(request.param)
