@@ -40,6 +40,7 @@ bench: $(VENV)/installed ## poses per second beside a hand-written C loop (needs
 	$(BIN)/python bench/topology.py
 	$(BIN)/python bench/kinematics.py
 	$(BIN)/python bench/compiled.py
+	$(BIN)/python bench/others.py
 
 format: $(VENV)/installed-dev ## put the code into the form that `check` asks for
 	$(BIN)/ruff check --fix .
@@ -47,7 +48,7 @@ format: $(VENV)/installed-dev ## put the code into the form that `check` asks fo
 
 constraints: ## pin every package anew, each at its newest version that pyproject.toml allows
 	rm -rf build/pins && $(PYTHON) -m venv build/pins
-	build/pins/bin/python -m pip install --quiet --editable '.[dev,sim]' hatchling editables
+	build/pins/bin/python -m pip install --quiet --editable '.[dev,sim,bench]' hatchling editables
 	sed -n '/^#/p' constraints.txt > build/constraints.txt
 	build/pins/bin/python -m pip list --format=freeze --exclude pip --exclude setuptools --exclude assur \
 	    >> build/constraints.txt

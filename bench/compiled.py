@@ -18,7 +18,7 @@ from collections.abc import Callable, Sequence
 from statistics import median
 
 import numpy as np
-from bench import JOBS, MECHANISM, MODE, cpu, problems
+from bench import CHUNK, JOBS, MECHANISM, MODE, cpu, problems
 from rich.console import Console
 from rich.table import Table
 from yardstick import Arrays, Yardstick, compile_library, compiler
@@ -141,22 +141,38 @@ def same_bits(record: MechanismRecord, count: int) -> bool:
     return True
 
 
-def grid_seconds(record: MechanismRecord, places: int, repeats: int) -> tuple[float, float]:
-    """Seconds of a cubic grid with determinants and condition: held as a whole; streamed into a mean."""
+def grid_seconds(record: MechanismRecord, places: int, c: Yardstick | None, repeats: int) -> dict[str, float]:
+    """Seconds of a cubic grid with determinants and condition: held as a whole; streamed into a mean.
+
+    Beside it C's inverse with determinants and factors, but no condition, over blocks into arrays in use; and memory
+    of the size of poses and answers, filled.
+    """
     grid = grid_over(record, (places,) * 3)
     poses = grid.poses(slice(0, grid.size))
 
     def mean(total: float, _: np.ndarray, found: dict[str, np.ndarray]) -> float:
         return total + float(np.sum(found["condition_index"], where=found["exists"]))
 
-    found = seconds(
-        {
-            "held": lambda: inverse_sweep(record, poses, MODE, GRID_WANT, engine="compiled"),
-            "streamed": lambda: reduce_grid(record, grid.counts, mean, 0.0, want=GRID_WANT, engine="compiled"),
-        },
-        min(repeats, 3),
-    )
-    return found["held"], found["streamed"]
+    def held(threads: int) -> object:
+        return inverse_sweep(record, poses, MODE, GRID_WANT, engine="compiled", threads=threads)
+
+    def streamed(threads: int) -> object:
+        return reduce_grid(
+            record, grid.counts, mean, 0.0, mode=MODE, want=GRID_WANT, engine="compiled", threads=threads
+        )
+
+    there = np.zeros(poses.size + sum(array.nbytes for array in held(1).values()) // 8)
+    works: dict[str, Callable[[], object]] = {
+        "held": lambda: held(1),
+        "streamed": lambda: streamed(1),
+        "cores": lambda: streamed(CORES),
+        "memory": lambda: there.fill(1.0),
+    }
+    if c is not None:
+        used = c.empty("inverse_one", CHUNK)
+        parts = [np.ascontiguousarray(poses[:, k : k + CHUNK]) for k in range(0, grid.size, CHUNK)]
+        works["c"] = lambda: [c.run("inverse_one", part, used) for part in parts]
+    return seconds(works, min(repeats, 3))
 
 
 def gradient_ratio(record: MechanismRecord, repeats: int, count: int = 65536) -> tuple[float, int]:
@@ -214,9 +230,15 @@ def main() -> int:
     for job in JOBS:
         table.add_row(*job_row(job.name, job.text, record, c, problems(record, job.given, args.poses), args.repeats))
     console.print(table)
-    held, streamed = grid_seconds(record, args.grid, args.repeats)
-    console.print(f"grid of {args.grid}^3 with existence, determinants and condition, {CORES} cores: {held:.2f} s held")
-    console.print(f"the same streamed into a mean: {streamed:.2f} s")
+    took = grid_seconds(record, args.grid, c, args.repeats)
+    console.print(
+        f"grid of {args.grid}^3, existence, determinants and condition, one thread: {took['held']:.2f} s held, "
+        f"{share(took, 'held', 'memory')} of filling memory"
+    )
+    console.print(
+        f"the same streamed into a mean: {took['streamed']:.2f} s, {share(took, 'streamed', 'c')} of C, which has no "
+        f"condition and no mean; {CORES} cores {took['cores']:.2f} s"
+    )
     ratio, number = gradient_ratio(record, args.repeats)
     console.print(f"gradient of the condition index with respect to {number} dimensions: {ratio:.1f} times the index")
     if not args.no_start:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import ctypes
+import ctypes.util
+import platform
 from fractions import Fraction
 
 import numpy as np
@@ -9,10 +12,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from assur.errors import UsageError
+from assur.numerics.intervals.interval import Interval
 from assur.numerics.intervals.rounding import GREATEST, LEAST, down, down_sum, up, up_sum
 
 FLOATS = st.floats(allow_nan=False, allow_infinity=False)
 TINIEST = 5e-324
+
+X86 = {"downwards": 0x400, "upwards": 0x800, "to zero": 0xC00}
+ARM = {"upwards": 0x400000, "downwards": 0x800000, "to zero": 0xC00000}
+MODES = {"x86_64": X86, "AMD64": X86, "aarch64": ARM, "arm64": ARM}
+"""Of rounding, as <fenv.h> numbers them."""
 
 
 @pytest.fixture(scope="module")
@@ -108,3 +118,18 @@ def test_steps_enclose_exact_roots(radicand):
     root = np.sqrt(radicand)
     assert Fraction(float(down_sum(root))) ** 2 <= Fraction(radicand) <= Fraction(float(up_sum(root))) ** 2
     assert float(down_sum(root)) >= 0
+
+
+@pytest.mark.parametrize("mode", ["upwards", "downwards", "to zero"])
+def test_an_interval_is_refused_where_another_library_left_the_rounding_otherwise(mode):
+    """Importing an interval library may do that to the whole thread."""
+    library = ctypes.CDLL(ctypes.util.find_library("m"))
+    nearest, other = library.fegetround(), MODES[platform.machine()][mode]
+    x = Interval.of(0.1)
+    assert library.fesetround(other) == 0
+    try:
+        with pytest.raises(UsageError, match="does not round to nearest"):
+            x * x
+    finally:
+        library.fesetround(nearest)
+    assert (x * x).contains(0.1 * 0.1)

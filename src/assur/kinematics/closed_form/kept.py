@@ -13,6 +13,9 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 
+KINDS: Mapping[str, Any] = {"exists": bool, "status": np.int8}
+"""Numbers of an answer that are no floats."""
+
 
 class State:
     """The JSON file beside an answer: the question, and how many poses are done."""
@@ -27,7 +30,7 @@ class State:
 
     def save(self, done: int, total: Any) -> None:
         """Note what is done; the file is replaced as a whole, so that it is never half written."""
-        self.done = done
+        self.done, self.total = done, total
         if self.path is None:
             return
         self.path.parent.mkdir(parents=True, exist_ok=True)
@@ -79,13 +82,13 @@ def make_files(files: Mapping[str, Path], shapes: Mapping[str, tuple[int, ...]])
             f"{', '.join(there)}: already there, without a note of what it is", hint="choose another folder"
         )
     folder.mkdir(parents=True, exist_ok=True)
-    kinds = {name: np.dtype(bool if name == "exists" else float) for name in files}
+    kinds = {name: np.dtype(KINDS.get(name, float)) for name in files}
     needed = sum(int(np.prod([float(n) for n in shapes[name]])) * kinds[name].itemsize for name in files)
     free = shutil.disk_usage(folder).free
     if needed > free:
         raise UsageError(
             f"{folder}: the answer takes {needed / 1e9:.1f} GB and {free / 1e9:.1f} GB are free",
-            hint="want less, or use reduce_grid, which keeps a total only",
+            hint="keep less of it, take fewer places, or use reduce_grid, which keeps a total only",
         )
     for name, path in files.items():
         np.lib.format.open_memmap(path, mode="w+", dtype=kinds[name], shape=shapes[name])

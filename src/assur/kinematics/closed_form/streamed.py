@@ -28,6 +28,8 @@ from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 
 T = TypeVar("T")
+Solve = Callable[[FloatArray], Mapping[str, NDArray[Any]]]
+"""Problems (m, b) -> found by name (..., b)."""
 
 BLOCK = 65536
 """Poses that are in memory at a time, per thread."""
@@ -81,24 +83,73 @@ def sweep_grid(
     grid, names = grid_over(record, counts, box), tuple(dict.fromkeys(want))
     solve, question = _question(record, grid, mode, names, engine)
     folder = Path(into)
-    state = State(folder / STATE, {**question, "kind": "sweep"})
     rows = {"inputs": len(record.inputs), "factors": len(closed_form_of(record).factor_list)}
     shapes: dict[str, tuple[int, ...]] = {name: ((rows[name],) if name in rows else ()) + grid.counts for name in names}
-    files: dict[str, Path] = {name: folder / f"{name}.npy" for name in names}
+    state = begun_grid({**question, "kind": "sweep"}, shapes, folder)
+    return write_grid(
+        state, solve, shapes, grid, folder, lambda *_: None, None, block=block, progress=progress, threads=threads
+    )
+
+
+def begun_grid(question: Mapping[str, Any], shapes: Mapping[str, tuple[int, ...]], folder: Path) -> State:
+    """The note of a grid that is written into a folder: that of before, or a new one beside new files.
+
+    Args:
+        question: all that the answer depends on.
+        shapes: what is written -> the shape of its file; its last axes are those of the grid.
+        folder: where.
+
+    Errors:
+        UsageError: the folder holds another question, or other files of these names; the disk is too small.
+    """
+    state = State(folder / STATE, question)
     if not state.known:
-        make_files(files, shapes)
-    state.save(state.done, None)
+        make_files({name: folder / f"{name}.npy" for name in shapes}, shapes)
+        state.save(0, None)
+    return state
+
+
+def write_grid(
+    state: State,
+    solve: Solve,
+    shapes: Mapping[str, tuple[int, ...]],
+    grid: Grid,
+    folder: Path,
+    add: Callable[[T, Mapping[str, NDArray[Any]]], T],
+    start: T,
+    *,
+    block: int = BLOCK,
+    progress: Progress | None = None,
+    threads: int = 0,
+) -> dict[str, NDArray[Any]]:
+    """Work out what is left of a grid, into the files of `begun_grid`; the note counts what is done.
+
+    Args:
+        state: what is done; its `total` holds what `add` makes of it.
+        solve: problems (m, b) -> found by name (..., b), of which the names in `shapes` are written.
+        shapes: as for `begun_grid`.
+        grid: the problems.
+        folder: as for `begun_grid`.
+        add: (total, found) -> the total with this block; of numbers, texts, lists and dicts.
+        start: the total of nothing.
+        block: problems that one thread works on at a time.
+        progress: called after every block.
+        threads: how many work on it.
+
+    Returns:
+        What was written by name, as read-only memory maps.
+    """
+    files = {name: folder / f"{name}.npy" for name in shapes}
     with ExitStack() as stack:
-        places: dict[str, RowsFile] = {
-            name: RowsFile(stack.enter_context(files[name].open("r+b")), grid.size) for name in names
-        }
+        places = {name: RowsFile(stack.enter_context(path.open("r+b")), grid.size) for name, path in files.items()}
 
-        def keep(start: int, found: Mapping[str, NDArray[Any]], _poses: FloatArray, _total: None) -> None:
-            for name, values in found.items():
-                places[name].write(start, np.atleast_2d(values))
+        def keep(first: int, found: Mapping[str, NDArray[Any]], _poses: FloatArray, total: T) -> T:
+            for name, place in places.items():
+                place.write(first, found[name].reshape(-1, found[name].shape[-1]))
+            return add(total, found)
 
-        _work(solve, grid, state, keep, None, block, threads_of(threads), progress)
-    return {name: np.load(files[name], mmap_mode="r") for name in names}
+        _work(solve, grid, state, keep, state.total if state.done else start, block, threads_of(threads), progress)
+    return {name: np.load(path, mmap_mode="r") for name, path in files.items()}
 
 
 def reduce_grid(
@@ -150,9 +201,6 @@ def reduce_grid(
         return add(total, poses, found)
 
     return _work(solve, grid, state, one, total, block, threads_of(threads), progress)
-
-
-Solve = Callable[[FloatArray], Mapping[str, NDArray[Any]]]
 
 
 def _question(

@@ -61,6 +61,9 @@ class Interval:
     high: FloatArray
     defined: BoolArray
 
+    def __post_init__(self) -> None:
+        rounding.check_nearest()
+
     # An array on the left must leave the operator to the interval on the right.
     __array_ufunc__ = None
 

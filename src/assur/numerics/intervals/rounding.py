@@ -8,6 +8,9 @@ to nearest, BIT 49, 2009, algorithm 1: one step exactly, of every float but thos
 Products and quotients may underflow, and a result of 0 need not be exact: their step has a part that does not depend
 on the size. A sum, a difference or a root is 0 only where it is exact, and below 2^-1021 sums are exact: their step
 needs no such part, so that bounds of 0 stay 0, and what is a sum of squares does not become negative.
+
+All of it holds where the processor rounds to nearest. Other libraries may leave it otherwise, without a word (importing
+some interval libraries does): every interval that is made asks, and raises.
 """
 
 from __future__ import annotations
@@ -16,6 +19,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from assur.errors import UsageError
 
 SHARE = 2.0**-53 * (1 + 2.0**-52)
 """A little more than half the distance between 1 and the next float."""
@@ -27,6 +32,23 @@ LEAST = 2.0**-960
 """Added to the step of a product: covers underflow, and keeps bounds about zero out of the slow subnormal numbers."""
 
 GREATEST = float(np.finfo(float).max)
+
+TINY = 2.0**-60
+"""Added to 1, or taken from it, this is rounded away; upwards, downwards or to zero one of the two is not."""
+
+
+def check_nearest() -> None:
+    """See that this thread rounds to nearest.
+
+    Errors:
+        UsageError: it does not, so that no bound could be trusted.
+    """
+    if not 1.0 + TINY == 1.0 == 1.0 - TINY:
+        raise UsageError(
+            "this thread of the processor does not round to nearest, so no bound of an interval would be proved",
+            hint="another library changed the mode of rounding: import it in another process, or set the mode back"
+            " (fesetround(FE_TONEAREST))",
+        )
 
 
 def down(result: Any) -> NDArray[np.float64]:

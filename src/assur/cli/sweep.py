@@ -1,0 +1,69 @@
+"""`assur sweep`: a grid of poses or inputs, of any size, solved in closed form into files."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from cyclopts import Parameter
+
+from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+
+
+def sweep(
+    mechanism: MechanismName,
+    /,
+    *,
+    output: Annotated[
+        str,
+        Parameter(name=("-o", "--output"), metavar="DIR", help="Folder of the files, made where it is missing."),
+    ],
+    along: Annotated[
+        tuple[str, ...],
+        Parameter(
+            metavar="NAME=LOW:HIGH:COUNT",
+            help="Places along one coordinate, both ends too; NAME=COUNT takes the file's box or stroke.",
+        ),
+    ],
+    at: Annotated[tuple[str, ...], Parameter(metavar="NAME=VALUE", help="Hold one coordinate.")] = (),
+    problem: Annotated[
+        Literal["inverse", "direct"], Parameter(help="The grid is one of poses (inverse) or of inputs (direct).")
+    ] = "inverse",
+    mode: Annotated[
+        str | None,
+        Parameter(help="One mode, or 'all'. If left out: the file's working mode (inverse), all (direct)."),
+    ] = None,
+    keep: Annotated[
+        tuple[str, ...],
+        Parameter(metavar="NAME,..", help="What to keep; inputs,status (inverse) or poses,exists (direct)."),
+    ] = (),
+    threads: Annotated[str, Parameter(metavar="COUNT", help="How many work on it; as many as cores.")] = "0",
+    shared: Shared = SHARED_DEFAULTS,
+) -> Outcome:
+    r"""Solve a grid of poses or inputs in closed form, into files.
+
+    Any number of poses, 10^9 too: memory is that of a few blocks, and what the
+    files will take is told before. After Ctrl-C (exit code 130) the same command
+    goes on where it stopped; a folder of another grid is refused. --along and
+    --at are given once per coordinate, lengths and angles are in the mechanism's
+    units, in the files too. Where there is no solution the numbers are NaN.
+
+    To keep: inputs or poses, exists, status; of the inverse problem in one mode
+    also det_jp, det_jq, factors, condition_index (1/cond of Jp^-1 Jq) and
+    smallest (its smallest singular value). Each is a .npy file; sweep.json says
+    what they hold.
+
+    For example:
+        assur sweep zeng2019 --along x=200 --along y=50 --along z=200 -o out/grid
+        assur sweep zeng2019 --along x=-110:80:96 --along z=300:450:76 --at y=0 \
+            --keep inputs,condition_index -o out/plane
+        assur sweep fivebar --problem direct --along theta1=0:180:361 \
+            --along theta2=0:180:361 -o out/poses
+    """
+    record = shared.mechanism(mechanism)
+    from assur.cli import sweep_answer, sweep_grid
+    from assur.cli.numbers import whole_number
+
+    workers = whole_number(threads, "--threads")
+    grid = sweep_grid.asked(record, problem, along, at)
+    kept = tuple(name.strip() for text in keep for name in text.split(","))
+    return sweep_answer.outcome(record, grid, problem, mode, kept, output, workers, shared)

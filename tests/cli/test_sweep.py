@@ -1,0 +1,231 @@
+"""`assur sweep`: what single problems say, at every place of a grid; what is refused."""
+
+from __future__ import annotations
+
+import doctest
+import json
+import re
+import shutil
+from collections import namedtuple
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import assur
+from assur.performance.indices import indices
+
+PLANE = ("--along", "x=-120:120:9", "--along", "z=250:550:11", "--at", "y=10")
+PAGE = Path(__file__).parents[2] / "docs" / "kinematics.md"
+
+
+def load(folder, name):
+    return np.load(folder / f"{name}.npy", mmap_mode="r")
+
+
+def places(data):
+    """Every place of a grid from what the answer says of it: index, then values by name."""
+    axes = [np.linspace(item["low"], item["high"], item["count"]) for item in data["along"]]
+    names = [item["name"] for item in data["along"]]
+    for index in np.ndindex(*(len(axis) for axis in axes)):
+        yield index, data["at"] | {name: float(axis[k]) for name, axis, k in zip(names, axes, index, strict=True)}
+
+
+def test_every_pose_has_the_inputs_and_the_status_that_it_has_alone(assur_cli, tmp_path):
+    run = assur_cli("sweep", "zeng2019", *PLANE, "-o", str(tmp_path), "--json")
+    assert (run.code, run.err) == (0, "")
+    data, inputs, status = run.json, load(tmp_path, "inputs"), load(tmp_path, "status")
+    assert (inputs.shape, status.shape, data["mode"], data["at"]) == ((3, 9, 11), (9, 11), "++-++", {"y": 10.0})
+    seen = set()
+    for index, place in list(places(data))[::7]:
+        alone = assur_cli("inverse", "zeng2019", *(repr(place[n]) for n in "xyz"), "--mode", "++-++", "--json").json
+        names = data["files"]["status"]["meaning"].removeprefix("status: ").split(", ")
+        assert f"{status[index]} {alone['status']}" in names
+        if alone["solutions"]:
+            assert inputs[(slice(None), *index)].tolist() == pytest.approx(alone["solutions"][0]["inputs"], rel=1e-12)
+        else:
+            assert np.isnan(inputs[(slice(None), *index)]).all()
+        seen.add(alone["status"])
+    assert {"regular", "unreachable"} <= seen
+    reached = int(np.isfinite(inputs[0]).sum())
+    assert data["counts"]["by_modes"] == {"0": 99 - reached, "1": reached}
+    assert sum(data["counts"]["by_status"].values()) == 99
+
+
+@pytest.mark.parametrize("mechanism", ["fivebar", "zeng2019"])
+def test_every_row_of_inputs_has_the_poses_that_it_has_alone(assur_cli, tmp_path, mechanism):
+    along = {"fivebar": ("theta1=10:170:5", "theta2=-20:150:6"), "zeng2019": ("yA1=-200:300:3", "yA2=-300:200:4")}
+    held = ("--at", "yA3=-24.6776") if mechanism == "zeng2019" else ("--set", "l2=100")
+    words = (word for text in along[mechanism] for word in ("--along", text))
+    asked = ("sweep", mechanism, "--problem", "direct", *words, *held, "--keep", "poses,exists,status")
+    data = assur_cli(*asked, "-o", str(tmp_path), "--json").json
+    poses, exists, status = (load(tmp_path, name) for name in ("poses", "exists", "status"))
+    counts: dict[str, int] = {}
+    for index, place in places(data):
+        given = [place[name] for name in ("theta1", "theta2", "yA1", "yA2", "yA3") if name in place]
+        alone = assur_cli("direct", mechanism, *map(repr, given), *held[:2] * (held[0] == "--set"), "--json").json
+        here = exists[(slice(None), *index)]
+        modes = [mode for mode, real in zip(data["modes"], here, strict=True) if real]
+        assert modes == [item["mode"] for item in alone["solutions"]]
+        found = [poses[(k, slice(None), *index)].tolist() for k in np.flatnonzero(here)]
+        np.testing.assert_allclose(found, [item["pose"] for item in alone["solutions"]] or found, rtol=1e-9, atol=1e-9)
+        assert np.isnan(poses[(~here, slice(None), *index)]).all()
+        named = [status_name(data, value) for value in status[(here, *index)]]
+        assert named == [item["status"] for item in alone["solutions"]]
+        counts[str(len(modes))] = counts.get(str(len(modes)), 0) + 1
+    assert data["counts"]["by_modes"] == counts
+    assert len(counts) > 1
+
+
+def status_name(data, value):
+    return dict(text.split() for text in data["files"]["status"]["meaning"].removeprefix("status: ").split(", "))[
+        str(int(value))
+    ]
+
+
+def test_angles_are_in_the_unit_of_the_file(assur_cli, tmp_path):
+    words = ("--along", "x=-20:20:3", "--along", "y=150:200:2", "--mode", "-+")
+    data = assur_cli("sweep", "fivebar", *words, "-o", str(tmp_path), "--json").json
+    alone = assur_cli("inverse", "fivebar", "20", "200", "--mode", "-+", "--json").json
+    assert load(tmp_path, "inputs")[:, 2, 1].tolist() == pytest.approx(alone["solutions"][0]["inputs"], rel=1e-12)
+    assert data["files"]["inputs"]["units"] == ["deg", "deg"]
+    assert abs(alone["solutions"][0]["inputs"][0]) > 10.0
+
+
+def test_all_modes_stand_beside_one_another(assur_cli, tmp_path):
+    words = ("--along", "x=-20:20:3", "--along", "y=150:300:4")
+    every = assur_cli("sweep", "fivebar", *words, "--mode", "all", "-o", str(tmp_path / "all"), "--json").json
+    assert every["files"]["inputs"]["axes"] == ["mode", "input", "x", "y"]
+    assert load(tmp_path / "all", "inputs").shape == (4, 2, 3, 4)
+    assert "every branch" in every["how"]
+    for k, mode in enumerate(every["modes"]):
+        one = assur_cli("sweep", "fivebar", *words, "--mode", mode, "-o", str(tmp_path / mode), "--json").json
+        assert "this mode alone" in one["how"]
+        for name in ("inputs", "status"):
+            np.testing.assert_array_equal(load(tmp_path / "all", name)[k], load(tmp_path / mode, name))
+
+
+def test_what_the_jacobians_say_is_that_of_single_poses(assur_cli, tmp_path):
+    keep = ("--keep", "det_jp,det_jq", "--keep", "condition_index,smallest,factors")
+    data = assur_cli("sweep", "zeng2019", *PLANE, *keep, "-o", str(tmp_path), "--json").json
+    assert list(data["files"]) == ["det_jp", "det_jq", "condition_index", "smallest", "factors"]
+    checked = 0
+    for index, place in list(places(data))[::7]:
+        pose = [place[name] for name in "xyz"]
+        alone = assur_cli("singularity", "zeng2019", "--pose", *map(repr, pose), "--json").json
+        if alone["kind"] == "unreachable":
+            assert all(np.isnan(load(tmp_path, name)[..., *index]).all() for name in data["files"])
+            continue
+        checked += 1
+        assert 1.0 / load(tmp_path, "condition_index")[index] == pytest.approx(alone["condition"], rel=1e-7)
+        assert load(tmp_path, "det_jp")[index] == pytest.approx(alone["det_jp"], rel=1e-12)
+        assert load(tmp_path, "det_jq")[index] == pytest.approx(alone["det_jq"], rel=1e-12)
+        assert data["files"]["factors"]["rows"] == list(alone["factors"])
+        assert load(tmp_path, "factors")[:, *index].tolist() == pytest.approx(
+            list(alone["factors"].values()), rel=1e-12
+        )
+        smallest = min(indices(assur.load("zeng2019"), pose).velocity_factors)
+        assert load(tmp_path, "smallest")[index] == pytest.approx(smallest, rel=1e-7)
+    assert checked > 3
+
+
+def test_a_person_is_told_what_it_takes_and_how_to_read_it(assur_cli, tmp_path):
+    folder = tmp_path / "new" / "deep"
+    run = assur_cli("sweep", "zeng2019", *PLANE, "-o", str(folder))
+    assert run.err == f"99 poses, by NumPy: 2.5 kB in {folder}\n"
+    assert "zeng2019, inverse problem, working mode ++-++: 99 problems" in run.out
+    assert f"numpy.load('{folder}/inputs.npy', mmap_mode=\"r\")" in run.out
+    names: dict[str, object] = {"numpy": np}
+    exec(run.out.splitlines()[-1].strip(), names)
+    assert names["values"].shape == (3, 9, 11)  # type: ignore[attr-defined]  # an array
+    assert sorted(path.name for path in folder.iterdir()) == ["inputs.npy", "state.json", "status.npy", "sweep.json"]
+
+
+def test_a_disk_that_is_too_small_is_told_before_anything_is_written(assur_cli, tmp_path, monkeypatch):
+    usage = namedtuple("usage", "total used free")
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: usage(10**9, 10**9 - 1000, 1000))
+    run = assur_cli("sweep", "zeng2019", *PLANE, "-o", str(tmp_path))
+    assert run.code == 2
+    assert "the answer takes" in run.err
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_note_of_somebody_else_is_left_alone(assur_cli, tmp_path):
+    (tmp_path / "sweep.json").write_text("mine")
+    run = assur_cli("sweep", "zeng2019", *PLANE, "-o", str(tmp_path))
+    assert (run.code, "already there" in run.err) == (2, True)
+    assert [path.read_text() for path in tmp_path.iterdir()] == ["mine"]
+
+
+def test_limits_left_out_are_those_of_the_file_in_its_units(assur_cli, tmp_path):
+    words = ("--along", "x=2", "--along", "phi=3", "--at", "y=0")
+    data = assur_cli("sweep", "planar_3rrr", *words, "-o", str(tmp_path / "a"), "--json").json
+    box = assur.load("planar_3rrr").box
+    assert [(item["name"], item["unit"]) for item in data["along"]] == [("x", "mm"), ("phi", "deg")]
+    assert [(item["low"], item["high"]) for item in data["along"]] == [
+        pytest.approx(tuple(box["x"])),
+        pytest.approx(tuple(np.degrees(box["phi"]))),
+    ]
+    words = ("--along", "z=2", "--along", "theta=-90:90:3", "--at", "psi=0", "--keep", "exists,status")
+    assert assur_cli("sweep", "three_rps", *words, "-o", str(tmp_path / "b")).code == 0
+    words = ("--problem", "direct", "--along", "d1=2", "--along", "d2=2", "--at", "d3=200")
+    data = assur_cli("sweep", "three_upu", *words, "-o", str(tmp_path / "c"), "--json").json
+    assert [(item["low"], item["high"]) for item in data["along"]] == [(180.0, 320.0)] * 2
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ("zeng2019 --along x=3 --along y=3", "z: neither varied nor held"),
+        ("zeng2019 --along x=3 --along y=3 --along z=1", "--along z: 1 places"),
+        ("zeng2019 --along x=3 --along y=3 --along z=3 --at z=0", "z both varies and is held"),
+        ("zeng2019 --along x=0:3 --along y=3 --along z=3", "'0:3' is not LOW:HIGH:COUNT"),
+        ("zeng2019 --along x=9:3:4 --along y=3 --along z=3", "turned round or empty"),
+        ("zeng2019 --along x=1:2:many --along y=3 --along z=3", "count: 'many' is not a whole number"),
+        ("zeng2019 --along w=3", "unknown coordinate of this grid of zeng2019 'w'"),
+        ("zeng2019 --along x=3 --along x=4", "x is given twice"),
+        ("zeng2019 --problem direct --along yA1=3", "zeng2019 states no limits of yA1"),
+        ("zeng2019 --along x=3 --along y=3 --at z=300 --mode ++", "unknown working mode of zeng2019 '++'"),
+        ("zeng2019 --along x=3 --along y=3 --at z=300 --keep volume", "unknown quantity of the inverse problem"),
+        (
+            "zeng2019 --along x=3 --along y=3 --at z=300 --keep det_jp --mode all",
+            "only the inverse problem in one mode",
+        ),
+        ("zeng2019 --along x=3 --along y=3 --at z=300 --threads -1", "no number of threads"),
+        ("gough_stewart --along x=3", "no grid over quaternions"),
+        ("three_rps --along z=3 --along theta=0:95:3 --at psi=0", "theta is between -90 and 90 deg"),
+        (
+            "planar_3rpr --problem direct --along rho1=1:2:3 --at rho2=1 --at rho3=1",
+            "no closed direct solution by signs (it has one polynomial)\nhint: `assur direct` solves one problem",
+        ),
+    ],
+)
+def test_what_cannot_be_swept_is_refused_with_a_hint(assur_cli, tmp_path, words, message):
+    run = assur_cli("sweep", *words.split(), "-o", str(tmp_path / "new"))
+    assert (run.code, run.out) == (2, "")
+    assert message in run.err
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_mechanism_without_a_closed_form_is_refused(assur_cli, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    chains = ("{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", "R[z] R[z] C[z]")
+    assert assur_cli("new", "hybrid.toml", *(word for text in chains for word in ("--chain", text))).code == 0
+    run = assur_cli("sweep", "hybrid.toml", "--along", "x=0:1:3", "-o", "new")
+    assert run.code == 2
+    error, hint = run.err.splitlines()
+    assert error == "error: hybrid has no closed form to sweep"
+    assert hint == "hint: assur inverse, direct and workspace solve it on its joint graph"
+
+
+def test_the_page_runs_and_prints_what_it_shows(assur_cli, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = PAGE.read_text(encoding="utf-8")
+    ((command, shown),) = re.findall(r"<!-- output: (assur sweep .*?) -->\n```text\n(.*?)```", text, re.DOTALL)
+    out = assur_cli(*command.split()[1:]).out
+    assert [line.rstrip() for line in out.splitlines()] == shown.splitlines()
+    failures, count = doctest.testfile(str(PAGE), module_relative=False)
+    assert (failures, count >= 7) == (0, True)
+    (shown,) = re.findall(r"inputs\[:, 50, 40\].*?\n(\[.*?\])\n", text)
+    alone = assur_cli("inverse", "zeng2019", "-10", "0", "380", "--mode", "++-++", "--json").json
+    assert json.loads(shown) == pytest.approx(alone["solutions"][0]["inputs"], abs=5e-5)

@@ -1,0 +1,122 @@
+"""`assur sweep` interrupted: by Ctrl-C, by a full disk; it goes on and ends with the same files."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from assur.kinematics.closed_form import streamed
+
+COMMAND = Path(sys.executable).with_name("assur")
+PLANE = ("--along", "x=-120:120:9", "--along", "z=250:550:11", "--at", "y=10")
+
+
+def files_of(folder):
+    return {path.name: path.read_bytes() for path in folder.iterdir() if path.suffix == ".npy"}
+
+
+@pytest.fixture
+def small_blocks(monkeypatch):
+    monkeypatch.setattr("assur.kinematics.closed_form.stored.BLOCK", 1024)
+
+
+@pytest.fixture
+def words(tmp_path):
+    grid = ("--along", "x=20", "--along", "y=21", "--along", "z=22", "--keep", "inputs,exists,status,factors")
+    return lambda name: ("sweep", "zeng2019", *grid, "--threads", "1", "-o", str(tmp_path / name))
+
+
+def stopped_after(monkeypatch, writes):
+    """Ctrl-C once so many pieces of files are written; a block is four of them here."""
+    write, left = streamed.RowsFile.write, [writes]
+
+    def stopping(*given):
+        if not left[0]:
+            raise KeyboardInterrupt
+        left[0] -= 1
+        write(*given)
+
+    monkeypatch.setattr(streamed.RowsFile, "write", stopping)
+
+
+@pytest.mark.usefixtures("small_blocks")
+def test_it_goes_on_and_ends_with_the_same_files(assur_cli, tmp_path, words, monkeypatch):
+    whole = assur_cli(*words("whole"), "--json").json
+    with monkeypatch.context() as patched:
+        stopped_after(patched, 14)
+        run = assur_cli(*words("parts"))
+    assert (run.code, run.out) == (130, "")
+    assert "stopped at 3072 of 9240; the same command goes on from there\ninterrupted\n" in run.err
+    assert files_of(tmp_path / "parts") != files_of(tmp_path / "whole")
+    again = assur_cli(*words("parts"))
+    assert (again.code, "9240 poses, of which 3072 are done" in again.err) == (0, True)
+    assert files_of(tmp_path / "parts") == files_of(tmp_path / "whole")
+    notes = [(tmp_path / name / "sweep.json").read_text() for name in ("parts", "whole")]
+    assert notes[0] == notes[1]
+    assert json.loads(notes[0]) == {key: value for key, value in whole.items() if key != "folder"}
+    assert sum(whole["counts"]["by_status"].values()) == 9240
+
+
+@pytest.mark.usefixtures("small_blocks")
+def test_a_finished_sweep_answers_again(assur_cli, words, monkeypatch):
+    first = assur_cli(*words("same"), "--json")
+    stopped_after(monkeypatch, 0)
+    assert assur_cli(*words("same"), "--json") == first
+
+
+@pytest.mark.usefixtures("small_blocks")
+def test_a_disk_that_fills_up_is_told_and_loses_nothing(assur_cli, tmp_path, words, monkeypatch):
+    assur_cli(*words("whole"))
+    with monkeypatch.context() as patched:
+        write = streamed.RowsFile.write
+
+        def full(file, start, rows):
+            if start >= 2048:
+                raise OSError(28, "No space left on device")
+            write(file, start, rows)
+
+        patched.setattr(streamed.RowsFile, "write", full)
+        run = assur_cli(*words("parts"))
+    assert run.code == 2
+    assert "No space left on device; 2048 of 9240 are done" in run.err
+    assert assur_cli(*words("parts")).code == 0
+    assert files_of(tmp_path / "parts") == files_of(tmp_path / "whole")
+
+
+def test_another_grid_is_refused_and_the_folder_left_as_it_is(assur_cli, tmp_path, words):
+    assur_cli(*words("first"))
+    before = {path: path.read_bytes() for path in (tmp_path / "first").iterdir()}
+    for more in (("--mode", "+++++"), ("--set", "l2=300")):
+        run = assur_cli(*words("first"), *more)
+        assert run.code == 2
+        assert "belongs to another question" in run.err
+    run = assur_cli("sweep", "zeng2019", *PLANE, "-o", str(tmp_path / "first"))
+    assert "it differs in" in run.err
+    assert {path: path.read_bytes() for path in (tmp_path / "first").iterdir()} == before
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Ctrl-C is sent otherwise there")
+def test_ctrl_c_from_a_keyboard(tmp_path):
+    words = ("--along", "x=3000", "--along", "y=3000", "--mode", "all", "--keep", "exists,status")
+    process = subprocess.Popen(
+        [COMMAND, "sweep", "fivebar", *words, "-o", str(tmp_path)],
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    state, deadline = tmp_path / "state.json", time.monotonic() + 120
+    while not (state.exists() and json.loads(state.read_text())["done"] > 0) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=120)
+    done = json.loads(state.read_text())["done"]
+    assert (process.returncode, out) == (130, "")
+    assert 0 < done < 9_000_000
+    assert f"stopped at {done} of 9000000" in err
