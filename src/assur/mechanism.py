@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from assur.performance.dexterity import Dexterity
     from assur.performance.indices import Indices
     from assur.performance.scaling import Length
+    from assur.workspace.aspects.aspects import Aspects
     from assur.workspace.region import Workspace
 
 FloatArray = NDArray[np.float64]
@@ -113,6 +114,12 @@ class Mechanism(MechanismRecord):
         from assur.workspace.region import workspace
 
         return workspace(self, mode, **options)
+
+    def aspects(self, mode: str | None = None, **options: Any) -> Aspects:
+        """The aspects of a working mode, proved: see `assur.workspace.aspects.aspects.aspects` for the options."""
+        from assur.workspace.aspects.aspects import aspects
+
+        return aspects(self, mode, **options)
 
     def dexterity(self, poses: ArrayLike, mode: str | None = None) -> Dexterity:
         """Condition index and velocity factors at poses (..., m): see `assur.performance.dexterity`."""

@@ -11,6 +11,7 @@ import pytest
 from assur.certificates import leaves
 from assur.certificates.certificate import certificate
 from assur.certificates.formulas import Formulas
+from assur.certificates.tree import TOKEN
 from assur.errors import OutputError, UsageError
 from assur.model.registry import load_record
 from assur.numerics.intervals import interval, rounding
@@ -249,3 +250,20 @@ def test_carried_on_with_fewer_leaves_than_there_are_it_grows_no_more():
     first = certificate(record, most=300, gap=1e-9)
     again = certificate(record, most=290, gap=1e-9, start=first.to_json())
     assert again.claims["leaves"] == first.claims["leaves"]
+
+
+@pytest.mark.parametrize("lie", ["i", "r", "b", "o00"])
+def test_nothing_that_an_earlier_certificate_says_of_its_leaves_is_believed(lie):
+    """Leaves that a forger or a broken prover wrote: carried on, they are judged anew, and the proof holds."""
+    record = load_record("zeng2019")
+    first = certificate(record, most=100, gap=1e-9)
+    false = "".join(token if token.isdigit() else lie for token in TOKEN.findall(first.proof))
+    again = certificate(record, most=100, gap=1e-9, start={**first.to_json(), "proof": false})
+    assert (again.proof, again.claims) == (first.proof, first.claims)
+    verify(again.text.encode())
+
+
+@pytest.mark.parametrize("start", [{}, {"proof": "b"}])
+def test_what_is_no_certificate_is_not_carried_on(start):
+    with pytest.raises(UsageError, match="states something else"):
+        certificate(load_record("zeng2019"), start=start)

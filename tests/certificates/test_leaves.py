@@ -3,10 +3,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assur.certificates.formulas import formulas
+from assur.certificates.formulas import Formulas, formulas
 from assur.certificates.leaves import BLOCK, Leaves
 from assur.model.registry import load_record
+from assur.numerics.recording.tape import Recorder
 from assur.workspace.certified.boxes import Boxes
+from assur.workspace.slices import Slice
 
 
 @pytest.fixture(scope="module")
@@ -70,3 +72,14 @@ def test_signs_of_factors(leaves):
     assert signs["u2"] is True
     assert signs["u1"] is False
     assert len(leaves.signs(Boxes(low, low + 1))) == len(leaves.formulas.names("factors"))
+
+
+def test_a_factor_with_a_pole_changes_its_sign_without_a_zero():
+    """x and 1/x are negative left of zero and positive right of it; only the first is zero between."""
+    left, right = (Boxes(np.array([[a]]), np.array([[b]])) for a, b in ((-1.0, -0.5), (0.5, 1.0)))
+    regular, inside = Boxes(np.array([[-1.0, 0.5]]), np.array([[-0.5, 1.0]])), Boxes(left.high, right.low)
+    for factor, zero in ((lambda x: x + x, True), (lambda x: 1 / x, False), (lambda x: 1 / (x * x + 1), False)):
+        recorder = Recorder()
+        x = recorder.varying("x")
+        rules = Formulas(Slice(("x",), ("x",), {}), recorder.tape({"margins: m": x * x, "factors: f": factor(x)}), {})
+        assert Leaves(rules).vanishes(regular, inside) is zero

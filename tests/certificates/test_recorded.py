@@ -76,3 +76,19 @@ def test_a_mechanism_that_is_not_here_is_told(made_of):
     document["statement"]["mechanism"] = "zeng2020"
     with pytest.raises(UnknownNameError):
         record_of(document)
+
+
+def test_a_certificate_makes_nobody_run_the_files_that_it_names(made_of, tmp_path):
+    """Its name is a text that anyone can write: a path in it is no mechanism, unless the reader says so."""
+    folder = load_record("zeng2019").file.parent
+    for name in ("mechanism.toml", "closed_form.py"):
+        shutil.copy(folder / name, tmp_path)
+    ran = tmp_path / "ran"
+    with (tmp_path / "closed_form.py").open("a") as stream:
+        stream.write(f"\nfrom pathlib import Path\nPath({str(ran)!r}).touch()\n")
+    document = json.loads(made_of("box").text)
+    for name in (str(tmp_path), str(tmp_path / "mechanism.toml"), 5, None, ["zeng2019"]):
+        document["statement"]["mechanism"] = name
+        with pytest.raises(UnknownNameError):
+            record_of(document)
+    assert not ran.exists()

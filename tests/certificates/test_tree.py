@@ -3,7 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assur.certificates.tree import Limits, grow, planted
+from assur.certificates.tree import TOKEN, Limits, grow, planted
+from assur.errors import UsageError
 from assur.workspace.certified.boxes import Boxes
 
 SQUARE = Boxes(np.zeros((2, 1)), np.array([[1.0], [3.0]]))
@@ -102,7 +103,7 @@ def test_what_is_done_is_kept_after_ctrl_c(after, where):
 
 def test_a_text_is_planted_again():
     tree = grow(SQUARE, disc, longest, limits())
-    again = planted(tree.text, SQUARE)
+    again = planted(tree.text, SQUARE, disc)
     assert again.text == tree.text
     order = [np.lexsort((*part.boxes.low, *part.boxes.high)) for part in (tree, again)]
     for name in ("low", "high"):
@@ -113,5 +114,23 @@ def test_a_text_is_planted_again():
 
 def test_a_tree_that_was_carried_on_ends_as_one_that_was_not_interrupted():
     few = grow(SQUARE, disc, longest, limits(most=40))
-    more = grow(SQUARE, disc, longest, limits(gap=0.0, least=np.full((2, 1), 0.02)), start=planted(few.text, SQUARE))
+    more = grow(
+        SQUARE, disc, longest, limits(gap=0.0, least=np.full((2, 1), 0.02)), start=planted(few.text, SQUARE, disc)
+    )
     assert more.text == grow(SQUARE, disc, longest, limits(gap=0.0, least=np.full((2, 1), 0.02))).text
+
+
+def test_leaves_of_a_text_are_judged_anew():
+    """Whatever a text says of its leaves, the tree says what the judge does."""
+    tree = grow(SQUARE, disc, longest, limits())
+    for lie in ("i", "r", "b", "o00"):
+        text = "".join(token if token.isdigit() else lie for token in TOKEN.findall(tree.text))
+        assert planted(text, SQUARE, disc).text == tree.text
+
+
+@pytest.mark.parametrize(
+    "text", [None, 5, "", "?", "bi", "0b", "0bbb", "00bb", "2bb", "b?", "0", "0b0", "0" * 1080 + "b" * 1081]
+)
+def test_what_is_no_whole_tree_is_refused(text):
+    with pytest.raises(UsageError, match="no whole tree"):
+        planted(text, SQUARE, disc)

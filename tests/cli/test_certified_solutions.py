@@ -35,6 +35,24 @@ def test_a_person_reads_bounds_and_proofs(assur_cli):
     assert "456.3315" in text
 
 
+def test_what_is_printed_is_no_more_than_what_is_proved(assur_cli):
+    """A middle with four decimals is no bound: beside it stands the width of the bounds, rounded up."""
+    run = assur_cli("direct", "zeng2019", *INPUTS, "--certify")
+    found = certified_direct(assur.load("zeng2019"), floats(INPUTS))
+    row = next(line.split() for line in run.out.splitlines() if line.split()[:1] == ["+++"])
+    assert "width" in run.out
+    width = float(row[4])
+    assert float(max(found.solutions[0].pose.width)) <= width <= 1.2 * float(max(found.solutions[0].pose.width))
+
+
+def test_where_dependent_equations_are_not_proved_the_headline_says_so(assur_cli):
+    run = assur_cli("direct", "zeng2019", *INPUTS, "--certify", "--method", "loops")
+    assert run.code == 5
+    text = " ".join(run.out.split())
+    assert "4 solutions of the independent equations proved (the dependent ones hold to" in text
+    assert ": a zero of the independent equations is proved on the joint graph" in text
+
+
 def test_a_search_is_box_by_box(assur_cli):
     run = assur_cli("direct", "zeng2019", *INPUTS, "--certify", "--method", "search")
     assert run.code == 0

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import json
 
+import mpmath
 import pytest
 
 from assur.certificates.certificate import certificate
@@ -28,6 +29,16 @@ def test_angles_are_in_degrees(assur_cli, tmp_path):
     low, high = json.loads(path.read_text())["statement"]["box"][2]
     assert float.fromhex(low) == 0.0
     assert float.fromhex(high) == pytest.approx(1.5707963267948966)
+
+
+def test_a_box_of_degrees_is_rounded_outwards(assur_cli, tmp_path):
+    path = tmp_path / "c.json"
+    words = ("--box", "phi=-10:10", "--box", "x=-1:1", "--box", "y=-1:1", "--kind", "box")
+    assert assur_cli("certify", "planar_3rpr", "-o", str(path), *words, *FEW).code == 0
+    (x, _), _, (low, high) = (map(float.fromhex, pair) for pair in json.loads(path.read_text())["statement"]["box"])
+    with mpmath.workdps(40):
+        assert low < -10 * mpmath.pi / 180 < 10 * mpmath.pi / 180 < high
+    assert x == -1.0
 
 
 def test_a_person_sees_what_is_claimed_and_that_it_is_not_checked_yet(assur_cli, tmp_path):

@@ -49,6 +49,21 @@ def test_a_false_one_is_refused(assur_cli, tmp_path):
     assert "does not hold: inside for x " in run.out
 
 
+@pytest.mark.parametrize("part", ["mechanism", "mode", "parameters", "strokes", "held"])
+def test_a_statement_that_nobody_can_read_is_refused(assur_cli, tmp_path, part):
+    """Its leaves hold for its formulas, but what it says of a mechanism is nothing."""
+    import hashlib
+
+    for value in (5, "no", ["no"], {"no": "no"}):
+        document = certificate(load_record("zeng2019"), most=2).to_json()
+        del document["sha256"]
+        document["statement"][part] = value
+        text = json.dumps(document, sort_keys=True, separators=(",", ":"))
+        document["sha256"] = hashlib.sha256(text.encode()).hexdigest()
+        (tmp_path / "c.json").write_text(json.dumps(document))
+        assert assur_cli("verify", str(tmp_path / "c.json")).code in (1, 2, 3, 5)
+
+
 def test_another_version_of_the_mechanism_is_refused(assur_cli, path, tmp_path):
     folder = load_record("zeng2019").file.parent
     for name in ("mechanism.toml", "closed_form.py"):

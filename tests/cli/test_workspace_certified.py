@@ -6,12 +6,14 @@ import json
 import math
 from fractions import Fraction
 
+import mpmath
 import pytest
 
 import assur
+from assur.cli.certified_regions import outer_box
 from assur.errors import UsageError
 from assur.results.outward import outward as bounds
-from assur.workspace.certified import paving
+from assur.workspace.certified import paving, proving
 from assur.workspace.certified.largest import largest
 from assur.workspace.certified.proving import prove_box
 from assur.workspace.certified.region import certified_workspace
@@ -64,6 +66,34 @@ def test_a_box_is_proved_or_refuted(assur_cli, heights, status, code):
     low, high = map(float, heights.split(":"))
     found = prove_box(ZENG, [(-40, 0), (-50, 50), (low, high)])
     assert data == {"mechanism": "zeng2019", **json.loads(json.dumps(found.to_json()))}
+
+
+def test_the_box_that_is_proved_holds_the_one_in_degrees(assur_cli, monkeypatch):
+    """-10 and 10 deg are no floats in rad: the box of the nearest floats need not hold all that was asked for."""
+    asked = []
+    honest = proving.prove_box
+    monkeypatch.setattr(
+        proving,
+        "prove_box",
+        lambda record, box, *rest, **more: (
+            asked.append(box),
+            honest(record, box, *rest, **more),
+        )[1],
+    )
+    words = ("--box", "x=-5:5", "--prove", "phi=-10:10,y=-5:5", "--json")
+    data = assur_cli("workspace", "planar_3rrr", *words).json
+    (box,) = asked
+    with mpmath.workdps(40):
+        assert box["phi"][0] < -10 * mpmath.pi / 180 < 10 * mpmath.pi / 180 < box["phi"][1]
+    assert (box["x"], box["y"]) == ((-5.0, 5.0), (-5.0, 5.0))
+    assert data["box"][2] == pytest.approx([-10, 10])
+
+
+def test_so_does_that_of_the_file(assur_cli):
+    record = assur.load("planar_3rpr")
+    low, high = outer_box(record, {})["phi"]
+    assert (low <= record.box["phi"][0], record.box["phi"][1] <= high) == (True, True)
+    assert outer_box(record, {}, {"phi": 0.0}).keys() == {"x", "y"} & record.box.keys()
 
 
 def test_what_is_undecided_has_a_code_of_its_own(assur_cli):

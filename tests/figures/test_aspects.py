@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 from matplotlib.collections import PolyCollection
 
 from assur.errors import UsageError
-from assur.figures.aspects import caption, drawn
+from assur.figures.aspects import caption, drawn, no_aspects, shown
 from assur.figures.context import Context
+from assur.figures.singular import symbol_of
 from assur.figures.style import styled
 from assur.model.registry import load_record
 from assur.workspace.aspects.aspects import aspects
@@ -61,8 +64,31 @@ def test_a_path_is_drawn_in_a_plane():
 def test_the_caption_names_the_signs():
     record = load_record("fivebar")
     text = caption(Context(record), aspects(record, finest=20.0))
-    assert "named by the signs of sin_rods" in text
+    (factor,) = [item for item in record.closed_form.factor_list if item.name == "sin_rods"]
+    assert f"named by the signs of {symbol_of(factor)}." in text
     assert "grey is undecided" in text
+
+
+def test_the_share_that_is_undecided_is_rounded_up():
+    assert [shown(value) for value in (35.71, 0.0123, 100.0, 0.0)] == ["36", "0.013", "100", "0"]
+
+
+def test_the_catalogue_has_it_where_a_closed_form_proves_it():
+    record = load_record("fivebar")
+    assert no_aspects(Context(record)) == ""
+    assert "closed form" in no_aspects(Context(dataclasses.replace(record, closed_form=None)))
+    assert "no interval" in no_aspects(Context(dataclasses.replace(record, box={})))
+
+
+def test_many_aspects_do_not_fill_the_legend():
+    """A dozen of labels: the largest are named, the others counted."""
+    record = load_record("fivebar")
+    found = aspects(record, "-+", {"x": (-300, 300), "y": (-300, 300)}, finest=9.0)
+    many = dataclasses.replace(found, aspects=found.aspects * 6)
+    with styled():
+        texts = [text.get_text() for text in drawn(Context(record), many).figure.legends[0].get_texts()]
+    assert len(many) == 12
+    assert texts[10:] == ["and 2 smaller ones", "undecided"]
 
 
 def test_one_coordinate_is_no_picture():

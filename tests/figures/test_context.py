@@ -62,6 +62,16 @@ def test_singular_examples_without_closed_form_are_drawn_where_they_were_met():
         assert closure_error(bare.record, example.joints) < 1e-6 * bare.skeleton.size
 
 
+def test_aspects_are_cut_so_coarsely_that_they_take_seconds():
+    """In a plane as by default; in space as many parts along each length, and twice as many along each angle."""
+    assert figures.Context(assur.load("fivebar")).aspects.finest == assur.load("fivebar").aspects().finest
+    turning = figures.Context(assur.load("planar_3rpr")).aspects
+    spans = {name: high - low for name, (low, high) in zip(turning.box.names, turning.box.intervals, strict=True)}
+    assert {name: spans[name] / size for name, size in turning.finest.items()} == pytest.approx(
+        {"x": 32, "y": 32, "phi": 64}
+    )
+
+
 def test_the_file_configuration_is_reached(every):
     inputs = every.companion.inputs
     if inputs:

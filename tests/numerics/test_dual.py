@@ -135,3 +135,22 @@ def test_the_slope_of_a_root_over_a_box_is_not_defined_where_the_radicand_may_va
     constant = DualIntervals().sqrt(4.0)
     assert constant.value.contains(2.0)
     assert constant.derivative.contains(0.0)
+
+
+@pytest.mark.parametrize(("value", "slope"), [(3.0, 2.0), (-3.0, -2.0), (0.0, 0.0)])
+def test_the_magnitude_of_floats(value, slope):
+    found = abs(Dual(np.array(value), 2.0))
+    assert (found.value, found.derivative) == (abs(value), slope)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "least", "most"), [(1.0, 4.0, 2.0, 2.0), (-4.0, -1.0, -2.0, -2.0), (-1.0, 4.0, -2.0, 2.0)]
+)
+def test_the_magnitude_of_intervals_has_every_slope_between_its_points(low, high, least, most):
+    found = abs(Dual(Interval.of(low, high), Interval.of(2.0)))
+    assert found.value.contains(max(abs(low), abs(high)))
+    assert found.derivative.low <= least <= most <= found.derivative.high
+    assert found.derivative.width - (most - least) < 1e-14
+    x = np.linspace(low, high, 9)
+    slopes = np.diff(np.abs(x)) / np.diff(x) * 2.0
+    assert np.all((found.derivative.low <= slopes + 1e-12) & (slopes - 1e-12 <= found.derivative.high))

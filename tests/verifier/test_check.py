@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import hashlib
 import json
 import re
 import shutil
@@ -191,6 +192,38 @@ def needed_by_margins(program):
         if k in needed:
             needed.update(a for a in program["operations"][k][1:] if isinstance(a, int))
     return needed
+
+
+def sign_change(factor, regular):
+    """A certificate about x in [-1, 1], all of it reached, whose factor is negative on the left, positive on the right.
+
+    Entries: 0 is x, 1 the number 1, which is the only margin, and 2 the factor.
+    """
+    one = (1.0).hex()
+    leaves = {"inside": 2, "regular": 2, "outside": 0, "open": 0}
+    statement = dict.fromkeys(("mechanism", "files", "parameters", "mode", "strokes", "held"), "")
+    document = {
+        **{"format": "assur certificate", "version": 1, "kind": "box", "made_by": "hand"},
+        "statement": {**statement, "coordinates": ["x"], "box": [[(-1.0).hex(), one]]},
+        "program": {
+            "operations": [["coordinate", "x"], ["number", one, one, "one"], factor],
+            **{"margins": [["m", 1]], "nonzero": [], "factors": [["f", 2]]},
+        },
+        "claims": {"leaves": leaves, "reached": "yes", "regular": regular},
+        "proof": "00ri0ir",
+    }
+    text = json.dumps(document, sort_keys=True, separators=(",", ":"))
+    return json.dumps({**document, "sha256": hashlib.sha256(text.encode()).hexdigest()}).encode()
+
+
+def test_a_sign_change_is_a_zero_only_where_the_factor_has_a_value():
+    """x vanishes between -1 and 1. 1/x does not, though it changes its sign: it has a pole."""
+    verify(sign_change(["+", 0, 0], "no"))
+    with pytest.raises(RefusedError, match="is proved"):
+        verify(sign_change(["+", 0, 0], "open"))
+    verify(sign_change(["/", 1, 0], "open"))
+    with pytest.raises(RefusedError, match="is proved"):
+        verify(sign_change(["/", 1, 0], "no"))
 
 
 def test_huge_numbers_end_in_a_refusal(forged):

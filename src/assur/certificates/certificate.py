@@ -108,10 +108,12 @@ def certificate(
         finest: sides below this share of the box's are not halved; 0 for no limit.
         most: leaves at most.
         progress: called with leaves so far and leaves at most.
-        start: an earlier certificate as data, of the same statement, that is carried on.
+        start: an earlier certificate as data, of the same statement, that is carried on. Only its cuts are taken over:
+            every leaf is judged anew, so nothing that it says is believed.
 
     Errors:
-        UsageError: no closed form, an unknown name, limits that are none, a start of another statement.
+        UsageError: no closed form, an unknown name, limits that are none, a start of another statement or without a
+            whole tree.
 
     >>> from assur.model.registry import load_record
     >>> around = {"x": (-20, 0), "y": (0, 10), "z": (400, 420)}
@@ -128,7 +130,7 @@ def certificate(
     whole, extents = Boxes(low, high), high - low
     limits = Limits(unsettled, gap, _least(whole, finest, rules.used), most)
     statement, program = _statement(record, mode, strokes, rules, where), rules.to_json()
-    if start is not None and (start["kind"], start["statement"], start["program"]) != (kind, statement, program):
+    if start is not None and [start.get(key) for key in ("kind", "statement", "program")] != [kind, statement, program]:
         raise UsageError("the certificate to be carried on states something else", hint="write to another file")
     tree = grow(
         whole,
@@ -136,7 +138,7 @@ def certificate(
         lambda boxes: leaves.axes(boxes, extents, limits.least),
         limits,
         progress,
-        None if start is None else planted(start["proof"], whole),
+        None if start is None else planted(start.get("proof"), whole, leaves.tokens),
     )
     everything = _claims(leaves, tree)
     return Certificate(
@@ -207,8 +209,7 @@ def _claims(leaves: Leaves, tree: Tree) -> dict[str, Any]:
     count = {key: int(np.sum(mask)) for key, mask in of.items()}
     volume = {key: _volume(boxes[mask]) for key, mask in of.items()}
     reached = "no" if count[OUTSIDE] else "open" if count[OPEN] else "yes"
-    signs = leaves.signs(boxes[of[REGULAR]])
-    changes = reached == "yes" and any((name, not sign) in signs for name, sign in signs)
+    changes = reached == "yes" and leaves.vanishes(boxes[of[REGULAR]], boxes[of[INSIDE]])
     inside = volume[INSIDE] + volume[REGULAR]
     return {
         "leaves": {

@@ -67,6 +67,19 @@ class Leaves:
                 found |= {(name, sign) for sign in np.unique(positive).tolist()}
         return found
 
+    def vanishes(self, regular: Boxes, inside: Boxes) -> bool:
+        """Whether a factor is certainly zero somewhere in a box that is cut into these leaves alone.
+
+        It has one sign in a regular leaf, the other in another one, and a value at every pose of those inside, so it
+        is continuous all over the box. A factor with a pole may change its sign without a zero.
+        """
+        signs = self.signs(regular)
+        both = [name for name, positive in sorted(signs) if positive and (name, False) in signs]
+        for k in range(0, len(inside), BLOCK):
+            values, _ = self.formulas.over(inside[k : k + BLOCK].intervals)
+            both = [name for name in both if np.all(values[f"factors: {name}"].defined)]
+        return bool(both)
+
     def axes(self, boxes: Boxes, extents: FloatArray, least: FloatArray) -> NDArray[np.int64]:
         """Across which coordinate (N,) to halve: the one of which the outputs that are still open depend most.
 

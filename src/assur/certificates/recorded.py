@@ -12,19 +12,22 @@ from typing import Any
 
 from assur.certificates.certificate import file_hashes
 from assur.certificates.formulas import CONSTANT, GROUPS, formulas
-from assur.errors import UsageError
+from assur.errors import UnknownNameError, UsageError
 from assur.model.mechanism import MechanismRecord
-from assur.model.registry import load_record, with_parameters
+from assur.model.registry import load_record, names, with_parameters
 
 
 def record_of(document: Mapping[str, Any], name_or_path: str | Path | None = None) -> MechanismRecord:
-    """The mechanism of a certificate, by its name or from a file, with the certificate's dimensions.
+    """The mechanism of a certificate, a built-in one of its name or that of a file, with the certificate's dimensions.
 
     Errors:
         UnknownNameError, UsageError: there is no such mechanism here, or it cannot have these dimensions.
     """
     statement = document["statement"]
-    record = load_record(statement["mechanism"] if name_or_path is None else name_or_path)
+    own = statement["mechanism"]
+    if name_or_path is None and own not in names():  # a path in a certificate must not make anyone run what is there
+        raise UnknownNameError("mechanism", str(own), names(), hint="say where its file is with --mechanism")
+    record = load_record(own if name_or_path is None else name_or_path)
     changed = {name: float.fromhex(value) for name, value in statement["parameters"].items()}
     return with_parameters(record, **changed) if changed else record
 

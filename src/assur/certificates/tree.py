@@ -10,11 +10,13 @@ import contextlib
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.certificates.leaves import INSIDE, REGULAR
+from assur.errors import UsageError
 from assur.workspace.certified.boxes import Boxes
 
 FloatArray = NDArray[np.float64]
@@ -126,30 +128,52 @@ def grow(
     return tree
 
 
-def planted(text: str, whole: Boxes) -> Tree:
-    """The tree of which this is the text: `planted(tree.text, whole)` has the boxes of `tree` in another order.
+def planted(text: Any, whole: Boxes, judge: Callable[[Boxes], Tokens]) -> Tree:
+    """The tree whose cuts a text has, with every leaf judged anew: what the text says of its leaves is not believed.
 
-    >>> planted("0o00i", Boxes(np.zeros((1, 1)), np.ones((1, 1)))).boxes.low.tolist()
-    [[0.0, 0.0, 0.5]]
+    `planted(tree.text, whole, judge)` has the boxes of `tree` in another order.
+
+    Errors:
+        UsageError: the text is no whole tree of this box.
+
+    >>> halves = lambda boxes: np.where(boxes.low[0] >= 0.5, "i", np.where(boxes.high[0] <= 0.5, "o00", "b"))
+    >>> unit = Boxes(np.zeros((1, 1)), np.ones((1, 1)))
+    >>> tree = planted("0ii", unit, halves)
+    >>> tree.boxes.low.tolist(), tree.text
+    ([[0.0, 0.0, 0.5]], '0o00i')
     """
-    tokens = TOKEN.findall(text)
+    tokens = TOKEN.findall(text) if isinstance(text, str) else []
+    if not tokens or sum(map(len, tokens)) != len(text) or tokens[-1].isdigit():
+        raise _no_tree()
     first, second = np.full((2, len(tokens)), -1)
     low, high = (np.repeat(side, len(tokens), axis=1) for side in (whole.low, whole.high))
     shares = np.ones(len(tokens))
     waiting: list[tuple[int, int]] = []  # boxes whose upper half is still to come, and across which coordinate
-    for place, token in enumerate(tokens[:-1]):
-        if token.isdigit():
+    for child, (place, token) in enumerate(enumerate(tokens[:-1]), 1):
+        if token.isdigit() and int(token) < len(low):
             axis, parent, ends = int(token), place, high
             waiting.append((place, axis))
-            first[place] = place + 1
-        else:
+            first[place] = child
+        elif waiting and not token.isdigit():
             (parent, axis), ends = waiting.pop(), low
-            second[parent] = place + 1
-        child = place + 1
+            second[parent] = child
+        else:
+            raise _no_tree()
+        middle = 0.5 * low[axis, parent] + 0.5 * high[axis, parent]
+        if not low[axis, parent] < middle < high[axis, parent]:
+            raise _no_tree()
         low[:, child], high[:, child] = low[:, parent], high[:, parent]
-        ends[axis, child] = 0.5 * low[axis, parent] + 0.5 * high[axis, parent]
+        ends[axis, child] = middle
         shares[child] = shares[parent] / 2
-    return Tree(Boxes(low, high), np.array(tokens, dtype="<U3"), first, second, shares)
+    if waiting:
+        raise _no_tree()
+    boxes, leaf, found = Boxes(low, high), first < 0, np.array(tokens, dtype="<U3")
+    found[leaf] = judge(boxes[leaf])
+    return Tree(boxes, found, first, second, shares)
+
+
+def _no_tree() -> UsageError:
+    return UsageError("the certificate to be carried on has no whole tree of boxes", hint="begin anew")
 
 
 def _halved(tree: Tree, cut: IntArray, judge: Callable[[Boxes], Tokens], axes: Callable[[Boxes], IntArray]) -> Tree:

@@ -121,11 +121,33 @@ def _box(record: Mechanism, question: Question, text: str, shared: Shared) -> Ou
         low, high = interval(pair, f"--prove {name}", example)
         _known(record, name)
         box[name] = (low * _factor(record, name), high * _factor(record, name))
+    box = outer_box(record, box, question.held)
     with progress("proof", shared) as step:
         found = prove_box(record, box, question.mode, question.strokes, held=question.held, progress=step)
     data = {"mechanism": record.name, **_outside(record, found.to_json())}
     code = {"proved": 0, "refuted": REFUTED, "undecided": UNDECIDED}[found.status]
     return Outcome(data, lambda: _shown_box(record, found, data), exit_code=code)
+
+
+def outer_box(
+    record: Mechanism, box: Mapping[str, tuple[float, float]], held: Mapping[str, float] | None = None
+) -> dict[str, tuple[float, float]]:
+    """A box in lengths and rad that holds the one in degrees from which its angles, or the file's, were converted.
+
+    >>> from assur.mechanism import load
+    >>> low, high = outer_box(load("planar_3rpr"), {"phi": (0.0, math.radians(180.0))})["phi"]
+    >>> low, math.pi < 3.1415926535897936 <= high
+    (0.0, True)
+    """
+    from assur.numerics.intervals.functions import from_degrees
+    from assur.workspace.slices import slice_at
+
+    found = {**{name: record.box[name] for name in slice_at(record, held).free if name in record.box}, **box}
+    for name, ends in found.items():
+        if _factor(record, name) != 1.0:
+            wide = from_degrees(ends)
+            found[name] = (float(wide.low[0]), float(wide.high[1]))
+    return found
 
 
 def _shown_box(record: Mechanism, found: ProvedBox, data: Mapping[str, Any]) -> Iterable[RenderableType]:

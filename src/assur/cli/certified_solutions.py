@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from assur.cli.options import MethodName, Outcome
 from assur.cli.output import heading, table
 from assur.cli.positions import NO_SOLUTION, UNDECIDED
-from assur.cli.quantities import Style, pose_text, short, style_of, tiny
+from assur.cli.quantities import Style, pose_text, short, style_of
 from assur.errors import UsageError
 
 if TYPE_CHECKING:
@@ -70,7 +70,9 @@ def _given(record: Mechanism, data: dict[str, Any], style: Style) -> str:
 
 
 def _solutions(record: Mechanism, data: dict[str, Any], style: Style) -> RenderableType:
-    """Middles of the bounds, and the largest distance of a bound from its middle."""
+    """Middles of the bounds, rounded, and the largest width of the bounds, rounded up."""
+    from assur.kinematics.certified.result import at_most
+
     direct = "inputs" in data
     if direct:
         titles = [style.coordinate_title(name) for name in data["coordinates"]]
@@ -87,9 +89,9 @@ def _solutions(record: Mechanism, data: dict[str, Any], style: Style) -> Rendera
             values = [style.coordinate(*pair) for pair in zip(data["coordinates"], middles, strict=True)]
         else:
             values = [style.kind(*pair) for pair in zip(kinds, middles, strict=True)]
-        off = max(0.5 * (high - low) for low, high in pairs)
-        rows.append((item["mode"], *values, tiny(off), item[other], str(hows.index(item["how"]) + 1)))
-    return table(("mode", *titles, "+-", other.partition("_")[0], "proof"), rows)
+        width = max(high - low for low, high in pairs)
+        rows.append((item["mode"], *values, at_most(width), item[other], str(hows.index(item["how"]) + 1)))
+    return table(("mode", *titles, "width", other.partition("_")[0], "proof"), rows)
 
 
 def _undecided(data: dict[str, Any], style: Style) -> RenderableType:

@@ -52,7 +52,8 @@ def certify(
     outside, or left open; `assur verify` checks every one of them again. After
     Ctrl-C what is proved is kept, the rest is open, and --resume carries on.
     --box and --stroke may be repeated; lengths and angles are in the
-    mechanism's units.
+    mechanism's units. Degrees become floats in rad, those of a box of --kind box
+    rounded outwards.
 
     For example:
         assur certify zeng2019 -o cert.json
@@ -61,6 +62,7 @@ def certify(
     record = shared.mechanism(mechanism)
     from assur.certificates.certificate import certificate
     from assur.certificates.summary import claim_lines, statement_lines
+    from assur.cli.certified_regions import outer_box
     from assur.cli.numbers import number, whole_number
     from assur.cli.output import heading
     from assur.cli.paths import output_file
@@ -75,7 +77,7 @@ def certify(
         found = certificate(
             record,
             asked.mode,
-            asked.box,
+            outer_box(record, asked.box, asked.held) if kind == "box" else asked.box,
             asked.strokes,
             asked.held,
             kind=kind,

@@ -119,7 +119,18 @@ def _data(record: Mechanism, asked: Question, found: Workspace) -> dict[str, Any
         "resolution": asked.resolution or default_resolution(record, found.slice),
         "strokes": {name: _outside(record, pair, lengths[name]) for name, pair in limits.items()},
         "parasitic": parasitic.largest(record, found),
+        "nowhere": _nowhere(record, asked, found),
     }
+
+
+def _nowhere(record: Mechanism, asked: Question, found: Workspace) -> list[str]:
+    """Of the parallel factors without a locus inside those that are proved to have none."""
+    from assur.workspace.aspects.nowhere import nowhere_zero
+
+    unseen = [item.factor for item in found.loci if not item.area and not item.everywhere]
+    if record.closed_form is None or not unseen:
+        return []
+    return sorted(nowhere_zero(record, unseen, asked.mode, asked.box, asked.strokes, asked.held))
 
 
 def _box(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
@@ -276,16 +287,19 @@ def _sections(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableTyp
 
 def _singular(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
     singular = data["parallel_singular"]
+    none = {name: "none, proved" if name in data["nowhere"] else "none found" for name in singular["factors"]}
     rows = [
         (
             name,
-            "the whole mode" if item["everywhere"] else short(item["area"]) if item["faces"] else "none",
+            "the whole mode" if item["everywhere"] else short(item["area"]) if item["faces"] else none[name],
             item["meaning"],
         )
         for name, item in singular["factors"].items()
     ]
     yield heading("parallel singularities inside")
     yield table(("factor", area_title(record, data["coordinates"]), "zero where"), rows, left=("factor", "zero where"))
+    if "none found" in {row[1] for row in rows}:
+        yield f"none found: on {data['resolution']} cells along each coordinate, which is no proof"
     share, near = singular["share"], f"{singular['near']:g} {record.unit}"
     if not all(is_length(name) for name in data["coordinates"]):
         return  # no distance where angles vary

@@ -135,4 +135,4 @@ def _shown(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
 def _area(item: dict[str, Any]) -> str:
     if item["everywhere"]:
         return "the whole mode"
-    return short(item["area"]) if item["area"] else "none"
+    return short(item["area"]) if item["area"] else "none found"

@@ -54,7 +54,10 @@ def verify(
     except RefusedError as error:
         return _refused(path, str(error), REFUSED)
     seconds = time.perf_counter() - start
-    return _compared(path, document, mechanism, seconds)
+    try:
+        return _compared(path, document, mechanism, seconds)
+    except (AttributeError, KeyError, TypeError, ValueError) as error:  # its proof holds, its statement is unreadable
+        return _refused(path, f"a statement not in this format: {type(error).__name__}: {error}", MALFORMED)
 
 
 def _compared(path: Path, document: dict[str, Any], mechanism: str | None, seconds: float) -> Outcome:

@@ -3,7 +3,7 @@
 `catalogue(record)` lists them, `draw(record, name)` makes one, `write(record, folder)` makes files.
 """
 
-from assur.figures.catalogue import catalogue, draw, drawing, left_out, names, write
+from assur.figures.catalogue import catalogue, draw, drawing, left_out, names, spec, write
 from assur.figures.context import Context
 from assur.figures.encode import encoded
 from assur.figures.spec import Drawing, FigureSpec
@@ -18,5 +18,6 @@ __all__ = [
     "encoded",
     "left_out",
     "names",
+    "spec",
     "write",
 ]

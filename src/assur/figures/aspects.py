@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -16,12 +17,15 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.figures.context import Context
 from assur.figures.coordinates import angle_ticks, axis_title, symbol, value_words
-from assur.figures.spec import Drawing
+from assur.figures.plots import no_workspace
+from assur.figures.singular import symbol_of
+from assur.figures.spec import Drawing, Entry
 from assur.figures.style import INK, PALE, PAPER, SERIES, SMALL, TEXT, new_figure
 from assur.model.pose import is_angle
-from assur.workspace.aspects.aspects import Aspect, Aspects
+from assur.workspace.aspects.aspects import KINDS, Aspect, Aspects
 from assur.workspace.aspects.path import AspectPath
 from assur.workspace.certified.boxes import Boxes
+from assur.workspace.certified.criteria import criteria
 
 FloatArray = NDArray[np.float64]
 
@@ -30,6 +34,12 @@ CUTS = 4
 
 HATCHES = ("", "////", "\\\\\\\\", "....", "xxxx")
 """Beyond the colours aspects are told apart by these, and always by their labels."""
+
+NAMED = 10
+"""Aspects in the legend, the largest first."""
+
+PATCH = 0.003
+"""An aspect has its label in a cut where it covers so much of the panel."""
 
 LARGE = 0.4
 """Rectangles of this share of the largest one's width are large enough for a label."""
@@ -56,24 +66,25 @@ def drawn(context: Context, found: Aspects, path: AspectPath | None = None) -> D
         raise UsageError(f"only {found.names[0]} matters for these aspects; a picture needs two coordinates")
     across, upward = found.names[:2]
     cuts = _cuts(context, found)
+    room = float(np.prod([np.ptp(found.box.intervals[found.box.axis(name)]) for name in (across, upward)]))
     columns, rows = min(2, len(cuts)), -(-len(cuts) // 2)
     tall = PANEL * _aspect(found, across, upward)
     width = LEFT + columns * PANEL + (columns - 1) * (GAP + LEFT) + 4.0
     below = BOTTOM + (TITLE if len(found.names) > 2 else 0.0)
-    height = TOP + 3.5 * ((len(found.aspects) + 4) // 4) + rows * (tall + below)
+    height = TOP + 3.5 * ((min(len(found.aspects), NAMED) + 5) // 4) + rows * (tall + below)
     figure = new_figure(width, height)
     for k, value in enumerate(cuts):
         start = LEFT + (k % columns) * (PANEL + GAP + LEFT)
         low = (rows - 1 - k // columns) * (tall + below) + below
         axes = figure.add_axes((start / width, low / height, PANEL / width, tall / height))
-        _panel(axes, found, value)
+        _panel(axes, found, value, PATCH * room)
         if path is not None and value is None:
             _way(axes, path)
         _dress(context, axes, found, (across, upward))
         if value is not None:
             title = f"({chr(97 + k)}) {symbol(found.names[2])} = {value_words(context, found.names[2], value)}"
             figure.text((start + PANEL / 2) / width, (low - 14.0) / height, title, ha="center", fontsize=TEXT)
-    signs = f"signs of {', '.join(found.naming)}" if found.naming else None
+    signs = f"signs of {_factors(context, found)}" if found.naming else None
     figure.legend(
         handles=_legend(found, path if cuts == [None] else None),
         loc="upper center",
@@ -86,14 +97,44 @@ def drawn(context: Context, found: Aspects, path: AspectPath | None = None) -> D
 
 def caption(context: Context, found: Aspects) -> str:
     """What the figure shows, in words."""
-    signs = ", ".join(found.naming) or "no factor"
+    signs = _factors(context, found) or "no factor"
+    of_mode = f" of the working mode {found.mode}".replace("-", "−") if found.mode else ""
     held = ", ".join(
         f"{symbol(name)} = {value_words(context, name, value)}" for name, value in found.slice.held.items()
     )
     return (
-        f"Aspects of the working mode {found.mode}{f' with {held}' if held else ''}: parts without a parallel or serial"
-        f" singularity, named by the signs of {signs}. In each colour every pose is proved; grey is undecided."
+        f"Aspects{of_mode}{f' with {held}' if held else ''} inside the box of the mechanism's file: parts without a"
+        f" parallel or serial singularity, named by the signs of {signs}. In each colour every pose is proved;"
+        f" grey is undecided, {shown(100 * found.search.open)} % of the box."
     )
+
+
+def _factors(context: Context, found: Aspects) -> str:
+    """The factors that name the aspects, as mathematics."""
+    form = context.record.closed_form
+    known = {item.name: symbol_of(item) for item in form.factor_list} if form else {}
+    return ", ".join(known.get(name, name) for name in found.naming)
+
+
+def shown(share: float) -> str:
+    """A share to two digits, rounded up.
+
+    >>> shown(35.71), shown(0.0123), shown(0.0)
+    ('36', '0.013', '0')
+    """
+    if share == 0:
+        return "0"
+    digits = 1 - math.floor(math.log10(share))
+    return f"{math.ceil(share * 10.0**digits) / 10.0**digits:.{max(digits, 0)}f}"
+
+
+def no_aspects(context: Context) -> str:
+    """Why a mechanism has no picture of aspects; empty where it has."""
+    if no_workspace(context):
+        return no_workspace(context)
+    if context.record.closed_form is None:
+        return "aspects are proved by a closed form"
+    return "" if sum(criteria(context.record, factors=KINDS).used) > 1 else "its aspects depend on one coordinate only"
 
 
 def _cuts(context: Context, found: Aspects) -> list[float | None]:
@@ -103,6 +144,9 @@ def _cuts(context: Context, found: Aspects) -> list[float | None]:
     last = found.names[2]
     k = found.box.axis(last)
     low, high = found.box.low[k], found.box.high[k]
+    if found.aspects:  # elsewhere there is nothing to see
+        low = min(float(np.min(item.boxes.low[2])) for item in found.aspects)
+        high = max(float(np.max(item.boxes.high[2])) for item in found.aspects)
     own = context.record.sections if last == context.record.platform.pose[-1] else ()
     inside = [float(value) for value in own if low < value < high]
     return [*inside] or [float(value) for value in np.linspace(low, high, CUTS + 2)[1:-1]]
@@ -115,14 +159,15 @@ def _aspect(found: Aspects, across: str, upward: str) -> float:
     return float(np.clip(spans[1] / spans[0], 0.3, 1.6)) if is_angle(across) == is_angle(upward) else 1.0
 
 
-def _panel(axes: Axes, found: Aspects, value: float | None) -> None:
+def _panel(axes: Axes, found: Aspects, value: float | None, least: float) -> None:
+    """One cut, with the labels of those aspects that have at least so large an area there."""
     for rectangles, style in [
         (_rectangles(found.search.undecided, value), {"facecolor": PALE, "edgecolor": PALE}),
         *((_rectangles(item.boxes, value), _style(k)) for k, item in enumerate(found.aspects)),
     ]:
         axes.add_collection(PolyCollection(list(rectangles), linewidth=0.15, **style))
     for item in found.aspects:
-        _letter(axes, item, _rectangles(item.boxes, value))
+        _letter(axes, item, _rectangles(item.boxes, value), least)
 
 
 def _style(k: int) -> dict[str, Any]:
@@ -139,11 +184,11 @@ def _rectangles(boxes: Boxes, value: float | None) -> FloatArray:
     return np.stack([np.stack(pair, axis=-1) for pair in ((left, low), (right, low), (right, high), (left, high))], 1)
 
 
-def _letter(axes: Axes, item: Aspect, rectangles: FloatArray) -> None:
+def _letter(axes: Axes, item: Aspect, rectangles: FloatArray, least: float) -> None:
     """The label in one of the aspect's largest rectangles, that nearest to its middle."""
-    if not len(rectangles):
-        return
     spans = rectangles[:, 2] - rectangles[:, 0]
+    if not len(rectangles) or np.sum(np.prod(spans, axis=1)) < least:
+        return
     middles, sizes = rectangles.mean(axis=1), np.min(spans, axis=1)
     centre = np.average(middles, axis=0, weights=np.prod(spans, axis=1))
     large = np.flatnonzero(sizes > LARGE * np.max(sizes))
@@ -191,7 +236,9 @@ def _dress(context: Context, axes: Axes, found: Aspects, names: tuple[str, str])
 
 
 def _legend(found: Aspects, path: AspectPath | None) -> list[Any]:
-    handles: list[Any] = [Patch(label=_words(item.label), **_style(k)) for k, item in enumerate(found.aspects)]
+    handles: list[Any] = [Patch(label=_words(item.label), **_style(k)) for k, item in enumerate(found.aspects[:NAMED])]
+    if len(found) > NAMED:
+        handles.append(Patch(facecolor="none", label=f"and {len(found) - NAMED} smaller ones"))
     handles.append(Patch(facecolor=PALE, label="undecided"))
     if path is not None:
         handles.append(Line2D([], [], color=INK, marker="o", markersize=3.5, label="path"))
@@ -213,3 +260,12 @@ def _data(found: Aspects, cuts: list[float | None], path: AspectPath | None) -> 
         "undecided": listed(found.search.undecided),
         "path": None if path is None else path.points,
     }
+
+
+ASPECTS = Entry(
+    "aspects",
+    "Aspects: parts without singularities",
+    no_aspects,
+    lambda context: caption(context, context.aspects),
+    lambda context: drawn(context, context.aspects),
+)

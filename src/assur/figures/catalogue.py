@@ -8,6 +8,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from assur.errors import UnknownNameError
+from assur.figures.aspects import ASPECTS
 from assur.figures.context import Context
 from assur.figures.dexterity import DEXTERITY, LARGEST, SMALLEST
 from assur.figures.encode import FORMATS, encoded
@@ -44,6 +45,7 @@ ENTRIES: tuple[Entry, ...] = (
     WORKSPACE,
     PROJECTIONS,
     SECTIONS,
+    ASPECTS,
     PARASITIC,
     DEXTERITY,
     LARGEST,
@@ -63,13 +65,25 @@ def catalogue(record: MechanismRecord, context: Context | None = None) -> list[F
     >>> from assur.model.registry import load_record
     >>> [spec.name for spec in catalogue(load_record("fivebar"))]  # doctest: +NORMALIZE_WHITESPACE
     ['structure', 'model', 'solutions', 'flow', 'solid', 'serial', 'parallel', 'singular', 'workspace',
-     'dexterity', 'fastest', 'slowest', 'transmission', 'manipulability', 'indices',
+     'aspects', 'dexterity', 'fastest', 'slowest', 'transmission', 'manipulability', 'indices',
      'graph']
     """
     shared = context or Context(record)
-    return [
-        FigureSpec(entry.name, _number(shared, entry), entry.title, entry.caption(shared)) for entry in _present(shared)
-    ]
+    return [_spec(shared, entry) for entry in _present(shared)]
+
+
+def spec(record: MechanismRecord, name: str, context: Context | None = None) -> FigureSpec:
+    """Number, title and caption of one figure.
+
+    Errors:
+        UnknownNameError: the mechanism has no such figure; the hint says why, where there is a reason.
+
+    >>> from assur.model.registry import load_record
+    >>> spec(load_record("fivebar"), "solid").number
+    '5'
+    """
+    shared = context or Context(record)
+    return _spec(shared, _entry(record, name, shared))
 
 
 def names(record: MechanismRecord, context: Context | None = None) -> list[str]:
@@ -100,10 +114,7 @@ def drawing(record: MechanismRecord, name: str, context: Context | None = None) 
         UnknownNameError: the mechanism has no such figure; the hint says why, where there is a reason.
     """
     shared = context or Context(record)
-    entry = next((item for item in ENTRIES if item.name == name), None)
-    why = entry.missing(shared) if entry else ""
-    if entry is None or why:
-        raise UnknownNameError(f"figure of {record.name}", name, names(record, shared), hint=why)
+    entry = _entry(record, name, shared)
     if name not in shared.drawings:
         with styled():
             shared.drawings[name] = entry.draw(shared)
@@ -145,6 +156,18 @@ def write(
         if progress:
             progress(done + 1, len(chosen))
     return paths
+
+
+def _entry(record: MechanismRecord, name: str, context: Context) -> Entry:
+    entry = next((item for item in ENTRIES if item.name == name), None)
+    why = entry.missing(context) if entry else ""
+    if entry is None or why:
+        raise UnknownNameError(f"figure of {record.name}", name, names(record, context), hint=why)
+    return entry
+
+
+def _spec(context: Context, entry: Entry) -> FigureSpec:
+    return FigureSpec(entry.name, _number(context, entry), entry.title, entry.caption(context))
 
 
 def _present(context: Context) -> list[Entry]:

@@ -19,6 +19,7 @@ from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import is_angle
 from assur.model.registry import with_parameters
 from assur.performance.dexterity import GlobalIndex, global_condition_index
 from assur.performance.indices import Indices, indices, indices_at
@@ -27,9 +28,16 @@ from assur.scene.companion import Companion, companion
 from assur.scene.skeleton import Skeleton, skeleton
 from assur.singularity.examples import SingularExample, singular_examples
 from assur.topology.facts import Topology
+from assur.workspace.aspects.aspects import KINDS, Aspects, aspects
+from assur.workspace.certified.criteria import criteria
+from assur.workspace.domain import box_of
 from assur.workspace.region import Workspace, workspace
+from assur.workspace.slices import MOST, slice_at
 
 FloatArray = NDArray[np.float64]
+
+IN_SPACE, TURNING = 32, 64
+"""Into so many parts a box in space is cut for its aspects, along each length and along each angle."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,6 +154,16 @@ class Context:
     def workspace(self) -> Workspace:
         """The workspace in the default working mode and the file's box."""
         return self.given_workspace or workspace(self.record)
+
+    @cached_property
+    def aspects(self) -> Aspects:
+        """The aspects of the default working mode in the file's box, coarse enough for a few seconds."""
+        box = box_of(self.record, None, slice_at(self.record).free)
+        flat = sum(criteria(self.record, factors=KINDS).used) < MOST
+        extents = {name: high - low for name, (low, high) in zip(box.names, box.intervals, strict=True)}
+        parts = {name: TURNING if is_angle(name) else IN_SPACE for name in box.names}
+        finest = None if flat else {name: extent / parts[name] for name, extent in extents.items()}
+        return aspects(self.record, finest=finest)
 
     @cached_property
     def near(self) -> Manifold:

@@ -42,7 +42,7 @@ def value_words(context: Context, name: str, value: float) -> str:
 def shown(context: Context, name: str, value: float) -> float:
     """A value of a coordinate as axes show it: angles in the mechanism's angle unit."""
     degrees = is_angle(name) and context.record.angle == "deg"
-    return float(np.round(np.degrees(value), 9)) if degrees else float(value)
+    return float(np.round(np.degrees(value), 9)) + 0.0 if degrees else float(value)
 
 
 def stretch(context: Context) -> FloatArray:

@@ -48,8 +48,8 @@ def _caption(context: Context) -> str:
     what = "Extent" if mixed else "Area" if len(found.box.names) == 2 else "Volume"
     share = "" if found.share is None else f", {100 * found.share:.1f} % of it {near_words(context)}"
     return (
-        f"Workspace in {mode_words(context)} inside the box of the mechanism's file. {what} {size_words(found)}{share}."
-        f" {locus_words(context)}"
+        f"Workspace in {mode_words(context)} inside the box of the mechanism's file. {what} {size_words(found)} by"
+        f" solids at two resolutions{share}. {locus_words(context)}"
     )
 
 

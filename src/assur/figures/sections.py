@@ -53,7 +53,7 @@ def _caption(context: Context) -> str:
         for locus in present(found)
         for item in found.sections
     )
-    rest = "" if curved else " No parallel-singular surface of this working mode meets them."
+    rest = "" if curved else " No parallel-singular surface of this working mode was found that meets them."
     return (
         f"Sections of the workspace ({mode_words(context)}) at {symbol(name)} = {values};"
         f" areas {areas} {_unit(context)}."

@@ -30,7 +30,9 @@ from assur.scene.skeleton import Skeleton, skeleton
 from assur.singularity.examples import SingularExample
 
 FloatArray = NDArray[np.float64]
-ACCENT = "#e07b45"
+ACCENT, MUTED = "#e07b45", "#c3c8cc"
+"""Colours of the links that a meaning names, and of all others."""
+
 COLUMNS = 3
 TEXT_HEIGHT = 17.0
 
@@ -72,8 +74,13 @@ def _missing_further(context: Context) -> str:
 
 def condition(factor: Factor) -> str:
     """E.g. "$u_3 = 0$"."""
+    return f"{symbol_of(factor)[:-1]} = 0$"
+
+
+def symbol_of(factor: Factor) -> str:
+    """A factor as mathematics, e.g. "$u_3$"."""
     words = rf"\mathrm{{{factor.name}}}".replace("_", r"\ ")
-    return f"${factor.latex or mathematics(factor.name) or words} = 0$"
+    return f"${factor.latex or mathematics(factor.name) or words}$"
 
 
 def _caption(kind: str, context: Context) -> str:
@@ -214,7 +221,8 @@ def _scene(context: Context, example: SingularExample) -> _Scene:
     example = shown(context, example)
     body = skeleton(context.record, context.companion, example.joints)
     found = named(example.factor.meaning, body)
-    mesh = model(body, context.companion, dict.fromkeys(accented(found, body), ACCENT))
+    colours = dict.fromkeys(context.record.links, MUTED) | dict.fromkeys(accented(found, body), ACCENT)
+    mesh = model(body, context.companion, colours)
     return _Scene(example, body, found, mesh, model_camera(context))
 
 

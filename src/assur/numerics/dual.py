@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.numerics.intervals.interval import as_interval
+from assur.numerics.intervals.interval import Interval, as_interval
 
 FloatArray = NDArray[np.float64]
 Real: TypeAlias = "FloatArray | float | Any"  # or an interval
@@ -47,6 +47,18 @@ class Dual:
 
     def __pos__(self) -> Dual:
         return self
+
+    def __abs__(self) -> Dual:
+        """At zero, where the magnitude has no derivative, it is 0; over an interval with zero in it, between both.
+
+        >>> float(abs(Dual(-3.0, 2.0)).derivative)
+        -2.0
+        """
+        value, derivative = self.value, self.derivative
+        if isinstance(value, Interval):
+            sign = Interval(np.where(value.low > 0, 1.0, -1.0), np.where(value.high < 0, -1.0, 1.0), value.defined)
+            return Dual(abs(value), as_interval(derivative) * sign)
+        return Dual(abs(value), np.sign(value) * derivative)
 
     def __add__(self, other: Dual | Real) -> Dual:
         value, derivative = _parts(other)

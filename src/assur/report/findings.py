@@ -16,6 +16,7 @@ from assur.audit.rows import Audit, Row
 from assur.audit.tables import Table
 from assur.errors import UsageError
 from assur.figures import Context
+from assur.figures.aspects import no_aspects
 from assur.kinematics.answers.at_border import inputs_from_border, pose_from_border
 from assur.kinematics.answers.solution import Solution
 from assur.kinematics.answers.solution_set import SolutionSet
@@ -40,6 +41,8 @@ from assur.results.kinds import Picture
 from assur.singularity.examples import SingularExample
 from assur.singularity.verdict import Verdict, verdict_at
 from assur.topology.facts import Topology
+from assur.workspace.aspects.aspects import Aspects
+from assur.workspace.aspects.nowhere import nowhere_zero
 from assur.workspace.certified.largest import LargestShape
 from assur.workspace.certified.region import CertifiedWorkspace
 from assur.workspace.grid import grid_over
@@ -250,6 +253,18 @@ class Findings:
     def bounds(self) -> CertifiedWorkspace | str:
         """Proved bounds of its volume and of its sections, or why there are none."""
         return attempt(lambda: workspace_bounds(self.record))
+
+    @cached_property
+    def aspects(self) -> Aspects | str:
+        """The aspects of the default working mode, or why there are none; the figure's."""
+        return no_aspects(self.context) or attempt(lambda: self.context.aspects)
+
+    @cached_property
+    def nowhere(self) -> frozenset[str]:
+        """Of the parallel factors that have no locus inside the workspace those that are proved to have none."""
+        unseen = [locus.factor for locus in self.workspace.loci if not locus.area and not locus.everywhere]
+        proved = attempt(lambda: nowhere_zero(self.record, unseen)) if unseen else frozenset[str]()
+        return frozenset() if isinstance(proved, str) else proved
 
     @cached_property
     def cube(self) -> LargestShape | str:

@@ -20,7 +20,7 @@ def pictures(context: figures.Context, name: str) -> tuple[Picture, ...]:
     """The figure of that name, or none where the mechanism has none; the report numbers it."""
     if name not in figures.names(context.record, context):
         return ()
-    spec = next(item for item in figures.catalogue(context.record, context) if item.name == name)
+    spec = figures.spec(context.record, name, context)
     figure = figures.draw(context.record, name, context)
     width, height = (round(float(size) * CSS_INCH * ENLARGED) for size in figure.get_size_inches())
     png = _with_palette(figures.encoded(figure, "png", DOTS_PER_INCH))

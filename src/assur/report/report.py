@@ -14,6 +14,7 @@ from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
 from assur.report.proofs import REFUSED, reason
 from assur.report.render import Page, page_html
+from assur.report.sections.aspects import aspects
 from assur.report.sections.auditing import auditing
 from assur.report.sections.basis import basis
 from assur.report.sections.description import description
@@ -42,6 +43,7 @@ SECTIONS: tuple[tuple[str, Callable[[Findings], Section]], ...] = (
     ("Velocity", velocity),
     ("Singularities", singularities),
     ("Workspace", reach),
+    ("Aspects", aspects),
     ("Dexterity", performance),
     ("Audit of the source", auditing),
     (KNOWN, basis),
@@ -50,7 +52,7 @@ SECTIONS: tuple[tuple[str, Callable[[Findings], Section]], ...] = (
 """In the order of a paper; adding one is one line."""
 
 
-ANALYSES = ("audit", "workspace", "examples", "proved", "bounds", "cube")
+ANALYSES = ("audit", "workspace", "examples", "proved", "bounds", "cube", "nowhere", "aspects")
 """What takes long, and is made before the sections that share it."""
 
 

@@ -72,6 +72,7 @@ def _proved(program: Program, coordinates: list[str], whole: Box, proof: str) ->
     if sum(map(len, tokens)) != len(proof):
         raise ValueError("the proof has signs that no proof has")
     stack, count, signs = [whole], Counter[str](), set[tuple[int, bool]]()
+    inner: list[Box] = []
     volume = dict.fromkeys(LEAVES, fmpq(0))
     for place, token in enumerate(tokens, 1):
         if not stack:
@@ -84,13 +85,15 @@ def _proved(program: Program, coordinates: list[str], whole: Box, proof: str) ->
             box = ", ".join(f"{n} {a:.9g} .. {b:.9g}" for n, a, b in zip(coordinates, low, high, strict=True))
             raise RefusedError(f"part {place} of {len(tokens)} does not hold: {LEAVES[token[0]]} for {box}")
         count[token[0]] += 1
+        inner.extend([(low, high)] if token == "i" else [])
         sides = (fmpq(*b.as_integer_ratio()) - fmpq(*a.as_integer_ratio()) for a, b in zip(low, high, strict=True))
         volume[token[0]] += math.prod(sides, start=fmpq(1))
     if stack:
         raise ValueError(f"the proof is cut short: {len(stack)} boxes are without an answer")
     inside = volume["i"] + volume["r"]
     reached = "no" if count["o"] else "open" if count["b"] else "yes"
-    vanishes = reached == "yes" and any((k, not sign) in signs for k, sign in signs)  # between one sign and the other
+    both = [k for k, positive in sorted(signs) if positive and (k, False) in signs and reached == "yes"]
+    vanishes = any(all(_has_value(program, box, k) for box in inner) for k in both)
     return {
         "leaves": {name: count[key] for key, name in LEAVES.items()},
         "volume": [_below(inside).hex(), (-_below(-inside - volume["b"])).hex()],
@@ -129,6 +132,15 @@ def _holds(
     if token == "r":
         signs.update((k, bool(values[k][0] > 0)) for k in factors)
     return all(values[k][0] >= 0 for k in margins) and all(nonzero(values[k]) for k in wanted[len(margins) :])
+
+
+def _has_value(program: Program, box: Box, output: int) -> bool:
+    """Whether an output has a value all over a box; it is continuous there, and changes its sign at a zero only."""
+    try:
+        program.over([(arb(a), arb(b)) for a, b in zip(*box, strict=True)], [output], strict=True)
+    except UndefinedError:
+        return False
+    return True
 
 
 def _below(value: fmpq) -> float:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
 from assur.model.mechanism import Coordinate, Input, Joint, MechanismRecord
-from assur.numerics.intervals.functions import cosine_sine
+from assur.numerics.intervals.functions import cosine_sine, from_degrees
 from assur.numerics.intervals.interval import Interval
 
 FloatArray = NDArray[np.float64]
@@ -104,7 +104,7 @@ def _interval(
     if kind == "angle":
         if high - low >= 2 * math.pi:
             return {}
-        first, last = Interval.of(low), Interval.of(high)
+        first, last = from_degrees(low), from_degrees(high)
         middle, half = ((first + last) / 2 - offset) * sign, (last - first) / 2
         circle = (*cosine_sine(middle), cosine_sine(half)[0])
         return {f"{low:g} <= {name} <= {high:g}": partial(_angle, key, *map(constant, circle))}
@@ -129,4 +129,5 @@ def _cone(joint: Joint, constant: Constant, values: Values) -> Any:
     axis: Sequence[float] = np.asarray(joint.cone_axis).tolist()
     tilted = [sum(entry * part for entry, part in zip(row, axis, strict=True)) for row in values[joint.name]]
     cosine = sum(entry * part for entry, part in zip(tilted, axis, strict=True))
-    return cosine - constant(cosine_sine(Interval.of(joint.cone or 0.0))[0])
+    size = sum(entry * entry for entry in map(Interval.of, axis))  # of an axis that is a unit vector to 16 digits
+    return cosine - constant(cosine_sine(from_degrees(joint.cone or 0.0))[0] * size)

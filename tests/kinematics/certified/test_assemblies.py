@@ -1,13 +1,18 @@
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 import assur
 from assur.kinematics.border import inputs_of
+from assur.kinematics.certified import assemblies
 from assur.kinematics.certified.assemblies import certified_assemblies
 from assur.kinematics.certified.certify import certified_direct, certified_inverse
+from assur.kinematics.certified.result import answer
 from assur.kinematics.pose import pose_of
+from assur.numerics import rotations
 from assur.numerics.intervals.interval import Interval
 
 
@@ -31,7 +36,8 @@ def test_assemblies_without_redundant_constraints_are_proved(name):
     ):
         found = certified_assemblies(record, problem, given)
         assert holds(found, floats, problem)
-        assert all("dependent ones" not in item.how for item in found)
+        assert all("dependent ones" not in item.how and item.left == 0 for item in found)
+        assert "dependent" not in found.headline
         assert not found.proved  # that there are no others is not
 
 
@@ -51,6 +57,10 @@ def test_an_overconstrained_mechanism_says_what_is_not_proved():
     assert len(found) == 4
     assert all("14 independent equations" in item.how and "6 dependent ones hold to" in item.how for item in found)
     assert not found.proved
+    assert "4 solutions of the independent equations proved (the dependent ones hold to " in found.headline
+    assert found.right.startswith("a zero of the independent equations is proved")
+    assert all(0 < item.left < 1e-8 for item in found)
+    assert [item["left"] for item in answer(found)["solutions"]] == [item.left for item in found]
 
 
 def test_a_mechanism_without_a_closed_form_is_proved_on_its_joint_graph(tmp_path):
@@ -92,3 +102,40 @@ def test_a_containment_test_that_is_reversed_is_noticed(monkeypatch):
     within = Interval.within
     monkeypatch.setattr(Interval, "within", lambda one, other: within(other, one))
     assert not holds(certified_assemblies(record, "direct", given), record.direct(given), "direct")
+
+
+def test_an_assembly_that_was_found_twice_is_not_proved_twice(monkeypatch):
+    """Two float answers so near each other that both proofs may be of one assembly: only one counts."""
+    record = assur.load("fivebar")
+    given = np.radians([127.0, 53.0])
+    monkeypatch.setattr(assemblies, "distinct", lambda *_: np.array([0, 0, 1]))
+    found = certified_assemblies(record, "direct", given, "loops")
+    assert len(found) == 2
+    assert [item.meaning for item in found.undecided] == ["one assembly or two"]
+
+
+def with_turned_frame(record, link, turn):
+    """The same mechanism with the frame of one link turned, so that its joints have constant rotations."""
+
+    def joint(item):
+        if item.child == link:
+            item = dataclasses.replace(item, child_at=turn @ item.child_at, turn=item.turn @ turn.T)
+        if item.parent == link:
+            item = dataclasses.replace(item, at=turn @ item.at, axes=item.axes @ turn.T, turn=turn @ item.turn)
+        return item
+
+    return dataclasses.replace(record, joints={name: joint(item) for name, item in record.joints.items()})
+
+
+@pytest.mark.parametrize(("vector", "in_plane"), [((0.0, 0.0, 0.7), True), ((0.3, -0.2, 0.5), False)])
+def test_turned_joints_make_no_other_mechanism(vector, in_plane):
+    """In the plane the proof is whole; a tilted frame is one in floats only, and the answer says what is left."""
+    record, given = assur.load("fivebar"), np.radians([127.0, 53.0])
+    turned = with_turned_frame(record, "crank1", rotations.from_vector(np.array(vector)))
+    one, other = (certified_assemblies(item, "direct", given, "loops") for item in (record, turned))
+    assert len(one) == len(other) == 2
+    for own, item in zip(one, other, strict=True):
+        assert np.all((own.pose.low <= item.pose.high) & (item.pose.low <= own.pose.high))
+        assert (item.left == 0) is in_plane
+        assert item.left < 1e-9
+    assert ("independent equations" in other.headline) is not in_plane

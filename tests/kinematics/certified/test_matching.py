@@ -87,3 +87,25 @@ def test_a_branch_whose_bounds_hold_two_proved_poses_does_not_hide_one():
     )
     assert (len(found.solutions), found.proved) == (2, True)
     assert found.headline == "proved, 2 solutions and no other"
+
+
+@pytest.mark.parametrize(
+    ("second", "modes", "count"), [([0.05, 0.05], "++", 1), ([0.05, 0.05], "+-", 2), ([0.5, 0.5], "++", 2)]
+)
+def test_two_branches_that_may_be_one_pose_count_once(second, modes, count):
+    """Both certainly exist; where neither modes nor bounds tell them apart nobody knows that they are two."""
+    record, inputs = load_record("fivebar"), np.array([2.2, 0.9])
+    low = np.array([[0.0, 0.0], second])
+    both, none = np.array([True, True]), np.array([False, False])
+    branches = Judged(Interval.of(low, low + 0.1), Interval.of(np.zeros((2, 2))), both, none, none, (), {})
+    nothing = Interval.of(np.zeros((0, 2)))
+    found = matched(
+        record,
+        inputs,
+        Candidates(branches, tuple(modes), ("-+", "-+")),
+        Proofs(nothing, nothing, np.zeros(0, dtype=int)),
+        position.direct(record, inputs),
+        "",
+    )
+    assert (len(found), found.proved) == (count, count == 2)
+    assert [item.meaning for item in found.undecided] == ["one pose or two"] * (2 - count)

@@ -2,11 +2,14 @@ from __future__ import annotations
 
 import json
 
+import mpmath
 import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
 
 import assur
 from assur.kinematics.certified.certify import certified_direct, certified_inverse
-from assur.kinematics.certified.result import answer
+from assur.kinematics.certified.result import answer, at_most
 from assur.results.json_text import json_text
 
 
@@ -35,3 +38,19 @@ def test_doubts_are_written_with_their_bounds_and_units():
     assert (doubt["name"], doubt["unit"], doubt["branches"]) == ("B", "mm", 8)
     assert doubt["low"][0] <= 0 <= doubt["high"][0]
     assert (data["proved"], data["solutions"]) == (False, [])
+
+
+def test_bounds_in_degrees_hold_those_in_rad():
+    """Rounded outwards: 180 / pi times each bound, with 40 digits, is between those that are written."""
+    record = assur.load("fivebar")
+    found = certified_inverse(record, certified_direct(record, np.radians([127.0, 53.0])).solutions[0].pose.middle)
+    with mpmath.workdps(40):
+        for item, data in zip(found, answer(found)["solutions"], strict=True):
+            for k in range(2):
+                assert data["inputs"]["low"][k] < mpmath.degrees(mpmath.mpf(float(item.inputs.low[k])))
+                assert mpmath.degrees(mpmath.mpf(float(item.inputs.high[k]))) < data["inputs"]["high"][k]
+
+
+@given(st.floats(min_value=1e-300, max_value=1e300))
+def test_upper_bounds_are_rounded_up(size):
+    assert size <= float(at_most(size)) <= 1.11 * size

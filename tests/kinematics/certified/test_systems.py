@@ -23,6 +23,7 @@ def test_poses_are_held_with_unit_quaternions():
     found = certified_direct(record, inputs_of(record, record.home_values) * 1.01)
     assert found.proved
     assert "40 complex solutions" in found.right
+    assert "that there can be, which the mechanism's file claims (" in found.right
     for item in found:
         norm = sum((item.pose[k].square() for k in range(4, 7)), item.pose[3].square())
         assert norm.contains(1.0)

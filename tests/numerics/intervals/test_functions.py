@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import mpmath
 import numpy as np
 import pytest
@@ -9,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from assur.numerics.intervals import functions
-from assur.numerics.intervals.functions import ERROR, TURN, cosine_sine
+from assur.numerics.intervals.functions import ERROR, TURN, cosine_sine, from_degrees
 from assur.numerics.intervals.interval import Interval
 
 FLOATS_WIDER = 18
@@ -146,3 +148,20 @@ def test_far_angles_where_the_library_errs_more_have_no_bounds_but_one(angle):
     for function, bounds in zip((mpmath.cos, mpmath.sin), cosine_sine(Interval.of(angle)), strict=True):
         assert bounds.low <= exact(function, angle) <= bounds.high
         assert (bounds.low, bounds.high) == (-1.0, 1.0)
+
+
+def test_bounds_hold_the_degrees_that_a_float_was_converted_from():
+    """Decimals of degrees times pi / 180 with 60 digits, against the ways in which floats are converted."""
+    rng = np.random.default_rng(7)
+    texts = [
+        f"{value:.{digits}f}"
+        for value, digits in zip(rng.uniform(-720, 720, 2000), rng.integers(0, 17, 2000), strict=True)
+    ]
+    with mpmath.workdps(60):
+        for text in texts:
+            angle = mpmath.mpf(text) * mpmath.pi / 180
+            for rad in (np.radians(float(text)), math.radians(float(text)), float(text) * (np.pi / 180)):
+                found = from_degrees(rad)
+                assert mpmath.mpf(float(found.low)) <= angle <= mpmath.mpf(float(found.high))
+                assert found.width <= 2.0**-49 * abs(rad)
+    assert (from_degrees(0.0).low, from_degrees(0.0).high) == (0.0, 0.0)

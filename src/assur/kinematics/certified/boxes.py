@@ -12,6 +12,7 @@ from assur.errors import UsageError
 from assur.kinematics import position
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.certified.domain import HALF_TURN, pose_box
+from assur.kinematics.certified.given import inputs_meant
 from assur.kinematics.certified.legs import Legs
 from assur.kinematics.certified.proofs import sizes
 from assur.kinematics.certified.result import CertifiedSolutions, Doubt, ProvedSolution
@@ -67,6 +68,7 @@ def direct_by_boxes(
     doubts += [Doubt("pose", poses[k].low, poses[k].high, "one pose or two, a whole turn apart") for k in sorted(twice)]
     form = closed_form_of(record)
     right = f"branch and prune over all poses that the links allow, {answer.examined} boxes, {count} working modes"
+    right += " of the inverse's closed form"
     return CertifiedSolutions(record, "direct", inputs, solutions, tuple(doubts), True, form.complete_for, right)
 
 
@@ -98,4 +100,4 @@ def _solution(floats: SolutionSet, pose: Interval, inputs: FloatArray, working: 
         if np.all(np.abs(floats.poses[row] - pose.middle) <= pose.width + NEAR * sizes(floats.record))
     ]
     mode = str(floats.labels[near[0]]) if near else ""
-    return ProvedSolution(pose, Interval.of(inputs), mode, working, mode, HOW)
+    return ProvedSolution(pose, inputs_meant(floats.record, inputs), mode, working, mode, HOW)

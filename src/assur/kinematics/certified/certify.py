@@ -29,7 +29,8 @@ def certified_direct(record: MechanismRecord, inputs: ArrayLike, way: Way = "aut
 
     Args:
         record: the mechanism.
-        inputs: as printed; each float counts as the exact number that it is.
+        inputs: as printed; a length counts as the exact number that its float is, an angle of a mechanism with angles
+            in degrees as all numbers within 2^-51 of it, so that the proof holds of the degrees it came from.
         way: "closed form": its branches, its polynomial's roots or its system's solutions over intervals, each pose
             proved from the legs too where they have signs. "boxes": branch and prune over all poses that the links
             allow, which needs no closed form of the direct problem, but one of the inverse. "joint graph": each
@@ -69,7 +70,7 @@ def certified_inverse(record: MechanismRecord, pose: ArrayLike, way: Way = "auto
 
     Args:
         record: the mechanism.
-        pose: each float counts as the exact number that it is.
+        pose: lengths and angles count as those of `certified_direct` do.
         way: as for `certified_direct`; "boxes" there are none.
 
     Errors:

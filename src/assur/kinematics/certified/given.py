@@ -1,6 +1,7 @@
 """What is given, as exact numbers in intervals: parameters, inputs, poses; and angles of pairs (cosine, sine).
 
-A float counts as the exact number that it is. An angle of an input or a pose is exact in rad, whatever the file's unit.
+A float counts as the exact number that it is. Only an angle that is given, of a mechanism with angles in degrees,
+counts as every number within 2^-51 of it, as a share: a proof then holds of the degrees that it came from, too.
 """
 
 from __future__ import annotations
@@ -14,8 +15,9 @@ from numpy.typing import NDArray
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
 from assur.numerics.dual import Dual
-from assur.numerics.intervals.functions import ERROR, cosine_sine
+from assur.numerics.intervals.functions import ERROR, cosine_sine, from_degrees
 from assur.numerics.intervals.interval import Interval, as_interval
+from assur.numerics.krawczyk import parts
 from assur.numerics.number_types import Intervals
 
 FloatArray = NDArray[np.float64]
@@ -26,11 +28,33 @@ def parameters(record: MechanismRecord) -> SimpleNamespace:
     return SimpleNamespace(**{name: Interval.of(value) for name, value in vars(record.values).items()})
 
 
+def inputs_meant(record: MechanismRecord, inputs: FloatArray) -> Interval:
+    """Bounds (n,) of the printed inputs that floats (n,) in lengths and rad stand for.
+
+    >>> from assur.model.registry import load_record
+    >>> found = inputs_meant(load_record("fivebar"), np.radians([127.0, 53.0]))
+    >>> bool(np.all((0 < found.width) & (found.width < 4e-15)))
+    True
+    """
+    return _meant(record, inputs, [item.coordinate.kind == "angle" for item in record.inputs])
+
+
+def pose_meant(record: MechanismRecord, pose: FloatArray) -> Interval:
+    """Bounds (m,) of the pose that floats (m,) in lengths and rad stand for; a quaternion's are exact."""
+    return _meant(record, pose, [is_angle(name) for name in record.platform.pose])
+
+
+def _meant(record: MechanismRecord, values: FloatArray, angular: list[bool]) -> Interval:
+    converted = np.array(angular, dtype=bool) & (record.angle == "deg")
+    exact, wide = Interval.of(values), from_degrees(values)
+    return Interval.of(np.where(converted, wide.low, exact.low), np.where(converted, wide.high, exact.high))
+
+
 def joint_inputs(record: MechanismRecord, inputs: FloatArray) -> tuple[Any, ...]:
     """A kernel's inputs at printed ones (n,): an interval, or a pair of them (cosine, sine)."""
     found: list[Any] = []
-    for item, value in zip(record.inputs, inputs.tolist(), strict=True):
-        joint = (Interval.of(value) - item.offset) * item.sign
+    for item, value in zip(record.inputs, parts(inputs_meant(record, inputs)), strict=True):
+        joint = (value - item.offset) * item.sign
         found.append(cosine_sine(joint) if item.coordinate.kind == "angle" else joint)
     return tuple(found)
 
@@ -42,8 +66,8 @@ def pose_numbers(record: MechanismRecord, numbers: tuple[Any, ...]) -> tuple[Any
     """
     names = record.platform.pose
     if has_quaternion(names):
-        parts = [value for name, value in zip(names, numbers, strict=True) if name in QUATERNION]
-        size = Intervals().sqrt(sum((part.square() for part in parts[1:]), parts[0].square()))
+        own = [value for name, value in zip(names, numbers, strict=True) if name in QUATERNION]
+        size = Intervals().sqrt(sum((part.square() for part in own[1:]), own[0].square()))
         numbers = tuple(
             value / size if name in QUATERNION else value for name, value in zip(names, numbers, strict=True)
         )

@@ -1,7 +1,8 @@
 """Frames of the joint graph over any number type, as rows of numbers: bounds, and bounds of derivatives, of its loops.
 
-Points, axes and turns of joints are the floats that the record holds; an axis is made a unit vector with bounds. A ball
-joint turns by a unit quaternion q0 (1, u), u its three unknowns and q0 where it is thought to be.
+Points of joints are the floats that the record holds, an axis is the unit vector along its floats, and a turn the
+rotation next to its floats, both with bounds. A ball joint turns by a unit quaternion q0 (1, u), u its three unknowns
+and q0 where it is thought to be.
 """
 
 from __future__ import annotations
@@ -85,13 +86,13 @@ class JointFrames:
         turned, shift = self._motion(joint, values)
         orientation = product(parent[0], turned)
         if joint.turned:
-            orientation = product(orientation, _matrix(joint.turn))
+            orientation = product(orientation, _rotation(joint.turn))
         origin = add(parent[1], apply(parent[0], add(_vector(joint.at), shift)))
         return orientation, subtract(origin, apply(orientation, _vector(joint.child_at)))
 
     def _parent(self, joint: Joint, child: Placed, values: Sequence[Any]) -> Placed:
         turned, shift = self._motion(joint, values)
-        orientation = product(child[0], transposed(_matrix(joint.turn))) if joint.turned else child[0]
+        orientation = product(child[0], transposed(_rotation(joint.turn))) if joint.turned else child[0]
         orientation = product(orientation, transposed(turned))
         origin = add(child[1], apply(child[0], _vector(joint.child_at)))
         return orientation, subtract(origin, apply(orientation, add(_vector(joint.at), shift)))
@@ -169,5 +170,26 @@ def _vector(values: FloatArray) -> Vector:
     return x, y, z
 
 
-def _matrix(values: FloatArray) -> Matrix:
-    return _vector(values[0]), _vector(values[1]), _vector(values[2])
+def _rotation(values: FloatArray) -> Matrix:
+    """Bounds of the rotation next to floats (3, 3), the orthogonal factor R of their polar decomposition M = R P.
+
+    With s the singular values of M, |M - R| = |s - 1| <= |s^2 - 1| = |M'M - 1|. What stands alone in its row and column
+    is 1 or -1 in R.
+    """
+    filled = values != 0
+    alone = filled & (np.sum(filled, axis=0) == 1) & (np.sum(filled, axis=1, keepdims=True) == 1)
+    exact = np.any(alone, axis=0) | np.any(alone, axis=1, keepdims=True)
+    rows = [[Interval.of(value) for value in row] for row in values.tolist()]
+    gap = Interval.of(0.0)
+    for i in range(3):
+        for j in range(3):
+            entry = rows[0][i] * rows[0][j] + rows[1][i] * rows[1][j] + rows[2][i] * rows[2][j] - float(i == j)
+            gap = gap + entry.square()
+    off = float(gap.sqrt().high)
+    spread = Interval.of(-off, off)
+
+    def row(i: int) -> Vector:
+        x, y, z = (int(np.sign(values[i, j])) if exact[i, j] else rows[i][j] + spread for j in range(3))
+        return x, y, z
+
+    return row(0), row(1), row(2)

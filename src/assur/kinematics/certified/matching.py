@@ -14,11 +14,13 @@ from numpy.typing import NDArray
 
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.certified.branches import Judged, grouped
+from assur.kinematics.certified.given import inputs_meant
 from assur.kinematics.certified.proofs import Proofs, turned
 from assur.kinematics.certified.result import CertifiedSolutions, Doubt, ProvedSolution
 from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.intervals.interval import Interval, common
+from assur.numerics.intervals.shapes import empty
 
 FloatArray = NDArray[np.float64]
 BOTH = "closed form over intervals, and Krawczyk on the legs"
@@ -59,7 +61,7 @@ def matched(
         if one >= 0 and (settled or bool(np.all(bounds.within(turned(names, bounds, known.alone)[one])))):
             bounds, how = common(bounds, near[k][one])[0], BOTH
             taken.add(one)
-        solutions.append(_solution(inputs, bounds, candidates.modes[k], candidates.working[k], how))
+        solutions.append(_solution(record, inputs, bounds, candidates.modes[k], candidates.working[k], how))
     held = {j for k in np.flatnonzero(found.exists).tolist() for j in rivals[k]}
     left = [j for j in range(len(known.rows)) if j not in taken | held]
     doubts = list(found.doubts)
@@ -68,6 +70,8 @@ def matched(
         doubts = []
         if len(solutions) != possible:  # bounds of a branch that hold several poses count one alone
             solutions = [_of_legs(inputs, known, j, floats) for j in range(possible)]
+    solutions, twice = _told_apart(names, solutions)
+    doubts += [(-1, Doubt("pose", item.pose.low, item.pose.high, "one pose or two")) for item in twice]
     if len(solutions) > possible or len(known.rows) > possible:
         doubts.append((-1, Doubt("pose", *_ends(known.pose), "the closed form and the legs disagree here")))
     form = closed_form_of(record)
@@ -75,6 +79,19 @@ def matched(
     return CertifiedSolutions(
         record, "direct", inputs, tuple(solutions), undecided, True, form.complete_for, right, found.by
     )  # fmt: skip
+
+
+def _told_apart(
+    names: tuple[str, ...], solutions: Sequence[ProvedSolution]
+) -> tuple[list[ProvedSolution], list[ProvedSolution]]:
+    """Solutions of which no two may be one, and the others: several of the same modes whose poses may be the same."""
+    kept: list[ProvedSolution] = []
+    twice: list[ProvedSolution] = []
+    for item in solutions:
+        alike = [one.pose for one in kept if (one.mode, one.working_mode) == (item.mode, item.working_mode)]
+        known = Interval.of([one.low for one in alike], [one.high for one in alike]) if alike else empty(len(names))
+        (twice if _meeting(item.pose, turned(names, item.pose, known)) else kept).append(item)
+    return kept, twice
 
 
 def _meeting(bounds: Interval, known: Interval) -> list[int]:
@@ -85,11 +102,13 @@ def _meeting(bounds: Interval, known: Interval) -> list[int]:
 def _of_legs(inputs: FloatArray, known: Proofs, j: int, floats: SolutionSet) -> ProvedSolution:
     """The solution that is proved from the legs alone, with the modes of the float answer."""
     row = int(known.rows[j])
-    return _solution(inputs, known.pose[j], str(floats.labels[row]), str(floats.other_labels[row]), LEGS)
+    return _solution(floats.record, inputs, known.pose[j], str(floats.labels[row]), str(floats.other_labels[row]), LEGS)
 
 
-def _solution(inputs: FloatArray, pose: Interval, mode: str, working: str, how: str) -> ProvedSolution:
-    return ProvedSolution(pose, Interval.of(inputs), mode, working, mode, how)
+def _solution(
+    record: MechanismRecord, inputs: FloatArray, pose: Interval, mode: str, working: str, how: str
+) -> ProvedSolution:
+    return ProvedSolution(pose, inputs_meant(record, inputs), mode, working, mode, how)
 
 
 def _ends(bounds: Interval) -> tuple[FloatArray, FloatArray]:

@@ -13,6 +13,7 @@ from assur.kinematics import border
 from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import is_angle
 from assur.numerics.intervals.interval import Interval
 from assur.results.json_text import plain
 
@@ -21,13 +22,15 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class ProvedSolution:
-    """A solution that certainly exists, and is the only one within these bounds.
+    """A solution that certainly exists, and is the only one of its modes within these bounds.
 
     Attributes:
-        pose, inputs: bounds (m,) and (n,), lengths and rad; what was given is exact.
+        pose, inputs: bounds (m,) and (n,), lengths and rad; what was given as far as it is known, exact or converted.
         mode: the signs that name it among the solutions of its problem.
         working_mode, assembly_mode: both names of the configuration, as the float answer has them.
         how: by what it is proved.
+        left: what the equations that are no part of the proof come to at most, in lengths or rad: those of an
+            overconstrained mechanism that depend on the others in exact numbers. 0 where every equation is proved.
     """
 
     pose: Interval
@@ -36,6 +39,7 @@ class ProvedSolution:
     working_mode: str
     assembly_mode: str
     how: str
+    left: float = 0.0
 
     @property
     def width(self) -> float:
@@ -69,7 +73,7 @@ class CertifiedSolutions:
 
     Attributes:
         problem: "direct" or "inverse".
-        given: (n,) inputs or (m,) a pose, each float taken as the exact number that it is, angles in rad.
+        given: (n,) inputs or (m,) a pose, angles in rad; `assur.kinematics.certified.given` says what they count as.
         solutions: proved one by one, no two the same.
         undecided: where there may be others, or none.
         complete: whether it is proved that outside of `undecided` there is no other solution.
@@ -104,19 +108,32 @@ class CertifiedSolutions:
 
     @property
     def headline(self) -> str:
-        """The answer in one phrase."""
+        """The answer in one phrase; it says where only independent equations are proved."""
         count = f"{len(self.solutions)} solution{'' if len(self.solutions) == 1 else 's'}"
+        left = max((item.left for item in self.solutions), default=0.0)
+        if left:
+            count += " of the independent equations"
         if self.proved:
             return f"proved, {count} and no other" if self.solutions else "proved, no solution"
         places = f"{len(self.undecided)} place{'' if len(self.undecided) == 1 else 's'}"
         where = f"undecided in {places}" if self.undecided else "whether there are others is not"
-        return f"{count} proved, {where}"
+        but = f" (the dependent ones hold to {at_most(left)})" if left else ""
+        return f"{count} proved{but}, {where}"
+
+
+def at_most(size: float) -> str:
+    """An upper bound as text of two digits, at most a tenth above the size.
+
+    >>> at_most(1.21e-13), at_most(0.0)
+    ('1.3e-13', '0.0e+00')
+    """
+    return f"{1.05 * size:.1e}"
 
 
 def answer(found: CertifiedSolutions) -> dict[str, Any]:
     """A certificate as plain data, angles in the mechanism's angle unit.
 
-    Bounds are those inside; in degrees they are rounded to the nearest float.
+    Bounds in degrees are rounded outwards.
 
     >>> from assur.kinematics.certified.certify import certified_direct
     >>> from assur.model.registry import load_record
@@ -147,25 +164,38 @@ def answer(found: CertifiedSolutions) -> dict[str, Any]:
 def _solution(found: CertifiedSolutions, item: ProvedSolution) -> dict[str, Any]:
     record = found.record
     if found.problem == "direct":
-        bounds = {"pose": _bounds(pose_at_border(record, item.pose.low), pose_at_border(record, item.pose.high))}
+        bounds = {"pose": _pose_bounds(record, item.pose.low, item.pose.high)}
         other = {"working_mode": item.working_mode}
     else:
         low, high = (inputs_at_border(record, end) for end in (item.inputs.low, item.inputs.high))
-        bounds, other = {"inputs": _bounds(low, high)}, {"assembly_mode": item.assembly_mode}
-    return {**bounds, "mode": item.mode, **other, "how": item.how}
+        angular = [one.coordinate.kind == "angle" for one in record.inputs]
+        bounds = {"inputs": _bounds(*_outward(record, low, high, angular))}
+        other = {"assembly_mode": item.assembly_mode}
+    return {**bounds, "mode": item.mode, **other, "how": item.how, "left": item.left}
 
 
 def _doubt(record: MechanismRecord, item: Doubt) -> dict[str, Any]:
-    low, high = item.low, item.high
-    if item.name == "pose":
-        low, high = pose_at_border(record, low), pose_at_border(record, high)
+    pose = item.name == "pose"
     return {
         "name": item.name,
-        **_bounds(low, high),
+        **(_pose_bounds(record, item.low, item.high) if pose else _bounds(item.low, item.high)),
         "unit": power(record.unit, item.unit),
         "meaning": item.meaning,
         "branches": item.branches,
     }
+
+
+def _pose_bounds(record: MechanismRecord, low: FloatArray, high: FloatArray) -> dict[str, Any]:
+    angular = [is_angle(name) for name in record.platform.pose]
+    return _bounds(*_outward(record, pose_at_border(record, low), pose_at_border(record, high), angular))
+
+
+def _outward(
+    record: MechanismRecord, low: FloatArray, high: FloatArray, angular: list[bool]
+) -> tuple[FloatArray, FloatArray]:
+    """Bounds at the border, wider where an angle was converted to degrees: by more than the rounding of that."""
+    more = np.where(np.array(angular) & (record.angle == "deg"), 2.0**-51, 0.0)
+    return low - more * np.abs(low), high + more * np.abs(high)
 
 
 def _bounds(low: FloatArray, high: FloatArray) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from assur.kinematics import position
 from assur.kinematics.certified.branches import grouped, judged
-from assur.kinematics.certified.given import joint_inputs, parameters, pose_numbers
+from assur.kinematics.certified.given import joint_inputs, parameters, pose_meant, pose_numbers
 from assur.kinematics.certified.legs import Legs
 from assur.kinematics.certified.matching import Candidates, matched
 from assur.kinematics.certified.proofs import proofs
@@ -18,7 +18,7 @@ from assur.kinematics.certified.result import CertifiedSolutions, ProvedSolution
 from assur.kinematics.modes import Problem, mode_text, sign_names
 from assur.kinematics.status import branch_kernel, closed_form_of
 from assur.model.mechanism import MechanismRecord
-from assur.numerics.intervals.interval import Interval
+from assur.numerics.krawczyk import parts
 
 FloatArray = NDArray[np.float64]
 RIGHT = "the closed form, every branch of its roots over intervals"
@@ -40,12 +40,13 @@ def inverse_by_signs(record: MechanismRecord, pose: FloatArray) -> CertifiedSolu
     """All inputs at a pose (m,)."""
     signs, sign = _every(record, "inverse")
     form = closed_form_of(record)
-    p, given = parameters(record), pose_numbers(record, tuple(Interval.of(value) for value in pose.tolist()))
+    asked = pose_meant(record, pose)
+    p, given = parameters(record), pose_numbers(record, parts(asked))
     found = judged(record, lambda ns: form.inverse(ns, p, given, sign), form.inverse_margins, len(signs))
     others = position.inverse(record, pose).other_labels
     solutions = tuple(
         ProvedSolution(
-            pose=Interval.of(pose),
+            pose=asked,
             inputs=found.inputs[k],
             mode=mode_text(signs[k].astype(int)),
             working_mode=mode_text(signs[k].astype(int)),

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from assur.kinematics import position
 from assur.kinematics.answers.solution_set import SolutionSet
-from assur.kinematics.certified.given import joint_inputs, number, parameters
+from assur.kinematics.certified.given import inputs_meant, joint_inputs, number, parameters
 from assur.kinematics.certified.result import CertifiedSolutions, Doubt, ProvedSolution
 from assur.kinematics.closed_form.systems import ends
 from assur.kinematics.closure import characteristic_length
@@ -63,7 +63,10 @@ class _Scaled:
 
 
 def direct_by_system(record: MechanismRecord, system: PolynomialSystem, inputs: FloatArray) -> CertifiedSolutions:
-    """Every pose at printed inputs (n,): complete where as many solutions are proved as `system.degree`."""
+    """Every pose at printed inputs (n,): complete where as many solutions are proved as `system.degree`.
+
+    That there can be no more is the file's claim, for the reason that it gives; nothing here proves it.
+    """
     equations = _Scaled(record, system, inputs)
     points = ends(record, system, inputs[None])[0][0]
     with np.errstate(all="ignore"):
@@ -88,7 +91,7 @@ def direct_by_system(record: MechanismRecord, system: PolynomialSystem, inputs: 
     complete = len(kept) == system.degree and bool(np.all(inside))
     form = closed_form_of(record)
     right = f"{len(kept)} complex solutions of the system are proved, each in a box of its own, "
-    right += f"of {system.degree} that there can be ({system.because})"
+    right += f"of {system.degree} that there can be, which the mechanism's file claims ({system.because})"
     return CertifiedSolutions(
         record, "direct", inputs, solutions, _missing(system, len(kept)), complete, form.complete_for, right
     )
@@ -147,7 +150,7 @@ def _solution(floats: SolutionSet, pose: Interval, inputs: FloatArray) -> Proved
     if len(rows):
         row = rows[np.argmin(np.linalg.norm(floats.poses[rows] - pose.middle, axis=-1))]
         mode, working = str(floats.labels[row]), str(floats.other_labels[row])
-    return ProvedSolution(pose, Interval.of(inputs), mode, working, mode, HOW)
+    return ProvedSolution(pose, inputs_meant(floats.record, inputs), mode, working, mode, HOW)
 
 
 def _missing(system: PolynomialSystem, count: int) -> tuple[Doubt, ...]:

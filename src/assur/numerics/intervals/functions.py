@@ -9,7 +9,7 @@ counted wherever the outward bounds of (angle / 2 pi) allow one.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from assur.numerics.intervals import rounding
 from assur.numerics.intervals.interval import Interval
@@ -20,6 +20,11 @@ ERROR = 2.0**-49
 TURN = Interval.of(2 * 3.141592653589793, 2 * 3.1415926535897936)
 """2 pi lies between: twice the two floats next to pi = 3.14159265358979323846..., the first of which is below it."""
 
+
+CONVERTED = Interval.of(1 - 2.0**-51, 1 + 2.0**-51)
+"""An angle in degrees over its float in rad lies between: roundings of the degrees that were read, of pi / 180 and of
+their product are at most 2^-53 each, and the float next to pi is off by less than half of that.
+"""
 
 FARTHEST = 2.0**20
 """Radians up to which the error of the library's cosine and sine is known to be below ERROR."""
@@ -41,6 +46,17 @@ def cosine_sine(angle: Interval) -> tuple[Interval, Interval]:
     cosine = _between(np.cos(low), np.cos(high), ~bounded | _whole(turns), ~bounded | _whole(turns + 0.5))
     sine = _between(np.sin(low), np.sin(high), ~bounded | _whole(turns - 0.25), ~bounded | _whole(turns + 0.25))
     return Interval(*cosine, angle.defined), Interval(*sine, angle.defined)
+
+
+def from_degrees(angle: ArrayLike) -> Interval:
+    """Bounds (...) of angles of which these floats in rad are the ones converted from degrees.
+
+    >>> float(from_degrees(np.radians(180.0)).low) < np.pi < 3.1415926535897936 <= float(from_degrees(np.pi).high)
+    True
+    """
+    wide = Interval.of(angle) * CONVERTED
+    zero = np.equal(angle, 0)
+    return Interval(np.where(zero, 0.0, wide.low), np.where(zero, 0.0, wide.high), wide.defined)
 
 
 def _whole(number: Interval) -> NDArray[np.bool_]:

@@ -46,7 +46,7 @@ def _addresses(audit: Audit) -> Table:
         for where, found in counts.items()
     )
     marks = tuple("wrong" if found["wrong"] else "missing" if found["missing"] else "" for found in counts.values())
-    return Table("Rows by address", ("where", "rows", "ok", "wrong", "missing"), rows, marks=marks)
+    return Table("Rows by address", ("where", "rows", "ok", "wrong", "missing"), rows, marks=marks, known_by=EXACT)
 
 
 def _address(source: str) -> str:

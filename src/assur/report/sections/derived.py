@@ -7,7 +7,7 @@ import re
 from assur.report.findings import Findings
 from assur.report.formulas.latex import latex_mathml
 from assur.report.formulas.mathml import display, inline
-from assur.results.kinds import RANK, Cell, Facts, Formula, Formulas, Result, Scalar, Section, Table
+from assur.results.kinds import EXACT, RANK, Cell, Facts, Formula, Formulas, Result, Scalar, Section, Table
 from assur.topology.answers import refusals, replacements_by_kind
 from assur.topology.counting.decoupling import Decoupling
 from assur.topology.facts import Topology
@@ -111,7 +111,7 @@ def _loops(topology: Topology) -> Table:
     )
     columns = ("loop", "joints that it adds", "Σf", "I", "ξ", "Δ", "Assur chain")
     caption = f"In the order that attains the coupling degree, {COLLAPSED}."
-    return Table("Loops and Assur chains", columns, rows, caption)
+    return Table("Loops and Assur chains", columns, rows, caption, known_by=EXACT)
 
 
 def _facts(title: str, lines: tuple[str, ...]) -> Facts:
@@ -153,7 +153,7 @@ def _relaxation(topology: Topology) -> list[Result]:
     together = ", ".join(f"{item.joint} to {item.new}" for item in asked.together)
     caption = f"Together: {together}; that leaves {asked.left} of {asked.redundant}. The platform moves as before."
     columns = ("replacement", "redundant constraints less", "internal freedoms more", "any one of these joints")
-    return [Table("Joints that could be relaxed", columns, rows, caption)]
+    return [Table("Joints that could be relaxed", columns, rows, caption, known_by=RANK)]
 
 
 def _derivation(topology: Topology) -> list[Result]:

@@ -89,6 +89,7 @@ def _spread(found: Findings) -> list[Table]:
             columns,
             (tuple(short(float(v), 3) for v in quantiles),),
             caption,
+            known_by="estimate: quantiles of a sample",
         )
     ]
 

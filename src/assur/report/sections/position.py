@@ -20,7 +20,7 @@ from assur.report.numbers import Style, count, input_angles, pose_angles, pose_w
 from assur.report.sections.polynomial import polynomial, polynomial_words, system_words
 from assur.report.sections.printed import solutions_beside
 from assur.report.sections.proved import proof_words, right
-from assur.results.kinds import Formula, Formulas, Result, Section, Table
+from assur.results.kinds import FLOATING, Formula, Formulas, Result, Section, Table
 
 READ = (
     "The formulas below are not written down by hand: they are what the closed form of this mechanism computes, "
@@ -194,7 +194,9 @@ def _named(found: Findings, problem: Problem, lines: Sequence[Line]) -> Table:
         )
     columns = ("quantity", "formula", "equation", "value", "unit")
     caption = "Values in the configuration that this report is about (see the solutions)."
-    return Table(f"Also named by the source, {problem} problem", columns, tuple(rows), caption, folded=True)
+    return Table(
+        f"Also named by the source, {problem} problem", columns, tuple(rows), caption, folded=True, known_by=FLOATING
+    )
 
 
 def _margins(found: Findings, problem: Problem) -> Table:

@@ -23,7 +23,8 @@ def right(found: Findings, problem: Problem) -> tuple[str, float | None, float |
         return (f"{FLOATING}, every branch" if answer.complete else "not proved to be all"), None, None
     count = float(len(proof))
     if not proof.proved and not proof.undecided and answer.complete and len(proof) == len(answer):
-        return f"{PROVED} one by one; that there is no other, in {FLOATING}", count, None
+        each = f"{PROVED} for the independent equations" if any(item.left for item in proof) else f"{PROVED} one by one"
+        return f"{each}; that there is no other, in {FLOATING}", count, None
     if not proof.proved:
         return f"not proved to be all: {proof.headline}", count, None
     if len(proof) != len(answer):
@@ -50,7 +51,7 @@ def _widths(found: Findings, problem: Problem, proof: CertifiedSolutions) -> str
     unit = f"{shown_unit(found.record.unit)} or rad"
     answer = found.direct if problem == "direct" else found.inverse
     width = short(max(item.width for item in proof), 2)
-    said = f"Each is the only one within bounds at most {width} {unit} wide"
+    said = f"Each is the only one of its mode within bounds at most {width} {unit} wide"
     if not len(answer):
         return f"{said}; in floating point none was found."
     farthest = max(

@@ -21,7 +21,8 @@ from assur.workspace.sections import section
 
 AGAINST = "AGAINST the proved bounds"
 SHARE = "estimate: by a solid about the surface, its error not estimated"
-NOWHERE = "; that a factor is zero nowhere inside is not proved: it keeps its sign at every node of the cells"
+NO_SURFACE = "not proved: no such surface was found"
+UNSEEN = "not proved: that a factor is nowhere zero where it only keeps its sign at every node of the cells"
 ENDINGS = {
     "": "",
     "no limit": "; nothing fails within the farthest size that is looked at",
@@ -72,7 +73,11 @@ def _proof_words(found: Findings) -> str:
         else " The bounds do not come from solids: boxes are proved to lie inside or outside by interval arithmetic, "
         "for the dimensions, strokes and box exactly as they stand."
     )
-    return f"{said} No region free of singularities is proved: {why}." if isinstance(why, str) else said
+    if isinstance(why, str):
+        return f"{said} No region free of singularities is proved: {why}."
+    if why.size == 0 and why.witness:
+        return f"{said} About the configuration of this report no region is free: {why.witness.why} there."
+    return said
 
 
 def extents(found: Findings) -> list[Scalar]:
@@ -109,14 +114,18 @@ def share(found: Findings) -> list[Scalar]:
     region = found.workspace
     if region.share is None:
         return []
-    near = f"within {region.near:g} {shown_unit(found.record.unit)} of a parallel-singular surface"
-    return [Scalar("share near a singularity", round(100 * region.share, 1), "%", SHARE, note=near)]
+    near = f"within {region.near:g} {shown_unit(found.record.unit)} of a parallel-singular surface inside"
+    if all(locus.factor in found.nowhere for locus in region.loci):
+        known = f"{PROVED}: there is no such surface"
+    else:
+        known = SHARE if any(locus.area or locus.everywhere for locus in region.loci) else NO_SURFACE
+    return [Scalar("share near a singularity", round(100 * region.share, 1), "%", known, note=near)]
 
 
 def largest_cube(found: Findings) -> list[Scalar]:
     """The largest cube about the configuration of this report that is proved free of singularities."""
     cube, record = found.cube, found.record
-    if isinstance(cube, str):
+    if isinstance(cube, str) or (cube.size == 0 and cube.witness):
         return []
     names = cube.shape.names
     shape = ("interval", "square", "cube")[len(names) - 1]
@@ -182,7 +191,7 @@ def _loci(found: Findings) -> list[Table]:
         (
             written(factors[locus.factor]),
             locus.meaning,
-            _size(locus, mixed=mixed),
+            _size(found, locus, mixed=mixed),
         )
         for locus in region.loci
     )
@@ -190,22 +199,28 @@ def _loci(found: Findings) -> list[Table]:
     title = "Parallel singularities inside the workspace"
     where = "surface" if len(names) == 3 else "curve"
     caption = "" if mixed else f"Size of the {where} on which each factor vanishes."
-    return [Table(title, ("factor", "zero where", size), rows, caption, known_by=_right_of_loci(region))]
+    return [Table(title, ("factor", "zero where", size), rows, caption, known_by=_right_of_loci(found))]
 
 
-def _right_of_loci(region: Workspace) -> str:
-    """By what right the sizes of loci are known; that one is nowhere is what the cells see."""
-    nowhere = any(not locus.area and not locus.everywhere for locus in region.loci)
-    return f"{TWO_RESOLUTIONS}{NOWHERE if nowhere else ''}"
+def _right_of_loci(found: Findings) -> str:
+    """By what right the sizes of loci are known, and that there is none."""
+    loci = [locus for locus in found.workspace.loci if not locus.everywhere]
+    absent = {locus.factor for locus in loci if not locus.area}
+    parts = [TWO_RESOLUTIONS] if len(absent) < len(loci) else []
+    parts += [f"{PROVED}: nowhere zero"] if absent & found.nowhere else []
+    parts += [UNSEEN] if absent - found.nowhere else []
+    return "; ".join(parts or [FLOATING])
 
 
-def _size(locus: Locus, *, mixed: bool) -> str:
-    """How much of a locus is inside; lengths and angles together have no area."""
+def _size(found: Findings, locus: Locus, *, mixed: bool) -> str:
+    """How much of a locus is inside, or by what right there is none; lengths and angles together have no area."""
     if locus.everywhere:
         return "everywhere"
-    if not locus.area:
-        return "nowhere inside"
-    return "on a surface" if mixed else with_error(locus.area, locus.area_error)
+    if locus.area:
+        return "on a surface" if mixed else with_error(locus.area, locus.area_error)
+    if locus.factor in found.nowhere:
+        return "nowhere: proved"
+    return f"none found on {found.resolution} cells along each coordinate"
 
 
 def _projections(found: Findings) -> list[Table]:
@@ -252,6 +267,5 @@ def _parasitic(found: Findings) -> list[Table]:
         for name, item in largest_parasitic(record, found.workspace).items()
     )
     caption = "Coordinates that the pose leaves out and that move along with it: the largest sizes that were seen."
-    return (
-        [Table("Parasitic motion", ("coordinate", "largest", "at"), rows, caption, known_by=FLOATING)] if rows else []
-    )
+    known = "estimate: largest over the border's vertices and points inside; the true one may be larger"
+    return [Table("Parasitic motion", ("coordinate", "largest", "at"), rows, caption, known_by=known)] if rows else []

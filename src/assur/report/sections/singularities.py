@@ -10,7 +10,7 @@ from assur.report.findings import Findings
 from assur.report.formulas.latex import latex_mathml, name_mathml
 from assur.report.formulas.mathml import inline
 from assur.report.numbers import input_angles, pose_angles, short, shown_unit
-from assur.results.kinds import FLOATING, Cell, Facts, Formula, Result, Scalar, Section, Table
+from assur.results.kinds import FLOATING, RANK, Cell, Facts, Formula, Result, Scalar, Section, Table
 from assur.singularity.verdict import generic_rank
 
 KINDS = {
@@ -92,7 +92,7 @@ def _factors(found: Findings) -> Table:
     )
     columns = ("factor", "divides", "zero where", "source", "value here", "unit")
     caption = "All factors of both determinants; “value here” is in the configuration of this report."
-    return Table("Factors and their geometric meaning", columns, rows, caption)
+    return Table("Factors and their geometric meaning", columns, rows, caption, known_by=FLOATING)
 
 
 def _groups(found: Findings) -> list[Table]:
@@ -145,7 +145,7 @@ def _examples(found: Findings) -> Table:
         else "Paths from home to poses in and about the file's box stop there; the kind is what the joint graph says"
     )
     caption = f"{how} there. A rank below {general} is a constraint singularity of the joint graph.{_without(found)}"
-    return Table("Example configurations", columns, tuple(rows), caption)
+    return Table("Example configurations", columns, tuple(rows), caption, known_by=f"{FLOATING}; {RANK}")
 
 
 def _without(found: Findings) -> str:

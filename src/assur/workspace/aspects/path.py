@@ -97,7 +97,7 @@ def _verdict(state: Search, start: Place, end: Place) -> tuple[Verdict, str]:
         told = [
             f"{name} is {signs[start.signs[name]]} at one and {signs[end.signs[name]]} at the other" for name in apart
         ]
-        return "separated", f"{'; '.join(told)}: zero on every way between them"
+        return "separated", f"{'; '.join(told)}: singular or not reached on every way between them"
     for word, item in (("from", start), ("to", end)):
         if item.status == "undecided":
             return "undecided", f"{word}: {item.why}"

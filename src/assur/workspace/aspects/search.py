@@ -54,6 +54,14 @@ class Search:
     links: Links
     stopped: Stopped = ""
 
+    @property
+    def open(self) -> float:
+        """Share of the box that is undecided."""
+        extents = [
+            high - low for has, (low, high) in zip(self.frame.used, self.frame.box.intervals, strict=True) if has
+        ]
+        return float(np.sum(self.undecided.sizes.high) / np.prod(extents))
+
 
 def search(frame: Frame, finest: Mapping[str, float], progress: Progress | None = None) -> Search:
     """Pave the box of a frame down to extents by coordinate, and further where components may or may not meet.

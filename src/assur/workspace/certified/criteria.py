@@ -19,7 +19,7 @@ from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import ClosedForm
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, QUATERNION, has_quaternion, is_angle
-from assur.numerics.intervals.functions import cosine_sine
+from assur.numerics.intervals.functions import cosine_sine, from_degrees
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.recording.tape import Recorded, Recorder, Tape
 from assur.workspace.bounds import Stroke, bounds
@@ -114,7 +114,8 @@ def criteria(
         record: the mechanism.
         mode: signs of the working mode; the file's default where none is given.
         strokes: input -> (low, high) as printed, or None for no limit; the file's for what is left out.
-        held: pose coordinates that stand still, as `assur.workspace.slices.slice_at` takes them.
+        held: pose coordinates that stand still, as `assur.workspace.slices.slice_at` takes them; an angle of a
+            mechanism with angles in degrees with bounds that hold the degrees that it was converted from.
         factors: kinds of factors wanted beside the margins: "parallel", "serial", "constraint".
 
     Errors:
@@ -138,7 +139,7 @@ def criteria(
     p = SimpleNamespace(**{name: given(name, value) for name, value in vars(record.values).items()})
     signs = zip(sign_names(record, "inverse"), mode_signs(record, "inverse", mode), strict=True)
     sign = SimpleNamespace(**{name: given(f"sign {name}", float(value)) for name, value in signs})
-    branch = form.inverse(recorder, p, _pose(recorder, poses, given), sign)
+    branch = form.inverse(recorder, p, _pose(record, recorder, poses, given), sign)
     joints = form.joints(recorder, p, branch.core)
     margins = {item.name: branch.margins[item.name] for item in form.inverse_margins if item.zero == "merge"}
     limits = bounds(record, strokes, lambda value: given(f"constant {len(uniform)}", value))
@@ -207,7 +208,7 @@ def _coordinate(component: str) -> str:
     return component.removeprefix("cos ").removeprefix("sin ")
 
 
-def _pose(recorder: Recorder, poses: Slice, given: Any) -> tuple[Any, ...]:
+def _pose(record: MechanismRecord, recorder: Recorder, poses: Slice, given: Any) -> tuple[Any, ...]:
     """The pose as the kernel takes it, recorded."""
     values: dict[str, Any] = {}
     for name in (*poses.free, *poses.held):
@@ -217,7 +218,8 @@ def _pose(recorder: Recorder, poses: Slice, given: Any) -> tuple[Any, ...]:
         elif free:
             values[name] = (recorder.varying(f"cos {name}"), recorder.varying(f"sin {name}"))
         else:
-            cosine, sine = cosine_sine(Interval.of(poses.held[name]) / _parts_of_a_turn(poses))
+            angle = from_degrees(poses.held[name]) if record.angle == "deg" else Interval.of(poses.held[name])
+            cosine, sine = cosine_sine(angle / _parts_of_a_turn(poses))
             values[name] = (given(f"cos {name}", cosine), given(f"sin {name}", sine))
     if has_quaternion(poses.pose):
         values |= zip(QUATERNION, quaternion_of(*(values[name] for name in ANGLES)), strict=True)

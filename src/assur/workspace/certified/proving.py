@@ -29,6 +29,9 @@ LISTED = 20
 PARTS = 32
 """Into so many parts a box is cut along each coordinate at most, where nobody says how many."""
 
+SUMMED = 1e-9
+"""More than the relative error of the sums of the sizes of boxes."""
+
 Verdict = Literal["proved", "refuted", "undecided"]
 
 
@@ -43,8 +46,8 @@ class ProvedBox:
         failed: boxes in which none is reached.
         doubtful: boxes of the finest size of which neither is proved.
         names: coordinates of the boxes; nothing depends on the others.
-        share: share of the box's volume that is proved.
-        witness: a pose that fails; of a factor that changes sign, one of two between which it is zero.
+        share: of the box's volume that is proved, at least.
+        witness: a pose that fails; of a factor that changes sign, one of two between which one fails.
         stopped: why the search ended early; "" where it did not.
     """
 
@@ -123,7 +126,7 @@ def prove_box(
     'proved'
     >>> found = prove_box(record, {"x": (-40, 0), "y": (-50, 50), "z": (180, 400)})
     >>> found.status, found.witness.why
-    ('refuted', 'w changes sign: zero on the way')
+    ('refuted', 'w changes sign on the way: singular, or not reached')
     """
     poses = slice_at(record, held)
     domain = box_of(record, box, poses.free)
@@ -134,7 +137,8 @@ def prove_box(
     paving = pave(asked, domain, finest={**extents, **(finest or {})}, progress=progress)
     witness = _witness(asked, domain, paving)
     certain = len(paving.boundary) + len(paving.outside) == 0
-    sizes = [float(np.sum(boxes.sizes.high)) for boxes in (paving.inside, paving.outside, paving.boundary)]
+    known = float(np.sum(paving.inside.sizes.low))
+    every = sum(float(np.sum(boxes.sizes.high)) for boxes in (paving.inside, paving.outside, paving.boundary))
     return ProvedBox(
         mechanism=record.name,
         mode=mode or record.modes.default_working,
@@ -146,7 +150,7 @@ def prove_box(
         proved=paving.inside,
         failed=paving.outside,
         doubtful=paving.boundary,
-        share=1.0 if certain else sizes[0] / sum(sizes),
+        share=1.0 if certain else known / every * (1 - SUMMED),
         witness=witness,
         stopped=paving.stopped,
     )

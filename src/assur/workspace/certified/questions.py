@@ -28,7 +28,7 @@ class Witness:
 
     Attributes:
         pose: free coordinate -> value, in length units and rad.
-        why: "M12 < 0: not reached", "v changes sign: singular on the way".
+        why: "M12 < 0: not reached", "v changes sign on the way: singular, or not reached".
     """
 
     pose: Mapping[str, float]
@@ -75,7 +75,7 @@ def violations(asked: Criteria, points: Sequence[FloatArray], at: Mapping[str, I
         here, there = found[name], at[name]
         changed = (here.negative & there.positive) | (here.positive & there.negative)
         zero = (here.low == 0) & (here.high == 0) & here.defined
-        why[(why == "") & changed] = f"{name} changes sign: zero on the way"
+        why[(why == "") & changed] = f"{name} changes sign on the way: singular, or not reached"
         why[(why == "") & zero] = f"{name} = 0"
     return why
 

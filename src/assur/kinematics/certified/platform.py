@@ -1,0 +1,91 @@
+"""The platform on the joint graph over any number type: its pose, and the equations that a given pose makes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.certified.given import turn
+from assur.kinematics.certified.joint_frames import Placed
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import LENGTHS, QUATERNION, is_angle
+from assur.numerics.intervals.interval import Interval, as_interval
+from assur.numerics.krawczyk import parts
+from assur.numerics.number_types import Intervals
+from assur.numerics.sparse_vectors import add, apply, minus, plus, times
+
+FloatArray = NDArray[np.float64]
+
+
+def pose_parts(record: MechanismRecord, placed: dict[str, Placed]) -> list[Any]:
+    """The pose's coordinates over bounds of frames, an angle as (cosine, sine) up to a positive factor.
+
+    Theta is between -90 and 90 deg, qw positive.
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("planar_3rpr")
+    >>> level = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+    >>> x, y, _ = pose_parts(record, {record.platform.link: (level, (Interval.of(1.0), 2, 0))})
+    >>> float(x.middle), y
+    (1.0, 2)
+    """
+    rotation, origin = placed[record.platform.link]
+    point = add(origin, apply(rotation, _exact(record.platform.point)))
+    level = plus(times(rotation[0][0], rotation[0][0]), times(rotation[1][0], rotation[1][0]))
+    scalar = Intervals().sqrt(plus(plus(plus(1, rotation[0][0]), rotation[1][1]), rotation[2][2])) / 2
+    found: dict[str, Any] = {
+        **dict(zip(LENGTHS, point, strict=True)),
+        "phi": (as_interval(rotation[0][0]), as_interval(rotation[1][0])),
+        "theta": (Intervals().sqrt(level), as_interval(minus(0, rotation[2][0]))),
+        "psi": (as_interval(rotation[2][2]), as_interval(rotation[2][1])),
+        "qw": scalar,
+    }
+    for name, (i, j) in zip(QUATERNION[1:], ((2, 1), (0, 2), (1, 0)), strict=True):
+        found[name] = as_interval(minus(rotation[i][j], rotation[j][i])) / (scalar * 4)
+    return [found[name] for name in record.platform.pose]
+
+
+def pose_rows(record: MechanismRecord, placed: dict[str, Placed], pose: Interval) -> tuple[list[Any], list[Any]]:
+    """What is zero, and what is positive, where the platform is at a pose (m,) within bounds."""
+    rotation, origin = placed[record.platform.link]
+    point = add(origin, apply(rotation, _exact(record.platform.point)))
+    wanted = dict(zip(record.platform.pose, parts(pose), strict=True))
+    rows: list[Any] = [minus(point[LENGTHS.index(name)], wanted[name]) for name in LENGTHS if name in wanted]
+    positive: list[Any] = []
+    pairs = {"phi": (rotation[0][0], rotation[1][0]), "psi": (rotation[2][2], rotation[2][1])}
+    for name in (name for name in wanted if is_angle(name)):
+        cosine, sine = turn(wanted[name])
+        if name == "theta":
+            rows.append(plus(rotation[2][0], sine))
+            continue
+        rows.append(minus(times(pairs[name][1], cosine), times(pairs[name][0], sine)))
+        positive.append(plus(times(pairs[name][0], cosine), times(pairs[name][1], sine)))
+    if QUATERNION[0] in wanted:
+        own, more = _turned_to(rotation, [wanted[name] for name in QUATERNION])
+        rows, positive = rows + own, positive + more
+    return rows, positive
+
+
+def _turned_to(rotation: Any, quaternion: list[Interval]) -> tuple[list[Any], list[Any]]:
+    """Skew part and trace of the turn from a quaternion of any length to a rotation."""
+    w, x, y, z = quaternion
+    twice = 2 / (w * w + x * x + y * y + z * z)
+    wanted = (
+        (1 - twice * (y * y + z * z), twice * (x * y - w * z), twice * (x * z + w * y)),
+        (twice * (x * y + w * z), 1 - twice * (x * x + z * z), twice * (y * z - w * x)),
+        (twice * (x * z - w * y), twice * (y * z + w * x), 1 - twice * (x * x + y * y)),
+    )
+    gap = [[_dot([row[i] for row in wanted], [row[j] for row in rotation]) for j in range(3)] for i in range(3)]
+    skew = [minus(gap[2][1], gap[1][2]), minus(gap[0][2], gap[2][0]), minus(gap[1][0], gap[0][1])]
+    return skew, [plus(plus(gap[0][0], gap[1][1]), gap[2][2])]
+
+
+def _dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
+    return plus(plus(times(a[0], b[0]), times(a[1], b[1])), times(a[2], b[2]))
+
+
+def _exact(point: FloatArray) -> Any:
+    return tuple(0 if value == 0 else Interval.of(value) for value in point.tolist())
