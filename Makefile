@@ -11,7 +11,7 @@ INSTALL := PIP_CONSTRAINT=constraints.txt PIP_BUILD_CONSTRAINT=constraints.txt P
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help demo test check figures report bench format constraints clean
+.PHONY: help demo test check figures report docs bench format constraints clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\): .*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
@@ -19,8 +19,8 @@ help: ## list the targets
 demo: $(VENV)/installed ## set up, then the main job: the paper's mechanism, checked row by row
 	$(BIN)/assur demo
 
-test: $(VENV)/installed-$(if $(SIM),sim,dev) ## set up, then every test; SIM=yes installs MuJoCo for those that need it
-	OPENBLAS_NUM_THREADS=1 $(if $(SIM),ASSUR_SIM=required )$(BIN)/python -m pytest -n 2 $(ARGS)
+test: $(VENV)/installed-$(if $(ALL),all,dev) ## set up, then every test; ALL=yes installs every extra for those that need one
+	OPENBLAS_NUM_THREADS=1 $(if $(ALL),ASSUR_EXTRAS=required )$(BIN)/python -m pytest -n 2 $(ARGS)
 
 check: $(VENV)/installed-dev ## ruff, mypy strict and the direction of the imports
 	$(BIN)/ruff check .
@@ -35,6 +35,10 @@ report: $(VENV)/installed ## the one-file report into out/report.html
 	@mkdir -p out
 	$(BIN)/assur report zeng2019 -o out/report.html
 
+docs: $(VENV)/installed-docs ## the site into build/site, from docs/; no warning is let through
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m sphinx -W --keep-going -E -q -d build/doctrees docs build/site
+	@echo "open build/site/index.html"
+
 bench: $(VENV)/installed ## poses per second beside a hand-written C loop (needs gcc), and the topology of a mechanism
 	$(BIN)/python bench/bench.py
 	$(BIN)/python bench/topology.py
@@ -48,7 +52,7 @@ format: $(VENV)/installed-dev ## put the code into the form that `check` asks fo
 
 constraints: ## pin every package anew, each at its newest version that pyproject.toml allows
 	rm -rf build/pins && $(PYTHON) -m venv build/pins
-	build/pins/bin/python -m pip install --quiet --editable '.[dev,sim,bench]' hatchling editables
+	build/pins/bin/python -m pip install --quiet --editable '.[dev,sim,view,cad,docs,bench]' hatchling editables
 	sed -n '/^#/p' constraints.txt > build/constraints.txt
 	build/pins/bin/python -m pip list --format=freeze --exclude pip --exclude setuptools --exclude assur \
 	    >> build/constraints.txt
@@ -56,7 +60,7 @@ constraints: ## pin every package anew, each at its newest version that pyprojec
 
 clean: ## remove what was made, except the virtual environment (rm -rf .venv does that)
 	rm -rf out build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache
-	find src tests bench examples -name __pycache__ -prune -exec rm -rf {} +
+	find src tests bench examples docs -name __pycache__ -prune -exec rm -rf {} +
 
 # ---- the virtual environment: a stamp for each step, so that the second run is instant ---------------------------
 
@@ -75,6 +79,10 @@ $(VENV)/installed-dev: pyproject.toml constraints.txt | $(VENV)/made
 	$(INSTALL) '.[dev]'
 	@touch $(VENV)/installed $@
 
-$(VENV)/installed-sim: pyproject.toml constraints.txt | $(VENV)/made
-	$(INSTALL) '.[dev,sim]'
-	@touch $(VENV)/installed $(VENV)/installed-dev $@
+$(VENV)/installed-docs: pyproject.toml constraints.txt | $(VENV)/made
+	$(INSTALL) '.[docs]'
+	@touch $(VENV)/installed $@
+
+$(VENV)/installed-all: pyproject.toml constraints.txt | $(VENV)/made
+	$(INSTALL) '.[dev,sim,view,cad,docs]'
+	@touch $(VENV)/installed $(VENV)/installed-dev $(VENV)/installed-docs $@

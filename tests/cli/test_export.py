@@ -44,6 +44,47 @@ def test_an_ending_of_another_form_is_refused(assur_cli, tmp_path):
 
 
 def test_an_unknown_form_is_refused_with_the_known_ones(assur_cli):
-    run = assur_cli("export", "fivebar", "--format", "step")
+    run = assur_cli("export", "fivebar", "--format", "dwg")
     assert run.code == 2
     assert "mjcf" in run.err
+
+
+def test_stl_is_a_folder_with_a_bill(assur_cli, tmp_path):
+    run = assur_cli("export", "fivebar", "--format", "stl", "-o", str(tmp_path / "printed"), "--json")
+    assert run.code == 0, run.err
+    written = sorted(path.name for path in (tmp_path / "printed").iterdir())
+    assert sorted(Path(name).name for name in run.json["files"]) == written
+    assert {"crank1.stl", "crank1.pins.stl", "bom.csv"} <= set(written)
+    assert {row["kind"] for row in run.json["bill"]} == {"make", "buy"}
+
+
+def test_glb_is_written_and_moves(assur_cli, tmp_path):
+    path = tmp_path / "it.glb"
+    assert assur_cli("export", "fivebar", "--format", "glb", "-o", str(path)).code == 0
+    assert path.read_bytes()[:4] == b"glTF"
+    assert b'"closed motion"' in path.read_bytes()
+
+
+def test_the_bill_alone(assur_cli, tmp_path):
+    run = assur_cli("export", "zeng2019", "--format", "bom", "-o", str(tmp_path / "it.csv"))
+    assert run.code == 0
+    assert "to buy" in run.out
+    assert "rail with carriage" in (tmp_path / "it.csv").read_text()
+
+
+@pytest.mark.cad
+def test_step_has_its_bill_beside_it(assur_cli, tmp_path):
+    run = assur_cli("export", "fivebar", "--format", "step", "-o", str(tmp_path / "it.step"), "--json")
+    assert run.code == 0, run.err
+    assert [Path(name).name for name in run.json["files"]] == ["it.step", "it.bom.csv"]
+    assert (tmp_path / "it.step").read_text().startswith("ISO-10303-21")
+
+
+def test_step_without_its_extra_says_what_to_install(assur_cli, tmp_path, monkeypatch):
+    import sys
+
+    monkeypatch.setitem(sys.modules, "OCP", None)
+    run = assur_cli("export", "fivebar", "--format", "step", "-o", str(tmp_path / "it.step"))
+    assert run.code == 2
+    assert "pip install 'assur[cad]'" in run.err
+    assert list(tmp_path.iterdir()) == []

@@ -138,12 +138,12 @@ S = 100
         assert figures.encoded(figures.draw(record, name), "pdf").startswith(b"%PDF")
 
 
-def test_without_closed_form_only_the_flow_is_missing():
+def test_without_closed_form_few_figures_are_missing():
     known = figures.Context(assur.load("fivebar"))
     record = dataclasses.replace(known.record, closed_form=None)
     bare = figures.Context(record, workspace(record, resolution=16))
     missing = set(figures.left_out(record, bare)) - set(figures.left_out(known.record, known))
-    assert missing <= {"flow", "parallel", "singular"}  # no path from home meets another singularity
+    assert missing <= {"flow", "aspects", "parallel", "singular"}  # no path from home meets another singularity
     for name in figures.names(record, bare):
         assert figures.encoded(figures.draw(record, name, bare), "pdf").startswith(b"%PDF")
     for spec in figures.catalogue(record, bare):

@@ -1,12 +1,24 @@
-"""`assur export`: a mechanism as a file that a simulator reads."""
+"""`assur export`: a mechanism as a file that a simulator, a CAD program, a viewer or a printer reads."""
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
 from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from rich.console import RenderableType
+
+    from assur.export.cad.bill import Row
+    from assur.export.files import Format
+    from assur.mechanism import Mechanism
+
+SIMULATED = ("mjcf", "sdf", "urdf")
 
 
 def export(
@@ -14,34 +26,90 @@ def export(
     /,
     *,
     format_: Annotated[
-        Literal["mjcf", "sdf", "urdf"],
-        Parameter(name="--format", help="mjcf (MuJoCo) if left out; sdf (Gazebo, Drake); urdf with a file of loops."),
+        Literal["mjcf", "sdf", "urdf", "step", "glb", "stl", "bom"],
+        Parameter(
+            name="--format",
+            help="For simulators mjcf (MuJoCo; if left out), sdf (Gazebo, Drake), urdf with a file of loops; for"
+            " prototypes step (CAD; pip install 'assur[cad]'), stl (printers), glb (moving), bom (parts and bearings).",
+        ),
     ] = "mjcf",
     output: Annotated[
         str | None,
-        Parameter(name=("-o", "--output"), metavar="FILE", help="The file to be written; NAME.xml, .sdf or .urdf."),
+        Parameter(
+            name=("-o", "--output"), metavar="FILE", help="The file to be written, NAME.xml and so on; of stl a folder."
+        ),
     ] = None,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
-    """Write a mechanism for a simulator, in m and rad, standing at home.
+    """Write a mechanism for a simulator, for CAD, for viewers or for printers.
 
-    MJCF closes the loops by stiff constraints and has a servo for each input.
-    SDF has every joint as it is. URDF is a tree; its loops stand in a file
-    beside it, FILE.loops.json. Masses are nominal: 1 kg for each link.
+    Simulator files are in m and rad, standing at home. MJCF closes the loops by
+    stiff constraints and has a servo for each input. SDF has every joint as it
+    is. URDF is a tree; its loops stand in a file beside it, FILE.loops.json.
+    Masses are nominal: 1 kg for each link.
+
+    Prototype files have links with bores, pins, rails and carriages; lengths
+    that the joint graph gives are kept, all others are drawn, to begin with.
+    STEP is an assembly of named solids in mm, STL one watertight file per link
+    in mm; beside both a bill of materials. GLB moves once round and back.
 
     For example:
         assur export fivebar -o fivebar.xml
         assur export zeng2019 --format urdf -o zeng.urdf
+        assur export zeng2019 --format step -o zeng.step
+        assur export zeng2019 --format stl -o printed
     """
     record = shared.mechanism(mechanism)
-    from assur.cli.output import heading
-    from assur.cli.paths import output_file
-    from assur.export.bodies import MASS
-    from assur.export.files import ENDINGS, export
+    from assur.cli.progress import progress
+    from assur.export.cad.bill import bill
+    from assur.export.files import export
 
-    endings = ENDINGS[format_]
-    path = output_file(output or f"{record.name}{endings[0]}", endings)
-    written = [str(item) for item in export(record, format_, path)]
-    data = {"mechanism": record.name, "format": format_, "files": written, "nominal_mass_kg": MASS}
-    lines = [heading(f"{record.name}, {format_}"), *(f"written: {name}" for name in written)]
-    return Outcome(data, lambda: [*lines, f"masses are nominal: {MASS:g} kg for each link"])
+    path = _path(record, format_, output)
+    with progress("export", shared):
+        written = [str(item) for item in export(record, format_, path)]
+        rows = () if format_ in (*SIMULATED, "glb") else bill(record)
+    data: dict[str, Any] = {"mechanism": record.name, "format": format_, "files": written}
+    if format_ in SIMULATED:
+        from assur.export.bodies import MASS
+
+        data["nominal_mass_kg"] = MASS
+    if rows:
+        data["bill"] = [row.to_json() for row in rows]
+    return Outcome(data, lambda: _shown(record, data, rows))
+
+
+def _path(record: Mechanism, form: Format, output: str | None) -> Path:
+    """Where it goes; looked at before the work begins, and of STEP that there is what makes it."""
+    from assur.cli.paths import output_file, output_folder
+    from assur.export.files import ENDINGS
+
+    if form == "step":
+        from assur.export.cad.kernel import needed
+
+        needed()
+    endings = ENDINGS[form]
+    if not endings:
+        return output_folder(output or f"{record.name}-{form}")
+    return output_file(output or f"{record.name}{'.bom' if form == 'bom' else ''}{endings[0]}", endings)
+
+
+def _shown(record: Mechanism, data: dict[str, Any], rows: tuple[Row, ...]) -> Iterable[RenderableType]:
+    from assur.cli.output import heading, table
+
+    yield heading(f"{record.name}, {data['format']}")
+    files = data["files"]
+    yield (
+        f"written: {len(files)} files in {files[0].rpartition('/')[0] or '.'}"
+        if len(files) > 3
+        else "\n".join(f"written: {name}" for name in files)
+    )
+    if "nominal_mass_kg" in data:
+        yield f"masses are nominal: {data['nominal_mass_kg']:g} kg for each link"
+    for kind, title in (("make", "to make, sizes in mm"), ("buy", "to buy")):
+        chosen = [(str(row.count), row.what, " ".join(row.names)) for row in rows if row.kind == kind]
+        if chosen:
+            yield ""
+            columns = ("count", "what", "links" if kind == "make" else "joints")
+            yield table(columns, chosen, title=title, left=columns[1:], wrap=columns[1:])
+    if rows:
+        yield "thicknesses, pins, balls and rails are as drawn: a beginning, not a design"

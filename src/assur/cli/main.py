@@ -35,6 +35,7 @@ def application() -> App:
     from assur.cli.audit import audit
     from assur.cli.certify import certify
     from assur.cli.check import check
+    from assur.cli.collisions import collisions
     from assur.cli.crosscheck import crosscheck
     from assur.cli.demo import demo
     from assur.cli.direct import direct
@@ -45,14 +46,18 @@ def application() -> App:
     from assur.cli.indices import indices
     from assur.cli.inverse import inverse
     from assur.cli.list import list_
+    from assur.cli.motion import motion
     from assur.cli.new import new
+    from assur.cli.page import page
     from assur.cli.report import report
     from assur.cli.schema import schema
     from assur.cli.show import show
     from assur.cli.singularity import singularity
+    from assur.cli.sweep import sweep
     from assur.cli.synthesize import synthesize
     from assur.cli.topology import topology
     from assur.cli.verify import verify
+    from assur.cli.view import view
     from assur.cli.workspace import workspace
 
     app = App(
@@ -71,6 +76,7 @@ def application() -> App:
         direct,
         inverse,
         follow,
+        sweep,
         singularity,
         workspace,
         aspects,
@@ -79,8 +85,12 @@ def application() -> App:
         indices,
         audit,
         figures,
+        motion,
         report,
+        page,
+        view,
         export,
+        collisions,
     )
     for command in (*mechanism, crosscheck, synthesize, new, schema, demo, doctor):
         app.command(command)

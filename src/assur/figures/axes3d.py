@@ -15,6 +15,9 @@ FloatArray = NDArray[np.float64]
 CROWDED = 14.0
 """Nearer than this to the end of another axis, in points, two numbers would stand on one another."""
 
+ROOM = 24.0
+"""Points along an axis for each number on it; also what is moved aside then clears its neighbour."""
+
 
 def draw_box(page: Canvas, view: View, low: FloatArray, high: FloatArray) -> None:
     """The twelve edges of a box, the three at the corner farthest from the reader thinnest."""
@@ -45,15 +48,20 @@ def draw_axes(
         away = _outwards(flat, middle)
         page.line(flat, 0.7, INK, 3)
         first, last = low[axis] * per[axis], high[axis] * per[axis]
-        for tick in MaxNLocator(5, steps=[1, 2, 3, 5, 10]).tick_values(first, last):
+        most = int(np.clip(np.linalg.norm(flat[1] - flat[0]) / ROOM, 1, 5))
+        for tick in MaxNLocator(most, steps=[1, 2, 3, 5, 10]).tick_values(first, last):
             if first - 1e-9 <= tick <= last + 1e-9:
                 at = ends[0].copy()
                 at[axis] = tick / per[axis]
                 foot = view(at)
                 page.line(np.array([foot, foot + 3 * away]), 0.5, INK, 3)
                 aside = _aside(foot, flat, others)
-                page.text(foot + 8.5 * away + aside, f"{tick:g}".replace("-", "−"), fontsize=SMALL)
-        page.text(flat.mean(axis=0) + 23 * away, titles[axis], fontsize=TEXT)
+                number = f"{tick:g}".replace("-", "−")
+                reach = 5.0 + np.abs(away) @ [0.25 * SMALL * len(number), 0.45 * SMALL]
+                page.text(foot + reach * away + aside, number, fontsize=SMALL)
+        upright = abs(away[0]) > 0.9  # a title beside it would stand on the numbers
+        at = flat[int(np.argmax(flat[:, 1]))] + [-9.0, 7.0] if upright else flat.mean(axis=0) + 23 * away
+        page.text(at, titles[axis], fontsize=TEXT)
 
 
 def _aside(foot: FloatArray, flat: FloatArray, others: FloatArray) -> FloatArray:

@@ -106,7 +106,8 @@ class Letters:
             foot = label.feet[label.chosen]
             gap = np.clip(foot, [x0, y0], [x1, y1]) - foot
             start = foot + gap * label.clear / max(float(np.linalg.norm(gap)), 1e-9)
-            self.page.line(np.array([start, foot + gap]), 0.4, GREY, 19)
+            style: Any = {"path_effects": label.text.get_path_effects()} if label.text.get_path_effects() else {}
+            self.page.line(np.array([start, foot + gap]), 0.4, INK if style else GREY, 19, **style)
 
 
 def _candidates(label: _Label) -> None:

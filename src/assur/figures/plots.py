@@ -191,5 +191,6 @@ def locus_words(context: Context) -> str:
     """The singular surfaces inside the workspace and what they mean, for a caption."""
     items = [f"{condition(factor_of(context, locus.factor))} ({locus.meaning})" for locus in present(context.workspace)]
     if not items:
-        return "No parallel-singular surface lies inside."
+        cells = max(context.workspace.region.grid.cells)
+        return f"On a grid of {cells} cells along each coordinate no parallel-singular surface was found inside."
     return "Parallel-singular surfaces inside: " + "; ".join(items) + "."

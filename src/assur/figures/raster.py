@@ -80,25 +80,37 @@ def buffers(flat: FloatArray, near: FloatArray, faces: NDArray[np.intp], width: 
     return Buffers(face, depth)
 
 
-def picture(
-    mesh: Mesh,
-    view: View,
-    size: tuple[float, float],
-    dots: float,
-    *,
-    solid: bool = True,
-    edges: bool = True,
-) -> FloatArray:
-    """The picture (h, w, 4) of a mesh on a page of size points, with `dots` pixels per inch; clear where there is none.
+def filled(mesh: Mesh, view: View, size: tuple[float, float], dots: float, *, solid: bool = True) -> Buffers:
+    """What is nearest on a page of size points, at `SAMPLES` times `dots` fine pixels per inch.
 
     `solid` says that all is closed, so that faces turned away need not be painted.
     """
     scale = SAMPLES * dots / 72.0
     width, height = (SAMPLES * max(1, round(side * scale / SAMPLES)) for side in size)
-    flat = scale * view(mesh.corners) - 0.5  # (f, 3, 2), centres of pixels at whole numbers
     turned = np.any(mesh.normals @ view.camera.toward > -1e-9, axis=1)
     faces = np.flatnonzero(turned) if solid else np.arange(len(turned))
-    found = buffers(flat, view.camera.depth(mesh.corners), faces, width, height)
+    return buffers(_fine(mesh, view, dots), view.camera.depth(mesh.corners), faces, width, height)
+
+
+def _fine(mesh: Mesh, view: View, dots: float) -> FloatArray:
+    """Corners (f, 3, 2) in fine pixels, whose centres are at whole numbers."""
+    return SAMPLES * dots / 72.0 * view(mesh.corners) - 0.5
+
+
+def picture(
+    mesh: Mesh, view: View, size: tuple[float, float], dots: float, *, solid: bool = True, edges: bool = True
+) -> FloatArray:
+    """The picture (h, w, 4) of a mesh on a page of size points, with `dots` pixels per inch; clear where there is none.
+
+    `solid` is that of `filled`; `edges` are drawn as wide as a fine pixel on each side.
+    """
+    return lit(mesh, view, filled(mesh, view, size, dots, solid=solid), dots, edges=edges)
+
+
+def lit(mesh: Mesh, view: View, found: Buffers, dots: float, *, edges: bool = True) -> FloatArray:
+    """The picture (h, w, 4) of what is nearest, with light on it."""
+    flat = _fine(mesh, view, dots)
+    height, width = found.face.shape
     seen = found.face >= 0
     index = found.face[seen]
     weights = _weights(flat, index, seen)

@@ -12,6 +12,7 @@ from assur.figures.axes3d import draw_axes, draw_box
 from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
 from assur.figures.context import Context
 from assur.figures.coordinates import axis_title, drawn_span, dress, shown, stretch
+from assur.figures.lines import before, facing_of, mesh_edges
 from assur.figures.plots import (
     CLOSE,
     FREE,
@@ -26,8 +27,9 @@ from assur.figures.plots import (
     no_workspace,
     present,
 )
-from assur.figures.raster import picture
+from assur.figures.raster import filled, lit
 from assur.figures.singular import condition
+from assur.figures.solid import strokes
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import DOTS_PER_INCH, GREY, PAGE, SMALL, TEXT, mm, new_figure
 from assur.model.pose import is_angle
@@ -122,24 +124,32 @@ def _space(context: Context) -> Any:
         meshes = [(mesh_of(part.simplify(fine)), colour) for part, colour in parts if not part.is_empty()]
         solids = [surface(drawn * vertices, faces, colour) for (vertices, faces), colour in meshes]
         _paste(page, views[0], joined(solids), solid=True)
-    if panels == 2:
-        for edge in creases(drawn * found.vertices, found.faces):
-            page.line(views[1](edge), 0.35, GREY, 5)
     surfaces = [
         surface(drawn * item.vertices, item.faces, LOCI[k % len(LOCI)]) for k, item in enumerate(present(found))
     ]
     if surfaces:
-        _paste(page, views[1], joined(surfaces), solid=False)
+        edges = np.concatenate([creases(drawn * found.vertices, found.faces), _contour(found, drawn, views[1])])
+        _paste(page, views[1], joined(surfaces), solid=False, edges=edges)
     _captions(context, page, panel, width)
     return page.figure
 
 
-def _paste(page: Canvas, view: View, mesh: Mesh, *, solid: bool) -> None:
-    """The picture of a mesh, where it is on the page."""
+def _contour(found: Workspace, drawn: FloatArray, view: View) -> FloatArray:
+    """Edges (e, 2, 3) of the region beyond which nothing of it is seen."""
+    body = surface(drawn * found.vertices, found.faces, GREY)
+    edges = mesh_edges(body, facing_of(body, view))
+    return edges.ends[edges.outline]
+
+
+def _paste(page: Canvas, view: View, mesh: Mesh, *, solid: bool, edges: FloatArray | None = None) -> None:
+    """The picture of a mesh, where it is on the page, and what it leaves to be seen of edges (e, 2, 3)."""
     flat = view(mesh.corners.reshape(-1, 3))
     (left, bottom), (right, top) = flat.min(axis=0) - 2.0, flat.max(axis=0) + 2.0
     local = View(view.camera, view.scale, view.offset - [left, bottom])
-    image = picture(mesh, local, (right - left, top - bottom), DOTS_PER_INCH, solid=solid)
+    painted = filled(mesh, local, (right - left, top - bottom), DOTS_PER_INCH, solid=solid)
+    image = lit(mesh, local, painted, DOTS_PER_INCH)
+    if edges is not None:
+        strokes(page, before(edges, local, painted, DOTS_PER_INCH) + np.array([left, bottom]), 0.35, 5, GREY)
     page.axes.imshow(image, extent=(left, right, bottom, top), interpolation="antialiased", zorder=2, aspect="auto")
 
 
@@ -151,16 +161,18 @@ def _captions(context: Context, page: Canvas, panel: float, width: float) -> Non
         for k, item in enumerate(present(found))
     ]
     shown: list[list[Any]] = [areas, lines] if lines else [areas]
+    legend = None
     for k, handles in enumerate(shown):
         middle = 14.0 + k * (panel + 14.0) + panel / 2
         if lines:
             page.text((middle * POINTS, 3.5 * POINTS), f"({chr(97 + k)})", fontsize=TEXT)
         place = (middle / width, 1.0)
         if handles:
+            if legend is not None:
+                page.axes.add_artist(legend)  # the axes themselves keep the last one only
             legend = page.axes.legend(
                 handles=handles, loc="upper center", bbox_to_anchor=place, ncols=len(handles), fontsize=SMALL
             )
-            page.axes.add_artist(legend)
 
 
 WORKSPACE = Entry("workspace", "Workspace and parallel singularities", no_workspace, _caption, _draw)

@@ -31,7 +31,7 @@ from assur.singularity.examples import SingularExample
 
 FloatArray = NDArray[np.float64]
 ACCENT, MUTED = "#e07b45", "#c3c8cc"
-"""Colours of the links that a meaning names, and of all others."""
+"""Colours of the links that a meaning names, and of all others where it names any."""
 
 COLUMNS = 3
 TEXT_HEIGHT = 17.0
@@ -221,7 +221,9 @@ def _scene(context: Context, example: SingularExample) -> _Scene:
     example = shown(context, example)
     body = skeleton(context.record, context.companion, example.joints)
     found = named(example.factor.meaning, body)
-    colours = dict.fromkeys(context.record.links, MUTED) | dict.fromkeys(accented(found, body), ACCENT)
+    colours = dict.fromkeys(accented(found, body), ACCENT)
+    if colours:
+        colours = dict.fromkeys(context.record.links, MUTED) | colours
     mesh = model(body, context.companion, colours)
     return _Scene(example, body, found, mesh, model_camera(context))
 
@@ -230,7 +232,8 @@ def _panel(page: Canvas, scene: _Scene, rectangle: tuple[float, float, float, fl
     """The model with the links that the meaning names in colour, and lines through its points."""
     left, bottom, width, height = rectangle
     view = inside(scene.camera, scene.mesh.corners.reshape(-1, 3), (left + 1, bottom + 1, width - 2, height - 2))
-    paste(page, scene.mesh, view, (left * POINTS, bottom * POINTS, width * POINTS, height * POINTS))
+    weight = 1.0 if size == LETTER else 0.7
+    paste(page, scene.mesh, view, (left * POINTS, bottom * POINTS, width * POINTS, height * POINTS), weight)
     letters = Letters(page)
     _lines(page, view, scene.named, letters)
     for name in scene.named.letters:

@@ -1,23 +1,45 @@
-"""The model view: bars, pins, sliders, rails and platform in light, with hidden parts hidden."""
+"""The model view: bars, pins, sliders, rails and platform in light, with lettered joints and hidden lines left out."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
+from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 from assur.figures.canvas import Canvas, View, fitted
 from assur.figures.context import Context
-from assur.figures.raster import picture
+from assur.figures.letters import letter
+from assur.figures.lines import LineWork, line_work
+from assur.figures.model import lettered
+from assur.figures.placing import Letters
+from assur.figures.raster import SAMPLES, Buffers, filled, lit
 from assur.figures.spec import Drawing, Entry, always
-from assur.figures.style import BLUE, DOTS_PER_INCH, SMALL
+from assur.figures.style import BLUE, DOTS_PER_INCH, INK, PAPER, SMALL
 from assur.scene.camera import Camera, orthographic
 from assur.scene.mesh import Mesh
-from assur.scene.parts import model
+from assur.scene.parts import model, unit
 from assur.scene.skeleton import Skeleton
 
 FloatArray = NDArray[np.float64]
+OUTLINE, CREASE = 0.7, 0.4
+"""Widths of lines in points; what a journal prints is not under 0.25."""
+
+HALO = 2.2
+"""Width of the white edge of a letter, in points."""
+
+BELOW = -14
+"""Elevation in degrees from which a mechanism is seen that hangs from its base, whose plate would hide it."""
+
+HIDDEN = 3.0
+"""A point is hidden by what is nearer by more than so many units of drawn thickness; pins and plates are thinner."""
+
+LONG, TOGETHER = 2.0, 1.0
+"""Letters keep clear of longer lines; points that are nearer on paper share a label; in points."""
 
 
 def _caption(context: Context) -> str:
@@ -30,35 +52,129 @@ def _caption(context: Context) -> str:
     dimensions = f" with {values} (lengths in {unit})" if values else ""
     return (
         f"Model view of the mechanism{dimensions}. Lengths and axes are those of the joint"
-        " graph; thicknesses, rails and base plate are drawn only."
+        " graph; thicknesses, rails and base plate are drawn only. A hollow dot is a point that another link hides."
     )
 
 
 def model_camera(context: Context) -> Camera:
-    """The view of a model; a planar mechanism is seen from above at a slant."""
-    return context.companion.camera("solid", orthographic(-62, 52) if context.planar else orthographic(35, 22))
+    """The view of a model: of a planar mechanism from above at a slant, of one that hangs from its base from below."""
+    usual = orthographic(-62, 52) if context.planar else orthographic(35, BELOW if _hangs(context.skeleton) else 22)
+    return context.companion.camera("solid", usual)
+
+
+def _hangs(skeleton: Skeleton) -> bool:
+    """Whether all joints of the base are above the middle of all others."""
+    base = [mark.at[2] for mark in skeleton.marks if mark.grounded]
+    others = [mark.at[2] for mark in skeleton.marks if not mark.grounded]
+    return bool(base and others) and min(base) > float(np.mean(others)) + 1e-9 * skeleton.size
 
 
 def _draw(context: Context) -> Drawing:
     camera = model_camera(context)
     mesh = model(context.skeleton, context.companion)
-    view, page = fitted(camera, mesh.corners.reshape(-1, 3), 120, 120, margin=4)
-    paste(page, mesh, view)
+    view, page = fitted(camera, mesh.corners.reshape(-1, 3), 120, 120, margin=7)
+    drawn = paste(page, mesh, view)
+    letters = Letters(page)
+    for line in np.concatenate([drawn.lines.outlines, drawn.lines.creases]):
+        if np.linalg.norm(line[1] - line[0]) > LONG:
+            letters.avoid(line)
+    name_points(page, view, context.skeleton, letters, drawn)
     triad(page, camera, np.array([22.0, 20.0]))
+    letters.avoid_box(np.array([[0.0, 0.0], [46.0, 46.0]]))
+    letters.place()
     return Drawing(page.figure, _data(context, context.skeleton))
 
 
-def paste(page: Canvas, mesh: Mesh, view: View, box: tuple[float, float, float, float] | None = None) -> None:
-    """The picture of a mesh on a page, or on a part (left, bottom, width, height) of it, in points."""
+@dataclass(frozen=True, eq=False)
+class Pasted:
+    """What was drawn: its lines in points of the page, and what is nearest where."""
+
+    lines: LineWork
+    view: View
+    found: Buffers
+
+    def hides(self, at: FloatArray, room: float) -> bool:
+        """Whether something is nearer than a point (3,) by more than `room`."""
+        column, row = np.round(SAMPLES * DOTS_PER_INCH / 72.0 * self.view(at) - 0.5).astype(int)
+        height, width = self.found.depth.shape
+        if not (0 <= row < height and 0 <= column < width):
+            return False
+        return bool(self.found.depth[row, column] > float(self.view.camera.depth(at)) + room)
+
+
+def name_points(page: Canvas, view: View, skeleton: Skeleton, letters: Letters, drawn: Pasted) -> None:
+    """The letters of joints and points, with halos, over everything; those that lie in one place on paper together.
+
+    A point has a dot, a hollow one where another link hides it.
+    """
+    groups: list[tuple[FloatArray, list[str]]] = []
+    for name, at in lettered(skeleton).items():
+        if _inside_leg(skeleton, at):
+            continue
+        place = view(at)
+        here = next((names for other, names in groups if np.linalg.norm(place - other) < TOGETHER), None)
+        if here is None:
+            groups.append((place, [name]))
+        else:
+            here.append(name)
+    halo = [withStroke(linewidth=HALO, foreground=PAPER)]
+    placed = lettered(skeleton)
+    for place, names in groups:
+        hidden = drawn.hides(placed[names[0]], HIDDEN * unit(skeleton))
+        fill, edge = (PAPER, INK) if hidden else (INK, PAPER)
+        page.disc(place, 1.1, fill, edge, 0.4, order=13)
+        letters.avoid_disc(place, 4.0)
+        letters.add(place, ", ".join(letter(name) for name in names), clear=4.5, path_effects=halo)
+
+
+def _inside_leg(skeleton: Skeleton, at: FloatArray) -> bool:
+    """Whether a point lies between the ends of a leg that grows longer."""
+    for mark in skeleton.marks:
+        if mark.telescopes:
+            way = mark.at - mark.rail
+            share = float((at - mark.rail) @ way) / float(way @ way)
+            off = np.linalg.norm(at - mark.rail - share * way)
+            if 1e-6 < share < 1 - 1e-6 and off < 1e-6 * skeleton.size:
+                return True
+    return False
+
+
+def paste(
+    page: Canvas, mesh: Mesh, view: View, box: tuple[float, float, float, float] | None = None, weight: float = 1.0
+) -> Pasted:
+    """A mesh in light on a page, or on a part (left, bottom, width, height) of it in points, and its lines.
+
+    `weight` multiplies the widths of the lines.
+    """
     left, bottom, width, height = box or (0.0, 0.0, page.axes.get_xlim()[1], page.axes.get_ylim()[1])
-    local = View(view.camera, view.scale, view.offset - [left, bottom])
-    image = picture(mesh, local, (width, height), DOTS_PER_INCH)
+    corner = np.array([left, bottom])
+    local = View(view.camera, view.scale, view.offset - corner)
+    found = filled(mesh, local, (width, height), DOTS_PER_INCH)
+    drawn = line_work(mesh, local, found, DOTS_PER_INCH)
     page.axes.imshow(
-        image,
+        lit(mesh, local, found, DOTS_PER_INCH, edges=False),
         extent=(left, left + width, bottom, bottom + height),
         interpolation="antialiased",
         zorder=2,
         aspect="auto",
+    )
+    shifted = LineWork(drawn.outlines + corner, drawn.creases + corner)
+    for lines, thick in ((shifted.creases, CREASE), (shifted.outlines, OUTLINE)):
+        strokes(page, lines, weight * thick)
+    return Pasted(shifted, local, found)
+
+
+def strokes(page: Canvas, lines: FloatArray, width: float, order: float = 2.1, colour: str = INK) -> None:
+    """Segments (k, 2, 2) as one path."""
+    if not len(lines):
+        return
+    codes = np.tile([Path.MOVETO, Path.LINETO], len(lines))
+    path = Path(lines.reshape(-1, 2), codes)
+    path.should_simplify = False  # it would leave out short segments
+    page.axes.add_patch(
+        PathPatch(
+            path, fill=False, edgecolor=colour, linewidth=width, zorder=order, capstyle="round", joinstyle="round"
+        )
     )
 
 

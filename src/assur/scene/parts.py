@@ -7,13 +7,14 @@ runs through another. Sizes other than those of the joint graph are drawn only.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.scene.companion import Companion
 from assur.scene.hull import hull
+from assur.scene.joining import posts, stand, webs
 from assur.scene.mesh import Mesh, joined
 from assur.scene.rails import rails
 from assur.scene.shapes import Ball, Bar, Box, Cylinder, Shape, Slab
@@ -24,9 +25,9 @@ FloatArray = NDArray[np.float64]
 STEEL = "#9aa3ab"
 DARK = "#5d656c"
 PLATE = "#d5d8da"
-DRIVE = "#e0a020"
-STAGE = "#e6cf6a"
-LINKS = ("#5b9bc8", "#4fb591", "#d98a5f", "#c98bb0", "#8cc3e6", "#b59a7d")
+DRIVE = "#ecad1d"
+STAGE = "#ecd777"
+LINKS = ("#2381d4", "#41c793", "#cb6635", "#b473b4", "#94cdf3", "#8a7965")
 PLAIN = "#b4bac0"
 FLAT = 0.1
 """A platform whose outline has less than this share of the square of its length is drawn as a bar."""
@@ -51,12 +52,16 @@ class Part:
         link: the link that carries it.
         shape: in the frame of that link, in the mechanism's unit.
         colour: "#rrggbb".
+        role: what it does: bar, web, plate, post, stand, pin, ball, tube, rod, collar, carriage, rail, pillar.
+        joint: the joint that it belongs to, "" where none.
     """
 
     name: str
     link: str
     shape: Shape
     colour: str
+    role: str = "bar"
+    joint: str = ""
 
 
 def unit(skeleton: Skeleton) -> float:
@@ -78,7 +83,7 @@ def parts(skeleton: Skeleton, companion: Companion, accents: Mapping[str, str] |
     found = []
     for item in _placed(skeleton, companion, {**_chain_colours(skeleton), **(accents or {})}):
         rotation, origin = skeleton.frames[item.link]
-        found.append(Part(item.name, item.link, item.shape.moved(rotation.T, -rotation.T @ origin), item.colour))
+        found.append(replace(item, shape=item.shape.moved(rotation.T, -rotation.T @ origin)))
     return tuple(found)
 
 
@@ -143,6 +148,9 @@ def _rod(skeleton: Skeleton, rod: Rod, layer: int, colour: str) -> Iterator[Part
         aside = shift * size * normal
         shape = Bar(start + aside, end + aside, normal, 1.15 * size, THICK[layer] * size)
         yield Part(name, rod.link, shape, colour)
+    if layer:
+        for spacer in webs(skeleton, rod, max(LAYERS[layer]) * size * normal, 0.7 * size):
+            yield Part(f"web {' '.join(rod.ends)}", rod.link, spacer, colour, "web")
 
 
 def _hinge_normal(skeleton: Skeleton, rod: Rod) -> FloatArray | None:
@@ -158,20 +166,25 @@ def _hinge_normal(skeleton: Skeleton, rod: Rod) -> FloatArray | None:
 def _joint(skeleton: Skeleton, mark: Mark, layers: Mapping[str, int]) -> Iterator[Part]:
     size, joint = unit(skeleton), mark.joint
     if joint.type is SPHERICAL:
-        yield Part(f"{joint.name} ball", joint.child, Ball(mark.at, 1.4 * size), DARK)
+        yield Part(f"{joint.name} ball", joint.child, Ball(mark.at, 1.4 * size), DARK, "ball", joint.name)
         return
     if mark.slides:
         yield from _slider(mark, size)
     else:
-        reach = (max(max(LAYERS[layers[link]]) for link in (joint.parent, joint.child)) + 0.75) * size
+        reach = _reach(mark, layers) * size
         colour = DRIVE if mark.driven else DARK
         for axis, link in zip(mark.axes, (joint.parent, joint.child), strict=False):
-            yield Part(
-                f"{joint.name} pin", link, Cylinder(mark.at - reach * axis, mark.at + reach * axis, 0.7 * size), colour
-            )
+            shape = Cylinder(mark.at - reach * axis, mark.at + reach * axis, 0.7 * size)
+            yield Part(f"{joint.name} pin", link, shape, colour, "pin", joint.name)
     if mark.grounded and not mark.slides and abs(float(mark.axes[0][2])) > 0.9:
-        foot = Cylinder(mark.at - [0, 0, 4.0 * size], mark.at - [0, 0, 1.2 * size], 1.9 * size)
-        yield Part(f"{joint.name} pillar", skeleton.record.base, foot, DRIVE if mark.driven else DARK)
+        foot = Cylinder(mark.at - [0, 0, 4.6 * size], mark.at - [0, 0, 1.2 * size], 1.9 * size)
+        colour = DRIVE if mark.driven else DARK
+        yield Part(f"{joint.name} pillar", skeleton.record.base, foot, colour, "pillar", joint.name)
+
+
+def _reach(mark: Mark, layers: Mapping[str, int]) -> float:
+    """Half the length of a pin, in units of `unit`: through all layers, and on the base through its stand."""
+    return max(max(LAYERS[layers[link]]) for link in (mark.joint.parent, mark.joint.child)) + 0.75 + 0.6 * mark.grounded
 
 
 def _slider(mark: Mark, size: float) -> Iterator[Part]:
@@ -183,10 +196,12 @@ def _slider(mark: Mark, size: float) -> Iterator[Part]:
     if mark.telescopes:
         way = mark.at - mark.rail
         where, link, name = mark.rail + TUBE * way, joint.parent, "collar"
-        yield Part(f"{joint.name} tube", joint.parent, Cylinder(mark.rail, where, 0.8 * size), STEEL)
-        yield Part(f"{joint.name} rod", joint.child, Cylinder(mark.at - ROD * way, mark.at, 0.5 * size), STEEL)
+        tube = Cylinder(mark.rail, where, 0.8 * size)
+        yield Part(f"{joint.name} tube", joint.parent, tube, STEEL, "tube", joint.name)
+        rod = Cylinder(mark.at - ROD * way, mark.at, 0.5 * size)
+        yield Part(f"{joint.name} rod", joint.child, rod, STEEL, "rod", joint.name)
     sides = size * np.array([2.6 * axis, 1.9 * across, 1.15 * up])
-    yield Part(f"{joint.name} {name}", link, Box(where + 0.1 * size * up, sides), colour)
+    yield Part(f"{joint.name} {name}", link, Box(where + 0.1 * size * up, sides), colour, name, joint.name)
 
 
 def _across(axis: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -212,16 +227,18 @@ def _stage(skeleton: Skeleton, colour: str) -> Iterator[Part]:
     if np.ptp(local[:, 2]) > DEEP * np.max(np.ptp(local, axis=0)):
         return
     level = float(local[:, 2].max()) + 1.3 * size
+    for k, post in enumerate(posts(skeleton, level + 0.4 * size, 0.5 * size), 1):
+        yield Part(f"post {k}", link, post, colour, "post")
     corners = _outline(local[:, :2], 2.4 * size)
     if len(corners):
         raised = np.column_stack([corners, np.full(len(corners), level)])
-        yield Part("plate", link, Slab(origin + raised @ rotation.T, 0.8 * size * rotation[:, 2]), colour)
+        yield Part("plate", link, Slab(origin + raised @ rotation.T, 0.8 * size * rotation[:, 2]), colour, "plate")
         return
     margin = np.array([1.2 * size, 3.4 * size, 0.0])
     low, high = local.min(axis=0) - margin, local.max(axis=0) + margin
     low[2], high[2] = level, level + 0.8 * size
     shape = Box(origin + rotation @ ((low + high) / 2), np.diag((high - low) / 2) @ rotation.T)
-    yield Part("plate", link, shape, colour)
+    yield Part("plate", link, shape, colour, "plate")
 
 
 def _outline(points: FloatArray, margin: float) -> FloatArray:
@@ -244,14 +261,23 @@ def _base(skeleton: Skeleton, companion: Companion) -> Iterator[Part]:
         axis = (end - start) / np.linalg.norm(end - start)
         across, up = _across(axis)
         sides = np.array([(end - start) / 2, 0.8 * size * across, 0.95 * size * up])
-        yield Part(f"rail {k}", base, Box((start + end) / 2 - 0.65 * size * up, sides), STEEL)
+        yield Part(f"rail {k}", base, Box((start + end) / 2 - 0.65 * size * up, sides), STEEL, "rail")
         feet += [start, end]
     if not feet:
         return
     drop = 1.6 if found else 4.0
     if np.min(skeleton.cloud[:, 2]) < np.min(feet, axis=0)[2] - drop * size:
-        return  # a plate would hide what is below it
+        hangs = np.max(skeleton.cloud[:, 2]) <= np.max(feet, axis=0)[2] + size
+        if found or not hangs or np.ptp(feet, axis=0)[2] > size:
+            return  # a plate would hide what is below it
+        drop = -drop - 1.3  # it hangs
     low, high = np.min(feet, axis=0) - 3.2 * size, np.max(feet, axis=0) + 3.2 * size
-    high[2] = np.min(feet, axis=0)[2] - drop * size
+    high[2] = (np.min(feet, axis=0)[2] if drop > 0 else np.max(feet, axis=0)[2]) - drop * size
     low[2] = high[2] - 1.3 * size
-    yield Part("base plate", base, Box((low + high) / 2, np.diag((high - low) / 2)), PLATE)
+    yield Part("base plate", base, Box((low + high) / 2, np.diag((high - low) / 2)), PLATE, "plate")
+    layers = link_layers(skeleton)
+    for mark in skeleton.marks:
+        if mark.grounded and not mark.slides and not (len(mark.axes) and abs(float(mark.axes[0][2])) > 0.9):
+            height = (low[2] + 1.15 * size if drop > 0 else high[2] - 1.15 * size) - mark.at[2]
+            for shape in stand(mark, height, (_reach(mark, layers) - 0.4) * size, size):
+                yield Part(f"{mark.joint.name} stand", base, shape, DARK, "stand", mark.joint.name)

@@ -28,6 +28,11 @@ class _Solid:
             **{**vars(self), **{n: getattr(self, n) @ rotation.T + origin for n in self.points}, **turned}
         )
 
+    def scaled(self, factor: float) -> Any:
+        """The same shape in another unit: all its lengths times a factor."""
+        fixed = [name for name in self.ways if name == "normal"]
+        return type(self)(**{name: value if name in fixed else value * factor for name, value in vars(self).items()})
+
     def to_json(self) -> dict[str, Any]:
         """Plain data: its kind and its numbers."""
         numbers = {

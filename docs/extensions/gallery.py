@@ -1,0 +1,87 @@
+"""The figures of a mechanism with the lines that made them: drawn once, kept until a source changes."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from assur.figures.context import Context
+
+DOTS = 130
+"""Pixels per inch: enough for a page of the site."""
+
+WITHOUT = ("cli", "view", "page", "report", "audit")
+"""Packages on which no figure depends, as they stand above `figures`."""
+
+
+def markdown(root: Path, name: str, *figures: str) -> str:
+    """A section for each figure of one mechanism; all that it has where none are named."""
+    folder = root / "build" / "gallery" / name
+    return "\n".join(_section(name, item, folder) for item in drawn(root, folder, name, figures))
+
+
+def drawn(root: Path, folder: Path, name: str, figures: tuple[str, ...]) -> list[dict[str, str]]:
+    """Name, number, title and caption of each figure, whose picture then lies in the folder."""
+    from assur.figures.catalogue import names
+    from assur.figures.context import Context
+    from assur.model.registry import load_record
+
+    key = _key(root)
+    context = Context(load_record(name))
+    chosen = figures or tuple(names(context.record, context))
+    return [_known(folder / item, key) or _draw(context, item, folder / item, key) for item in chosen]
+
+
+def _known(stem: Path, key: str) -> dict[str, str] | None:
+    """What was drawn from the same sources."""
+    about, picture = stem.with_suffix(".json"), stem.with_suffix(".png")
+    if not (about.is_file() and picture.is_file()):
+        return None
+    found: dict[str, str] = json.loads(about.read_text(encoding="utf-8"))
+    return found if found["key"] == key else None
+
+
+def _draw(context: Context, name: str, stem: Path, key: str) -> dict[str, str]:
+    from assur.figures.catalogue import draw, spec
+    from assur.figures.encode import encoded
+
+    figure = draw(context.record, name, context)
+    about = spec(context.record, name, context)
+    found = {"key": key, "name": name, "number": about.number, "title": about.title, "caption": about.caption}
+    stem.parent.mkdir(parents=True, exist_ok=True)
+    stem.with_suffix(".png").write_bytes(encoded(figure, "png", dots=DOTS))
+    stem.with_suffix(".json").write_text(json.dumps(found), encoding="utf-8")
+    return found
+
+
+def _key(root: Path) -> str:
+    """A digest of every source that a figure may depend on."""
+    source = root / "src" / "assur"
+    digest = hashlib.sha256()
+    for path in sorted(source.rglob("*")):
+        if path.suffix in (".py", ".toml") and path.relative_to(source).parts[0] not in WITHOUT:
+            digest.update(path.relative_to(source).as_posix().encode() + path.read_bytes())
+    return digest.hexdigest()
+
+
+def _section(mechanism: str, figure: dict[str, str], folder: Path) -> str:
+    name = figure["name"]
+    title = figure["title"]
+    return f"""
+## {title[:1].upper()}{title[1:]}
+
+![{title} of {mechanism}](../{folder.parent.parent.name}/gallery/{mechanism}/{name}.png)
+
+{figure["caption"]}
+
+```sh
+assur figures {mechanism} --only {name}
+```
+
+```python
+write(assur.load("{mechanism}"), "figures", ["{name}"])
+```
+"""

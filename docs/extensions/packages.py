@@ -1,0 +1,39 @@
+"""Every module of the package with the first line of its docstring, which says its idea."""
+
+from __future__ import annotations
+
+import ast
+import tomllib
+from pathlib import Path
+
+
+def markdown(root: Path) -> str:
+    """A heading and a table for each package."""
+    source = root / "src" / "assur"
+    folders = sorted(
+        path.parent
+        for path in source.rglob("__init__.py")
+        if path.parent != source and "mechanisms" not in path.relative_to(source).parts
+    )
+    return "\n".join(_section(folder, source) for folder in folders)
+
+
+def _section(folder: Path, source: Path) -> str:
+    name = ".".join(("assur", *folder.relative_to(source).parts))
+    rows = [f"| `{path.stem}` | {idea(path)} |" for path in sorted(folder.glob("[!_]*.py"))]
+    head = f"## {name}\n\n{idea(folder / '__init__.py')}\n"
+    return "\n".join([head, "| module | idea |", "|---|---|", *rows, ""]) if rows else head
+
+
+def idea(path: Path) -> str:
+    """First paragraph of a module's docstring, with what Markdown would read escaped."""
+    words = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+    line = " ".join(words.split("\n\n")[0].split())
+    return line.replace("|", "\\|").replace("*", "\\*").replace("<", "&lt;")
+
+
+def layers(root: Path) -> str:
+    """The order of imports, the highest first, as pyproject.toml has it."""
+    table = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))
+    names = next(item["layers"] for item in table["tool"]["importlinter"]["contracts"] if item["type"] == "layers")
+    return "\n".join(["```text", *names, "```"])

@@ -1,0 +1,120 @@
+"""`assur collisions`: which links come how near to one another, over poses of the workspace or along a motion."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from cyclopts import Parameter
+
+from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared, WorkingMode
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from assur.mechanism import Mechanism
+    from assur.scene.collisions import Collisions, Nearest
+
+MEET = 1
+SHOWN = 10
+"""Pairs that a person sees; --json has all."""
+
+
+def collisions(
+    mechanism: MechanismName,
+    /,
+    *,
+    over: Annotated[
+        Literal["workspace", "motion"],
+        Parameter(help="Poses drawn from the workspace (if left out), or the closed motion that --format glb shows."),
+    ] = "workspace",
+    samples: Annotated[str, Parameter(metavar="COUNT", help="How many poses; 200 if left out.")] = "200",
+    seed: Annotated[str, Parameter(metavar="NUMBER", help="Of the random poses; 0 if left out.")] = "0",
+    mode: WorkingMode = None,
+    shared: Shared = SHARED_DEFAULTS,
+) -> Outcome:
+    """How near links come to one another, and which of them meet.
+
+    Asked are all pairs of links that share no joint, drawn as assur draws them:
+    thicknesses are those of `assur export --format step`, not of a design. It is
+    known at the poses asked, not between them. Exit code 1: links meet somewhere.
+
+    For example:
+        assur collisions zeng2019
+        assur collisions fivebar --over motion --json
+    """
+    record = shared.mechanism(mechanism)
+    from assur.cli.numbers import whole_number
+    from assur.cli.progress import progress
+    from assur.errors import UsageError
+    from assur.scene.collisions import collisions
+    from assur.scene.motion import closed_motion
+    from assur.scene.sampled import sampled
+
+    count, start = whole_number(samples, "--samples"), whole_number(seed, "--seed")
+    if start < 0:
+        raise UsageError(f"--seed {start}: a seed is not negative")
+    if over == "motion" and mode is not None:
+        raise UsageError("--mode names a mode of the workspace; a motion begins at home", hint="leave one of them out")
+    with progress("collisions", shared) as step:
+        joints = sampled(record, count, mode, start) if over == "workspace" else closed_motion(record, count)[:-1]
+        found = collisions(record, joints, step)
+    data = _data(record, found, over, mode or record.modes.default_working)
+    return Outcome(data, lambda: _shown(record, found, data), MEET if found.meeting else 0)
+
+
+def _data(record: Mechanism, found: Collisions, over: str, mode: str) -> dict[str, Any]:
+    return {
+        "mechanism": record.name,
+        "unit": record.unit,
+        "over": over,
+        "mode": mode if over == "workspace" else None,
+        "poses": found.poses,
+        "known": "sampled",
+        "coordinates": list(record.platform.pose),
+        "pairs": [_pair(record, item) for item in found.pairs],
+    }
+
+
+def _pair(record: Mechanism, item: Nearest) -> dict[str, Any]:
+    from assur.kinematics.answers.at_border import pose_at_border
+    from assur.kinematics.pose import pose_of
+    from assur.results.json_text import plain
+
+    return {
+        "links": list(item.links),
+        "clearance": item.clearance,
+        "parts": list(item.parts),
+        "meeting": item.meeting,
+        "pose": plain(pose_at_border(record, pose_of(record, item.joints[None])[0])),
+    }
+
+
+def _shown(record: Mechanism, found: Collisions, data: dict[str, Any]) -> Iterable[RenderableType]:
+    from assur.cli.output import heading, table
+    from assur.cli.quantities import count, point_text, point_title, style_of
+
+    style, names = style_of(record), data["coordinates"]
+    said = f"{count(len(found.meeting), 'pair')} of links meet" if found.meeting else "no links meet"
+    yield heading(f"{record.name}, collisions: {said}")
+    where = f"poses of the workspace, mode {data['mode']}" if data["mode"] else "poses along a closed motion from home"
+    yield f"known at {found.poses} {where}; between them links may come nearer"
+    if not data["pairs"]:
+        yield "every two links share a joint: nothing to ask"
+        return
+    rows = [
+        (
+            " - ".join(item["links"]),
+            "meet" if item["meeting"] else f"{item['clearance']:.4g}",
+            f"{item['meeting']} of {found.poses}" if item["meeting"] else "",
+            " - ".join(item["parts"]),
+            point_text(style, names, item["pose"]),
+        )
+        for item in data["pairs"][:SHOWN]
+    ]
+    yield ""
+    columns = ("links", f"clearance ({record.unit})", "meet at", "nearest parts", f"there, {point_title(style, names)}")
+    styles = ["bold red" if item["meeting"] else "" for item in data["pairs"][:SHOWN]]
+    yield table(columns, rows, left=("links", "nearest parts"), wrap=("links", "nearest parts"), styles=styles)
+    if len(data["pairs"]) > SHOWN:
+        yield f"{len(data['pairs']) - SHOWN} more pairs are farther apart: --json"

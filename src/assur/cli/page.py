@@ -1,0 +1,89 @@
+"""`assur page`: one offline file in which the mechanism moves."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+
+from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+
+ENDINGS = (".html", ".htm")
+
+
+def page(
+    mechanism: MechanismName,
+    /,
+    *,
+    output: Annotated[
+        str,
+        Parameter(name=("-o", "--output"), metavar="FILE", help="The file to be written; page.html if left out."),
+    ] = "page.html",
+    resolution: Annotated[
+        int | None,
+        Parameter(help="Cells along each coordinate of the workspace; what a page can show if left out."),
+    ] = None,
+    shared: Shared = SHARED_DEFAULTS,
+) -> Outcome:
+    """Write one HTML file in which the mechanism can be moved.
+
+    It needs no server and no network: open it in any browser, also on a phone.
+    Sliders move the inputs or the platform, the mode kept; other modes are
+    ghosts. The page solves the loops itself, from the same joint graph. An old
+    file is replaced whole or not at all.
+
+    For example:
+        assur page zeng2019 -o zeng.html
+        assur page ./my.toml --set l2=300 -o my.html
+    """
+    record = shared.mechanism(mechanism)
+    from assur.cli.output import heading
+    from assur.cli.paths import output_file
+    from assur.cli.progress import progress
+    from assur.page import page_html, scene
+    from assur.results.files import write_whole
+
+    path = output_file(output, ENDINGS)
+    with progress("page", shared) as step:
+        found = scene(record, resolution=resolution, progress=step)
+        write_whole(path, page_html(found))
+    size = path.stat().st_size
+    inside = _inside(found)
+    return Outcome(
+        {"mechanism": record.name, "file": str(path), "bytes": size, "inside": inside},
+        lambda: [
+            heading(f"{record.name}, page"),
+            *_lines(inside),
+            f"written: {path} ({size / 1e3:.0f} kB); open it in a browser",
+        ],
+    )
+
+
+def _inside(scene: dict[str, Any]) -> dict[str, Any]:
+    """What is in the file, counted."""
+    kinds = Counter(item["kind"] for item in scene["layers"])
+    return {
+        "links": len(scene["graph"]["links"]),
+        "joints": len(scene["graph"]["joints"]),
+        "loops": len(scene["graph"]["cut"]),
+        "inputs": [item["name"] for item in scene["inputs"]],
+        "pose": scene["platform"]["pose"],
+        "assembly_modes": len(scene["branches"]["assembly"]),
+        "working_modes": len(scene["branches"]["working"]),
+        "layers": {kind: kinds[kind] for kind in ("workspace", "singular", "section")},
+        "factors": len(scene["factors"]),
+        "facts": len(scene["facts"]),
+        "errata": len(scene["errata"]),
+    }
+
+
+def _lines(inside: dict[str, Any]) -> list[str]:
+    layers = inside["layers"]
+    return [
+        f"{inside['links']} links, {inside['joints']} joints, {inside['loops']} loops",
+        f"sliders: {', '.join(inside['inputs'])}; {', '.join(inside['pose'])}",
+        f"ghosts: {inside['assembly_modes']} assembly modes, {inside['working_modes']} working modes at home",
+        f"layers: {layers['workspace']} workspace, {layers['singular']} singular, {layers['section']} sections",
+        f"{inside['facts']} facts of the topology, {inside['errata']} errata of the source",
+    ]

@@ -1,0 +1,71 @@
+"""What `assur view` does: checks where to listen, starts the view, says its link and waits for Ctrl-C."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+import threading
+import webbrowser
+
+from assur.cli.options import Outcome
+from assur.errors import UsageError
+from assur.model.mechanism import MechanismRecord
+from assur.view.guard import Guard, is_loopback
+
+LAST_PORT = 65535
+WARNING = (
+    "warning: other machines can reach this view. Its link is sent as plain text:\n"
+    "whoever has it, or listens on the network, may use the view. From elsewhere,\n"
+    "put this machine's address into the link."
+)
+
+
+def outcome(record: MechanismRecord, *, host: str, port: int, allow_network: bool, link: str, opens: bool) -> Outcome:
+    """Run the view until it is interrupted."""
+    check(host, port, allow_network=allow_network)
+    from assur.view.server import Served
+    from assur.view.window import Window
+
+    windows: list[Window] = []
+
+    def opened(query: str) -> None:
+        for window in windows:
+            window.restore(query)
+
+    served = Served(host, port, Guard.new(host), opened)
+    try:
+        window = Window(record, served)
+        windows.append(window)
+        try:
+            if link:
+                window.restore(link)
+            said = [WARNING] if not is_loopback(host) else []
+            sys.stderr.write("\n".join([*said, f"{record.name}: {served.url}", "Ctrl-C ends the view.", ""]))
+            sys.stderr.flush()
+            if opens:
+                webbrowser.open(served.url)
+            with contextlib.suppress(KeyboardInterrupt):
+                wait()
+        finally:
+            window.close()
+    finally:
+        served.stop()
+    return Outcome({"mechanism": record.name, "url": served.url}, lambda: [f"the view of {record.name} has ended"])
+
+
+def wait() -> None:
+    """Until Ctrl-C."""
+    threading.Event().wait()
+
+
+def check(host: str, port: int, *, allow_network: bool) -> None:
+    """Refuse a port that there is not, and an address that others can reach where that is not allowed.
+
+    >>> check("127.0.0.1", 0, allow_network=False)
+    """
+    if not 0 <= port <= LAST_PORT:
+        raise UsageError(f"--port {port}; a port is a number from 1 to {LAST_PORT}", hint="leave it out for a free one")
+    if not is_loopback(host) and not allow_network:
+        raise UsageError(
+            f"--host {host} lets other machines reach the view", hint="add --allow-network if that is wanted"
+        )

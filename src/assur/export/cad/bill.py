@@ -1,0 +1,182 @@
+"""Bill of materials: which links are made, how many of each kind, and what is bought for the joints, in plain words.
+
+Lengths are in mm. Sizes that the joint graph does not give (thicknesses, pins, rails) are those drawn, to begin with.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.soundness.check import METRES
+from assur.model.mechanism import Input, Joint, MechanismRecord
+from assur.scene.bodies import Body, bodies, corners, fused
+from assur.scene.parts import Part
+from assur.scene.shapes import Ball, Bar, Box, Cylinder, Shape, Slab
+from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC, REVOLUTE, UNIVERSAL
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line of the bill.
+
+    Attributes:
+        kind: "make" or "buy".
+        what: what it is, in words; of a link its parts with their sizes in mm.
+        count: how many.
+        names: the links, or the joints that it is for.
+        volume: of one, in mm^3; None for what is bought.
+    """
+
+    kind: Literal["make", "buy"]
+    what: str
+    count: int
+    names: tuple[str, ...]
+    volume: float | None = None
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return asdict(self)
+
+
+def bill(record: MechanismRecord) -> tuple[Row, ...]:
+    """The bill of materials: links first, alike ones (or mirrored ones) in one row, then what is bought.
+
+    >>> from assur.model.registry import load_record
+    >>> [(row.kind, row.count, row.names) for row in bill(load_record("fivebar"))][1:3]
+    [('make', 2, ('crank1', 'crank2')), ('make', 1, ('rod1',))]
+    """
+    millimetre = 1e3 * METRES[record.unit]
+    made = bodies(record)
+    alike: list[list[Body]] = []
+    for body in (item for item in made if item.fused):
+        group = next((group for group in alike if _same(_form(group[0]), _form(body))), None)
+        if group is None:
+            alike.append([body])
+        else:
+            group.append(body)
+    rows = [
+        Row(
+            "make",
+            ", ".join(_counted(_words(item, millimetre) for item in group[0].fused)),
+            len(group),
+            tuple(item.link for item in group),
+            round(fused(group[0]).volume() * millimetre**3, 1),
+        )
+        for group in alike
+    ]
+    bought: dict[str, list[str]] = {}
+    for joint in record.joints.values():
+        own = [item for body in made for item in (*body.fused, *body.pins) if item.joint == joint.name]
+        driven = next((item for item in record.inputs if item.coordinate.joint == joint.name), None)
+        for text in _to_buy(record, joint, own, driven, millimetre):
+            bought.setdefault(text, []).append(joint.name)
+    rows += [Row("buy", text, len(names), tuple(names)) for text, names in bought.items()]
+    return tuple(rows)
+
+
+def bill_csv(rows: Iterable[Row]) -> str:
+    """The bill as a table with commas, one row per line under a line of names.
+
+    >>> bill_csv([Row("buy", "ball joint, ball d 8", 2, ("A", "B"))]).splitlines()[1]
+    'buy,2,"ball joint, ball d 8",A B,'
+    """
+    stream = io.StringIO()
+    table = csv.writer(stream, lineterminator="\n")
+    table.writerow(("kind", "count", "what, sizes in mm", "links or joints", "volume of one in mm^3"))
+    for row in rows:
+        volume = "" if row.volume is None else f"{row.volume:.1f}"
+        table.writerow((row.kind, row.count, row.what, " ".join(row.names), volume))
+    return stream.getvalue()
+
+
+def _form(body: Body) -> tuple[tuple[str, ...], FloatArray]:
+    """Equal for links that are alike or mirrored: roles of the parts; their sizes, distances and the volume."""
+    listed = sorted((f"{item.role} {item.shape.kind}", _sizes(item.shape)) for item in body.fused)
+    middles = np.array([corners(item.shape).mean(axis=0) for item in body.fused])
+    gaps = np.sort(np.linalg.norm(middles[:, None] - middles, axis=2).ravel())
+    sizes = [value for _, own in listed for value in own]
+    bores = np.sort([_sizes(item)[0] for item in body.bores])  # their lengths beyond the link do not matter
+    return tuple(role for role, _ in listed), np.array([*sizes, *gaps, *bores, np.cbrt(fused(body).volume())])
+
+
+def _same(first: tuple[tuple[str, ...], FloatArray], second: tuple[tuple[str, ...], FloatArray]) -> bool:
+    """Whether two forms are equal, but for rounding."""
+    same = first[0] == second[0] and len(first[1]) == len(second[1])
+    return same and bool(np.allclose(first[1], second[1], rtol=1e-6, atol=1e-6 * float(first[1].max())))
+
+
+def _sizes(shape: Shape) -> tuple[float, ...]:
+    if isinstance(shape, Ball):
+        return (2 * shape.radius,)
+    if isinstance(shape, Cylinder):
+        return (2 * shape.radius, float(np.linalg.norm(shape.end - shape.start)))
+    if isinstance(shape, Bar):
+        return (float(np.linalg.norm(shape.end - shape.start)), 2 * shape.radius, shape.thickness)
+    if isinstance(shape, Box):
+        return tuple(float(value) for value in np.sort(2 * np.linalg.norm(shape.sides, axis=1))[::-1])
+    thick = float(np.linalg.norm(shape.along))
+    flat = np.linalg.norm(shape.outline - np.roll(shape.outline, 1, axis=0), axis=1)
+    return (*(float(value) for value in np.sort(flat)[::-1]), thick)
+
+
+def _words(item: Part, millimetre: float) -> str:
+    """A part with its sizes, as "bar 250 between eyes, 26 x 8"."""
+    sizes = [f"{value * millimetre:.4g}" for value in _sizes(item.shape)]
+    if isinstance(item.shape, Ball):
+        return f"{item.role} d {sizes[0]}"
+    if isinstance(item.shape, Cylinder):
+        return f"{item.role} d {sizes[0]} x {sizes[1]}"
+    if isinstance(item.shape, Bar):
+        return f"{item.role} {sizes[0]} from hole to hole, {sizes[1]} x {sizes[2]}"
+    if isinstance(item.shape, Slab):
+        return f"{item.role} with {len(sizes) - 1} corners, sides {' '.join(sizes[:-1])}, {sizes[-1]} thick"
+    return f"{item.role} {' x '.join(sizes)}"
+
+
+def _counted(words: Iterable[str]) -> list[str]:
+    return [text if count == 1 else f"{count} of {text}" for text, count in Counter(words).items()]
+
+
+def _to_buy(
+    record: MechanismRecord, joint: Joint, own: list[Part], driven: Input | None, millimetre: float
+) -> list[str]:
+    """What one joint needs."""
+    pins = [item.shape for item in own if item.role == "pin" and isinstance(item.shape, Cylinder)]
+    grounded = record.base in (joint.parent, joint.child)
+    bought = []
+    if joint.type is REVOLUTE and pins:
+        across, long = (value * millimetre for value in _sizes(pins[0]))
+        bought.append(f"bearing: pin d {across:.3g} x {long:.3g} with bushes or ball bearings")
+    elif joint.type is UNIVERSAL:
+        bought.append(f"universal joint (a cross with two pins d {_sizes(pins[0])[0] * millimetre:.3g})")
+    elif joint.type is CYLINDRICAL:
+        bought.append("shaft with a linear bearing that slides and turns")
+    elif joint.type is HELICAL:
+        bought.append(f"screw and nut, {abs(joint.pitch) * millimetre:.4g} mm per turn")
+    elif joint.type is PRISMATIC:
+        bought.append("rail with carriage" if grounded else "telescopic slide (rod in a tube with bushes)")
+    else:
+        ball = next((item.shape for item in own if isinstance(item.shape, Ball)), None)
+        bought.append(f"ball joint, ball d {2 * ball.radius * millimetre:.3g}" if ball else "ball joint")
+    if driven is not None:
+        bought.append(_drive(driven, millimetre))
+    return bought
+
+
+def _drive(driven: Input, millimetre: float) -> str:
+    """The drive of an input, with its stroke where the file has one."""
+    if driven.coordinate.kind == "angle":
+        reach = "" if driven.stroke is None else f", turns by {np.degrees(np.ptp(driven.stroke)):.4g} deg"
+        return f"rotary drive (gear motor){reach}"
+    reach = "" if driven.stroke is None else f", stroke {np.ptp(driven.stroke) * millimetre:.4g} mm"
+    return f"linear drive (ball screw, belt or linear motor){reach}"

@@ -1,0 +1,141 @@
+"""The scene of a page: everything that a browser needs to draw a mechanism and to move it, as one JSON object."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.closure import characteristic_length
+from assur.kinematics.home import home_values
+from assur.kinematics.status import scale
+from assur.model.mechanism import MechanismRecord
+from assur.page import kernel
+from assur.page.branches import branches, modes
+from assur.page.facts import errata, facts
+from assur.page.graph import coordinates, graph
+from assur.page.ranges import input_ranges, pose_ranges
+from assur.scene.companion import companion
+from assur.scene.parts import parts
+from assur.scene.skeleton import skeleton
+
+VERSION = 1
+"""Of the form of the scene; a page and its program belong together."""
+
+DIGITS = 6
+"""Significant digits, of the size of the mechanism, of what is only drawn."""
+
+
+def content(record: MechanismRecord, layers: list[dict[str, Any]]) -> dict[str, Any]:
+    """The scene at home, with layers as `assur.page.layers.layers` gives them; lengths in the unit, angles in rad.
+
+    Everything that is computed from is there to its last bit; what is only drawn is rounded (`DIGITS`, and layers).
+
+    Errors: UsageError or MechanismFileError where the mechanism has no home.
+
+    >>> from assur.model.registry import load_record
+    >>> found = content(load_record("fivebar"), [])
+    >>> found["name"], [item["name"] for item in found["inputs"]]
+    ('fivebar', ['theta1', 'theta2'])
+    """
+    home = home_values(record)
+    drawn = companion(record)
+    body = skeleton(record, drawn, home)
+    return {
+        "version": VERSION,
+        "name": record.name,
+        "title": record.title,
+        "source": record.source,
+        "unit": record.unit,
+        "angleUnit": record.angle,
+        "size": body.size,
+        "extent": body.size,
+        "characteristicLength": characteristic_length(record),
+        "parameters": _parameters(record),
+        "graph": graph(record),
+        "coordinates": coordinates(record),
+        "platform": {
+            "link": record.platform.link,
+            "point": record.platform.point.tolist(),
+            "pose": list(record.platform.pose),
+        },
+        "inputs": _inputs(record),
+        "poseRange": pose_ranges(record),
+        "home": home.tolist(),
+        "branches": branches(record),
+        "modes": modes(record),
+        "parts": _parts(parts(body, drawn), body.size),
+        "letters": _letters(record),
+        "layers": layers,
+        "kernel": kernel.kernel(record),
+        "kernelParameters": kernel.parameters(record),
+        "factors": _factors(record),
+        "facts": facts(record),
+        "errata": errata(record),
+    }
+
+
+def _parameters(record: MechanismRecord) -> list[dict[str, Any]]:
+    return [
+        {"name": name, "value": item.value, "unit": item.unit, "meaning": item.meaning}
+        for name, item in record.parameters.items()
+    ]
+
+
+def _inputs(record: MechanismRecord) -> list[dict[str, Any]]:
+    ranges = input_ranges(record)
+    return [
+        {
+            "name": item.name,
+            "latex": item.latex,
+            "index": item.coordinate.index,
+            "sign": item.sign,
+            "offset": item.offset,
+            "kind": item.coordinate.kind,
+            "stroke": None if item.stroke is None else list(item.stroke),
+            "range": ranges[k],
+        }
+        for k, item in enumerate(record.inputs)
+    ]
+
+
+def _parts(solids: tuple[Any, ...], size: float) -> list[dict[str, Any]]:
+    return [
+        {
+            "name": item.name,
+            "link": item.link,
+            "colour": item.colour,
+            "shape": {key: _rounded(value, size) for key, value in item.shape.to_json().items()},
+        }
+        for item in solids
+    ]
+
+
+def _rounded(value: Any, size: float) -> Any:
+    """Lengths that are drawn, in so many digits of the size; directions have as many."""
+    if isinstance(value, str):
+        return value
+    step = 10.0 ** (np.floor(np.log10(size)) + 1 - DIGITS)
+    array: NDArray[np.float64] = np.asarray(value, dtype=float)
+    places = int(max(DIGITS, -np.log10(step)))
+    return (np.round(array, places) + 0.0).tolist()
+
+
+def _letters(record: MechanismRecord) -> list[dict[str, Any]]:
+    return [{"name": name, "link": item.link, "at": item.at.tolist()} for name, item in record.points.items()]
+
+
+def _factors(record: MechanismRecord) -> list[dict[str, Any]]:
+    form = record.closed_form
+    return [
+        {
+            "name": item.name,
+            "kind": item.kind,
+            "meaning": item.meaning,
+            "latex": item.latex,
+            "scale": float(scale(record, item.scale)),
+        }
+        for item in (form.factor_list if form else ())
+        if item.kind != "other"
+    ]

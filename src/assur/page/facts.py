@@ -1,0 +1,61 @@
+"""Facts beside the model: what the topology engine derives, and the errata of the source."""
+
+from __future__ import annotations
+
+from assur import mechanism
+from assur.audit.errata import ErrataFile
+from assur.audit.reference import ERRATA, FOLDER, checked
+from assur.errors import AssurError
+from assur.model.file.toml_source import read_toml
+from assur.model.mechanism import MechanismRecord
+from assur.report.sections.derived import rounded
+from assur.topology.facts import Topology
+
+KINDS = {"none": "every output depends on every input", "partial": "partly decoupled", "full": "decoupled"}
+
+
+def facts(record: MechanismRecord) -> list[dict[str, str]]:
+    """Title and text of each fact of the topology; why there are none where it cannot be derived.
+
+    >>> from assur.model.registry import load_record
+    >>> [item["text"] for item in facts(load_record("zeng2019"))][:3]
+    ['t³ r⁰', '3', '1']
+    """
+    try:
+        found = mechanism.topology(record)
+    except AssurError as error:
+        return [{"title": "Topology", "text": f"not derived: {error.message}"}]
+    return [{"title": title, "text": text} for title, text in _facts(found) if text]
+
+
+def errata(record: MechanismRecord) -> list[dict[str, str]]:
+    """Id and text of each erratum of the source as its file says it; `assur audit` computes the evidence.
+
+    >>> from assur.model.registry import load_record
+    >>> errata(load_record("zeng2019"))[0]["id"]
+    'E1'
+    """
+    path = None if record.folder is None else record.folder / FOLDER / ERRATA
+    if path is None or not path.is_file():
+        return []
+    entries = checked(ErrataFile, read_toml(path.read_text(encoding="utf-8"), str(path)), path).root
+    return [
+        {"id": name, "text": f"{entry.where}: printed {entry.printed.rstrip('.')}. {entry.finding}"}
+        for name, entry in entries.items()
+    ]
+
+
+def _facts(found: Topology) -> list[tuple[str, str]]:
+    redundant = found.redundant_constraints
+    internal = f", {found.internal_freedoms} of them internal" if found.internal_freedoms else ""
+    loops = "; ".join(f"loop {k}: ξ = {loop.xi}, Δ = {loop.delta:+d}" for k, loop in enumerate(found.loops, 1))
+    return [
+        ("POC set of the platform", str(found.poc)),
+        ("Degrees of freedom F", f"{found.dof}{internal}"),
+        ("Coupling degree κ", "" if found.coupling_degree is None else str(found.coupling_degree)),
+        ("Loops", loops.replace("+0", "0").replace("-", "\N{MINUS SIGN}")),
+        ("Limbs", "; ".join(f"{rounded(limb.text)}: {limb.poc}" for limb in found.limbs)),
+        ("Redundant constraints", f"{redundant.collapsed}; {redundant.joint_graph} of the whole joint graph"),
+        ("Decoupling", KINDS[found.decoupling.kind] if found.decoupling else ""),
+        ("Direct problem", "; ".join(line.rstrip(".") for line in found.plan.words)),
+    ]

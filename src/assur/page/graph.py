@@ -1,0 +1,53 @@
+"""The joint graph as plain data: links, joints with their axes, the spanning tree, and what closes its loops."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from assur.model.joint_graph import joint_graph
+from assur.model.mechanism import Joint, MechanismRecord
+
+
+def graph(record: MechanismRecord) -> dict[str, Any]:
+    """Everything that closes the loops of a mechanism somewhere else, in lengths and rad, every number to its last bit.
+
+    >>> from assur.model.registry import load_record
+    >>> found = graph(load_record("fivebar"))
+    >>> [item["name"] for item in found["joints"]], found["cut"], len(found["tree"])
+    (['A1', 'A2', 'B1', 'B2', 'P'], [4], 4)
+    """
+    found = joint_graph(record)
+    place = {name: k for k, name in enumerate(record.joints)}
+    return {
+        "base": record.base,
+        "links": list(record.links),
+        "joints": [_joint(joint, found.slices[name].start) for name, joint in record.joints.items()],
+        "tree": [{"joint": place[joint.name], "forward": forward} for joint, forward in found.tree],
+        "cut": [place[joint.name] for joint in found.cut],
+    }
+
+
+def coordinates(record: MechanismRecord) -> list[dict[str, str]]:
+    """Name and kind of each joint value, in their order."""
+    return [{"label": record.coordinate_label(item), "kind": item.kind} for item in record.coordinates]
+
+
+def _joint(joint: Joint, first: int) -> dict[str, Any]:
+    freedoms = joint.type.freedoms
+    limits = joint.limits or (None,) * freedoms
+    return {
+        "name": joint.name,
+        "type": joint.type.letter,
+        "parent": joint.parent,
+        "child": joint.child,
+        "at": joint.at.tolist(),
+        "childAt": joint.child_at.tolist(),
+        "axes": joint.axes.tolist(),
+        "turn": joint.turn.tolist(),
+        "pitch": joint.pitch,
+        "first": first,
+        "freedoms": freedoms,
+        "limits": [list(item) if item else None for item in limits],
+        "cone": joint.cone,
+        "coneAxis": None if joint.cone_axis is None else joint.cone_axis.tolist(),
+    }

@@ -1,0 +1,90 @@
+"""A closed motion from home and back, in one mode: every input swings, each a little behind the one before.
+
+From frame to frame the loops are closed with the inputs held. No rank may be lost between two frames, with the inputs
+locked and with the platform locked, so that no frame stands in another mode; where one would, or a limit of the file
+is passed, all swings are made smaller.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import UsageError
+from assur.kinematics.border import held_inputs, inputs_of
+from assur.kinematics.closure import assemble, characteristic_length
+from assur.kinematics.home import home_values
+from assur.kinematics.limits import limits
+from assur.kinematics.near_home import distances
+from assur.kinematics.paths.locked import general_ranks, locked, matrices
+from assur.model.mechanism import MechanismRecord
+
+FloatArray = NDArray[np.float64]
+SWING, SLIDE = 0.8, 0.4
+"""Swing of an input that is tried first, from end to end: in rad, and of a slide in characteristic lengths."""
+
+SMALLER, TIMES = 0.7, 16
+"""What the swings are multiplied by where a motion is stopped, and how often."""
+
+KEPT = 0.3
+"""What a frame must keep of the rank of the one before (`Locked.kept`; zero is a singularity between them)."""
+
+ROUND, SAME = 1e-6, 1e-6
+"""By how much, in rad or lengths, a limit may be passed; and how far from home, in characteristic lengths, home is."""
+
+
+def closed_motion(record: MechanismRecord, frames: int = 60) -> FloatArray:
+    """Joint values (frames + 1, n) of a closed motion through home, the mode kept; inputs end where they began.
+
+    What the inputs do not hold, as the spin of a rod between two ball joints, may end a little off.
+
+    Errors: `UsageError` for fewer than 8 frames, and where not even a small swing is possible.
+
+    >>> from assur.model.registry import load_record
+    >>> found = closed_motion(load_record("fivebar"), 12)
+    >>> found.shape, bool(np.allclose(found[0], found[-1], atol=1e-9))
+    ((13, 5), True)
+    """
+    if frames < 8:
+        raise UsageError(f"closed_motion: {frames} frames; at least 8")
+    home = home_values(record)
+    ranks = general_ranks(record, home)
+    for k in range(TIMES):
+        course = inputs_of(record, home) + SMALLER**k * _swing(record, frames)
+        values = _run(record, home, course, ranks)
+        if values is not None:
+            return values
+    raise UsageError(
+        f"{record.name}: no closed motion of all inputs from home, not even a small one",
+        hint=f"see what is singular or limited at home: assur show {record.name}",
+    )
+
+
+def _run(record: MechanismRecord, home: FloatArray, course: FloatArray, ranks: dict[str, int]) -> FloatArray | None:
+    """Joint values (k, n) at inputs (k, n), each from the frame before; None where a frame is out of the mode."""
+    bounds = limits(record, home)
+    here, found = matrices(record, home), [home]
+    for row in course[1:]:
+        start = held_inputs(record, found[-1], row)
+        closed = assemble(record, start, held=record.input_indices, near=True)
+        if not closed.closed or any(float(item.margin(closed.values)) < -ROUND for item in bounds):
+            return None
+        there = matrices(record, closed.values)
+        if any(locked(here[name], ranks[name]).kept(there[name]) < KEPT for name in ("inputs", "poses")):
+            return None
+        here = there
+        found.append(closed.values)
+    values = np.array(found)
+    # inputs may come home with another pose, round a cusp
+    return values if float(distances(record, values[-1:])[0]) <= SAME else None
+
+
+def _swing(record: MechanismRecord, frames: int) -> FloatArray:
+    """How far the inputs (frames + 1, n) are from home: sines that begin at zero, each with its own phase."""
+    length = characteristic_length(record)
+    size = np.array([SWING if item.coordinate.kind == "angle" else SLIDE * length for item in record.inputs])
+    phase = np.pi * np.arange(len(size)) / len(size)
+    turn = 2 * np.pi * np.arange(frames + 1) / frames
+    found = size * (np.sin(turn[:, None] + phase) - np.sin(phase)) / 2
+    found[-1] = 0.0
+    return np.asarray(found)

@@ -1,0 +1,139 @@
+"""Drawing: every link as one mesh for each of its colours, in its own frame, and where the frames stand."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.figures.model import lettered
+from assur.model.joint_graph import frames
+from assur.model.mechanism import MechanismRecord
+from assur.numerics import rotations
+from assur.scene.companion import companion
+from assur.scene.mesh import Mesh, joined, rgb
+from assur.scene.parts import parts
+from assur.scene.skeleton import Skeleton, skeleton
+
+FloatArray = NDArray[np.float64]
+FULL = 2.0
+"""Longest side of a mechanism in the view's own unit."""
+
+CLOSE = 0.03
+"""Points that are nearer than this share of the mechanism get one letter."""
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """Part of a link in one colour: vertices (n, 3) in the link's frame, faces (k, 3), colour (3,) from 0 to 255."""
+
+    link: str
+    name: str
+    vertices: FloatArray
+    faces: NDArray[np.int64]
+    colour: tuple[int, int, int]
+
+
+@dataclass(frozen=True, eq=False)
+class Letter:
+    """A letter at a point (3,) of a link's frame."""
+
+    name: str
+    link: str
+    at: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Drawing:
+    """What is drawn of one mechanism; every length times `scale`.
+
+    Attributes:
+        solids, letters: in the frames of their links.
+        low, high: (3,) corners of the box about all at home.
+        scale: the view's unit per unit of the mechanism.
+    """
+
+    solids: tuple[Solid, ...]
+    letters: tuple[Letter, ...]
+    low: FloatArray
+    high: FloatArray
+    scale: float
+
+
+def drawing(record: MechanismRecord, values: FloatArray) -> Drawing:
+    """What is drawn of a mechanism, made for joint values (n,).
+
+    >>> from assur.kinematics.home import home_values
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("fivebar")
+    >>> found = drawing(record, home_values(record))
+    >>> sorted({item.link for item in found.solids})
+    ['base', 'crank1', 'crank2', 'rod1', 'rod2']
+    """
+    look = companion(record)
+    shape = skeleton(record, look, values)
+    scale = FULL / max(shape.size, 1e-300)
+    grouped: dict[tuple[str, str], list[Mesh]] = {}
+    for part in parts(shape, look):
+        grouped.setdefault((part.link, part.colour), []).append(part.shape.mesh(part.colour))
+    solids = [
+        Solid(link, f"{link} {colour[1:]}", *_indexed(joined(meshes), scale), _bytes(colour))
+        for (link, colour), meshes in grouped.items()
+    ]
+    return Drawing(
+        tuple(solids),
+        _letters(record, shape, scale),
+        shape.cloud.min(axis=0) * scale,
+        shape.cloud.max(axis=0) * scale,
+        scale,
+    )
+
+
+def places(record: MechanismRecord, values: FloatArray, scale: float) -> Mapping[str, tuple[FloatArray, FloatArray]]:
+    """Link -> unit quaternion (..., 4) and origin (..., 3) in the view's unit, at joint values (..., n).
+
+    >>> from assur.kinematics.home import home_values
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("fivebar")
+    >>> places(record, home_values(record), 1.0)["base"][0].round(9).tolist()
+    [1.0, 0.0, 0.0, 0.0]
+    """
+    batch = values.shape[:-1]
+    return {
+        link: (
+            np.broadcast_to(rotations.to_quaternion(turn), (*batch, 4)),
+            np.broadcast_to(scale * origin, (*batch, 3)),
+        )
+        for link, (turn, origin) in frames(record, values).items()
+    }
+
+
+def _indexed(mesh: Mesh, scale: float) -> tuple[FloatArray, NDArray[np.int64]]:
+    """Vertices that triangles of one smooth face share, so that a viewer shades it smoothly, and faces."""
+    corners = mesh.corners.reshape(-1, 3) * scale
+    patch = np.repeat(mesh.patch, 3)
+    key = np.column_stack([np.round(corners / (1e-7 * FULL)), patch]).astype(np.int64)
+    _, first, places = np.unique(key, axis=0, return_index=True, return_inverse=True)
+    return corners[first], places.reshape(-1, 3)
+
+
+def _letters(record: MechanismRecord, shape: Skeleton, scale: float) -> tuple[Letter, ...]:
+    """The letters of the figure of the kinematic model, one where several stand in one place, each on its link."""
+    found: dict[str, FloatArray] = {}
+    for name, here in lettered(shape).items():
+        if all(np.linalg.norm(here - other) > CLOSE * shape.size for other in found.values()):
+            found[name] = here
+    return tuple(Letter(name, *_of_link(record, name, scale)) for name in found)
+
+
+def _of_link(record: MechanismRecord, name: str, scale: float) -> tuple[str, FloatArray]:
+    if name in record.points:
+        return record.points[name].link, record.points[name].at * scale
+    return record.joints[name].parent, record.joints[name].at * scale
+
+
+def _bytes(colour: str) -> tuple[int, int, int]:
+    red, green, blue = (round(255 * float(part)) for part in rgb(colour))
+    return red, green, blue

@@ -1,0 +1,97 @@
+"""A link: dimensions, joint values and camera as the query of an address, and back; every number to its last bit."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from urllib.parse import parse_qs, urlencode, urlsplit
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import UsageError
+from assur.model.mechanism import MechanismRecord
+from assur.model.registry import with_parameters
+from assur.view.state import State, start, with_values
+
+FloatArray = NDArray[np.float64]
+LONGEST = 6000
+"""Characters of a query: what a browser sends in one line, and more than any mechanism needs."""
+
+
+@dataclass(frozen=True)
+class Camera:
+    """Where the reader stands, what is looked at, in the mechanism's unit, and what is upwards."""
+
+    position: tuple[float, float, float]
+    look_at: tuple[float, float, float]
+    up: tuple[float, float, float] = (0.0, 0.0, 1.0)
+
+    def times(self, scale: float) -> Camera:
+        """The same in another unit of length."""
+        position, look_at = (
+            (scale * part[0], scale * part[1], scale * part[2]) for part in (self.position, self.look_at)
+        )
+        return Camera(position, look_at, self.up)
+
+
+def query(state: State, camera: Camera | None = None) -> str:
+    """The query that restores a state; the joint values say its mode, its inputs and its pose.
+
+    >>> from assur.model.registry import load_record
+    >>> query(start(load_record("fivebar", l1=110.0)), Camera((1.0, 2.0, 3.0), (0.0, 0.0, 0.0)))[:35]
+    'mechanism=fivebar&set=l1%3A110.0&at'
+    """
+    fields = [("mechanism", state.record.name)]
+    fields += [("set", f"{name}:{value!r}") for name, value in state.record.overrides.items()]
+    fields.append(("at", _numbers(state.values)))
+    if camera is not None:
+        fields.append(("camera", _numbers(np.array([*camera.position, *camera.look_at, *camera.up]))))
+    return urlencode(fields, safe=",")
+
+
+def restored(record: MechanismRecord, text: str) -> tuple[State, Camera | None]:
+    """The state and the camera of a query or of a whole link, for the mechanism with the dimensions of its file.
+
+    Errors: UsageError where it is no link of this mechanism, or its joint values are no assembly.
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("fivebar")
+    >>> before = start(load_record("fivebar", l1=110.0))
+    >>> after, camera = restored(record, query(before))
+    >>> bool(np.max(np.abs(after.values - before.values)) < 1e-12), dict(after.record.overrides), camera
+    (True, {'l1': 110.0}, None)
+    """
+    if len(text) > LONGEST:
+        raise UsageError(f"a link of {len(text)} characters; at most {LONGEST} are read")
+    fields = parse_qs(urlsplit(text).query if "?" in text else text)
+    names = fields.get("mechanism", [record.name])
+    if names != [record.name]:
+        raise UsageError(f"this is a link of {', '.join(names)}, not of {record.name}", hint=f"assur view {names[0]}")
+    changed = {}
+    for item in fields.get("set", []):
+        name, _, value = item.partition(":")
+        changed[name] = float(_read(value, 1)[0])
+    found = with_parameters(record, **changed) if changed else record
+    state = start(found)
+    if "at" in fields:
+        state = with_values(state, _read(fields["at"][-1], len(state.values)))
+    if "camera" not in fields:
+        return state, None
+    parts = _read(fields["camera"][-1], 9).tolist()
+    return state, Camera(*(tuple(parts[k : k + 3]) for k in (0, 3, 6)))
+
+
+def _numbers(values: FloatArray) -> str:
+    return ",".join(repr(float(value)) for value in values)
+
+
+def _read(text: str, count: int) -> FloatArray:
+    parts = text.split(",")
+    try:
+        numbers = [float(part) for part in parts]
+    except ValueError:
+        raise UsageError(f"a link with '{text[:40]}' where numbers are wanted") from None
+    if len(numbers) != count or not all(map(math.isfinite, numbers)):
+        raise UsageError(f"a link with {len(numbers)} numbers where {count} finite ones are wanted")
+    return np.array(numbers)

@@ -1,0 +1,117 @@
+"""Readings: the live numbers of a state, as rows of a name and a text."""
+
+from __future__ import annotations
+
+import html
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from assur.errors import AssurError
+from assur.kinematics.status import closed_form_of
+from assur.model.pose import LENGTHS
+from assur.singularity.distance import distance
+from assur.singularity.verdict import verdict_at
+from assur.view import dials
+from assur.view.modes import Modes
+from assur.view.state import State
+
+DIGITS = 4
+
+
+@dataclass(frozen=True)
+class Reading:
+    """One number that is shown: its name, its text with its unit, and what it is in a few words."""
+
+    name: str
+    text: str
+    about: str = ""
+
+
+def readings(state: State) -> tuple[Reading, ...]:
+    """Pose, inputs, residual, mode and condition of a state.
+
+    >>> from assur.model.registry import load_record
+    >>> from assur.view.state import start
+    >>> found = {item.name: item.text for item in readings(start(load_record("fivebar")))}
+    >>> found["y"], found["working mode"], found["condition"]
+    ('223.9241 mm', '-+', '1.107')
+    """
+    record = state.record
+    rows = [
+        Reading(dial.name, shown(dial, float(value)))
+        for dial, value in (
+            *zip(dials.dials(record), dials.read(record, state.values), strict=True),
+            *zip(dials.inputs(record), state.inputs, strict=True),
+        )
+    ]
+    rows.append(Reading("residual", f"{state.residual:.1e} {record.unit}", "largest gap of the loops"))
+    rows += [
+        Reading(f"{kind} mode", text) for kind, text in zip(("working", "assembly"), state.modes, strict=True) if text
+    ]
+    verdict = verdict_at(record, state.values)
+    condition = "infinite" if verdict.condition is None else f"{verdict.condition:.4g}"
+    rows.append(Reading("condition", condition, "of the map from inputs to pose"))
+    least = verdict.closest
+    if least:
+        about = {"output": "parallel singularity at 0", "input": "serial singularity at 0"}.get(least, "of the closure")
+        rows.append(Reading(f"least measure ({least})", f"{verdict.relative[least]:.3g}", about))
+    rows.append(Reading("configuration", verdict.kind.replace("_", "-") + (", near singular" if verdict.near else "")))
+    return tuple(rows)
+
+
+def closest_factor(state: State, working: Modes) -> Reading | None:
+    """The factor of the closed form that is closest to zero; None without closed form.
+
+    >>> from assur.model.registry import load_record
+    >>> from assur.view.modes import modes
+    >>> from assur.view.state import start
+    >>> here = start(load_record("fivebar"))
+    >>> closest_factor(here, modes(here, "inverse")).name
+    'closest factor'
+    """
+    here = working.current
+    if here is None or not here.factors:
+        return None
+    factors = {item.name: item for item in closed_form_of(state.record).factor_list if item.kind != "other"}
+    name = min(factors, key=lambda item: abs(here.factors[item]))
+    return Reading("closest factor", f"{name} = {here.factors[name]:.3g}", f"0 where {factors[name].meaning}")
+
+
+def clearance(state: State, working: Modes) -> Reading | None:
+    """Distance to the nearest parallel singularity, the orientation held; None where it is not defined.
+
+    Takes seconds: for when nothing moves.
+    """
+    record = state.record
+    here = working.current
+    if record.closed_form is None or here is None or not any(name in LENGTHS for name in record.platform.pose):
+        return None
+    try:
+        found = distance(record, state.pose, here.label or None)
+    except AssurError:  # a mode by number: closed forms know it by signs alone
+        return None
+    value = float(found.value)
+    if math.isnan(value):
+        return None
+    if math.isinf(value):
+        return Reading("distance to singularity", f"more than {found.reach:.4g} {record.unit}", "none was seen nearer")
+    return Reading("distance to singularity", f"{value:.4g} {record.unit}", f"there {found.factor} = 0")
+
+
+def shown(dial: dials.Dial, value: float) -> str:
+    """A value with the digits and the unit that are shown."""
+    return f"{round(dial.shown(value), DIGITS) + 0.0:.{DIGITS}f} {dial.unit}"
+
+
+def table(rows: Sequence[Reading]) -> str:
+    """Rows as HTML; what they say is escaped.
+
+    >>> table([Reading("x", "1 mm", "a < b")])
+    '<table class="assur"><tr><td>x</td><td title="a &lt; b"><b>1 mm</b></td></tr></table>'
+    """
+    cells = ""
+    for row in rows:
+        name, text, about = (html.escape(part) for part in (row.name, row.text, row.about))
+        cells += f'<tr><td>{name}</td><td title="{about}"><b>{text}</b></td></tr>'
+    return f'<table class="assur">{cells}</table>'

@@ -1,0 +1,137 @@
+"""The server: viser behind the guard. The one module that knows viser's library.
+
+viser serves one page and one WebSocket from a port of its own; it checks neither token nor Host nor Origin, and looks
+files up by the path of the request. There is one place where every request passes, the `process_request` of the
+WebSocket library, and viser sets it itself: while viser starts, it is given ours instead, which never calls viser's.
+So there is no second, unguarded port, and no path of a request ever becomes the name of a file. A view whose guard is
+not asked (another version of viser) does not start.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import http
+import http.client
+import importlib
+import io
+import logging
+import socket
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from assur.errors import AssurError, UsageError
+from assur.view.guard import POLICY, Answer, Guard, is_everywhere
+
+REFUSED = b"refused\n"
+Opened = Callable[[str], None]
+"""Called with the query of every page that is opened."""
+
+
+class Served:
+    """A viser server that is running behind a guard.
+
+    Attributes:
+        viser: the server object of the library.
+        guard: what checks its requests.
+        host, port: where it listens.
+    """
+
+    def __init__(self, host: str, port: int, guard: Guard, opened: Opened) -> None:
+        viser = library()
+        _check_free(host, port)
+        self.guard, self.host = guard, host
+        self._asked = False
+        page = (Path(viser.__file__).parent / "client" / "build" / "index.html").read_bytes()
+        with contextlib.redirect_stdout(io.StringIO()), self._in_front(page, opened):
+            self.viser = viser.ViserServer(host=host, port=port, verbose=False)
+        self.port = int(self.viser.get_port())
+        messages = importlib.import_module("viser._messages")
+        for kind in (messages.ShareUrlRequest, messages.ShareUrlDisconnect):  # no tunnel to the outside
+            self.viser._websock_server.unregister_handler(kind)
+        try:
+            self._check_guarded()
+        except BaseException:
+            self.stop()
+            raise
+
+    @property
+    def url(self) -> str:
+        """The address with its token."""
+        host = "127.0.0.1" if is_everywhere(self.host) else f"[{self.host}]" if ":" in self.host else self.host
+        return f"http://{host}:{self.port}/{self.guard.token}/"
+
+    def stop(self) -> None:
+        """End it, threads included."""
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.viser.stop()
+
+    @contextlib.contextmanager
+    def _in_front(self, page: bytes, opened: Opened) -> Iterator[None]:
+        """While this lasts, servers of the WebSocket library ask the guard."""
+        library = importlib.import_module("websockets.asyncio.server")
+        headers = importlib.import_module("websockets.datastructures").Headers
+        response = importlib.import_module("websockets.http11").Response
+        original = library.serve
+
+        def process(connection: Any, request: Any) -> Any:
+            self._asked = True
+            port = connection.local_address[1]
+            verdict = self.guard.check(request.path, request.headers.raw_items(), port)
+            if verdict.answer is Answer.socket:
+                return None
+            body, status = (
+                (page, http.HTTPStatus.OK) if verdict.answer is Answer.page else (REFUSED, http.HTTPStatus.FORBIDDEN)
+            )
+            kind = "text/html; charset=utf-8" if verdict.answer is Answer.page else "text/plain; charset=utf-8"
+            if verdict.answer is Answer.page:
+                opened(request.path.partition("?")[2])
+            fields = {**POLICY, "Content-Type": kind, "Content-Length": str(len(body)), "Connection": "close"}
+            return response(status.value, status.phrase, headers(fields), body)
+
+        def serve(handler: Any, *arguments: Any, **options: Any) -> Any:
+            quiet = logging.getLogger("assur.view.requests")
+            quiet.setLevel(logging.CRITICAL)
+            return original(handler, *arguments, **{**options, "process_request": process, "logger": quiet})
+
+        setattr(library, "serve", serve)  # noqa: B010  # a module's attribute, for as long as viser starts
+        try:
+            yield
+        finally:
+            setattr(library, "serve", original)  # noqa: B010
+
+    def _check_guarded(self) -> None:
+        """Ask for the page without the token, and stop everything where it is not refused."""
+        target = "127.0.0.1" if is_everywhere(self.host) else self.host
+        line = http.client.HTTPConnection(target, self.port, timeout=10)
+        try:
+            line.request("GET", "/")
+            status = line.getresponse().status
+        finally:
+            line.close()
+        if status != http.HTTPStatus.FORBIDDEN or not self._asked:
+            raise AssurError("the view's server does not ask its guard, so it was not started", hint=VERSION)
+
+
+VERSION = "install the version of viser that assur names: pip install 'assur[view]'"
+
+
+def library() -> Any:
+    """viser, or a clear refusal where it is not installed."""
+    try:
+        return importlib.import_module("viser")
+    except ImportError:
+        raise UsageError(
+            "the live view needs viser, which is not installed", hint="pip install 'assur[view]'"
+        ) from None
+
+
+def _check_free(host: str, port: int) -> None:
+    """Refuse an address that nothing can listen on; viser would try the next thousand ports."""
+    try:
+        family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
+        with socket.socket(family, socket.SOCK_STREAM) as probe:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            probe.bind((host, port))
+    except (OSError, OverflowError) as error:
+        raise UsageError(f"nothing can listen on {host}, port {port}: {error}", hint="choose another --port") from None

@@ -1,0 +1,272 @@
+"""The window: sliders, lists, numbers and buttons, and what each of them asks of the state."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import AssurError
+from assur.model.mechanism import MechanismRecord
+from assur.view import dials, link
+from assur.view.explain import Reason
+from assur.view.keeping import Keeper
+from assur.view.modes import Choice, Modes, modes
+from assur.view.overlays import Overlays
+from assur.view.player import Player
+from assur.view.readings import Reading, clearance, closest_factor, readings, table
+from assur.view.server import Served
+from assur.view.stage import Stage
+from assur.view.state import State, start, with_dial, with_input, with_parameter, with_values
+from assur.view.undo import History
+from assur.view.worker import Worker
+
+Wish = Callable[[Any], Callable[[State], State]]
+"""From the value of a control to the change that it asks for."""
+
+FloatArray = NDArray[np.float64]
+RED = "background:#c62828;color:#fff;padding:4px 8px;border-radius:4px;font-size:0.85em"
+SMALL = "<style>table.assur{font-size:0.8em;line-height:1.35;border-spacing:6px 0}</style>"
+
+
+class Window:
+    """What a browser shows of one mechanism, and what it may ask. Every change passes through one worker."""
+
+    def __init__(self, record: MechanismRecord, served: Served) -> None:
+        self.original, self.served, self.gui = record, served, served.viser.gui
+        self.history = History(start(record))
+        self.found: dict[str, Modes] = {}
+        self.more: tuple[Reading, ...] = ()
+        self.settled = 0
+        self.worker = Worker(self._idle, self._failed)
+        self.stage = Stage(served.viser, self._ghost_clicked)
+        self.stage.build(record, self.state.values)
+        self.stage.look(self.stage.first_camera())
+        self.notes: dict[str, Any] = {}
+        self.gui.set_panel_label(record.name)
+        self._inputs = self._sliders("Inputs", dials.inputs(record), self.state.inputs, with_input)
+        here = dials.read(record, self.state.values)
+        self._platform = self._sliders("Platform", dials.dials(record), here, with_dial)
+        self._make_numbers()
+        self._make_modes()
+        self.overlays = Overlays(self)
+        self._make_parameters()
+        self.player = Player(self)
+        self.keeper = Keeper(self)
+        self._show()
+        self.worker.start()
+
+    @property
+    def state(self) -> State:
+        """What is shown."""
+        return self.history.present
+
+    def close(self) -> None:
+        """End what runs."""
+        self.player.stop()
+        self.worker.stop()
+
+    def restore(self, query: str) -> None:
+        """Show what a link says; a query without one is no wish."""
+        if "at=" not in query and "set=" not in query and "camera=" not in query:
+            return
+
+        def task() -> None:
+            state, camera = link.restored(self.original, query)
+            self.now(state, "")
+            if camera is not None:
+                self.stage.look(camera.times(self.stage.scale))
+
+        self.worker.ask("restore", task)
+
+    # ---- what is made once
+
+    def _sliders(
+        self, title: str, found: tuple[dials.Dial, ...], here: FloatArray, change: Callable[[State, int, float], State]
+    ) -> list[Any]:
+        handles = []
+        with self.gui.add_folder(title):
+            for k, (dial, value) in enumerate(zip(found, here, strict=True)):
+                low, high = dial.ends
+                shown = dial.shown(float(value))
+                about = "stroke" if dial.limits else "range"
+                handle = self.gui.add_slider(
+                    f"{dial.name} [{dial.unit}]", min=low, max=high, step=dial.step, initial_value=shown,
+                    hint=f"{about} {low:.6g} .. {high:.6g} {dial.unit}",
+                )  # fmt: skip
+                self.notes[f"{title} {dial.name}"] = self.gui.add_html("", visible=False)
+                self.on_person(handle, f"{title} {dial.name}", self._turn(k, dial, change))
+                handles.append(handle)
+        return handles
+
+    def _turn(self, k: int, dial: dials.Dial, change: Callable[[State, int, float], State]) -> Wish:
+        return lambda shown: partial(_turned, change, k, dial.inside(float(shown)))
+
+    def on_person(self, handle: Any, label: str, wish: Wish) -> None:
+        """What a person does with a control asks for a change; what we set ourselves does not."""
+
+        def changed(event: Any) -> None:
+            if event.client is not None:
+                change = wish(event.target.value)  # now: the worker may set the control before it comes to this
+                self.worker.ask(label, lambda: self.now(change(self.state), label))
+
+        handle.on_update(changed)
+
+    def _make_numbers(self) -> None:
+        with self.gui.add_folder("Numbers"):
+            self._numbers = self.gui.add_html("")
+
+    def _make_modes(self) -> None:
+        with self.gui.add_folder("Modes"):
+            self._lists = {
+                "direct": self.gui.add_dropdown(
+                    "assembly", ("...",), hint="poses at these inputs; ghosts in the scene"
+                ),
+                "inverse": self.gui.add_dropdown("working", ("...",), hint="sets of inputs at this pose"),
+            }
+            self._right = self.gui.add_html("")
+            self._ghosts_shown = self.gui.add_checkbox("ghosts", initial_value=True)
+            self._letters_shown = self.gui.add_checkbox("letters", initial_value=True)
+        for problem, handle in self._lists.items():
+            self.on_person(handle, f"{problem} mode", partial(self._chosen, problem))
+        self._ghosts_shown.on_update(lambda _: self.stage.show_ghosts(self._ghosts_shown.value))
+        self._letters_shown.on_update(lambda _: self.stage.show_letters(self._letters_shown.value))
+
+    def _make_parameters(self) -> None:
+        with self.gui.add_folder("Dimensions", expand_by_default=False):
+            self._parameters = {}
+            for item in self.original.parameters.values():
+                if item.drawn_only:
+                    continue
+                handle = self.gui.add_number(
+                    f"{item.name} [{item.unit}]", initial_value=item.value, step=_step(item.value), hint=item.meaning
+                )
+                self.on_person(handle, f"dimension {item.name}", partial(_resized, item.name))
+                self._parameters[item.name] = handle
+            self.notes["dimension"] = self.gui.add_html("", visible=False)
+        with self.gui.add_folder("Steps"):
+            self._steps = self.gui.add_button_group("", ("undo", "redo", "home"))
+        self._steps.on_click(lambda event: self.worker.ask("step", partial(self._step, str(event.target.value))))
+
+    # ---- what the worker does
+
+    def now(self, state: State, label: str) -> None:
+        """Show another state; it is one step with the last where it is of the same thing."""
+        before = self.state
+        self.history = self.history.then(state, label)
+        self._after(before, label)
+
+    def _after(self, before: State, label: str) -> None:
+        self.settled = 0
+        self.more = ()
+        if self.state.record is not before.record:
+            self.stage.build(self.state.record, self.state.values)
+            self.player.forget()
+            self.overlays.clear()
+        self._show(label)
+
+    def _step(self, name: str) -> None:
+        before = self.state
+        if name == "home":
+            self.now(start(self.original), "")
+            return
+        self.history = self.history.back() if name == "undo" else self.history.on()
+        self._after(before, "")
+
+    def _show(self, label: str = "") -> None:
+        """Everything that follows from the state at once."""
+        state = self.state
+        self.stage.move(state.record, state.values)
+        with self.served.viser.atomic():
+            for handle, dial, value in zip(self._inputs, dials.inputs(self.original), state.inputs, strict=True):
+                _set(handle, dial, float(value))
+            here = dials.read(state.record, state.values)
+            for handle, dial, value in zip(self._platform, dials.dials(self.original), here, strict=True):
+                _set(handle, dial, float(value))
+            for name, handle in self._parameters.items():
+                handle.value = state.record.parameters[name].value
+            self._numbers.content = SMALL + table((*readings(state), *self.more))
+            self.explain(label, state.reason)
+
+    def explain(self, label: str, reason: Reason | None) -> None:
+        """In red below the control that a label names, why it stopped; nowhere else."""
+        place = "dimension" if label.startswith("dimension") else label
+        for name, note in self.notes.items():
+            wanted = reason is not None and name == place
+            note.visible = wanted
+            if wanted:
+                note.content = f'<div role="alert" style="{RED}">{html.escape(str(reason))}</div>'
+
+    def _idle(self) -> bool:
+        """What takes longer, when nothing moves: other modes first, then the distance to the nearest singularity."""
+        if self.settled == 0:
+            self.history = self.history.alone()
+            self.found = {"direct": modes(self.state, "direct"), "inverse": modes(self.state, "inverse")}
+            self._show_modes()
+            factor = closest_factor(self.state, self.found["inverse"])
+            self.more = (factor,) if factor else ()
+            self.keeper.refresh()
+        elif self.settled == 1:
+            found = clearance(self.state, self.found["inverse"])
+            self.more = (*self.more, found) if found else self.more
+        self.settled += 1
+        self._numbers.content = SMALL + table((*readings(self.state), *self.more))
+        return self.settled < 2
+
+    def _show_modes(self) -> None:
+        others = self.found["direct"].others
+        self.stage.ghosts(self.state.record, [item.values for item in others], visible=self._ghosts_shown.value)
+        for problem, handle in self._lists.items():
+            found = self.found[problem]
+            names = tuple(_name(item) for item in found.choices) or ("none",)
+            handle.options = names
+            handle.value = _name(found.current) if found.current else names[0]
+        said = self.found["direct"]
+        right = f"{'complete, ' if said.complete else ''}{said.right}"
+        self._right.content = f'<small style="display:block;padding:0 8px">assembly modes: {html.escape(right)}</small>'
+
+    def _chosen(self, problem: str, name: str) -> Callable[[State], State]:
+        choices = self.found[problem].choices if problem in self.found else ()
+        wanted = next((item for item in choices if _name(item) == name), None)
+        return lambda state: state if wanted is None else with_values(state, wanted.values)
+
+    def _ghost_clicked(self, index: int) -> None:
+        others = self.found["direct"].others if self.found else ()
+        if index < len(others):
+            self.worker.ask("ghost", lambda: self.now(with_values(self.state, others[index].values), ""))
+
+    def _failed(self, error: Exception) -> None:
+        text = error.message if isinstance(error, AssurError) else f"a bug in assur: {type(error).__name__}: {error}"
+        for client in self.served.viser.get_clients().values():
+            client.add_notification("That did not work", text, color="red")
+
+
+def _turned(change: Callable[[State, int, float], State], k: int, value: float, state: State) -> State:
+    return change(state, k, value)
+
+
+def _resized(name: str, value: float) -> Callable[[State], State]:
+    return lambda state: with_parameter(state, name, float(value))
+
+
+def _set(handle: Any, dial: dials.Dial, value: float) -> None:
+    """A slider to a value, its range made longer where the value lies outside."""
+    shown = round(dial.shown(value) / dial.step, 2) * dial.step
+    if shown < handle.min:
+        handle.min = shown
+    if shown > handle.max:
+        handle.max = shown
+    handle.value = shown
+
+
+def _name(item: Choice) -> str:
+    return item.label or "the one"
+
+
+def _step(value: float) -> float:
+    """What an arrow changes a dimension by: about a thousandth of it."""
+    return float(10.0 ** np.floor(np.log10(abs(value) or 1.0) - 2))

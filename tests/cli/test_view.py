@@ -1,0 +1,70 @@
+"""`assur view` from outside: its link, how it ends, and what it refuses."""
+
+import http.client
+import re
+import signal
+import subprocess
+import sys
+import urllib.parse
+
+import pytest
+
+from assur.cli import viewing
+from assur.cli.main import main
+
+COMMAND = [sys.executable, "-c", "from assur.cli.main import main; raise SystemExit(main())"]
+
+
+def test_it_serves_its_page_until_it_is_interrupted():
+    pytest.importorskip("viser")
+    words = [*COMMAND, "view", "fivebar", "--no-open", "--json"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running:
+        try:
+            line = next(text for text in running.stderr if "http://" in text)
+            url = urllib.parse.urlsplit(re.search(r"http://\S+", line)[0])
+            connection = http.client.HTTPConnection(url.hostname, url.port, timeout=20)
+            connection.request("GET", url.path)
+            assert connection.getresponse().status == 200
+            connection.close()
+            assert url.hostname == "127.0.0.1"
+        finally:
+            running.send_signal(signal.SIGINT)
+            said, _ = running.communicate(timeout=60)
+    assert running.returncode == 0
+    assert f'"url": "{url.geturl()}"' in said
+    with pytest.raises(ConnectionRefusedError):
+        http.client.HTTPConnection(url.hostname, url.port, timeout=5).request("GET", "/")
+
+
+@pytest.mark.parametrize("host", ["0.0.0.0", "192.0.2.7", "::", "example.org"])
+def test_a_host_that_others_reach_needs_a_second_word(host, capsys):
+    assert main(["view", "fivebar", "--host", host]) == 2
+    said = capsys.readouterr().err
+    assert f"--host {host} lets other machines reach the view" in said
+    assert "--allow-network" in said
+
+
+@pytest.mark.parametrize("port", ["-1", "65536"])
+def test_a_port_that_there_is_not(port, capsys):
+    assert main(["view", "fivebar", "--port", port]) == 2
+    assert f"--port {port}; a port is a number from 1 to 65535" in capsys.readouterr().err
+
+
+def test_without_viser_it_says_what_to_install(monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "viser", None)
+    assert main(["view", "fivebar", "--no-open"]) == 2
+    said = capsys.readouterr().err
+    assert "the live view needs viser, which is not installed" in said
+    assert "pip install 'assur[view]'" in said
+
+
+def test_with_the_second_word_it_warns(monkeypatch, capsys):
+    """The view is ended at once, as by Ctrl-C."""
+    pytest.importorskip("viser")
+
+    def interrupted():
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(viewing, "wait", interrupted)
+    assert main(["view", "fivebar", "--host", "0.0.0.0", "--allow-network", "--no-open"]) == 0
+    assert "warning: other machines can reach this view" in capsys.readouterr().err

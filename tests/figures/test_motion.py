@@ -1,0 +1,136 @@
+"""Films: every frame is an assembly in the mode of home, the last one leads to the first, and the files open."""
+
+from __future__ import annotations
+
+import io
+import sys
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import assur
+from assur.errors import UsageError
+from assur.figures.motion import check_film, encoded_film, ffmpeg, film, there_and_back
+from assur.kinematics.closure import characteristic_length, closure_error
+from assur.kinematics.paths.neighbours import working_signs
+from assur.kinematics.pose import pose_of
+
+FEW, SMALL = 8, 64
+
+
+@pytest.fixture(scope="module")
+def fivebar():
+    return film(assur.load("fivebar"), FEW, SMALL)
+
+
+@pytest.mark.parametrize(("name", "way"), [("fivebar", [30.0, -30.0]), ("zeng2019", [20.0, 30.0, -25.0])])
+def test_a_way_goes_to_the_pose_and_back_in_one_mode(name, way):
+    record = assur.load(name)
+    home = pose_of(record, record.home_values)
+    values = there_and_back(record, home + way, FEW)
+    assert np.max(closure_error(record, values)) < 1e-9 * characteristic_length(record)
+    signs = working_signs(record, values)
+    assert np.all(signs == signs[0])
+    np.testing.assert_allclose(values[-1], values[0], atol=1e-9)
+    np.testing.assert_allclose(values[1:], values[:-1][::-1], atol=1e-6 * characteristic_length(record))
+
+
+def test_poses_are_those_of_the_direct_problem(fivebar):
+    record = assur.load("fivebar")
+    for values, pose in zip(fivebar.values, fivebar.poses, strict=True):
+        inputs = [values[item.coordinate.index] * item.sign + item.offset for item in record.inputs]
+        solved = record.direct(inputs)
+        gap = np.min(np.linalg.norm(solved.poses[solved.exists] - pose, axis=-1))
+        assert gap < 1e-8 * characteristic_length(record)
+
+
+def test_pictures_show_one_turn_without_a_jump(fivebar):
+    assert fivebar.pictures.dtype == np.uint8
+    assert fivebar.pictures.shape[0] == FEW
+    assert max(fivebar.pictures.shape[1:3]) == SMALL
+    steps = np.linalg.norm(np.diff(fivebar.poses, axis=0, append=fivebar.poses[:1]), axis=1)
+    assert steps[-1] < 2 * np.max(steps[:-1])  # the first frame follows the last one as any other
+    rim = np.concatenate([fivebar.pictures[:, [0, -1]].reshape(-1, 3), fivebar.pictures[:, :, [0, -1]].reshape(-1, 3)])
+    assert np.all(rim == 255)  # nothing is cut
+    assert all(np.any(one != two) for one, two in zip(fivebar.pictures, np.roll(fivebar.pictures, -1, 0), strict=True))
+
+
+@pytest.mark.parametrize("form", ["gif", "webp"])
+def test_a_file_has_every_frame_and_runs_for_ever(fivebar, form):
+    data = encoded_film(fivebar.pictures, form, seconds=1.0)
+    assert data == encoded_film(fivebar.pictures, form, seconds=1.0)
+    opened = Image.open(io.BytesIO(data))
+    assert (opened.format, opened.n_frames, opened.info["loop"]) == (form.upper(), FEW, 0)
+    total = 0
+    for k in range(FEW):
+        opened.seek(k)
+        opened.load()
+        total += opened.info["duration"]
+        shown = np.asarray(opened.convert("RGB"), dtype=int)
+        assert np.mean(np.abs(shown - fivebar.pictures[k])) < (3.0 if form == "gif" else 1e-9)
+    assert total == 1000
+
+
+FAKE = """#!{python}
+import pathlib, sys
+data = sys.stdin.buffer.read()
+if {fails}:
+    sys.stderr.write("no such codec")
+    sys.exit(3)
+pathlib.Path(sys.argv[-1]).write_bytes(" ".join(sys.argv[1:-1]).encode() + b"|%d" % len(data))
+"""
+
+
+def stand_in(folder, monkeypatch, *, fails):
+    """A program named ffmpeg that writes what it was told and how many bytes it read."""
+    path = folder / "ffmpeg"
+    path.write_text(FAKE.format(python=sys.executable, fails=fails))
+    path.chmod(0o755)
+    monkeypatch.setenv("PATH", str(folder))
+
+
+def test_an_mp4_is_made_by_ffmpeg(tmp_path, monkeypatch):
+    stand_in(tmp_path, monkeypatch, fails=False)
+    pictures = np.zeros((10, 65, 41, 3), dtype=np.uint8)
+    words, size = encoded_film(pictures, "mp4", seconds=2.0).split(b"|")
+    assert b"-s 40x64 -r 5.000000 -i -" in words  # even sides, ten frames in two seconds
+    assert int(size) == 10 * 40 * 64 * 3
+
+
+def test_what_ffmpeg_complains_of_is_said(tmp_path, monkeypatch):
+    stand_in(tmp_path, monkeypatch, fails=True)
+    with pytest.raises(UsageError, match="ffmpeg made no MP4: no such codec"):
+        encoded_film(np.zeros((8, 64, 64, 3), dtype=np.uint8), "mp4")
+
+
+def test_without_ffmpeg_there_is_a_hint(tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(UsageError, match="ffmpeg, which is not found") as caught:
+        ffmpeg()
+    assert ".gif" in caught.value.hint
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        ({"frames": 7}, "frames: 7; from 8 to 240"),
+        ({"frames": 241}, "frames: 241"),
+        ({"size": 5000}, "size: 5000; from 64 to 1280"),
+        ({"seconds": 0.0}, "seconds: 0; from 0.1 to 60"),
+        ({"seconds": float("nan")}, "seconds: nan"),
+    ],
+)
+def test_numbers_out_of_range_are_refused(asked, message):
+    with pytest.raises(UsageError, match=message):
+        check_film(**asked)
+
+
+def test_another_form_is_refused(fivebar):
+    with pytest.raises(UsageError, match="form 'avi' of a film; there is: gif, webp, mp4"):
+        encoded_film(fivebar.pictures, "avi")
+
+
+def test_a_barred_way_says_what_bars_it():
+    with pytest.raises(UsageError, match=r"the way from home is barred: stopped at .* serial singularity"):
+        there_and_back(assur.load("fivebar"), [0.0, 400.0], FEW)

@@ -1,0 +1,67 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from assur.kinematics.border import inputs_of
+from assur.kinematics.closure import characteristic_length, closure_error
+from assur.kinematics.pose import pose_of
+from assur.mechanism import load, names
+from assur.page.branches import branches, modes, unwound
+from assur.topology.joints import SPHERICAL
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_ghost_is_an_assembly_at_homes_inputs_or_at_homes_pose(name):
+    record = load(name)
+    home, length = record.home_values, characteristic_length(record)
+    found = branches(record)
+    assert [item["values"] for item in (found["assembly"][0], found["working"][0])] == [home.tolist()] * 2
+    for kind in ("assembly", "working"):
+        values = np.array([item["values"] for item in found[kind]])
+        assert np.max(closure_error(record, values)) < 1e-11 * length
+        assert len({item["label"] for item in found[kind]}) == len(values)
+        assert len(np.unique(values.round(6), axis=0)) == len(values)
+    inputs = inputs_of(record, np.array([item["values"] for item in found["assembly"]]))
+    assert np.allclose(inputs, inputs_of(record, home), rtol=0, atol=1e-9 * length)
+    poses = pose_of(record, np.array([item["values"] for item in found["working"]]))
+    assert np.allclose(poses, pose_of(record, home), rtol=0, atol=1e-9 * length)
+
+
+@pytest.mark.parametrize("name", names())
+def test_angles_are_within_half_a_turn_of_homes(name):
+    record = load(name)
+    turns = [item.kind == "angle" and record.joints[item.joint].type is not SPHERICAL for item in record.coordinates]
+    for item in branches(record)["assembly"]:
+        assert np.all(np.abs(np.array(item["values"]) - record.home_values)[turns] <= np.pi + 1e-9)
+
+
+def test_their_number_is_that_of_the_solutions():
+    found = branches(load("zeng2019"))
+    assert [len(found["assembly"]), len(found["working"])] == [4, 8]
+    assert found["assembly"][0]["label"] == "+++"
+    assert found["working"][0]["label"] == "++-++"
+
+
+def test_a_home_that_no_solution_is_stands_first_under_its_own_name(monkeypatch):
+    monkeypatch.setattr("assur.page.branches.is_home", lambda _, joints: np.zeros(len(joints), dtype=bool))
+    record = load("fivebar")
+    found = branches(record)["assembly"]
+    assert [item["label"] for item in found] == ["home", "+", "-"]
+    assert found[0]["values"] == record.home_values.tolist()
+
+
+def test_whole_turns_are_taken_off_angles_but_not_off_rotation_vectors():
+    record = load("gough_stewart")
+    home = np.array(record.home_values)
+    spherical = [record.joints[item.joint].type is SPHERICAL for item in record.coordinates]
+    lengths = [item.kind == "length" for item in record.coordinates]
+    moved = unwound(record, home + 4 * np.pi, home)
+    assert np.array_equal(np.abs(moved - home) > 1, np.array(spherical) | np.array(lengths))
+
+
+def test_modes_are_rows_of_signs():
+    found = modes(load("zeng2019"))
+    assert len(found["working"]["all"]) == 2 ** len(found["working"]["names"]) == 32
+    assert found["working"]["default"] == "++-++"
+    assert modes(load("gough_stewart"))["working"] == {"names": [], "all": [[]], "default": ""}

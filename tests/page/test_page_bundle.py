@@ -1,0 +1,57 @@
+"""The committed bundle: built from the sources as they are, small, with its licences, doing nothing it must not."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from pathlib import Path
+
+from assur.page.page import asset
+
+WEB = Path(__file__).parents[2] / "web"
+MOST = 700_000
+
+
+def digest() -> str:
+    """Of every source of the bundle, as web/build.mjs takes it."""
+    found = hashlib.sha256()
+    for path in sorted(
+        [*WEB.glob("src/**/*.js"), WEB / "package.json"], key=lambda item: item.relative_to(WEB).as_posix()
+    ):
+        found.update(path.relative_to(WEB).as_posix().encode() + b"\0" + path.read_bytes())
+    return found.hexdigest()
+
+
+def test_it_is_built_from_the_sources_as_they_are():
+    assert f"sources {digest()}" in asset("page.js"), "cd web && npm install && npm run build"
+
+
+def test_it_is_small_and_keeps_the_licences():
+    text = asset("page.js")
+    assert 300_000 < len(text.encode()) <= MOST
+    version = json.loads((WEB / "package.json").read_text(encoding="utf-8"))["devDependencies"]["three"]
+    for licences in (text[:4000], asset("LICENSES.txt")):
+        assert f"three.js {version}" in licences
+        assert "Permission is hereby granted, free of charge" in licences
+
+
+def test_versions_are_exact_and_no_lock_file_is_kept():
+    wanted = json.loads((WEB / "package.json").read_text(encoding="utf-8"))["devDependencies"]
+    assert all(re.fullmatch(r"\d+\.\d+\.\d+", version) for version in wanted.values())
+    assert not (WEB / "package-lock.json").exists()
+
+
+def test_it_can_stand_in_a_page_and_runs_no_text_as_code():
+    text = asset("page.js")
+    assert "</script" not in text.lower()
+    assert re.search(r"\beval\(|new Function\b", text) is None
+
+
+def test_it_asks_for_nothing():
+    """Nothing in our own sources loads anything; what three.js could load, nobody calls."""
+    for path in WEB.glob("src/**/*.js"):
+        assert (
+            re.search(r"\bfetch\(|XMLHttpRequest|WebSocket|https?://(?!www\.w3\.org)", path.read_text(encoding="utf-8"))
+            is None
+        ), path

@@ -1,0 +1,85 @@
+"""The solver in the page against Python: the numbers that its own tests read are those that Python gives today."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from assur.kinematics.border import inputs_of
+from assur.kinematics.closure import closing_system
+from assur.kinematics.pose import pose_of
+from assur.mechanism import load
+from assur.page.content import content
+
+WEB = Path(__file__).parents[2] / "web"
+STORED = WEB / "test" / "numbers.json"
+NAMES = ("zeng2019", "planar_3rrr", "three_crr", "gough_stewart")
+KEPT = ("name", "unit", "angleUnit", "extent", "characteristicLength", "graph", "coordinates", "platform", "inputs")
+KEPT += ("poseRange", "home", "branches", "modes")
+MOVED = 0.02
+"""How far inputs are moved from home, in characteristic lengths or rad."""
+
+
+def numbers(name: str) -> dict[str, Any]:
+    """What the page is given of a mechanism, and what Python finds: gaps, derivatives, moved inputs, measures."""
+    record = load(name)
+    rng = np.random.default_rng(7)
+    whole = content(record, [])
+    home, length = record.home_values, whole["characteristicLength"]
+    scale = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
+    loose = home + 0.3 * scale * rng.normal(size=len(home))
+    pose = pose_of(record, home)
+    gaps, derivative = closing_system(record, loose[None], pose[None])
+    return {
+        "scene": {key: whole[key] for key in KEPT},
+        "loose": {"values": loose.tolist(), "gaps": gaps[0].tolist(), "derivative": derivative[0].tolist()},
+        "moves": [_move(record, length, rng) for _ in range(4)],
+        "singular": _singular_values(record, home),
+    }
+
+
+def _move(record: Any, length: float, rng: np.random.Generator) -> dict[str, Any]:
+    units = np.array([length if item.coordinate.kind == "length" else 1.0 for item in record.inputs])
+    target = inputs_of(record, record.home_values) + MOVED * units * rng.uniform(-1, 1, size=len(units))
+    path = record.follow(record.home_values, inputs=target)
+    assert path.stopped is None
+    return {"inputs": target.tolist(), "pose": np.asarray(path.poses[-1]).tolist()}
+
+
+def _singular_values(record: Any, home: np.ndarray) -> dict[str, float]:
+    measures = record.instantaneous(home).measures
+    return {"parallel": float(measures["output"]), "serial": float(measures["input"])}
+
+
+def close(found: Any, wanted: Any) -> bool:
+    """Whether plain data are the same, numbers to 1e-9."""
+    if isinstance(wanted, dict):
+        return set(found) == set(wanted) and all(close(found[key], wanted[key]) for key in wanted)
+    if isinstance(wanted, list):
+        return len(found) == len(wanted) and all(map(close, found, wanted))
+    if isinstance(wanted, float):
+        return bool(found == pytest.approx(wanted, rel=1e-9, abs=1e-9))
+    return bool(found == wanted)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_stored_numbers_are_what_python_says(name):
+    """To make them anew: write {name: numbers(name) for name in NAMES} as JSON into web/test/numbers.json."""
+    assert close(json.loads(STORED.read_text(encoding="utf-8"))[name], json.loads(json.dumps(numbers(name))))
+
+
+@pytest.mark.node
+def test_the_pages_own_tests_pass(node):
+    """By node's own runner, on the sources that the bundle is built from."""
+    files = sorted(map(str, (WEB / "test").glob("*.test.js")))
+    assert len(files) > 3
+    done = subprocess.run(
+        [str(shutil.which("node")), "--test", *files], capture_output=True, text=True, timeout=240, check=False
+    )
+    assert done.returncode == 0, done.stdout[-4000:] + done.stderr[-2000:]

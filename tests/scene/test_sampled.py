@@ -1,0 +1,43 @@
+"""Sampled configurations are assembled, in the mode that was asked for, and within the limits of the file."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import assur
+from assur.errors import UsageError
+from assur.kinematics.closure import characteristic_length, closure_error
+from assur.kinematics.limits import limits
+from assur.kinematics.pose import pose_of
+from assur.scene.sampled import sampled
+
+
+def test_they_are_assembled_within_box_and_limits(every):
+    record = every.record
+    if record.closed_form is None:
+        return
+    joints = sampled(record, 20)
+    assert 1 <= len(joints) <= 20
+    assert np.max(closure_error(record, joints)) < 1e-6 * characteristic_length(record)
+    assert all(np.min(item.margin(joints)) >= 0 for item in limits(record, record.home_values))
+
+
+def test_the_mode_is_that_of_the_inverse_problem():
+    record = assur.load("fivebar")
+    for mode in ("++", "-+"):
+        joints = sampled(record, 8, mode)
+        for row in joints:
+            found = record.inverse(pose_of(record, row[None])[0], mode)
+            np.testing.assert_allclose(found.joints[found.exists][0], row, atol=1e-9)
+
+
+def test_the_seed_says_which():
+    record = assur.load("zeng2019")
+    np.testing.assert_array_equal(sampled(record, 5, seed=3), sampled(record, 5, seed=3))
+    assert not np.array_equal(sampled(record, 5, seed=3), sampled(record, 5, seed=4))
+
+
+def test_nothing_and_nowhere_are_refused():
+    with pytest.raises(UsageError, match="at least 1"):
+        sampled(assur.load("fivebar"), 0)

@@ -1,0 +1,121 @@
+"""The pages of docs/ say what is so: their Python runs, their printed output is real, their links lead somewhere."""
+
+from __future__ import annotations
+
+import doctest
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+DOCS = Path(__file__).parents[1] / "docs"
+PAGES = sorted(DOCS.rglob("*.md"))
+NAMES = [path.relative_to(DOCS).as_posix() for path in PAGES]
+OUTPUT = re.compile(r"<!-- output: (assur .*?) -->\n```text\n(.*?)```", re.DOTALL)
+STEP = re.compile(r"<!-- edit: (\S+) -> (\S+): (.*?) -->|" + OUTPUT.pattern, re.DOTALL)
+"""What a page does, in its order: a file that is copied with words replaced, and a command with what it prints."""
+
+
+def text_of(path):
+    return path.read_text(encoding="utf-8")
+
+
+def chosen(lines, part):
+    """What `head -n COUNT` or `sed -n FIRST,LASTp` lets through."""
+    if not part:
+        return lines
+    if counted := re.fullmatch(r"head -n (\d+)", part):
+        return lines[: int(counted[1])]
+    first, last = re.fullmatch(r"sed -n (\d+),(\d+)p", part).groups()
+    return lines[int(first) - 1 : int(last)]
+
+
+def printed(command, capsys):
+    from assur.cli.main import main
+
+    command, _, part = command.partition(" | ") if " | head" in command or " | sed" in command else (command, "", "")
+    main(shlex.split(command)[1:])
+    caught = capsys.readouterr()
+    lines = chosen((caught.out or caught.err).splitlines(), part)
+    return "\n".join(line.rstrip() for line in lines).strip("\n") + "\n"
+
+
+def rounded(text):
+    """Gaps of rounding size are not the same on every processor."""
+    return re.sub(r"\d\.\de-1\d", "rounding", text)
+
+
+def edit(source, target, changes):
+    text = text_of(Path(source))
+    for change in changes.split(": "):
+        old, new = change.split(" -> ")
+        assert old in text, old
+        text = text.replace(old, new)
+    Path(target).write_text(text, encoding="utf-8")
+
+
+SAYING = [path for path in PAGES if OUTPUT.search(text_of(path)) or "\n>>> " in text_of(path)]
+
+
+@pytest.mark.parametrize("path", SAYING, ids=[path.stem for path in SAYING])
+def test_what_it_shows_is_what_comes_out(path, capsys, tmp_path, monkeypatch):
+    """Its commands one after the other in one folder, as a reader would take them, then its Python there."""
+    monkeypatch.chdir(tmp_path)
+    for source, target, changes, command, shown in STEP.findall(text_of(path)):
+        if source:
+            edit(source, target, changes)
+        else:
+            assert rounded(printed(command, capsys)) == rounded(shown), command
+    assert doctest.testfile(str(path), module_relative=False, encoding="utf-8").failed == 0
+
+
+def test_those_that_show_something_are_found():
+    wanted = {"index", "first-steps", "theory", "adding-an-analysis", "indices", "kinematics"}
+    assert wanted <= {path.stem for path in SAYING}
+    assert len(OUTPUT.findall(text_of(DOCS / "theory.md"))) == text_of(DOCS / "theory.md").count("<!-- output:") > 5
+
+
+@pytest.mark.parametrize("path", PAGES, ids=NAMES)
+def test_pictures_and_links_exist(path):
+    for target in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", text_of(path)):
+        assert (path.parent / target).is_file(), target
+
+
+def test_every_page_is_in_a_table_of_contents():
+    named = set()
+    for path in PAGES:
+        for tree in re.findall(r"```\{toctree\}\n(.*?)```", text_of(path), re.DOTALL):
+            lines = [line for line in tree.splitlines() if line and not line.startswith(":")]
+            named |= {(path.parent / f"{line}.md").relative_to(DOCS).as_posix() for line in lines}
+    assert named == set(NAMES) - {"index.md"}
+
+
+def test_commands_that_are_shown_exist():
+    from assur.cli.main import application
+
+    known = set(application())
+    form = re.compile(r"(?:^|^    |`)assur ([a-z]+)", re.MULTILINE)
+    named = {(path.name, word) for path in PAGES for word in form.findall(text_of(path))}
+    assert len(named) > 20
+    assert {pair for pair in named if pair[1] not in known} == set()
+
+
+def test_the_gallery_has_every_kind_of_figure():
+    import assur
+    from assur.figures.catalogue import ENTRIES, names
+
+    marks = re.findall(r"<!-- made: gallery (\w+) ?(.*?) -->", text_of(DOCS / "gallery.md"))
+    shown = {figure for name, chosen in marks for figure in chosen.split() or names(assur.load(name))}
+    assert {entry.name for entry in ENTRIES} == shown
+
+
+def test_what_a_method_refers_to_is_described():
+    from assur.mechanism import Mechanism
+
+    described = re.findall(r"\.\. auto\w+:: (\S+)", text_of(DOCS / "api" / "analyses.md"))
+    methods = [method.__doc__ for method in vars(Mechanism).values() if callable(method) and method.__doc__]
+    named = [name for text in methods for name in re.findall(r"see `(assur\.[\w.]+)`", text)]
+    assert len(named) > 12
+    for name in set(named) - {"assur.topology"}:  # the function; it stands on the page before
+        assert [item for item in described if item == name or item.startswith(f"{name}.")], name

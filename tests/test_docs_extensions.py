@@ -1,0 +1,145 @@
+"""What builds the site: formulas as MathML, docstrings as plain text, and what is made for the pages."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+
+
+@pytest.fixture
+def extension(monkeypatch):
+    """A function that imports one of docs/extensions by name."""
+    monkeypatch.syspath_prepend(str(ROOT / "docs" / "extensions"))
+    yield importlib.import_module
+    for path in (ROOT / "docs" / "extensions").glob("*.py"):
+        sys.modules.pop(path.stem, None)
+
+
+# ---- formulas ----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.site
+def test_what_the_report_lacks_is_made_here(extension):
+    mathml = extension("formulas").mathml
+    assert mathml(r"\tfrac12(a)").startswith("<mfrac><mn>1</mn><mn>2</mn></mfrac>")
+    assert mathml(r"\dot{\phi}").count("˙") == 1
+    assert "φ" in mathml(r"\dot\phi")
+    assert mathml(r"\begin{aligned} a &= b \\ c &= d \end{aligned}").count("<mtr>") == 2
+    assert mathml(r"\begin{pmatrix} a & b \end{pmatrix}").count("<mtd>") == 2
+    assert mathml(r"x \le y") == "<mi>x</mi><mo>≤</mo><mi>y</mi>"
+
+
+@pytest.mark.site
+def test_a_formula_inside_another_keeps_its_place(extension):
+    found = extension("formulas").mathml(
+        r"\begin{aligned} \bar a &= \binom{n}{k} \\ \dot b &= \phantom{-} c \end{aligned}"
+    )
+    assert [found.index(part) for part in ("¯", "linethickness", "˙", "<mphantom>")] == sorted(
+        found.index(part) for part in ("¯", "linethickness", "˙", "<mphantom>")
+    )
+    assert not [letter for letter in found if 0xE000 <= ord(letter) < 0xF900]
+
+
+@pytest.mark.site
+def test_a_minus_stands_close_to_what_it_negates(extension):
+    mathml = extension("formulas").mathml
+    close = '<mo lspace="0" rspace="0">−</mo>'
+    assert close in mathml("-a")
+    assert close in mathml("x = -a")
+    assert close not in mathml("x - a")
+
+
+@pytest.mark.site
+def test_what_is_not_understood_is_seen(extension):
+    assert r"<mtext>\oint</mtext>" in extension("formulas").mathml(r"\oint x")
+
+
+# ---- docstrings --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.site
+def test_signs_of_a_docstring_mean_nothing_but_examples_stay(extension):
+    lines = ["`name_` of |x| and *y*, J_ too; see `assur.load`", "", ">>> a * b", "2 | 3", "", "*again*"]
+    assert list(extension("docstrings").escaped(lines)) == [
+        r"``name_`` of \|x\| and \*y\*, J\_ too; see :py:obj:`assur.load`", "", ">>> a * b", "2 | 3", "", r"\*again\*",
+    ]  # fmt: skip
+
+
+@pytest.mark.site
+def test_errors_are_a_list_however_many_lines_each_takes(extension):
+    lines = ["Errors:", "    AError: one", "        and more", "    BError: two", "", "After."]
+    assert extension("docstrings").with_list_of_errors(lines) == [
+        "Errors:", "    * AError: one and more", "    * BError: two", "", "After.",
+    ]  # fmt: skip
+
+
+# ---- made at build time ------------------------------------------------------------------------------------
+
+
+def test_a_figure_is_drawn_once_until_a_source_changes(extension, tmp_path, monkeypatch):
+    gallery = extension("gallery")
+    drawings = []
+    draw = gallery._draw
+    monkeypatch.setattr(gallery, "_draw", lambda *given: drawings.append(given[1]) or draw(*given))
+    source = tmp_path / "src" / "assur" / "figures" / "graph.py"
+    source.parent.mkdir(parents=True)
+    source.write_text("first")
+    first = gallery.markdown(tmp_path, "fivebar", "graph")
+    assert gallery.markdown(tmp_path, "fivebar", "graph") == first
+    assert drawings == ["graph"]
+    source.write_text("second")
+    assert gallery.markdown(tmp_path, "fivebar", "graph") == first
+    assert drawings == ["graph", "graph"]
+    (tmp_path / "src" / "assur" / "cli").mkdir()
+    (tmp_path / "src" / "assur" / "cli" / "main.py").write_text("no figure depends on it")
+    gallery.markdown(tmp_path, "fivebar", "graph")
+    assert drawings == ["graph", "graph"]
+    assert (tmp_path / "build" / "gallery" / "fivebar" / "graph.png").read_bytes().startswith(b"\x89PNG")
+    assert json.loads((tmp_path / "build" / "gallery" / "fivebar" / "graph.json").read_text())["caption"] in first
+
+
+def test_the_lines_of_a_figure_make_it(extension, tmp_path, monkeypatch):
+    import assur
+    from assur.cli.main import main
+    from assur.figures import write
+
+    text = extension("gallery").markdown(tmp_path, "fivebar", "graph")
+    command, python = (text.split(f"```{kind}\n")[1].split("\n```")[0] for kind in ("sh", "python"))
+    monkeypatch.chdir(tmp_path)
+    assert main(command.split()[1:]) == 0
+    made = {path.name: path.read_bytes() for path in Path("figures").iterdir()}
+    assert len(made) == 3
+    for path in Path("figures").iterdir():
+        path.unlink()
+    exec(python, {"assur": assur, "write": write})
+    assert {path.name: path.read_bytes() for path in Path("figures").iterdir()} == made
+
+
+def test_every_module_is_listed_with_its_idea(extension):
+    packages = extension("packages")
+    text = packages.markdown(ROOT)
+    assert "| `poc` | " in text
+    modules = [path for path in (ROOT / "src" / "assur").rglob("[!_]*.py") if "mechanisms" not in path.parts]
+    top = {"errors", "mechanism"}
+    assert text.count("\n| `") == len([path for path in modules if path.stem not in top or path.parent.name != "assur"])
+    assert packages.idea(ROOT / "src" / "assur" / "topology" / "poc.py") in text
+
+
+def test_layers_are_those_of_the_project(extension):
+    lines = extension("packages").layers(ROOT).splitlines()
+    assert lines[1] == "cli"
+    assert lines.index("mechanism") < lines.index("kinematics")
+
+
+@pytest.mark.site
+def test_a_mark_is_replaced_and_a_block_of_python_ends_without_a_blank_line(extension):
+    text = "```python\n>>> 1\n1\n\n```\n\n```sh\nassur list\n```\n\n<!-- made: layers -->\n"
+    found = extension("made").fill(text, ROOT)
+    assert found.startswith("```python\n>>> 1\n1\n```\n\n```sh\nassur list\n```\n\n```text\ncli\n")
+    assert "<!--" not in found

@@ -1,0 +1,79 @@
+"""The guard as a function of one request; over a socket it is tried in test_server.py."""
+
+import pytest
+
+from assur.view.guard import Answer, Guard, is_everywhere, is_loopback
+
+GUARD = Guard("token")
+HOST = ("Host", "127.0.0.1:80")
+
+
+def test_every_token_is_another_and_long():
+    tokens = {Guard.new().token for _ in range(50)}
+    assert len(tokens) == 50
+    assert all(len(token) >= 32 for token in tokens)
+
+
+@pytest.mark.parametrize("path", ["/token/", "/token", "/token/?a=1", "/token?"])
+@pytest.mark.parametrize("host", ["127.0.0.1:80", "localhost:80", "[::1]:80"])
+def test_the_page_is_given_to_who_has_the_token(path, host):
+    assert GUARD.check(path, [("Host", host)], 80).answer is Answer.page
+
+
+@pytest.mark.parametrize("header", [("Upgrade", "websocket"), ("upgrade", "WebSocket"), ("Sec-WebSocket-Key", "x")])
+def test_a_socket_needs_the_origin_of_the_page(header):
+    assert GUARD.check("/token", [HOST, header], 80).why == "origin"
+    assert GUARD.check("/token", [HOST, header, ("Origin", "http://127.0.0.1:80")], 80).answer is Answer.socket
+    assert GUARD.check("/token", [HOST, header, ("Origin", "http://localhost:80")], 80).why == "origin"
+
+
+@pytest.mark.parametrize(
+    ("path", "headers", "why"),
+    [
+        ("/token/", [], "host"),
+        ("/token/", [HOST, HOST], "host"),
+        ("/token/", [("Host", "127.0.0.1")], "host"),
+        ("/token/", [("Host", "127.0.0.1:81")], "host"),
+        ("/token/", [HOST, ("Origin", "null")], "origin"),
+        ("/other/", [HOST], "path"),
+        ("/token/index.html", [HOST], "path"),
+        ("/%74oken/", [HOST], "path"),
+        ("/token?a", [HOST, ("Upgrade", "websocket"), ("Origin", "http://127.0.0.1:80")], "path"),
+        ("/token/", [HOST, ("Sec-Fetch-Site", "cross-site"), ("Sec-Fetch-Mode", "no-cors")], "embedded"),
+        (
+            "/token/",
+            [HOST, ("Sec-Fetch-Site", "same-site"), ("Sec-Fetch-Mode", "navigate"), ("Sec-Fetch-Dest", "iframe")],
+            "embedded",
+        ),
+    ],
+)
+def test_each_fault_is_named(path, headers, why):
+    assert GUARD.check(path, headers, 80).why == why
+
+
+def test_a_link_that_is_followed_from_another_site_opens_the_page():
+    sent = [("Sec-Fetch-Site", "cross-site"), ("Sec-Fetch-Mode", "navigate"), ("Sec-Fetch-Dest", "document")]
+    assert GUARD.check("/token/", [HOST, *sent], 80).answer is Answer.page
+
+
+def test_one_address_of_the_network_is_answered_under_that_address_only():
+    guard = Guard.new("192.0.2.7")
+    path = f"/{guard.token}/"
+    assert guard.check(path, [("Host", "192.0.2.7:80")], 80).answer is Answer.page
+    assert guard.check(path, [("Host", "192.0.2.8:80")], 80).why == "host"
+
+
+@pytest.mark.parametrize("everywhere", ["0.0.0.0", "::"])
+def test_every_address_is_answered_under_numbers_never_under_a_name(everywhere):
+    guard = Guard.new(everywhere)
+    path = f"/{guard.token}/"
+    assert guard.check(path, [("Host", "192.0.2.3:80")], 80).answer is Answer.page
+    assert guard.check(path, [("Host", "[fe80::1]:80")], 80).answer is Answer.page
+    assert guard.check(path, [("Host", "rebound.example:80")], 80).why == "host"
+
+
+def test_which_addresses_are_of_this_machine_alone():
+    assert [is_loopback(host) for host in ("127.0.0.1", "::1", "localhost", "0.0.0.0", "::", "example.org")] == [
+        True, True, True, False, False, False,
+    ]  # fmt: skip
+    assert [is_everywhere(host) for host in ("0.0.0.0", "::", "127.0.0.1", "localhost")] == [True, True, False, False]

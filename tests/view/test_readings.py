@@ -1,0 +1,55 @@
+"""Live numbers against the functions of the library."""
+
+import numpy as np
+import pytest
+
+import assur
+from assur.singularity.distance import distance
+from assur.view.modes import modes
+from assur.view.readings import Reading, clearance, closest_factor, readings, table
+from assur.view.state import start
+
+
+@pytest.fixture(scope="module")
+def here():
+    return start(assur.load("zeng2019"))
+
+
+def test_the_numbers_are_those_of_the_library(here):
+    found = {item.name: item.text for item in readings(here)}
+    for name, value in zip(here.record.platform.pose, here.pose, strict=True):
+        assert found[name] == f"{value:.4f} mm"
+    for item, value in zip(here.record.inputs, here.inputs, strict=True):
+        assert found[item.name] == f"{value:.4f} mm"
+    assert found["condition"] == f"{float(here.record.velocity_map(here.pose, '++-++').condition):.4g}"
+    assert found["working mode"], found["assembly mode"] == ("++-++", "+++")
+    assert float(found["residual"].split()[0]) < 1e-9
+
+
+def test_the_closest_factor_is_that_of_the_verdict(here):
+    verdict = here.record.singularity(here.pose, "++-++")
+    said = closest_factor(here, modes(here, "inverse"))
+    assert said.text == f"{verdict.closest} = {verdict.relative[verdict.closest]:.3g}"
+
+
+@pytest.mark.slow
+def test_the_clearance_is_the_distance_of_the_library(here):
+    said = clearance(here, modes(here, "inverse"))
+    found = distance(here.record, here.pose, "++-++")
+    assert said.text == f"{float(found.value):.4g} mm"
+    assert said.about == f"there {found.factor} = 0"
+
+
+def test_without_a_closed_form_there_is_neither():
+    record = assur.load("fivebar")
+    import dataclasses
+
+    bare = start(dataclasses.replace(record, closed_form=None))
+    found = modes(bare, "inverse")
+    assert closest_factor(bare, found) is None
+    assert clearance(bare, found) is None
+    assert np.isfinite(float({item.name: item.text for item in readings(bare)}["condition"]))
+
+
+def test_what_a_file_says_is_text_in_the_page():
+    assert "<script" not in table([Reading("<script>", "<script>", '"<script>')])

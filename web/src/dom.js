@@ -1,0 +1,82 @@
+/** Small helpers for the page's elements and the text in them. */
+
+/**
+ * An element. @param {string} tag @param {Record<string, any>} given attributes; on... are listeners
+ * @param {...(Node|string|null)} children
+ */
+export function el(tag, given = {}, ...children) {
+  const node = document.createElement(tag);
+  for (const [name, value] of Object.entries(given)) {
+    if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
+    else if (value === true) node.setAttribute(name, "");
+    else if (value !== false && value !== null && value !== undefined) node.setAttribute(name, value);
+  }
+  node.append(...children.filter((child) => child !== null && child !== undefined));
+  return node;
+}
+
+const GREEK = {
+  alpha: "α",
+  beta: "β",
+  gamma: "γ",
+  delta: "δ",
+  theta: "θ",
+  phi: "φ",
+  varphi: "φ",
+  psi: "ψ",
+  rho: "ρ",
+  lambda: "λ",
+  mu: "μ",
+  omega: "ω",
+  kappa: "κ",
+  xi: "ξ",
+  eta: "η",
+  sigma: "σ",
+  tau: "τ",
+};
+
+/** Greek letters for their names. @param {string} text */
+export const greek = (text) =>
+  text.replace(/\\?([A-Za-z]+)/g, (whole, name) => GREEK[name] ?? (whole[0] === "\\" ? "" : whole));
+
+/** A symbol written in LaTeX's way, with its index below the line. @param {string} latex @returns {HTMLElement} */
+export function symbol(latex) {
+  const plain = greek(latex).replace(/[$\s]/g, "");
+  const [, base, index] = /^([^_]*)_?(.*)$/.exec(plain);
+  const clean = (text) => text.replace(/[{}_]/g, "");
+  const node = el("var", {}, clean(base));
+  if (index) node.append(el("sub", {}, clean(index)));
+  return node;
+}
+
+/** Names of joint values have their index without a line: q1, rho2. */
+export const indexed = (name) => name.replace(/^([A-Za-z]+?)_?(\d+)$/, "$1_$2");
+
+/** A point's name as a letter and its index, its own or its leg's: "leg2.K" is K 2. @returns {[string, string]} */
+export function letterOf(name) {
+  const [, leg, own] = /^(?:.*?(\d*)\.)?([^.]*)$/.exec(name) ?? [null, "", name];
+  const [, letter, index] = /^([^\d_]*)_?(.*)$/.exec(own);
+  return letter ? [letter, index || leg || ""] : [own, ""];
+}
+
+/** A number with so many figures, as a person reads it. */
+export function figures(value, count = 4) {
+  if (value === Infinity) return "∞";
+  if (!Number.isFinite(value)) return "–";
+  if (value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e6)) {
+    const [mantissa, power] = value.toExponential(1).split("e");
+    return `${mantissa.replace("-", "\u2212")}·10${[...String(Number(power))].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] ?? "⁻").join("")}`;
+  }
+  return String(Number(value.toPrecision(count))).replace("-", "\u2212");
+}
+
+/** An icon by its strokes on 24 x 24, for buttons that also have a label. */
+export function icon(path) {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  svg.setAttribute("viewBox", "0 0 24 24");
+  svg.setAttribute("aria-hidden", "true");
+  const line = document.createElementNS("http://www.w3.org/2000/svg", "path");
+  line.setAttribute("d", path);
+  svg.append(line);
+  return svg;
+}

@@ -1,0 +1,95 @@
+/** The other assembly modes: translucent bodies that follow the inputs; a click makes one current. */
+
+import { Raycaster, Vector2 } from "three";
+import { body } from "./scene/links.js";
+
+/** Colours that colour-blind readers tell apart (after Okabe and Ito). */
+export const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#7b61c9", "#8c8c2a"];
+const MANY = 9; // more than so many hide the mechanism, and each other
+const BUDGET = 10; // milliseconds of a picture that ghosts may take
+
+export class Ghosts {
+  constructor(mechanism, geometries, stage) {
+    Object.assign(this, { mechanism, stage, shown: mechanism.assembly.length <= MANY, waiting: [], lit: -1 });
+    this.bodies = mechanism.assembly.map((_, k) => {
+      const ghost = body(mechanism.model, geometries, { ghost: COLOURS[k % COLOURS.length] });
+      ghost.group.traverse((part) => (part.userData.branch = k));
+      stage.root.add(ghost.group);
+      return ghost;
+    });
+    this.follow();
+    mechanism.listen(() => this.follow());
+    this.pick();
+  }
+
+  /** Queues every ghost for the new inputs; as many as time allows are moved before each picture. */
+  follow() {
+    this.bodies[this.mechanism.branch].group.visible = false;
+    this.waiting = this.shown ? this.bodies.map((_, k) => k).filter((k) => k !== this.mechanism.branch) : [];
+    if (!this.shown) for (const { group } of this.bodies) group.visible = false;
+    this.stage.invalidate();
+  }
+
+  advance() {
+    if (!this.waiting.length) return;
+    const start = performance.now();
+    while (this.waiting.length && performance.now() - start < BUDGET) {
+      const k = this.waiting.shift();
+      const { group, place } = this.bodies[k];
+      group.visible = this.mechanism.follow(k);
+      if (group.visible) place(this.mechanism.assembly[k].values);
+    }
+    if (this.waiting.length) requestAnimationFrame(() => this.stage.invalidate());
+    else this.done?.();
+  }
+
+  show(shown) {
+    this.shown = shown;
+    this.follow();
+  }
+
+  /** The ghost under the pointer, -1 where there is none. */
+  under(event) {
+    const { left, top, width, height } = this.stage.canvas.getBoundingClientRect();
+    const at = new Vector2((2 * (event.clientX - left)) / width - 1, 1 - (2 * (event.clientY - top)) / height);
+    const ray = new Raycaster();
+    ray.setFromCamera(at, this.stage.view.camera);
+    const [hit] = ray.intersectObjects(
+      this.stage.root.children.filter((child) => child.visible),
+      true,
+    );
+    return hit?.object.userData.branch ?? -1;
+  }
+
+  pick() {
+    const { canvas } = this.stage;
+    let pressed = null;
+    canvas.addEventListener("pointerdown", (event) => (pressed = [event.clientX, event.clientY]));
+    canvas.addEventListener("pointerup", (event) => {
+      if (!pressed || Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > 5) return;
+      const k = this.under(event);
+      if (k >= 0) this.mechanism.choose(k);
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (event.buttons || event.pointerType === "touch") return;
+      this.light(this.under(event));
+    });
+    canvas.addEventListener("pointerleave", () => this.light(-1));
+  }
+
+  /** Shows one ghost more strongly. */
+  light(index) {
+    if (index === this.lit) return;
+    const { shown, bodies, mechanism } = this;
+    if (!shown && bodies[this.lit]) bodies[this.lit].group.visible = false;
+    this.lit = index;
+    if (!shown && bodies[index] && index !== mechanism.branch && mechanism.follow(index)) {
+      bodies[index].group.visible = true;
+      bodies[index].place(mechanism.assembly[index].values);
+    }
+    this.bodies.forEach(({ tint }, k) => (tint.opacity = k === index ? 0.65 : 0.3));
+    this.stage.canvas.style.cursor = index >= 0 ? "pointer" : "";
+    this.stage.canvas.title = index >= 0 ? `${this.mechanism.assembly[index].label}: click to make it current` : "";
+    this.stage.invalidate();
+  }
+}

@@ -1,0 +1,53 @@
+/** Lists of assembly and working modes: what a click on a ghost does, for the keyboard and for fingers too. */
+
+import { el } from "./dom.js";
+import { COLOURS } from "./ghosts.js";
+
+/** A mode's signs with true minus signs, so that they are as wide as plus signs. */
+const label = (text, k) => (/^[+-]/.test(text) ? text.replace(/-/g, "−") : text || `mode ${k + 1}`);
+
+/** @returns {{assembly: HTMLElement, working: HTMLElement}} */
+export function modeLists(mechanism, ghosts) {
+  const button = (item, k, colour, choose) =>
+    el(
+      "button",
+      {
+        type: "button",
+        class: "mode",
+        "aria-pressed": "false",
+        title: item.status && item.status !== "regular" ? `${item.label}: ${item.status}` : item.label,
+        onclick: choose,
+        ...(colour
+          ? {
+              onpointerenter: () => ghosts.light(k),
+              onpointerleave: () => ghosts.light(-1),
+              onfocus: () => ghosts.light(k),
+              onblur: () => ghosts.light(-1),
+            }
+          : {}),
+      },
+      colour ? el("i", { style: `--colour:${colour}` }) : null,
+      label(item.label, k),
+    );
+  const assembly = mechanism.assembly.map((item, k) =>
+    button(item, k, COLOURS[k % COLOURS.length], () => mechanism.choose(k)),
+  );
+  const working = mechanism.working.map((item, k) => button(item, k, null, () => mechanism.work(k)));
+  let timer = 0;
+  const show = () => {
+    assembly.forEach((node, k) => node.setAttribute("aria-pressed", String(k === mechanism.branch)));
+    clearTimeout(timer);
+    timer = setTimeout(() => {
+      const current = mechanism.currentWork();
+      working.forEach((node, k) => node.setAttribute("aria-pressed", String(k === current)));
+    }, 150);
+  };
+  ghosts.done = () =>
+    assembly.forEach((node, k) =>
+      node.classList.toggle("gone", k !== mechanism.branch && !mechanism.assembly[k].reached),
+    );
+  mechanism.listen(show);
+  show();
+  const list = (nodes, name) => el("div", { class: "modes", role: "group", "aria-label": name }, ...nodes);
+  return { assembly: list(assembly, "Assembly modes"), working: list(working, "Working modes") };
+}

@@ -1,0 +1,68 @@
+/** Live numbers: what the page can say of the present configuration. */
+
+import { el, figures, indexed, symbol } from "./dom.js";
+
+const REST = 120; // milliseconds without motion after which the distance is computed
+
+/** @returns {{element: HTMLElement}} a list of numbers that follows the mechanism */
+export function readout(mechanism) {
+  const { scene } = mechanism;
+  const rows = {};
+  const list = el("dl");
+  const row = (key, name, title) => {
+    rows[key] = el("dd");
+    list.append(el("div", { title }, el("dt", {}, name), rows[key]));
+  };
+  row(
+    "condition",
+    "condition number",
+    "of the map from the inputs' rates to the platform's, lengths in units of the mechanism's size; 1 is best, infinite at a singularity",
+  );
+  row(
+    "smallest",
+    "parallel measure",
+    "smallest singular value of Jp, of orthonormal relations Jp v = Jq q'; 0 at a parallel singularity",
+  );
+  row("serial", "serial measure", "smallest singular value of Jq; 0 at a serial singularity");
+  row("distance", "to singularity", "to first order, the platform's orientation held");
+  if (mechanism.kernel)
+    row(
+      "factor",
+      "closest factor",
+      "the factor of the closed form that is nearest to zero, as a share of its own scale",
+    );
+  row("residual", "residual", "largest gap of the loops");
+  let timer = 0;
+  const show = () => {
+    const state = mechanism.state();
+    rows.condition.textContent = figures(state.condition, 3);
+    rows.smallest.textContent = figures(state.smallest, 3);
+    rows.serial.textContent = figures(state.serial, 3);
+    rows.smallest.parentElement.classList.toggle("near", state.smallest < 0.03);
+    rows.serial.parentElement.classList.toggle("near", state.serial < 0.03);
+    rows.residual.textContent = `${figures(state.residual, 2)} ${scene.unit}`;
+    if (rows.factor)
+      rows.factor.replaceChildren(
+        ...(state.factor ? [symbol(indexed(state.factor.name)), ` ${figures(state.factor.value, 3)}`] : ["–"]),
+      );
+    clearTimeout(timer);
+    timer = setTimeout(() => {
+      const { amount, kind } = mechanism.state().far();
+      rows.distance.textContent = Number.isNaN(amount)
+        ? "–"
+        : amount > scene.extent
+          ? `> ${figures(scene.extent, 2)} ${scene.unit}`
+          : `≈ ${figures(amount, 3)} ${scene.unit}, ${kind}`;
+    }, REST);
+  };
+  mechanism.listen(show);
+  show();
+  return {
+    element: el(
+      "details",
+      { class: "numbers", open: matchMedia("(min-width: 821px)").matches },
+      el("summary", {}, "Numbers"),
+      list,
+    ),
+  };
+}

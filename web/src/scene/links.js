@@ -1,0 +1,75 @@
+/** The mechanism's links: one mesh each, placed by the link's frame. Ghosts share the same geometry. */
+
+import { Group, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, MeshStandardMaterial } from "three";
+import { frames } from "../solver/frames.js";
+import { joined } from "./shapes.js";
+
+/** Geometry of every link that has parts. @returns {Map<number, import("three").BufferGeometry>} */
+export function linkGeometries(scene, model) {
+  const found = new Map();
+  model.links.forEach((name, k) => {
+    const parts = scene.parts.filter((part) => part.link === name);
+    if (parts.length) found.set(k, joined(parts));
+  });
+  return found;
+}
+
+/** Plain and lit; its own colour dims all parts, as a dark page wants it. */
+const steel = () => new MeshStandardMaterial({ vertexColors: true, roughness: 0.45, metalness: 0 });
+
+/** What lies in the same place as the mechanism itself is behind it. */
+const BEHIND = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 };
+
+/** Translucent in one colour; only the side next to the reader is seen, because its depth is drawn first. */
+function ghostMaterials(colour) {
+  const depth = new MeshBasicMaterial({ colorWrite: false, ...BEHIND });
+  const tint = new MeshLambertMaterial({
+    color: colour,
+    transparent: true,
+    opacity: 0.3,
+    depthWrite: false,
+    ...BEHIND,
+  });
+  return { depth, tint };
+}
+
+/**
+ * A body of meshes, one for each link.
+ * @returns {{group: Group, place: (values: number[]) => void, tint: object}} tint: its material
+ */
+export function body(model, geometries, { ghost = null } = {}) {
+  const group = new Group();
+  const meshes = new Map();
+  const materials = ghost ? ghostMaterials(ghost) : null;
+  const plain = ghost ? null : steel();
+  for (const [link, geometry] of geometries) {
+    if (ghost && link === model.base) continue;
+    const mesh = new Mesh(geometry, ghost ? materials.tint : plain);
+    mesh.matrixAutoUpdate = false;
+    mesh.castShadow = mesh.receiveShadow = !ghost;
+    mesh.userData.link = model.links[link];
+    if (ghost) {
+      mesh.renderOrder = 2;
+      const first = new Mesh(geometry, materials.depth);
+      first.renderOrder = 1;
+      first.raycast = () => {};
+      mesh.add(first);
+    }
+    group.add(mesh);
+    meshes.set(link, mesh);
+  }
+  const place = (values) => {
+    const placed = frames(model, values);
+    for (const [link, mesh] of meshes) setFrame(mesh, placed[link]);
+  };
+  return { group, place, tint: materials ? materials.tint : plain };
+}
+
+/** Puts an object where a frame is. */
+export function setFrame(object, { turn: r, origin: o }) {
+  object.matrixAutoUpdate = false;
+  object.matrix.copy(
+    new Matrix4().set(r[0], r[1], r[2], o[0], r[3], r[4], r[5], o[1], r[6], r[7], r[8], o[2], 0, 0, 0, 1),
+  );
+  object.matrixWorldNeedsUpdate = true;
+}

@@ -1,0 +1,213 @@
+/** The stage: renderer, light with soft shadows, floor, and one picture whenever something has changed. */
+
+import {
+  Box3,
+  CanvasTexture,
+  DirectionalLight,
+  Group,
+  HemisphereLight,
+  Mesh,
+  MeshBasicMaterial,
+  NeutralToneMapping,
+  PCFShadowMap,
+  PlaneGeometry,
+  Scene,
+  ShadowMaterial,
+  SRGBColorSpace,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { Camera } from "./camera.js";
+
+const LOOKS = {
+  light: { top: "#ffffff", bottom: "#dfe6ee", grid: "rgba(60,80,100,.30)", shadow: 0.24, sky: 2.0, sun: 2.0 },
+  dark: { top: "#232a33", bottom: "#0e1217", grid: "rgba(170,195,220,.22)", shadow: 0.55, sky: 1.3, sun: 1.8 },
+};
+
+export class Stage {
+  constructor(element, { dark, calm }) {
+    this.element = element;
+    this.renderer = new WebGLRenderer({ antialias: true });
+    this.slow = drawnByProcessor(this.renderer.getContext());
+    this.renderer.toneMapping = NeutralToneMapping;
+    this.renderer.toneMappingExposure = 1.12;
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    this.renderer.shadowMap.autoUpdate = false; // the sun stands; only what moves changes shadows
+    this.canvas = this.renderer.domElement;
+    element.prepend(this.canvas);
+    this.scene = new Scene();
+    this.root = new Group(); // the mechanism in its own unit, scaled so that it is about 1 large
+    this.scene.add(this.root);
+    this.before = []; // called before each picture
+    this.view = new Camera(this.canvas, () => this.invalidate(), calm);
+    this.light();
+    this.setDark(dark);
+    new ResizeObserver(() => this.resize()).observe(element);
+  }
+
+  /** Sky and ground from all sides, a sun with shadows, and two lights that round off what it leaves dark. */
+  light() {
+    this.sky = new HemisphereLight("#ffffff", "#c9d0da", 1);
+    this.sky.position.set(0, 0, 1);
+    this.sun = new DirectionalLight("#fff4e4", 1);
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.setScalar(this.slow ? 1024 : 2048);
+    Object.assign(this.sun.shadow, { radius: this.slow ? 2 : 3.5, bias: -0.0004, normalBias: 0.006 });
+    this.fill = new DirectionalLight("#e6eeff", 1.0);
+    this.fill.position.set(1.5, -0.6, 0.5);
+    this.rim = new DirectionalLight("#ffffff", 0.9);
+    this.rim.position.set(-0.4, 1.2, 0.5);
+    this.scene.add(this.sky, this.sun, this.sun.target, this.fill, this.rim);
+  }
+
+  /** Scales what is drawn, lays the floor under it, and has camera and sun see all of it. @param {number} extent */
+  frame(group, extent) {
+    this.scale = 1 / extent;
+    this.root.scale.setScalar(this.scale);
+    this.root.updateMatrixWorld(true);
+    const seen = new Box3();
+    const points = [];
+    group.traverse((mesh) => {
+      if (!mesh.isMesh) return;
+      mesh.geometry.computeBoundingBox();
+      const corners = cornersOf(mesh.geometry.boundingBox).map((corner) => corner.applyMatrix4(mesh.matrixWorld));
+      points.push(...corners);
+      seen.expandByObject(mesh, true);
+    });
+    this.view.about(points.map((point) => seen.clampPoint(point, point)));
+    const centre = seen.getCenter(new Vector3());
+    const radius = seen.getSize(new Vector3()).length() / 2;
+    this.sun.position.copy(centre).add(new Vector3(-0.55, -0.75, 1.5).multiplyScalar(2.2 * radius));
+    this.sun.target.position.copy(centre);
+    const reach = 1.5 * radius;
+    Object.assign(this.sun.shadow.camera, {
+      left: -reach,
+      right: reach,
+      bottom: -reach,
+      top: reach,
+      near: 0.1,
+      far: 9 * radius,
+    });
+    this.sun.shadow.camera.updateProjectionMatrix();
+    this.floor(centre, radius, seen.min.z - 0.012);
+  }
+
+  floor(centre, radius, level) {
+    const plane = (side) => new PlaneGeometry(side * radius, side * radius);
+    this.shade = new Mesh(plane(5), new ShadowMaterial({ opacity: 0.25, depthWrite: false }));
+    this.shade.receiveShadow = true;
+    this.lines = new Mesh(plane(9), new MeshBasicMaterial({ transparent: true, depthWrite: false, toneMapped: false }));
+    for (const mesh of [this.lines, this.shade]) {
+      mesh.position.set(centre.x, centre.y, level);
+      mesh.renderOrder = -1;
+      this.scene.add(mesh);
+    }
+    this.paintFloor();
+  }
+
+  setDark(dark) {
+    this.look = dark ? LOOKS.dark : LOOKS.light;
+    this.scene.background = gradient(this.look);
+    this.sky.intensity = this.look.sky;
+    this.sun.intensity = this.look.sun;
+    if (this.lines) this.paintFloor();
+    this.invalidate();
+  }
+
+  paintFloor() {
+    this.shade.material.opacity = this.look.shadow;
+    this.lines.material.map = grid(this.look.grid, this.slow ? 2 : 8);
+    this.lines.material.needsUpdate = true;
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.element;
+    if (!width || !height) return;
+    this.renderer.setPixelRatio(Math.min(this.slow ? 1 : 2, window.devicePixelRatio || 1));
+    this.renderer.setSize(width, height, false);
+    this.view.resize(width, height);
+    this.invalidate();
+  }
+
+  /** Asks for a picture in which something has moved. */
+  moved() {
+    this.renderer.shadowMap.needsUpdate = true;
+    this.invalidate();
+  }
+
+  /** Asks for a picture; several wishes make one. */
+  invalidate() {
+    if (this.asked) return;
+    this.asked = requestAnimationFrame(() => {
+      this.asked = 0;
+      this.view.controls.update();
+      this.draw();
+    });
+  }
+
+  draw() {
+    for (const call of this.before) call();
+    this.renderer.render(this.scene, this.view.camera);
+  }
+
+  /** The picture as PNG. @returns {Promise<Blob>} */
+  picture() {
+    this.draw();
+    return new Promise((done) => this.canvas.toBlob(done, "image/png"));
+  }
+}
+
+const cornersOf = ({ min, max }) =>
+  [0, 1, 2, 3, 4, 5, 6, 7].map((k) => new Vector3(k & 1 ? max.x : min.x, k & 2 ? max.y : min.y, k & 4 ? max.z : min.z));
+
+/** Whether there is no graphics card, and pictures must be cheap. */
+function drawnByProcessor(context) {
+  const info = context.getExtension("WEBGL_debug_renderer_info");
+  return /swiftshader|llvmpipe|software|basic render/i.test(
+    info ? context.getParameter(info.UNMASKED_RENDERER_WEBGL) : "",
+  );
+}
+
+function gradient({ top, bottom }) {
+  const canvas = Object.assign(document.createElement("canvas"), { width: 2, height: 256 });
+  const context = canvas.getContext("2d");
+  const fill = context.createLinearGradient(0, 0, 0, 256);
+  fill.addColorStop(0, top);
+  fill.addColorStop(1, bottom);
+  context.fillStyle = fill;
+  context.fillRect(0, 0, 2, 256);
+  const texture = new CanvasTexture(canvas);
+  texture.colorSpace = SRGBColorSpace;
+  return texture;
+}
+
+/** Thin lines that fade away from the middle. */
+function grid(colour, anisotropy) {
+  const size = 1024;
+  const canvas = Object.assign(document.createElement("canvas"), { width: size, height: size });
+  const context = canvas.getContext("2d");
+  context.strokeStyle = colour;
+  context.lineWidth = 1.5;
+  for (let k = 1; k < 36; k++) {
+    const at = (k * size) / 36;
+    context.globalAlpha = k % 3 === 0 ? 1 : 0.45;
+    context.beginPath();
+    context.moveTo(at, 0);
+    context.lineTo(at, size);
+    context.moveTo(0, at);
+    context.lineTo(size, at);
+    context.stroke();
+  }
+  context.globalAlpha = 1;
+  context.globalCompositeOperation = "destination-in";
+  const fade = context.createRadialGradient(size / 2, size / 2, 0, size / 2, size / 2, size / 2);
+  fade.addColorStop(0.1, "rgba(0,0,0,1)");
+  fade.addColorStop(0.85, "rgba(0,0,0,0)");
+  context.fillStyle = fade;
+  context.fillRect(0, 0, size, size);
+  const texture = new CanvasTexture(canvas);
+  texture.colorSpace = SRGBColorSpace;
+  texture.anisotropy = anisotropy;
+  return texture;
+}

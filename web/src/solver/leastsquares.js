@@ -1,0 +1,132 @@
+/** Least squares by Householder's reflections, and singular values by Jacobi's rotations. No more than that. */
+
+/**
+ * The x that makes |A x - b|^2 + (damping |x|)^2 least, for several right sides at once.
+ *
+ * With little damping this is the least-squares solution of smallest length: redundant rows and free motions do no harm.
+ * @param {ArrayLike<number>[]} matrix m rows of n numbers
+ * @param {ArrayLike<number>[]} right columns of m numbers each
+ * @param {number} damping
+ * @returns {Float64Array[]} for each column n numbers
+ */
+export function leastSquares(matrix, right, damping) {
+  const m = matrix.length;
+  const n = matrix[0].length;
+  const rows = m + n;
+  const width = n + right.length;
+  // columns in one piece: the matrix over `damping` times the identity, then the right sides over zeros
+  const work = Array.from({ length: width }, () => new Float64Array(rows));
+  for (let i = 0; i < m; i++) {
+    for (let j = 0; j < n; j++) work[j][i] = matrix[i][j];
+    for (let j = 0; j < right.length; j++) work[n + j][i] = right[j][i];
+  }
+  for (let j = 0; j < n; j++) work[j][m + j] = damping;
+  for (let k = 0; k < n; k++) reflect(work, k, Math.min(rows, m + k + 1));
+  return right.map((_, j) => backSubstituted(work, work[n + j], n));
+}
+
+/** Makes column k zero below its diagonal by a reflection; below `end` the column is zero already. */
+function reflect(work, k, end) {
+  const column = work[k];
+  let size = 0;
+  for (let i = k; i < end; i++) size += column[i] * column[i];
+  size = Math.sqrt(size);
+  if (size === 0) return;
+  const top = column[k] > 0 ? column[k] + size : column[k] - size;
+  const diagonal = column[k] > 0 ? -size : size;
+  column[k] = top;
+  const half = size * Math.abs(top);
+  for (let j = k + 1; j < work.length; j++) {
+    const other = work[j];
+    let sum = 0;
+    for (let i = k; i < end; i++) sum += column[i] * other[i];
+    if (sum === 0) continue;
+    sum /= half;
+    for (let i = k; i < end; i++) other[i] -= sum * column[i];
+  }
+  column.fill(0, k, end);
+  column[k] = diagonal;
+}
+
+function backSubstituted(work, column, n) {
+  const x = new Float64Array(n);
+  for (let k = n - 1; k >= 0; k--) {
+    let sum = column[k];
+    for (let j = k + 1; j < n; j++) sum -= work[j][k] * x[j];
+    x[k] = work[k][k] === 0 ? 0 : sum / work[k][k];
+  }
+  return x;
+}
+
+/**
+ * Singular values, largest first, with the left and right vectors that belong to them (one-sided Jacobi).
+ * @param {ArrayLike<number>[]} matrix m rows of n numbers
+ * @returns {{values: number[], left: Float64Array[], right: Float64Array[]}} n of each; left ones of value 0 are 0
+ */
+export function singular(matrix) {
+  const n = matrix[0].length;
+  const columns = Array.from({ length: n }, (_, j) => Float64Array.from(matrix, (row) => row[j]));
+  const right = Array.from({ length: n }, (_, j) => Float64Array.from({ length: n }, (_, i) => (i === j ? 1 : 0)));
+  for (let sweep = 0; sweep < 40; sweep++) {
+    let moved = false;
+    for (let p = 0; p < n - 1; p++) for (let q = p + 1; q < n; q++) moved = rotated(columns, right, p, q) || moved;
+    if (!moved) break;
+  }
+  const sizes = columns.map((column) => Math.sqrt(dot(column, column)));
+  const order = sizes.map((_, k) => k).sort((a, b) => sizes[b] - sizes[a]);
+  return {
+    values: order.map((k) => sizes[k]),
+    left: order.map((k) => columns[k].map((value) => (sizes[k] > 0 ? value / sizes[k] : 0))),
+    right: order.map((k) => right[k]),
+  };
+}
+
+/** Makes two columns orthogonal; whether that changed anything. */
+function rotated(columns, right, p, q) {
+  const a = dot(columns[p], columns[p]);
+  const b = dot(columns[q], columns[q]);
+  const c = dot(columns[p], columns[q]);
+  if (Math.abs(c) <= 1e-15 * Math.sqrt(a * b) || c === 0) return false;
+  const zeta = (b - a) / (2 * c);
+  const t = (zeta >= 0 ? 1 : -1) / (Math.abs(zeta) + Math.hypot(1, zeta));
+  const cosine = 1 / Math.hypot(1, t);
+  turn(columns[p], columns[q], cosine, cosine * t);
+  turn(right[p], right[q], cosine, cosine * t);
+  return true;
+}
+
+function turn(first, second, cosine, sine) {
+  for (let i = 0; i < first.length; i++) {
+    const value = first[i];
+    first[i] = cosine * value - sine * second[i];
+    second[i] = sine * value + cosine * second[i];
+  }
+}
+
+function dot(a, b) {
+  let sum = 0;
+  for (let i = 0; i < a.length; i++) sum += a[i] * b[i];
+  return sum;
+}
+
+/** Determinant of a small square matrix, by elimination with pivots. @param {number[][]} matrix @returns {number} */
+export function determinant(matrix) {
+  const work = matrix.map((row) => Array.from(row));
+  let result = 1;
+  for (let k = 0; k < work.length; k++) {
+    const pivot = work
+      .slice(k)
+      .reduce((best, row, i) => (Math.abs(row[k]) > Math.abs(work[best][k]) ? k + i : best), k);
+    if (work[pivot][k] === 0) return 0;
+    if (pivot !== k) {
+      [work[k], work[pivot]] = [work[pivot], work[k]];
+      result = -result;
+    }
+    result *= work[k][k];
+    for (let i = k + 1; i < work.length; i++) {
+      const share = work[i][k] / work[k][k];
+      for (let j = k; j < work.length; j++) work[i][j] -= share * work[k][j];
+    }
+  }
+  return result;
+}

@@ -1,0 +1,172 @@
+/**
+ * Moving from where the mechanism stands to wanted inputs or a wanted pose, its mode kept.
+ *
+ * A step is taken where Newton's corrections shrink at once and no singularity is passed that would change the mode;
+ * else it is halved. Where even a tiny step fails the motion stops, and a reason says why.
+ */
+
+import { gaps, largestGap } from "./closure.js";
+import { frames } from "./frames.js";
+import { closestApproach, nearAssembly } from "./newton.js";
+import { between, poseOf } from "./pose.js";
+import { measuresAt } from "./rates.js";
+import { apply, cross, dot, fromVector, norm } from "./rotation.js";
+
+const LEAST_STEP = 1 / 8192;
+const NEAR = 0.08; // a step as small as the least one ends that near to a singularity
+const ALMOST = 1e-9;
+
+/**
+ * @typedef {{kind: "stroke"|"gap"|"singular"|"limit", text: string, joint: string, amount: number}} Reason
+ * @typedef {{values: number[], status: "moved"|"stopped", reason: Reason|null, share: number}} Moved share: of the way
+ */
+
+/** Printed values of the inputs, lengths and rad. @returns {number[]} */
+export const inputsOf = (model, values) => model.inputs.map((item) => item.sign * values[item.index] + item.offset);
+
+/**
+ * To printed inputs, the assembly mode kept.
+ * @param {number[]} values joint values of an assembly
+ * @param {number[]} target printed, lengths and rad
+ * @returns {Moved}
+ */
+export function toInputs(model, values, target, options = {}) {
+  const held = model.inputs.map((item) => item.index);
+  const end = model.inputs.map((item, k) => (target[k] - item.offset) / item.sign);
+  const start = held.map((index) => values[index]);
+  const place = (current, t) => {
+    const moved = current.slice();
+    held.forEach((index, k) => (moved[index] = start[k] + t * (end[k] - start[k])));
+    return moved;
+  };
+  const attempt = (current, t) => nearAssembly(model, place(current, t), held, null);
+  const ask = (current) => closestApproach(model, place(current, 1), held, null);
+  return followed(model, values, attempt, ask, { ...options, side: "inputs" });
+}
+
+/**
+ * To a pose, the working mode kept; `through` parallel singularities only if so asked, for no drive could do that.
+ * @param {number[]} target as the scene names the pose, lengths and rad
+ * @returns {Moved}
+ */
+export function toPose(model, values, target, options = {}) {
+  const way = between(model, poseOf(model, frames(model, values)), target);
+  const attempt = (current, t) => nearAssembly(model, current, [], way(t));
+  const ask = (current) => closestApproach(model, current, [], target, 100);
+  return followed(model, values, attempt, ask, { ...options, side: "pose" });
+}
+
+function followed(model, start, attempt, ask, { side, limits = true, through = false }) {
+  const guard = limits ? limitsOf(model, start) : [];
+  let [values, share, step, reason] = [start, 0, 1, null];
+  const harmless = side === "inputs" ? "serial" : through ? "parallel" : "neither";
+  let before = measuresAt(model, values);
+  while (share < 1) {
+    const next = Math.min(1, share + step);
+    const found = attempt(values, next);
+    const after = found && measuresAt(model, found);
+    const limit = found && guard.find((item) => item.margin(found) < -item.slack);
+    const crossed = found && passed(before, after);
+    const refused = !found || limit || (crossed && crossed !== harmless);
+    if (refused) {
+      reason = limit ? limit.reason : { passed: crossed };
+      if (next - share <= LEAST_STEP) break;
+      step = (next - share) / 2;
+    } else {
+      [values, share, before] = [found, next, after];
+      [step, reason] = [step * 2, null];
+    }
+  }
+  values = wrapped(model, values);
+  if (share >= 1) return { values, status: "moved", reason: null, share: 1 };
+  return {
+    values,
+    status: "stopped",
+    reason: reason.kind ? reason : why(model, values, before, reason.passed, ask, side),
+    share,
+  };
+}
+
+/** Which singularity lies between two assemblies: "serial" or "parallel", or null. */
+function passed(before, after) {
+  if (before.sign * after.sign >= 0) return null;
+  return Math.max(before.parallel, after.parallel) < Math.max(before.serial, after.serial) ? "parallel" : "serial";
+}
+
+/** Why no small step succeeds. @returns {Reason} */
+function why(model, values, measured, crossed, ask, side) {
+  const parallel = crossed === "parallel" || (side === "inputs" && measured.parallel < NEAR);
+  if (parallel && side === "pose") return singular("parallel", "", 0, model);
+  const closest = ask(values);
+  const { amount, joint } = largestGap(model, gaps(model, frames(model, closest), closest));
+  if (parallel || amount < ALMOST * model.length)
+    return singular(parallel ? "parallel" : "serial", joint, amount, model);
+  const text = `out of reach: the loop of ${joint} would stay open by ${said(amount)} ${model.unit}`;
+  return { kind: "gap", text, joint, amount };
+}
+
+function singular(kind, joint, amount, model) {
+  const missing =
+    amount > ALMOST * model.length
+      ? ` (beyond it the loop of ${joint} stays open by ${said(amount)} ${model.unit})`
+      : "";
+  const text =
+    kind === "parallel"
+      ? `parallel singularity: the inputs no longer hold the platform${missing}`
+      : `serial singularity: a leg cannot follow in this working mode${missing}`;
+  return { kind: "singular", text, joint, amount };
+}
+
+/** A number as a person reads it, three figures. @param {number} value */
+export const said = (value) => (value === 0 ? "0" : String(Number(value.toPrecision(value >= 1000 ? 4 : 3))));
+
+/** Strokes and joint limits, each with its margin (negative outside); what is outside at the start may not get worse. */
+function limitsOf(model, start) {
+  const found = [];
+  const bound = (kind, name, value, low, high) => {
+    for (const [end, margin] of [
+      [low, (v) => value(v) - low],
+      [high, (v) => high - value(v)],
+    ]) {
+      if (!Number.isFinite(end)) continue;
+      const text = kind === "stroke" ? `stroke of ${name} ends here` : `limit of joint ${name}`;
+      const slack = Math.max(0, -margin(start)) + 1e-9 * model.length;
+      found.push({ margin, slack, reason: { kind, text, joint: name, amount: end } });
+    }
+  };
+  const number = (value, other) => (value === null || value === undefined ? other : value);
+  for (const item of model.inputs)
+    if (item.stroke)
+      bound(
+        "stroke",
+        item.name,
+        (v) => item.sign * v[item.index] + item.offset,
+        number(item.stroke[0], -Infinity),
+        number(item.stroke[1], Infinity),
+      );
+  for (const joint of model.joints) {
+    if (typeof joint.cone === "number") bound("limit", joint.name, (v) => tilt(joint, v), -Infinity, joint.cone);
+    (joint.limits || []).forEach((limit, k) => {
+      if (limit)
+        bound("limit", joint.name, (v) => v[joint.first + k], number(limit[0], -Infinity), number(limit[1], Infinity));
+    });
+  }
+  return found;
+}
+
+/** How far a ball joint tilts the axis of its cone. */
+function tilt(joint, values) {
+  const tilted = apply(fromVector(values.slice(joint.first, joint.first + 3)), joint.coneAxis);
+  return Math.atan2(norm(cross(tilted, joint.coneAxis)), dot(tilted, joint.coneAxis));
+}
+
+/** Rotation vectors of ball joints kept well below a whole turn; the frames stay what they are. */
+function wrapped(model, values) {
+  const result = values.slice();
+  for (const { type, first } of model.joints) {
+    if (type !== "S") continue;
+    const angle = Math.hypot(...result.slice(first, first + 3));
+    if (angle > 1.25 * Math.PI) for (let k = first; k < first + 3; k++) result[k] *= 1 - (2 * Math.PI) / angle;
+  }
+  return result;
+}

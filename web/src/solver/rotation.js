@@ -1,0 +1,145 @@
+/**
+ * Rotations: 3 x 3 matrices as nine numbers, row by row; vectors as three.
+ *
+ * The conventions are those of `assur.numerics.rotations`: angles in rad, R = Rz(phi) Ry(theta) Rx(psi),
+ * quaternions with the scalar first.
+ */
+
+/** @typedef {number[]} Vector three numbers */
+/** @typedef {number[]} Matrix nine numbers, row by row */
+
+/** @type {Matrix} */
+export const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1];
+const SMALL = 1e-2;
+
+/** @param {Vector} a @param {Vector} b @returns {Vector} a + b */
+export const add = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+
+/** @param {Vector} a @param {Vector} b @returns {Vector} a - b */
+export const subtract = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+
+/** @param {number} s @param {Vector} a @returns {Vector} */
+export const times = (s, a) => [s * a[0], s * a[1], s * a[2]];
+
+/** @param {Vector} a @param {Vector} b @returns {Vector} a x b */
+export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+
+/** @param {Vector} a @param {Vector} b @returns {number} a . b */
+export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+
+/** @param {Vector} a @returns {number} */
+export const norm = (a) => Math.hypot(a[0], a[1], a[2]);
+
+/** @param {Matrix} a @param {Matrix} b @returns {Matrix} a b */
+export function multiply(a, b) {
+  const c = new Array(9);
+  for (let i = 0; i < 9; i += 3)
+    for (let j = 0; j < 3; j++) c[i + j] = a[i] * b[j] + a[i + 1] * b[j + 3] + a[i + 2] * b[j + 6];
+  return c;
+}
+
+/** @param {Matrix} a @returns {Matrix} */
+export const transpose = (a) => [a[0], a[3], a[6], a[1], a[4], a[7], a[2], a[5], a[8]];
+
+/** @param {Matrix} a @param {Vector} v @returns {Vector} a v */
+export const apply = (a, v) => [
+  a[0] * v[0] + a[1] * v[1] + a[2] * v[2],
+  a[3] * v[0] + a[4] * v[1] + a[5] * v[2],
+  a[6] * v[0] + a[7] * v[1] + a[8] * v[2],
+];
+
+/** I + s K + t K K, with K the cross product matrix of v. */
+function series(v, s, t) {
+  const [x, y, z] = v;
+  return [
+    1 - t * (y * y + z * z),
+    t * x * y - s * z,
+    t * x * z + s * y,
+    t * x * y + s * z,
+    1 - t * (x * x + z * z),
+    t * y * z - s * x,
+    t * x * z - s * y,
+    t * y * z + s * x,
+    1 - t * (x * x + y * y),
+  ];
+}
+
+/** @param {Vector} axis of length 1 @param {number} angle @returns {Matrix} */
+export const aboutAxis = (axis, angle) => series(axis, Math.sin(angle), 2 * Math.sin(angle / 2) ** 2);
+
+/** sin(a)/a, (1 - cos a)/a^2 and (a - sin a)/a^3, exact at 0. */
+function coefficients(a) {
+  const q = a * a;
+  if (a < SMALL) return [1 - q / 6 + (q * q) / 120, 0.5 - q / 24 + (q * q) / 720, 1 / 6 - q / 120 + (q * q) / 5040];
+  return [Math.sin(a) / a, (2 * Math.sin(a / 2) ** 2) / q, (a - Math.sin(a)) / (q * a)];
+}
+
+/** @param {Vector} v a rotation vector @returns {Matrix} */
+export function fromVector(v) {
+  const [first, second] = coefficients(norm(v));
+  return series(v, first, second);
+}
+
+/** What turns rates of a rotation vector into the angular velocity. @param {Vector} v @returns {Matrix} */
+export function leftJacobian(v) {
+  const [, second, third] = coefficients(norm(v));
+  return series(v, second, third);
+}
+
+/** The rotation vector, at most pi long; it vanishes at the identity only. @param {Matrix} r @returns {Vector} */
+export function toVector(r) {
+  const half = [(r[7] - r[5]) / 2, (r[2] - r[6]) / 2, (r[3] - r[1]) / 2];
+  const sine = norm(half);
+  const cosine = (r[0] + r[4] + r[8] - 1) / 2;
+  const angle = Math.atan2(sine, cosine);
+  if (sine <= 1e-4 && cosine < 0) return nearHalfTurn(r, half, angle);
+  return times(sine > 1e-8 ? angle / sine : 1, half);
+}
+
+function nearHalfTurn(r, half, angle) {
+  const c = Math.cos(angle);
+  const outer = [0, 1, 2].map((i) =>
+    [0, 1, 2].map((j) => ((r[3 * i + j] + r[3 * j + i]) / 2 - (i === j ? c : 0)) / (1 - c)),
+  );
+  const k = [0, 1, 2].reduce((best, i) => (outer[i][i] > outer[best][best] ? i : best), 0);
+  const axis = times(1 / norm(outer[k]), outer[k]);
+  const sense = axis[0] * half[0] + axis[1] * half[1] + axis[2] * half[2] < 0 ? -1 : 1;
+  return times(angle * sense, axis);
+}
+
+/** @param {number[]} q scalar first @returns {Matrix} */
+export function fromQuaternion(q) {
+  const size = Math.hypot(...q);
+  const [w, x, y, z] = q.map((part) => part / size);
+  return series([x, y, z], 2 * w, 2);
+}
+
+/** The unit quaternion, its scalar first and not negative. @param {Matrix} r @returns {number[]} */
+export function toQuaternion(r) {
+  const trace = r[0] + r[4] + r[8];
+  const outer = [0, 1, 2, 3].map(() => [0, 0, 0, 0]);
+  outer[0][0] = 1 + trace;
+  for (let i = 0; i < 3; i++)
+    for (let j = 0; j < 3; j++) outer[i + 1][j + 1] = r[3 * i + j] + r[3 * j + i] + (i === j ? 1 - trace : 0);
+  outer[0][1] = outer[1][0] = r[7] - r[5];
+  outer[0][2] = outer[2][0] = r[2] - r[6];
+  outer[0][3] = outer[3][0] = r[3] - r[1];
+  const k = [0, 1, 2, 3].reduce((best, i) => (outer[i][i] > outer[best][best] ? i : best), 0);
+  const size = Math.hypot(...outer[k]) * (outer[k][0] < 0 ? -1 : 1);
+  return outer[k].map((part) => part / size);
+}
+
+/** @param {Matrix} r @returns {[number, number, number]} phi, theta, psi */
+export function toAngles(r) {
+  const across = Math.hypot(r[0], r[3]);
+  const theta = Math.atan2(-r[6], across);
+  if (across <= 1e-15) return [0, theta, Math.atan2(-r[5], r[4])];
+  return [Math.atan2(r[3], r[0]), theta, Math.atan2(r[7], r[8])];
+}
+
+/** @param {number} phi @param {number} theta @param {number} psi @returns {Matrix} */
+export const fromAngles = (phi, theta, psi) =>
+  multiply(multiply(aboutAxis([0, 0, 1], phi), aboutAxis([0, 1, 0], theta)), aboutAxis([1, 0, 0], psi));
+
+/** An angle within half a turn of 0. @param {number} angle @returns {number} */
+export const nearestTurn = (angle) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
