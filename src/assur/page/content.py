@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -15,8 +16,10 @@ from assur.page import kernel
 from assur.page.branches import branches, modes
 from assur.page.facts import errata, facts
 from assur.page.graph import coordinates, graph
+from assur.page.quantised import quantised
 from assur.page.ranges import input_ranges, pose_ranges
 from assur.scene.companion import companion
+from assur.scene.layers import Layer
 from assur.scene.parts import parts
 from assur.scene.skeleton import skeleton
 
@@ -27,15 +30,15 @@ DIGITS = 6
 """Significant digits, of the size of the mechanism, of what is only drawn."""
 
 
-def content(record: MechanismRecord, layers: list[dict[str, Any]]) -> dict[str, Any]:
-    """The scene at home, with layers as `assur.page.layers.layers` gives them; lengths in the unit, angles in rad.
+def content(record: MechanismRecord, layers: Sequence[Layer]) -> dict[str, Any]:
+    """The scene at home, with layers as `assur.scene.layers` gives them; lengths in the unit, angles in rad.
 
     Everything that is computed from is there to its last bit; what is only drawn is rounded (`DIGITS`, and layers).
 
     Errors: UsageError or MechanismFileError where the mechanism has no home.
 
     >>> from assur.model.registry import load_record
-    >>> found = content(load_record("fivebar"), [])
+    >>> found = content(load_record("fivebar"), ())
     >>> found["name"], [item["name"] for item in found["inputs"]]
     ('fivebar', ['theta1', 'theta2'])
     """
@@ -67,7 +70,7 @@ def content(record: MechanismRecord, layers: list[dict[str, Any]]) -> dict[str, 
         "modes": modes(record),
         "parts": _parts(parts(body, drawn), body.size),
         "letters": _letters(record),
-        "layers": layers,
+        "layers": [_layer(item) for item in layers],
         "kernel": kernel.kernel(record),
         "kernelParameters": kernel.parameters(record),
         "factors": _factors(record),
@@ -139,3 +142,8 @@ def _factors(record: MechanismRecord) -> list[dict[str, Any]]:
         for item in (form.factor_list if form else ())
         if item.kind != "other"
     ]
+
+
+def _layer(layer: Layer) -> dict[str, Any]:
+    said = {name: getattr(layer, name) for name in ("kind", "label", "colour", "opacity", "factor")}
+    return {**said, "visible": False, **quantised(layer.vertices, layer.faces)}

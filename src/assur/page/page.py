@@ -13,8 +13,8 @@ from markupsafe import Markup
 import assur
 from assur.model.mechanism import MechanismRecord
 from assur.page.content import content
-from assur.page.layers import layers
 from assur.results.json_text import json_text
+from assur.scene.layers import layers
 
 Progress = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
@@ -46,7 +46,7 @@ def scene(
 
     Errors: UsageError or MechanismFileError where the mechanism has no home; UsageError for a resolution that is none.
     """
-    return content(record, layers(record, resolution, progress))
+    return content(record, layers(record, resolution=resolution, tick=progress))
 
 
 def page_html(found: Mapping[str, Any]) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING, Any
 
-from assur.view.layers import layers
+from assur.scene.layers import layers
 
 if TYPE_CHECKING:
     from assur.view.window import Window
@@ -25,11 +25,12 @@ class Overlays:
         self.button.on_click(lambda _: threading.Thread(target=self.compute, daemon=True).start())
 
     def compute(self) -> None:
-        """Find every layer of the mechanism as it is; dropped where its dimensions change meanwhile."""
-        record = self.window.state.record
+        """Find every layer of the working mode that is shown; dropped where the dimensions change meanwhile."""
+        state = self.window.state
+        record = state.record
         self.button.label, self.button.disabled = "computing ...", True
         try:
-            found = layers(record)
+            found = layers(record, state.modes[0] or None)
         finally:
             self.button.label, self.button.disabled = COMPUTE, False
         if record is not self.window.state.record:

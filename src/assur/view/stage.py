@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.model.mechanism import MechanismRecord
+from assur.scene.layers import Layer
 from assur.view.drawing import Drawing, drawing, places
-from assur.view.layers import Layer
 from assur.view.link import Camera
 
 FloatArray = NDArray[np.float64]

@@ -6,7 +6,8 @@ A layer stands where the platform's point is; coordinates that the workspace doe
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any
+from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +17,7 @@ from assur.kinematics.pose import pose_of
 from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, is_angle
-from assur.page.quantised import quantised, thinned
+from assur.scene.thinning import thinned
 from assur.workspace.region import Workspace, workspace
 from assur.workspace.slices import MOST, slice_at
 
@@ -33,22 +34,49 @@ SECTION = "#225588"
 SINGULAR = ("#cc3311", "#ee7733", "#aa3377", "#bb9900", "#882255", "#999933")
 
 
+@dataclass(frozen=True, eq=False)
+class Layer:
+    """A surface or lines where the platform's point can be.
+
+    Attributes:
+        label: what it is, with its numbers. factor: the parallel factor that vanishes on a singular one, else empty.
+        colour, opacity: "#rrggbb", and between 0 and 1.
+        vertices: (n, 3) in the base frame. faces: (k, 3) triangles or (k, 2) segments.
+    """
+
+    kind: Literal["workspace", "singular", "section"]
+    label: str
+    colour: str
+    opacity: float
+    vertices: FloatArray
+    faces: Faces
+    factor: str = ""
+
+    @property
+    def lines(self) -> bool:
+        """Whether it is made of segments."""
+        return bool(self.faces.shape[1] == 2)
+
+
 def layers(
-    record: MechanismRecord, resolution: int | None = None, tick: Callable[[int, int], None] | None = None
-) -> list[dict[str, Any]]:
-    """Every layer of the default working mode in the file's box, quantised.
+    record: MechanismRecord,
+    mode: str | None = None,
+    resolution: int | None = None,
+    tick: Callable[[int, int], None] | None = None,
+) -> tuple[Layer, ...]:
+    """Every layer of a working mode (the default one if None) in the file's box, with `FACES` faces each at most.
 
     Empty where the pose has fewer than two lengths, or the file gives no box for them. Angles are held as at home.
 
     >>> from assur.model.registry import load_record
-    >>> [item["label"] for item in layers(load_record("fivebar"))][:1]
-    ['workspace of mode -+']
+    >>> [(item.label, item.lines) for item in layers(load_record("fivebar"))][:1]
+    [('workspace of mode -+', False)]
     """
     held = _held(record)
     if held is None:
-        return []
-    found = workspace(record, resolution=resolution or _resolution(record, held), held=held, progress=tick)
-    return [_layer(*item) for item in _meshes(record, found)]
+        return ()
+    cells = resolution or _resolution(record, held)
+    return tuple(_layers(record, workspace(record, mode, resolution=cells, held=held, progress=tick)))
 
 
 def _held(record: MechanismRecord) -> dict[str, float] | None:
@@ -67,35 +95,24 @@ def _resolution(record: MechanismRecord, held: dict[str, float]) -> int:
     return FOLLOWED if followed else RESOLUTION
 
 
-def _meshes(record: MechanismRecord, found: Workspace) -> Iterator[tuple[dict[str, Any], FloatArray, Faces]]:
-    """What each layer says, its vertices (n, 3) in the base frame and its faces."""
+def _layers(record: MechanismRecord, found: Workspace) -> Iterator[Layer]:
     mode = f" of mode {found.mode}" if found.mode else ""
     names = found.box.names
     if len(found.faces):
-        said = _said("workspace", f"workspace{mode}", SOLID, 0.18)
-        yield said, _placed(record, names, found.vertices), found.faces
+        mesh = thinned(_placed(record, names, found.vertices), found.faces, FACES)
+        yield Layer("workspace", f"workspace{mode}", SOLID, 0.18, *mesh)
     for k, locus in enumerate(item for item in found.loci if len(item.faces)):
-        said = _said("singular", f"{locus.factor} = 0: {locus.meaning}", SINGULAR[k % len(SINGULAR)], 0.45)
-        yield {**said, "factor": locus.factor}, _placed(record, names, locus.vertices), locus.faces
+        mesh = thinned(_placed(record, names, locus.vertices), locus.faces, FACES)
+        label = f"{locus.factor} = 0: {locus.meaning}"
+        yield Layer("singular", label, SINGULAR[k % len(SINGULAR)], 0.45, *mesh, locus.factor)
     for cut in found.sections:
         if cut.polygons and len(cut.plane) == 2:
             area = f"area about {float(f'{cut.area:.3g}'):.10g} {record.unit}^2"  # on a grid; proved ones: certify
             label = f"section {cut.coordinate} = {cut.value:g} {record.unit}, {area}"
             points, edges = _outlines(cut.polygons)
             plane = np.column_stack([points, np.full(len(points), cut.value)])
-            yield (
-                _said("section", label, SECTION, 1.0),
-                _placed(record, (*cut.plane, cut.coordinate), plane),
-                edges,
-            )
-
-
-def _said(kind: str, label: str, colour: str, opacity: float) -> dict[str, Any]:
-    return {"name": label, "label": label, "kind": kind, "colour": colour, "opacity": opacity, "visible": False}
-
-
-def _layer(said: dict[str, Any], vertices: FloatArray, faces: Faces) -> dict[str, Any]:
-    return {**said, **quantised(*thinned(vertices, faces, FACES))}
+            mesh = thinned(_placed(record, (*cut.plane, cut.coordinate), plane), edges, FACES)
+            yield Layer("section", label, SECTION, 1.0, *mesh)
 
 
 def _placed(record: MechanismRecord, names: tuple[str, ...], points: FloatArray) -> FloatArray:

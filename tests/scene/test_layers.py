@@ -1,0 +1,81 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from assur.mechanism import load
+from assur.scene.layers import FACES, layers
+
+
+@pytest.fixture(scope="module")
+def zeng():
+    return layers(load("zeng2019"))
+
+
+def of_kind(found, kind):
+    return [item for item in found if item.kind == kind]
+
+
+def test_the_workspace_encloses_its_volume(zeng):
+    (solid,) = of_kind(zeng, "workspace")
+    vertices, faces = solid.vertices, solid.faces
+    a, b, c = np.moveaxis(vertices[faces], 1, 0)
+    volume = float(np.sum(a * np.cross(b, c))) / 6
+    assert volume == pytest.approx(22_814_586.4, rel=2e-3)  # by quadrature: see workspace's own example
+
+
+def test_sections_lie_in_their_planes_and_close(zeng):
+    found = of_kind(zeng, "section")
+    assert [item.label.split(",")[0] for item in found] == [f"section z = {z} mm" for z in (300, 350, 400, 450)]
+    for item, z in zip(found, (300, 350, 400, 450), strict=True):
+        vertices, edges = item.vertices, item.faces
+        assert np.allclose(vertices[:, 2], z)
+        assert np.array_equal(np.bincount(edges.ravel()), np.full(len(vertices), 2))
+        x, y, _ = vertices.T
+        first, second = edges.T
+        area = 0.5 * abs(float(np.sum(x[first] * y[second] - x[second] * y[first])))
+        told = float(item.label.split("area about ")[1].split()[0])
+        assert area == pytest.approx(told, rel=0.01)
+
+
+@pytest.mark.parametrize("place", [0, 1])
+def test_singular_surfaces_lie_where_their_factor_vanishes(zeng, place):
+    record = load("zeng2019")
+    item = of_kind(zeng, "singular")[place]
+    vertices = item.vertices
+    found = record.inverse(vertices, "++-++")
+    value = found.factors[item.factor][found.exists]
+    assert len(value) > 0.5 * len(vertices)
+    assert np.max(np.abs(value)) < 0.05 * np.max(np.abs(record.inverse([0, 0, 400.0], "++-++").factors[item.factor]))
+
+
+def test_a_plane_mechanism_has_a_flat_one():
+    found = layers(load("fivebar"))
+    vertices = of_kind(found, "workspace")[0].vertices
+    assert np.ptp(vertices[:, 2]) == 0
+    found = layers(load("planar_3rpr"))  # its angle is held as at home
+    assert all(item.lines for item in of_kind(found, "singular"))
+    assert of_kind(found, "singular")
+
+
+def test_a_pose_of_angles_has_none():
+    assert layers(load("three_rps")) == ()
+
+
+def test_no_layer_has_too_many_faces():
+    for item in layers(load("orthoglide"), resolution=48):
+        assert len(item.faces) <= FACES
+
+
+def test_progress_is_told():
+    seen = []
+    layers(load("zeng2019"), None, 12, lambda done, total: seen.append((done, total)))
+    assert seen[-1][0] == seen[-1][1]
+
+
+def test_another_mode_has_other_singular_curves():
+    """Poses of the five-bar are reached in every mode alike; where its elbows are decides what is singular."""
+    one, other = (layers(load("fivebar"), mode) for mode in ("-+", "++"))
+    assert [found[0].label for found in (one, other)] == ["workspace of mode -+", "workspace of mode ++"]
+    curves = [np.concatenate([item.vertices for item in of_kind(found, "singular")] or [[]]) for found in (one, other)]
+    assert curves[0].shape != curves[1].shape or not np.allclose(*curves)
