@@ -18,7 +18,7 @@ from assur.results.outward import outward
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-    from assur.cli.regions import Question
+    from assur.cli.region_question import Question
     from assur.mechanism import Mechanism
     from assur.workspace.certified.largest import LargestShape
     from assur.workspace.certified.proving import ProvedBox
@@ -61,6 +61,8 @@ def _compatible(asked: Asked) -> None:
     for name, value in (("--around", asked.around), ("--ratio", asked.ratio)):
         if value is not None and asked.largest is None:
             raise UsageError(f"{name} belongs to --largest", hint="for example --largest cube --around x=0,y=0,z=400")
+    if asked.ratio is not None and asked.largest != "cylinder":
+        raise UsageError(f"--ratio is of a cylinder, not of a {asked.largest}", hint="leave it out")
     other = asked.prove is not None or asked.largest is not None
     if other and (asked.gap is not None or asked.finest is not None):
         raise UsageError("--gap and --finest belong to --certify", hint="leave them out")

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Any
 
-from cyclopts import App, CycloptsError, Parameter, UnusedCliTokensError
+from cyclopts import App, CycloptsError, Group, Parameter, UnusedCliTokensError
 
 import assur
 from assur.cli.numbers import shielded
 from assur.cli.options import PLAIN
-from assur.cli.output import complain, console, emit, written
+from assur.cli.output import InterruptedByUserError, complain, console, emit, written
 from assur.errors import AssurError, UsageError
 
 BUG = 70
-INTERRUPTED = 130
 BROKEN_PIPE = 141
 HELP = """From the topology of a parallel mechanism to its numbers, each with its proof.
 
@@ -68,32 +68,19 @@ def application() -> App:
         console=console(),
         default_parameter=Parameter(negative="", show_default=False),
     )
-    app.command(list_, name="list")
-    mechanism = (
-        show,
-        check,
-        topology,
-        direct,
-        inverse,
-        follow,
-        sweep,
-        singularity,
-        workspace,
-        aspects,
-        certify,
-        verify,
-        indices,
-        audit,
-        figures,
-        motion,
-        report,
-        page,
-        view,
-        export,
-        collisions,
-    )
-    for command in (*mechanism, crosscheck, synthesize, new, schema, demo, doctor):
-        app.command(command)
+    groups: dict[str, tuple[Callable[..., Any], ...]] = {
+        "Mechanisms": (list_, show, check, new, schema),
+        "Topology": (topology, synthesize),
+        "Position": (direct, inverse, follow, sweep),
+        "Singularity, workspace, quality": (singularity, workspace, aspects, indices),
+        "See it move": (page, view, motion),
+        "Draw, write, build": (figures, report, export, collisions),
+        "Prove and check": (certify, verify, crosscheck, audit, doctor, demo),
+    }
+    for title, commands in groups.items():
+        group = Group.create_ordered(title)
+        for command in commands:
+            app.command(command, name=command.__name__.rstrip("_"), group=group)
     return app
 
 
@@ -112,8 +99,8 @@ def main(words: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         return BROKEN_PIPE
     except KeyboardInterrupt:
-        sys.stderr.write("interrupted\n")
-        return INTERRUPTED
+        complain(InterruptedByUserError("interrupted"), json=json)
+        return InterruptedByUserError.exit_code
     except Exception as error:  # whatever is left is our own bug, and a user gets one line
         _traceback(debug)
         what = " ".join(str(error).split())

@@ -79,9 +79,15 @@ def forget_output() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
+class InterruptedByUserError(AssurError):
+    """Ctrl-C; what was done is kept, where the command keeps anything."""
+
+    exit_code = 130
+
+
 def complain(error: AssurError, *, json: bool = False) -> None:
     """An error on standard error: what is wrong, then a hint; with `json` as one object on standard output too."""
-    sys.stderr.write(f"error: {error}\n")
+    sys.stderr.write(f"{error}\n" if isinstance(error, InterruptedByUserError) else f"error: {error}\n")
     if json:
         from assur.results.json_text import json_text
 

@@ -25,7 +25,10 @@ def asked(record: MechanismRecord, problem: Problem, along: Sequence[str], at: S
     from assur.model.pose import has_quaternion
 
     if record.closed_form is None:
-        hint = "assur inverse, direct and workspace solve it on its joint graph"
+        hint = (
+            "assur inverse, direct and workspace solve it on its joint graph; `assur new FILE --from MODEL "
+            "--with-closed-form` copies the closed form of a mechanism of the catalogue"
+        )
         raise UsageError(f"{record.name} has no closed form to sweep", hint=hint)
     if problem == "inverse" and has_quaternion(record.platform.pose):
         raise UsageError(

@@ -89,9 +89,9 @@ def workspace(
         assur workspace zeng2019 --largest cube --around x=-40,y=0,z=400
     """
     record = shared.mechanism(mechanism)
-    from assur.cli import regions
+    from assur.cli import region_question, regions
 
-    asked = regions.question(record, mode, box, stroke, resolution, section, near, at)
+    asked = region_question.question(record, mode, box, stroke, resolution, section, near, at)
     if certify or prove is not None or largest is not None:
         from assur.cli import certified_regions
 
@@ -102,8 +102,10 @@ def workspace(
             )
         proof = certified_regions.Asked(gap, finest, prove, largest, around, ratio)
         return certified_regions.outcome(record, asked, proof, shared)
-    for name, value in (("--gap", gap), ("--finest", finest), ("--around", around), ("--ratio", ratio)):
+    proofs = {"--gap": gap, "--finest": finest, "--around": around, "--ratio": ratio}
+    for name, value in proofs.items():
         if value is not None:
-            raise UsageError(f"{name} is part of a proof", hint="add --certify, or --largest")
+            question = "--certify" if name in ("--gap", "--finest") else "--largest cylinder"
+            raise UsageError(f"{name} is part of a proof", hint=f"add {question}")
     target = regions.target(output) if output is not None else None
     return regions.outcome(record, asked, target, shared)

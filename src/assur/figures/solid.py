@@ -132,7 +132,7 @@ def _inside_leg(skeleton: Skeleton, at: FloatArray) -> bool:
     for mark in skeleton.marks:
         if mark.telescopes:
             way = mark.at - mark.rail
-            share = float((at - mark.rail) @ way) / float(way @ way)
+            share = float((at - mark.rail) @ way) / max(float(way @ way), 1e-300)
             off = np.linalg.norm(at - mark.rail - share * way)
             if 1e-6 < share < 1 - 1e-6 and off < 1e-6 * skeleton.size:
                 return True

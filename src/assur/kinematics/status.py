@@ -107,8 +107,8 @@ def closed_form_of(record: MechanismRecord) -> ClosedForm:
     if record.closed_form is None:
         raise UsageError(
             f"{record.name} has no closed form",
-            hint="velocity_map_at and verdict_at need none and take joint values; or put a closed_form.py beside its "
-            "file, assur.model.closed_form says what it declares",
+            hint="put one beside its file: `assur new FILE --from MODEL --with-closed-form` copies that of a "
+            "mechanism of the catalogue, assur.model.closed_form says what one declares",
         )
     return record.closed_form
 

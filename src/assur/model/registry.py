@@ -229,7 +229,8 @@ def _check_claims(record: MechanismRecord, form: ClosedForm, path: Path) -> None
 
 
 def _broken(path: Path, line: int | None, found: str, allowed: str) -> MechanismFileError:
-    return MechanismFileError([Problem(str(path), line, "", found, allowed)])
+    hint = "it belongs to every file of its folder: is it meant for this one?"
+    return MechanismFileError([Problem(str(path), line, "", found, allowed, hint)])
 
 
 def _line(error: BaseException, path: Path) -> int | None:

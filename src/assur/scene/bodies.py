@@ -132,8 +132,3 @@ def fused(body: Body) -> Manifold:
     pieces = (whole - Manifold.batch_boolean([solid(item) for item in body.bores], OpType.Add)).decompose()
     most = max((piece.volume() for piece in pieces), default=0.0)
     return Manifold.compose([piece for piece in pieces if piece.volume() > CHIP * most])
-
-
-def with_pins(body: Body) -> Manifold:
-    """The link and its pins, as they move together."""
-    return Manifold.batch_boolean([fused(body), *(solid(item.shape) for item in body.pins)], OpType.Add)

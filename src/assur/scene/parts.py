@@ -38,6 +38,9 @@ DEEP = 0.2
 TUBE, ROD = 0.62, 0.9
 """Lengths of the two parts of a leg that grows longer, as shares of its length."""
 
+SHORT, SHAFT = 3.0, 8.0
+"""A leg that is shorter than this has a shaft through its collar, of this half length, in units of `unit`."""
+
 LAYERS = ((0.0,), (-0.95, 0.95), (-1.8, 1.8))
 THICK = (1.0, 0.7, 0.7)
 """Middles of the plates of a tongue, a fork and a wider fork, and their thickness, in units of `unit`."""
@@ -198,7 +201,8 @@ def _slider(mark: Mark, size: float) -> Iterator[Part]:
         where, link, name = mark.rail + TUBE * way, joint.parent, "collar"
         tube = Cylinder(mark.rail, where, 0.8 * size)
         yield Part(f"{joint.name} tube", joint.parent, tube, STEEL, "tube", joint.name)
-        rod = Cylinder(mark.at - ROD * way, mark.at, 0.5 * size)
+        back, ahead = (SHAFT * size * axis,) * 2 if np.linalg.norm(way) < SHORT * size else (ROD * way, 0.0 * way)
+        rod = Cylinder(mark.at - back, mark.at + ahead, 0.5 * size)
         yield Part(f"{joint.name} rod", joint.child, rod, STEEL, "rod", joint.name)
     sides = size * np.array([2.6 * axis, 1.9 * across, 1.15 * up])
     yield Part(f"{joint.name} {name}", link, Box(where + 0.1 * size * up, sides), colour, name, joint.name)

@@ -5,18 +5,19 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.model.mechanism import MechanismRecord
 from assur.scene.companion import Companion
 from assur.scene.companion import length as formula_value
 from assur.scene.skeleton import Mark, Skeleton
 
 FloatArray = NDArray[np.float64]
+LEAST = 0.2
+"""Half the length of a rail without strokes, as a share of the mechanism's size."""
 
 
 def rails(skeleton: Skeleton, companion: Companion) -> list[tuple[FloatArray, FloatArray]]:
     """Ends (3,) of the rails on the base, each once though several sliders may run on it."""
     marks = [mark for mark in skeleton.marks if mark.grounded and mark.slides]
-    half = _half(skeleton.record, companion, marks) if marks else 0.0
+    half = _half(skeleton, companion, marks) if marks else 0.0
     half = max([half, *(1.06 * float(np.linalg.norm(mark.at - mark.rail)) for mark in marks)])
     found: list[tuple[FloatArray, FloatArray]] = []
     for mark in marks:
@@ -26,10 +27,10 @@ def rails(skeleton: Skeleton, companion: Companion) -> list[tuple[FloatArray, Fl
     return found
 
 
-def _half(record: MechanismRecord, companion: Companion, marks: list[Mark]) -> float:
+def _half(skeleton: Skeleton, companion: Companion, marks: list[Mark]) -> float:
     """Half the length of a drawn rail: the companion's, else what the sliders and their strokes need."""
     if companion.rail:
-        return formula_value(record, companion.rail)
-    strokes = [max(map(abs, item.stroke)) for item in record.inputs if item.stroke]
+        return formula_value(skeleton.record, companion.rail)
+    strokes = [max(map(abs, item.stroke)) for item in skeleton.record.inputs if item.stroke]
     reach = [float(np.linalg.norm(mark.at - mark.rail)) for mark in marks]
-    return 1.2 * max([*strokes, *reach, 1.0])
+    return 1.2 * max([*strokes, *reach, LEAST * skeleton.size])

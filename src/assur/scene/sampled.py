@@ -1,4 +1,4 @@
-"""Configurations of one working mode: poses drawn evenly from the file's box, those kept that the mode reaches."""
+"""Configurations drawn at random: poses of the file's box that a mode reaches, or assemblies near home."""
 
 from __future__ import annotations
 
@@ -21,12 +21,23 @@ SPREAD = 0.2
 """How far joints are spread about home, in rad and characteristic lengths, where there is no closed form."""
 
 
+def from_box(record: MechanismRecord) -> bool:
+    """Whether poses can be drawn from the file's box: with a closed form, and limits of every coordinate.
+
+    >>> from assur.model.registry import load_record
+    >>> from_box(load_record("fivebar"))
+    True
+    """
+    return record.closed_form is not None and all(name in record.box for name in record.platform.pose)
+
+
 def sampled(record: MechanismRecord, count: int, mode: str | None = None, seed: int = 0) -> FloatArray:
     """Joint values (k, n), k at most `count`, of a working mode (the file's default) within strokes and limits.
 
-    With a closed form and a box for every coordinate, poses are even in the box; else assemblies near home.
+    With a closed form and a box for every coordinate (`from_box`), poses are even in the box; else assemblies near
+    home, of whichever mode they are.
 
-    Errors: `UsageError` for a count below 1, and where no pose is reached.
+    Errors: `UsageError` for a count below 1, for a mode that is none or cannot be told, and where no pose is reached.
 
     >>> from assur.model.registry import load_record
     >>> sampled(load_record("fivebar"), 10).shape
@@ -34,9 +45,14 @@ def sampled(record: MechanismRecord, count: int, mode: str | None = None, seed: 
     """
     if count < 1:
         raise UsageError(f"samples: {count}; at least 1")
+    in_box = from_box(record)
+    if mode is not None and not in_box:
+        lacks = "a closed form" if record.closed_form is None else "a box for every coordinate of the pose"
+        raise UsageError(
+            f"{record.name} has not {lacks}: no poses can be drawn of the working mode '{mode}'",
+            hint="leave the mode out: then assemblies near home are drawn",
+        )
     rng = np.random.default_rng(seed)
-    names = record.platform.pose
-    in_box = record.closed_form is not None and all(name in record.box for name in names)
     bounds = limits(record, home_values(record))
     found: list[FloatArray] = []
     for _ in range(ROUNDS):
@@ -47,8 +63,9 @@ def sampled(record: MechanismRecord, count: int, mode: str | None = None, seed: 
             break
     joints = np.concatenate(found)[:count]
     if not len(joints):
+        name = (mode or record.modes.default_working) if in_box else ""
         raise UsageError(
-            f"{record.name}: none of {ROUNDS * count} poses is reached in mode {mode or record.modes.default_working}",
+            f"{record.name}: none of {ROUNDS * count} poses is reached{f' in mode {name}' if name else ''}",
             hint=f"see assur workspace {record.name}",
         )
     return joints

@@ -74,7 +74,7 @@ class Mark:
     @property
     def telescopes(self) -> bool:
         """Whether it makes a leg longer that does not slide on the base."""
-        return self.joint.type is PRISMATIC and not self.grounded
+        return self.joint.type in (PRISMATIC, CYLINDRICAL) and not self.grounded
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,6 +10,7 @@ from assur.errors import MechanismFileError, Problem
 from assur.kinematics.closure import characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.limits import Limit, limits
+from assur.kinematics.pose import pose_of
 from assur.kinematics.soundness.claims import Claims, axis_name, claims
 from assur.kinematics.soundness.freedoms import freedom_problems, pose_problems
 from assur.kinematics.soundness.gaps import gap_problems
@@ -17,6 +18,7 @@ from assur.model.file.place import input_place, place, problem, table_place
 from assur.model.file.toml_source import KeyPath
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
+from assur.model.pose import is_angle
 
 SMALLEST, LARGEST = 1e-3, 50.0
 """A mechanism smaller or larger than this, in metres, has probably its lengths in another unit."""
@@ -74,13 +76,13 @@ def check(record: MechanismRecord) -> None:
 
 def doubts(record: MechanismRecord) -> tuple[Problem, ...]:
     """What is no fault but probably not meant: a mechanism of the size of a pin or of a house, a length that is tiny
-    against the others, a home of many turns.
+    against the others, a home of many turns, a workspace box without home in it.
 
     >>> from assur.model.registry import load_record
     >>> doubts(load_record("zeng2019"))
     ()
     """
-    return _ordered([*_size(record), *_tiny(record), *_turns(record)])
+    return _ordered([*_size(record), *_tiny(record), *_turns(record), *_box(record)])
 
 
 def _size(record: MechanismRecord) -> list[Problem]:
@@ -117,6 +119,20 @@ def _turns(record: MechanismRecord) -> list[Problem]:
             text = f"{record.coordinate_label(item)} begins at {turns:.3g} turns"
             found.append(problem(record, place(record, "home", item.joint), text, "it is unusual, but may be", hint))
     return _one_each(found)
+
+
+def _box(record: MechanismRecord) -> list[Problem]:
+    """Sides of the workspace box beyond which home stands: then all of it may be out of reach."""
+    home = dict(zip(record.platform.pose, pose_of(record, home_values(record)).tolist(), strict=True))
+    found = []
+    for name, (low, high) in record.box.items():
+        angular = is_angle(name)
+        spare = ROUND * (1.0 if angular else characteristic_length(record))
+        if not low - spare <= home[name] <= high + spare:
+            own, least, most = (_quantity(record, item, angular=angular) for item in (home[name], low, high))
+            text, hint = f"home has {name} = {own}, outside {least} to {most}", "look for the workspace about home"
+            found.append(problem(record, ("workspace", "box", name), text, "it is unusual, but may be", hint))
+    return found
 
 
 def _orientation(record: MechanismRecord, here: Claims) -> list[Problem]:
@@ -165,7 +181,11 @@ def _outside(record: MechanismRecord, limit: Limit, value: float, written: float
 
 
 def _shown(record: MechanismRecord, limit: Limit, value: float) -> str:
-    if not limit.angular:
+    return _quantity(record, value, angular=limit.angular)
+
+
+def _quantity(record: MechanismRecord, value: float, *, angular: bool) -> str:
+    if not angular:
         return f"{value:.6g} {record.unit}"
     return f"{np.degrees(value):.6g} deg" if record.angle == "deg" else f"{value:.6g} rad"
 
