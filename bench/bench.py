@@ -28,12 +28,8 @@ from rich.table import Table
 from yardstick import Arrays, Yardstick, compile_library, compiler
 
 import assur
-from assur.kinematics.closed_form.sweep import (
-    direct_all_sweep,
-    inverse_all_expanded_sweep,
-    inverse_all_sweep,
-    inverse_sweep,
-)
+from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep, inverse_all_sweep
+from assur.kinematics.closed_form.sweep import inverse_sweep
 from assur.model.mechanism import MechanismRecord
 
 MECHANISM = "zeng2019"
@@ -64,12 +60,12 @@ def distinct(record: MechanismRecord, poses: np.ndarray) -> Arrays:
 
 
 def expanded(record: MechanismRecord, poses: np.ndarray) -> Arrays:
-    inputs, exists = inverse_all_expanded_sweep(record, poses)
+    inputs, exists = all_modes_sweep(record, "inverse", poses)
     return [inputs.reshape(-1, inputs.shape[-1]), exists]
 
 
 def directs(record: MechanismRecord, inputs: np.ndarray) -> Arrays:
-    poses, exists = direct_all_sweep(record, inputs)
+    poses, exists = all_modes_sweep(record, "direct", inputs)
     return [poses.reshape(-1, poses.shape[-1]), exists]
 
 

@@ -24,16 +24,12 @@ from rich.table import Table
 from yardstick import Arrays, Yardstick, compile_library, compiler
 
 import assur
+from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep, inverse_all_sweep
 from assur.kinematics.closed_form.filling import Filler
 from assur.kinematics.closed_form.grids import grid_over
 from assur.kinematics.closed_form.recorded import Recording, recording
 from assur.kinematics.closed_form.streamed import reduce_grid
-from assur.kinematics.closed_form.sweep import (
-    direct_all_sweep,
-    inverse_all_expanded_sweep,
-    inverse_all_sweep,
-    inverse_sweep,
-)
+from assur.kinematics.closed_form.sweep import inverse_sweep
 from assur.kinematics.modes import mode_signs
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.recording.derivatives import gradient
@@ -63,8 +59,8 @@ def answers(job: str, record: MechanismRecord, values: np.ndarray, engine: str, 
     if job == "inverse_distinct":
         inputs, exists = inverse_all_sweep(record, values, **options)
         return [*inputs, exists]
-    sweep = inverse_all_expanded_sweep if job == "inverse_expanded" else direct_all_sweep
-    return list(sweep(record, values, **options))
+    problem = "inverse" if job == "inverse_expanded" else "direct"
+    return list(all_modes_sweep(record, problem, values, **options))
 
 
 def filler_of(job: str, record: MechanismRecord, count: int) -> Filler:

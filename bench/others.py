@@ -31,7 +31,8 @@ from rich.table import Table
 
 import assur
 from assur.kinematics.certified.certify import certified_direct
-from assur.kinematics.closed_form.sweep import inverse_all_expanded_sweep, inverse_sweep
+from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep
+from assur.kinematics.closed_form.sweep import inverse_sweep
 from assur.kinematics.compiled_closure import compiled_closure
 from assur.kinematics.pose import pose_of
 from assur.workspace.certified.criteria import criteria
@@ -191,11 +192,11 @@ def closure(rows: Table, record: assur.Mechanism, start: np.ndarray, poses: np.n
 def inverse(rows: Table, record: assur.Mechanism, start: np.ndarray, poses: np.ndarray, repeats: int) -> bool:
     """The inputs at a pose: ours in all 32 modes by the closed form, pymadcad's in the mode of a neighbouring start."""
     some = problems(record, "poses", 1_000_000)
-    inverse_all_expanded_sweep(record, some[:, :1], engine="compiled", threads=1)  # made before it is timed
+    all_modes_sweep(record, "inverse", some[:, :1], engine="compiled", threads=1)  # made before it is timed
     took = seconds(
         {
             "one": lambda: [record.inverse(pose) for pose in poses],
-            "many": lambda: inverse_all_expanded_sweep(record, some, engine="compiled", threads=1),
+            "many": lambda: all_modes_sweep(record, "inverse", some, engine="compiled", threads=1),
         },
         repeats,
     )

@@ -150,6 +150,17 @@ def test_tests_mirror_the_source():
     assert folders - tested == set()
 
 
+def test_no_assertion_has_a_condition_in_place_of_its_message():
+    """`assert a, b == c` passes whatever b is; `assert (a, b) == c` was meant."""
+    found = [
+        f"{path.relative_to(ROOT)}:{node.lineno}"
+        for path in sorted((ROOT / "tests").rglob("*.py"))
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Assert) and isinstance(node.msg, (ast.Compare, ast.BoolOp))
+    ]
+    assert found == []
+
+
 # ---- mechanisms --------------------------------------------------------------------------------------------
 
 

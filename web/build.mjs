@@ -2,7 +2,7 @@
 
 import { build } from "esbuild";
 import { createHash } from "node:crypto";
-import { readFile, readdir, stat, writeFile } from "node:fs/promises";
+import { readFile, readdir, writeFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
@@ -20,7 +20,7 @@ async function digest() {
 
 const three = JSON.parse(await readFile(here("node_modules/three/package.json"), "utf8"));
 const licence = await readFile(here("node_modules/three/LICENSE"), "utf8");
-const head = `/*!\nassur's page; licensed as assur is; sources ${await digest()}\nInside: three.js ${three.version}\n\n${licence.trim()}\n*/`;
+const head = `/*!\nassur's page; Apache-2.0; sources ${await digest()}\nInside: three.js ${three.version}\n\n${licence.trim()}\n*/`;
 
 await build({
   entryPoints: [here("src/main.js")],
@@ -35,6 +35,9 @@ await build({
   logLevel: "warning",
 });
 await writeFile(here(`${assets}LICENSES.txt`), `three.js ${three.version} (in page.js)\n\n${licence}`);
-const { size } = await stat(here(`${assets}page.js`));
+const bundle = await readFile(here(`${assets}page.js`));
+const mark = createHash("sha256").update(bundle).digest("hex");
+await writeFile(here(`${assets}page.js.sha256`), `${mark}  page.js\n`);
+const size = bundle.length;
 if (size > MOST) throw new Error(`page.js has ${size} bytes; at most ${MOST} are wanted`);
 console.log(`page.js: ${size} bytes`);

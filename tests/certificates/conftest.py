@@ -5,12 +5,16 @@ from __future__ import annotations
 import copy
 import hashlib
 import json
+from dataclasses import replace
 from functools import lru_cache
 
 import pytest
 
 from assur.certificates.certificate import certificate
+from assur.certificates.paths import path_certificate
 from assur.model.registry import load_record
+from assur.workspace.aspects.aspects import aspects
+from assur.workspace.certified.boxes import Boxes
 
 CASES = {
     "paper": ("zeng2019", {}),
@@ -31,9 +35,38 @@ CASES = {
     "box in part": ("zeng2019", {"kind": "box", "box": {"x": (-20, 0), "z": (440, 460)}, "gap": 1e-2}),
 }
 
+PATHS = {
+    "path": ("zeng2019", {}, (-40.0, -100.0, 250.0), (60.0, 100.0, 300.0)),
+    "path in one box": ("fivebar", {"mode": "-+"}, (-60.0, 150.0), (60.0, 220.0)),
+    "path, angle held": (
+        "planar_3rpr",
+        {"held": {"phi": 0.3}, "strokes": {"rho1": (0, 12), "rho2": (1, 9)}},
+        (-6.0, -1.5),
+        (-4.0, -9.0),
+    ),
+}
+
+
+@lru_cache
+def found_path(case):
+    """Mechanism, aspects and path."""
+    name, asked, start, end = PATHS[case]
+    record = load_record(name)
+    found = aspects(record, **asked)
+    path = found.path(start, end)
+    return record, found, straightened(path) if case == "path in one box" else path
+
+
+def straightened(path):
+    """Straight from one end to the other, in the one box about all boxes."""
+    low, high = path.boxes.low.min(axis=1), path.boxes.high.max(axis=1)
+    return replace(path, points=path.points[[0, -1]], boxes=Boxes(low[:, None], high[:, None]))
+
 
 @lru_cache
 def made(case):
+    if case in PATHS:
+        return path_certificate(*found_path(case))
     name, asked = CASES[case]
     return certificate(load_record(name), **{"most": 150, **asked})
 
@@ -45,7 +78,7 @@ def sealed(document):
     return json.dumps({**rest, "sha256": hashlib.sha256(text.encode()).hexdigest()}).encode()
 
 
-@pytest.fixture(params=CASES)
+@pytest.fixture(params=[*CASES, *PATHS])
 def case(request):
     return request.param
 
@@ -53,6 +86,11 @@ def case(request):
 @pytest.fixture
 def made_of():
     return made
+
+
+@pytest.fixture
+def path_of():
+    return found_path
 
 
 @pytest.fixture

@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 from assur.certificates.certificate import CLAIMS, certificate
+from assur.cli import aspects_answer
 from assur.cli import verify as command
 from assur.cli.main import main
 from assur.model.registry import load_record
@@ -26,6 +27,21 @@ def test_kinds_and_signs():
     assert first_cells("| sign | means |"[:-1]) == ["`0` to `9`", "`i`", "`r`", "`oNN`", "`b`"]
     for token in ("0", "9", "i", "r", "o0f", "b"):
         assert check.TOKEN.fullmatch(token)
+
+
+def test_the_parts_of_a_path():
+    page = PAGE.split("## A path")[1].split("## ")[0]
+    assert {"from", "to", "points", "boxes"} <= set(re.findall(r"`(\w+)`", page))
+    assert reading.KEYS["statement"] - {"box"} | {"from", "to", "points", "boxes"} == reading.PATH
+    assert f"(exit code {aspects_answer.APART})" in page
+    assert f"undecided ({aspects_answer.UNDECIDED})" in page
+
+
+def test_about_350_lines():
+    texts = [path.read_text(encoding="utf-8") for path in Path(check.__file__).parent.glob("*.py")]
+    lines = sum(bool(line.strip()) for text in texts for line in text.splitlines())
+    assert "about 350 lines" in PAGE
+    assert 330 < lines < 370
 
 
 def test_operations_and_bits():

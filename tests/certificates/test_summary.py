@@ -25,6 +25,15 @@ def test_a_box_has_answers_instead_of_a_volume(made_of):
     assert lines[:2] == ["all of the box is reached: yes", "all of it is free of singularities: yes"]
 
 
+def test_a_path_has_both_ends_and_its_pieces(made_of):
+    document = made_of("path, angle held").to_json()
+    lines = [*statement_lines(document, load_record("planar_3rpr")), *claim_lines(document)]
+    assert lines[1:3] == ["from: x = -6 mm, y = -1.5 mm", "to: x = -4 mm, y = -9 mm"]
+    count = len(document["statement"]["boxes"])
+    assert lines[3:5] == [f"path: {count} straight pieces, each in a box", "held: phi = 17.1887339 deg"]
+    assert "all of the path is reached: yes" in lines
+
+
 def test_bounds_are_rounded_outwards():
     assert rounded(1.000000049, 1.00000001) == "1 .. 1.0000001"
     assert rounded(-1.00000001, 0.0) == "-1.0000001 .. 0"

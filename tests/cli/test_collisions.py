@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+import shutil
+
+import pytest
+
+import assur
+
 
 def test_links_that_keep_apart_are_exit_code_0(assur_cli):
     run = assur_cli("collisions", "fivebar", "--samples", "20")
@@ -27,6 +33,34 @@ def test_along_a_motion(assur_cli):
     assert (run.json["over"], run.json["poses"], run.json["mode"]) == ("motion", 12, None)
     clearances = [item["clearance"] for item in run.json["pairs"]]
     assert clearances == sorted(clearances)
+
+
+@pytest.mark.parametrize("name", ["planar_3rpr", "gough_stewart"])
+def test_without_signs_it_says_no_mode_and_no_motion(assur_cli, name):
+    run = assur_cli("collisions", name, "--samples", "10")
+    said = " ".join(run.out.split())
+    assert "known at 10 poses of the workspace; between them" in said
+    assert "motion" not in said
+    run = assur_cli("collisions", name, "--samples", "10", "--json")
+    assert (run.json["over"], run.json["drawn_from"], run.json["mode"]) == ("workspace", "box", None)
+    run = assur_cli("collisions", name, "--mode", "bogus")
+    assert (run.code, "only one working mode" in run.err) == (2, True)
+
+
+def test_without_a_closed_form_it_says_that_assemblies_near_home_were_drawn(assur_cli, tmp_path):
+    path = tmp_path / "mechanism.toml"
+    shutil.copy(assur.load("fivebar").folder / "mechanism.toml", path)
+    run = assur_cli("collisions", str(path), "--samples", "10")
+    assert run.code == 0, run.err
+    said = " ".join(run.out.split())
+    assert "known at 10 assemblies near home; between them" in said
+    assert "workspace, mode" not in said
+    run = assur_cli("collisions", str(path), "--samples", "10", "--json")
+    assert (run.json["drawn_from"], run.json["mode"]) == ("home", None)
+    run = assur_cli("collisions", str(path), "--mode", "bogus")
+    assert run.code == 2
+    assert "has not a closed form" in run.err
+    assert "leave the mode out" in run.err
 
 
 def test_what_makes_no_sense_is_refused(assur_cli):

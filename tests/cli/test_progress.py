@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 import time
 
 import pytest
@@ -25,6 +26,20 @@ def test_only_a_person_at_a_terminal_sees_one(monkeypatch, stream, json, seen):
     with progress("thinking", Plain(json=json)) as step:
         step(1, 2)
     assert ("thinking" in stream.getvalue()) is seen
+
+
+def test_a_bar_says_how_much_time_is_left(monkeypatch):
+    stream = Terminal()
+    monkeypatch.setattr("sys.stderr", stream)
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv("COLUMNS", "100")
+    clock = iter(range(0, 10**6, 10))  # every look at the clock finds it ten seconds on
+    monkeypatch.setattr("rich.console.monotonic", lambda: float(next(clock)))
+    with progress("thinking", Plain()) as step:
+        for done in range(5):
+            step(done, 9)
+    shown = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", stream.getvalue())
+    assert re.search(r"\d:\d\d:\d\d left \d:\d\d:\d\d", shown)
 
 
 @pytest.mark.parametrize(("json", "lines"), [(False, 1), (True, 0)])

@@ -3,9 +3,12 @@
 import http.client
 import re
 import signal
+import stat
 import subprocess
 import sys
 import urllib.parse
+import webbrowser
+from pathlib import Path
 
 import pytest
 
@@ -15,8 +18,8 @@ from assur.cli.main import main
 COMMAND = [sys.executable, "-c", "from assur.cli.main import main; raise SystemExit(main())"]
 
 
+@pytest.mark.view
 def test_it_serves_its_page_until_it_is_interrupted():
-    pytest.importorskip("viser")
     words = [*COMMAND, "view", "fivebar", "--no-open", "--json"]
     with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running:
         try:
@@ -58,13 +61,51 @@ def test_without_viser_it_says_what_to_install(monkeypatch, capsys):
     assert "pip install 'assur[view]'" in said
 
 
-def test_with_the_second_word_it_warns(monkeypatch, capsys):
+@pytest.fixture
+def ended(monkeypatch):
     """The view is ended at once, as by Ctrl-C."""
-    pytest.importorskip("viser")
 
     def interrupted():
         raise KeyboardInterrupt
 
     monkeypatch.setattr(viewing, "wait", interrupted)
-    assert main(["view", "fivebar", "--host", "0.0.0.0", "--allow-network", "--no-open"]) == 0
+
+
+@pytest.mark.view
+@pytest.mark.usefixtures("ended")
+def test_the_browser_is_given_a_private_file_not_the_token(monkeypatch, capsys):
+    """A browser that stands in: what it is started with is what other users see of it."""
+    given, pages, modes = [], [], []
+
+    def browser(address):
+        path = Path(urllib.parse.unquote(urllib.parse.urlsplit(address).path))
+        given.append(path)
+        pages.append(path.read_text(encoding="utf-8"))
+        modes.append((stat.S_IMODE(path.stat().st_mode), stat.S_IMODE(path.parent.stat().st_mode)))
+
+    monkeypatch.setattr(webbrowser, "open", browser)
+    assert main(["view", "fivebar"]) == 0
+    url = re.search(r"http://\S+", capsys.readouterr().err)[0]
+    token = urllib.parse.urlsplit(url).path.strip("/")
+    assert len(token) >= 32
+    assert token not in str(given[0])
+    assert f'href="{url}"' in pages[0]
+    assert modes == [(0o600, 0o700)]
+    assert not given[0].parent.exists()
+
+
+@pytest.mark.parametrize("link", ["garbage", "at=1,2", "mechanism=zeng2019", "set=l1"])
+@pytest.mark.usefixtures("ended")
+def test_what_is_no_link_is_refused_before_anything_is_served(link, capsys):
+    assert main(["view", "fivebar", "--no-open", "--link", link]) == 2
+    said = capsys.readouterr().err
+    assert "link" in said
+    assert "http://" not in said
+
+
+@pytest.mark.view
+@pytest.mark.parametrize("host", ["0.0.0.0", "::"])
+@pytest.mark.usefixtures("ended")
+def test_with_the_second_word_it_warns(host, capsys):
+    assert main(["view", "fivebar", "--host", host, "--allow-network", "--no-open"]) == 0
     assert "warning: other machines can reach this view" in capsys.readouterr().err

@@ -107,3 +107,25 @@ def test_the_strokes_of_the_file_are_told(assur_cli):
     data = assur_cli("workspace", "three_upu", "--resolution", "8", "--json").json
     record = assur.load("three_upu")
     assert data["strokes"] == {item.name: list(item.stroke) for item in record.inputs}
+
+
+def test_of_a_region_that_is_empty_nothing_is_proved_but_that(assur_cli):
+    far = ("--box", "x=1000:1100", "--box", "y=1000:1100", *COARSE)
+    run = assur_cli("workspace", "fivebar", *far)
+    said = " ".join(run.out.split())
+    assert run.code == 0
+    assert "area: 0 mm^2: nothing is reached, proved" in said
+    assert "none, proved" not in said
+    assert "none found" not in said
+    data = assur_cli("workspace", "fivebar", *far, "--json").json
+    assert (data["empty"], data["nowhere"], data["volume"]) == ("proved", [], 0.0)
+
+
+def test_a_region_that_the_cells_miss_is_not_said_to_be_proved_empty(assur_cli):
+    """P of the five-bar reaches x = 224 on y = 0: of this box a sliver near one side, too thin for the cells."""
+    thin = ("--box", "x=223.99:323", "--box", "y=-40:50", "--resolution", "4")
+    run = assur_cli("workspace", "fivebar", *thin)
+    assert "nothing is reached on 4 cells along each coordinate" in " ".join(run.out.split())
+    assert "proved" not in run.out
+    assert assur_cli("workspace", "fivebar", *thin, "--json").json["empty"] == "sampled"
+    assert assur_cli("workspace", "fivebar", *COARSE, "--json").json["empty"] is None

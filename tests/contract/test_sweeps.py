@@ -6,15 +6,10 @@ import numpy as np
 import pytest
 
 import assur
+from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep, inverse_all_sweep
 from assur.kinematics.closed_form.filling import finished
 from assur.kinematics.closed_form.recorded import recording
-from assur.kinematics.closed_form.sweep import (
-    ALL_WANTED,
-    direct_all_sweep,
-    inverse_all_expanded_sweep,
-    inverse_all_sweep,
-    inverse_sweep,
-)
+from assur.kinematics.closed_form.sweep import ALL_WANTED, inverse_sweep
 from assur.kinematics.modes import mode_signs
 
 NAMES = [name for name in assur.names() if assur.load(name).closed_form is not None]
@@ -68,7 +63,7 @@ def test_one_mode_recorded(name):
 @pytest.mark.parametrize("name", NAMES)
 def test_every_inverse_recorded(name):
     mechanism = assur.load(name)
-    inputs, exists = inverse_all_expanded_sweep(mechanism, poses_of(mechanism), engine="numpy")
+    inputs, exists = all_modes_sweep(mechanism, "inverse", poses_of(mechanism), engine="numpy")
     rows, truths = evaluated(recording(mechanism, "inverse", every=True), poses_of(mechanism))
     same(rows["inputs"].reshape(inputs.shape), inputs)
     same(truths, exists)
@@ -77,7 +72,7 @@ def test_every_inverse_recorded(name):
 @pytest.mark.parametrize("name", WITH_BRANCHES)
 def test_every_direct_recorded(name):
     mechanism = assur.load(name)
-    poses, exists = direct_all_sweep(mechanism, inputs_of(mechanism), engine="numpy")
+    poses, exists = all_modes_sweep(mechanism, "direct", inputs_of(mechanism), engine="numpy")
     assert exists.any()
     rows, truths = evaluated(recording(mechanism, "direct", every=True), inputs_of(mechanism))
     same(rows["poses"].reshape(poses.shape), poses)
@@ -108,13 +103,13 @@ def test_every_branch_compiled(name):
     )
     for found, values in zip((*distinct[0], distinct[1]), (*wanted[0], wanted[1]), strict=True):
         same(found, values)
-    jobs = [(inverse_all_expanded_sweep, poses)]
+    jobs = [("inverse", poses)]
     if name in WITH_BRANCHES:
-        jobs.append((direct_all_sweep, inputs_of(mechanism)))
-    for sweep, given in jobs:
+        jobs.append(("direct", inputs_of(mechanism)))
+    for problem, given in jobs:
         for found, values in zip(
-            sweep(mechanism, given, engine="compiled", threads=2, block=700),
-            sweep(mechanism, given, engine="numpy"),
+            all_modes_sweep(mechanism, problem, given, engine="compiled", threads=2, block=700),
+            all_modes_sweep(mechanism, problem, given, engine="numpy"),
             strict=True,
         ):
             same(found, values)

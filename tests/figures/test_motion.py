@@ -15,6 +15,7 @@ from assur.figures.motion import check_film, encoded_film, ffmpeg, film, there_a
 from assur.kinematics.closure import characteristic_length, closure_error
 from assur.kinematics.paths.neighbours import working_signs
 from assur.kinematics.pose import pose_of
+from assur.numerics import rotations
 
 FEW, SMALL = 8, 64
 
@@ -34,6 +35,39 @@ def test_a_way_goes_to_the_pose_and_back_in_one_mode(name, way):
     assert np.all(signs == signs[0])
     np.testing.assert_allclose(values[-1], values[0], atol=1e-9)
     np.testing.assert_allclose(values[1:], values[:-1][::-1], atol=1e-6 * characteristic_length(record))
+
+
+@pytest.mark.parametrize(("name", "way"), [("fivebar", [30.0, -30.0]), ("zeng2019", [20.0, 30.0, -25.0])])
+def test_frames_stand_on_the_straight_way(name, way):
+    record = assur.load(name)
+    poses = pose_of(record, there_and_back(record, pose_of(record, record.home_values) + way, FEW))
+    shares = (1 - np.cos(2 * np.pi * np.arange(FEW + 1) / FEW)) / 2
+    np.testing.assert_allclose(poses, poses[0] + shares[:, None] * way, atol=1e-8 * characteristic_length(record))
+
+
+def test_a_quaternion_turns_evenly_the_short_way():
+    record = assur.load("gough_stewart")
+    home = pose_of(record, record.home_values)
+    turn = rotations.from_vector(np.radians([0.0, 0.0, 6.0])) @ rotations.from_quaternion(home[3:])
+    values = there_and_back(record, [*home[:3], *(-rotations.to_quaternion(turn))], FEW)
+    turns = rotations.from_quaternion(pose_of(record, values)[:, 3:])
+    angles = np.degrees(np.linalg.norm([rotations.to_vector(turn @ turns[0].T) for turn in turns], axis=1))
+    np.testing.assert_allclose(angles, 6.0 * (1 - np.cos(2 * np.pi * np.arange(FEW + 1) / FEW)) / 2, atol=1e-6)
+
+
+def test_to_home_it_stands_still():
+    record = assur.load("fivebar")
+    values = there_and_back(record, pose_of(record, record.home_values), FEW)
+    np.testing.assert_array_equal(values, np.repeat(record.home_values[None], FEW + 1, axis=0))
+
+
+def test_over_poses_it_passes_every_one_of_them():
+    record = assur.load("fivebar")
+    home = pose_of(record, record.home_values)
+    right, below = np.array([[30.0, 0.0], [30.0, -30.0]])
+    poses = pose_of(record, there_and_back(record, [home + right, home + below], 12))
+    np.testing.assert_allclose(poses[3], home + right, atol=1e-6)
+    np.testing.assert_allclose(poses[6], home + below, atol=1e-6)
 
 
 def test_poses_are_those_of_the_direct_problem(fivebar):

@@ -1,21 +1,30 @@
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import characteristic_length, closure_error
+from assur.kinematics.paths.following import mode_names
 from assur.kinematics.pose import pose_of
 from assur.mechanism import load, names
-from assur.page.branches import branches, modes, unwound
+from assur.page import branches as page
+from assur.page.branches import modes, unwound
 from assur.topology.joints import SPHERICAL
+
+
+@cache
+def found_of(name):
+    return page.branches(load(name))
 
 
 @pytest.mark.parametrize("name", names())
 def test_every_ghost_is_an_assembly_at_homes_inputs_or_at_homes_pose(name):
     record = load(name)
     home, length = record.home_values, characteristic_length(record)
-    found = branches(record)
+    found = found_of(name)
     assert [item["values"] for item in (found["assembly"][0], found["working"][0])] == [home.tolist()] * 2
     for kind in ("assembly", "working"):
         values = np.array([item["values"] for item in found[kind]])
@@ -32,21 +41,51 @@ def test_every_ghost_is_an_assembly_at_homes_inputs_or_at_homes_pose(name):
 def test_angles_are_within_half_a_turn_of_homes(name):
     record = load(name)
     turns = [item.kind == "angle" and record.joints[item.joint].type is not SPHERICAL for item in record.coordinates]
-    for item in branches(record)["assembly"]:
+    for item in found_of(name)["assembly"]:
         assert np.all(np.abs(np.array(item["values"]) - record.home_values)[turns] <= np.pi + 1e-9)
 
 
 def test_their_number_is_that_of_the_solutions():
-    found = branches(load("zeng2019"))
+    found = found_of("zeng2019")
     assert [len(found["assembly"]), len(found["working"])] == [4, 8]
     assert found["assembly"][0]["label"] == "+++"
     assert found["working"][0]["label"] == "++-++"
 
 
+@pytest.mark.parametrize("name", ["fivebar", "delta_4s", "three_crr", "orthoglide", "zeng2019"])
+def test_every_other_working_mode_has_its_own_assembly_modes_itself_first(name):
+    record = load(name)
+    home, length = record.home_values, characteristic_length(record)
+    working = found_of(name)["working"]
+    assert len(working) > 1
+    assert "assembly" not in working[0]  # home's own stand beside
+    for item in working[1:]:
+        values = np.array([pose["values"] for pose in item["assembly"]])
+        assert values[0].tolist() == item["values"]
+        inputs = inputs_of(record, values)
+        assert np.allclose(inputs, inputs[0], rtol=0, atol=1e-9 * length)
+        assert np.max(closure_error(record, values)) < 1e-11 * length
+        if item["status"] != "regular":
+            assert len(values) == 1
+            continue
+        solutions = record.direct(inputs[0])
+        labels = [str(label) for label in solutions.labels[solutions.exists]]
+        assert sorted(pose["label"] for pose in item["assembly"]) == sorted(labels)
+        assert [pose["label"] for pose in item["assembly"]] == [mode_names(record, row)[1] for row in values]
+    assert pose_of(record, values[0]) == pytest.approx(pose_of(record, home), abs=1e-9 * length)
+
+
+def test_where_the_inputs_do_not_hold_the_platform_a_working_mode_stands_alone():
+    found = {item["label"]: item for item in found_of("zeng2019")["working"]}
+    alone = [label for label, item in found.items() if len(item.get("assembly", [0, 0])) == 1]
+    assert alone
+    assert {found[label]["status"] for label in alone} == {"self_motion"}
+
+
 def test_a_home_that_no_solution_is_stands_first_under_its_own_name(monkeypatch):
-    monkeypatch.setattr("assur.page.branches.is_home", lambda _, joints: np.zeros(len(joints), dtype=bool))
+    monkeypatch.setattr("assur.page.branches._away", lambda _, joints, __: np.ones(len(joints)))
     record = load("fivebar")
-    found = branches(record)["assembly"]
+    found = page.branches(record)["assembly"]
     assert [item["label"] for item in found] == ["home", "+", "-"]
     assert found[0]["values"] == record.home_values.tolist()
 

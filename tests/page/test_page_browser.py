@@ -10,6 +10,7 @@ import pytest
 
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import characteristic_length, closure_error
+from assur.kinematics.paths.following import mode_names
 from assur.kinematics.pose import pose_of
 from assur.mechanism import load
 from assur.model.joint_graph import frames
@@ -108,6 +109,8 @@ def test_poses_at_random_inputs_are_those_of_direct_in_the_same_mode(shown, name
         if state["reason"] is not None:
             assert path.stopped is not None
             continue
+        # the page goes on where a working mode ends, for its sliders are to keep the assembly mode
+        assert path.stopped is None or path.stopped.kind == "serial"
         compared += 1
         assert np.allclose(state["inputs"], target, rtol=0, atol=1e-9 * length)
         assert float(closure_error(record, np.array(state["values"]))) < 1e-9 * length
@@ -179,6 +182,16 @@ def test_links_stand_where_python_puts_them(shown):
     point = rotation @ here.record.platform.point + origin
     assert point[:2] == pytest.approx(state["pose"][:2], abs=1e-9)
     assert not any(map(is_angle, here.record.platform.pose))
+
+
+def test_the_pressed_assembly_mode_is_that_of_the_working_mode_that_was_chosen(shown):
+    here = shown("fivebar")
+    pressed = "document.querySelector('[aria-label=\"Assembly modes\"] [aria-pressed=true]').textContent"
+    for index in range(len(here.scene["branches"]["working"])):
+        here.open()
+        values = np.array(here.tab.evaluate("(index) => window.assur.work(index)", index)["values"])
+        assert here.tab.evaluate(pressed).replace("\u2212", "-") == mode_names(here.record, values)[1]
+    here.open()
 
 
 def test_a_users_own_file_moves_too(shown, drafted):

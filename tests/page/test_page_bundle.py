@@ -27,6 +27,17 @@ def test_it_is_built_from_the_sources_as_they_are():
     assert f"sources {digest()}" in asset("page.js"), "cd web && npm install && npm run build"
 
 
+def test_it_is_as_it_was_built():
+    """A digest of the whole bundle lies beside it, so that what was edited by hand, or built half, shows."""
+    found = hashlib.sha256(asset("page.js").encode()).hexdigest()
+    assert asset("page.js.sha256") == f"{found}  page.js\n", "cd web && npm install && npm run build"
+
+
+def test_it_says_what_it_is_licensed_as():
+    assert asset("page.js").startswith("/*!\nassur's page; Apache-2.0; sources ")
+    assert json.loads((WEB / "package.json").read_text(encoding="utf-8"))["license"] == "Apache-2.0"
+
+
 def test_it_is_small_and_keeps_the_licences():
     text = asset("page.js")
     assert 300_000 < len(text.encode()) <= MOST

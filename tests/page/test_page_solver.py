@@ -12,18 +12,26 @@ import numpy as np
 import pytest
 
 from assur.kinematics.border import inputs_of
-from assur.kinematics.closure import closing_system
+from assur.kinematics.closure import characteristic_length, closing_system
+from assur.kinematics.paths.following import mode_names
 from assur.kinematics.pose import pose_of
 from assur.mechanism import load
 from assur.page.content import content
 
 WEB = Path(__file__).parents[2] / "web"
 STORED = WEB / "test" / "numbers.json"
-NAMES = ("zeng2019", "planar_3rrr", "three_crr", "gough_stewart")
+NAMES = ("zeng2019", "planar_3rrr", "three_crr", "gough_stewart", "fivebar", "delta_4s", "orthoglide")
+MODES = ("fivebar", "delta_4s", "three_crr", "orthoglide")
 KEPT = ("name", "unit", "angleUnit", "extent", "characteristicLength", "graph", "coordinates", "platform", "inputs")
 KEPT += ("poseRange", "home", "branches", "modes")
 MOVED = 0.02
 """How far inputs are moved from home, in characteristic lengths or rad."""
+
+DIGITS = 9
+"""After the point, of joint values that are only compared."""
+
+AWAY = {"fivebar": (0.0, 270.0)}
+"""Where modes are named: this lies beyond a parallel singularity of a working mode, others near home."""
 
 
 def numbers(name: str) -> dict[str, Any]:
@@ -41,7 +49,27 @@ def numbers(name: str) -> dict[str, Any]:
         "loose": {"values": loose.tolist(), "gaps": gaps[0].tolist(), "derivative": derivative[0].tolist()},
         "moves": [_move(record, length, rng) for _ in range(4)],
         "singular": _singular_values(record, home),
+        "named": _named(record, pose) if name in MODES else [],
     }
+
+
+def _named(record: Any, home: np.ndarray) -> list[dict[str, Any]]:
+    """At home's pose and at another: every working mode, its assembly mode and every assembly at its inputs."""
+    away = np.array(
+        AWAY.get(record.name, home + 0.1 * characteristic_length(record) * np.array([1.0, -0.6, 0.3])[: len(home)])
+    )
+    found = []
+    for pose in (home, away):
+        for solution in record.inverse(pose):
+            working, current = mode_names(record, np.array(list(solution.joints.values())))
+            there = record.direct(solution.inputs)
+            listed = [
+                {"label": str(label), "values": values.round(DIGITS).tolist()}
+                for label, values in zip(there.labels[there.exists], there.joints[there.exists], strict=True)
+            ]
+            assert current in [item["label"] for item in listed]
+            found.append({"at": np.asarray(pose).tolist(), "working": working, "current": current, "assembly": listed})
+    return found
 
 
 def _move(record: Any, length: float, rng: np.random.Generator) -> dict[str, Any]:

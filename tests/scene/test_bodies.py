@@ -7,7 +7,7 @@ import pytest
 from manifold3d import Manifold, OpType
 
 from assur.errors import UsageError
-from assur.scene.bodies import PLAY, bodies, fused, grown, solid, with_pins
+from assur.scene.bodies import PLAY, bodies, fused, grown, solid
 from assur.scene.parts import parts, unit
 from assur.scene.shapes import Ball, Bar, Box, Cylinder
 from assur.topology.joints import PRISMATIC
@@ -80,8 +80,3 @@ def test_what_is_grown_holds_the_shape_with_play_on_every_side(shape):
 def test_a_shape_that_nothing_runs_in_is_not_grown():
     with pytest.raises(UsageError, match="no play is known for a bar"):
         grown(Bar(np.zeros(3), np.ones(3), np.array([0.0, 0, 1]), 1.0, 0.5), 0.1)
-
-
-def test_pins_go_with_their_link(every):
-    for body in bodies(every.record):
-        assert with_pins(body).volume() >= (fused(body).volume() if body.fused else 0.0)

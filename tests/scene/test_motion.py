@@ -10,6 +10,8 @@ from assur.errors import UsageError
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import characteristic_length, closure_error
 from assur.kinematics.limits import limits
+from assur.kinematics.paths.neighbours import working_signs
+from assur.scene import motion
 from assur.scene.motion import closed_motion
 
 SOME = ("zeng2019", "fivebar", "delta_4s", "three_rps")
@@ -35,6 +37,16 @@ def test_the_way_there_is_the_one_that_is_followed(name):
     path = record.follow(values[0], inputs=inputs_of(record, values[1:9]))
     assert path.stopped is None
     np.testing.assert_allclose(path.joints[-1], values[8], atol=1e-6 * characteristic_length(record))
+
+
+def test_no_frame_stands_in_another_mode(monkeypatch):
+    """The full swing of zeng2019 runs through a serial singularity: the inputs go on, the working mode does not."""
+    record = assur.load("zeng2019")
+    signs = working_signs(record, closed_motion(record, 16))
+    assert np.all(signs == signs[0])
+    monkeypatch.setattr(motion, "KEPT", -np.inf)
+    signs = working_signs(record, closed_motion(record, 16))
+    assert np.any(signs != signs[0])  # so that the swing is one that has to be made smaller
 
 
 def test_too_few_frames_are_refused():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -10,7 +12,7 @@ from assur.errors import UsageError
 from assur.kinematics.closure import characteristic_length, closure_error
 from assur.kinematics.limits import limits
 from assur.kinematics.pose import pose_of
-from assur.scene.sampled import sampled
+from assur.scene.sampled import from_box, sampled
 
 
 def test_they_are_assembled_within_box_and_limits(every):
@@ -41,3 +43,24 @@ def test_the_seed_says_which():
 def test_nothing_and_nowhere_are_refused():
     with pytest.raises(UsageError, match="at least 1"):
         sampled(assur.load("fivebar"), 0)
+
+
+@pytest.mark.parametrize(
+    ("lost", "said"), [({"closed_form": None}, "a closed form"), ({"box": {}}, "a box for every coordinate")]
+)
+def test_near_home_no_mode_can_be_asked_for(lost, said):
+    record = dataclasses.replace(assur.load("fivebar"), **lost)
+    assert not from_box(record)
+    joints = sampled(record, 5)
+    assert np.max(closure_error(record, joints)) < 1e-6 * characteristic_length(record)
+    for mode in ("bogus", "++"):
+        with pytest.raises(UsageError, match=f"fivebar has not {said}") as caught:
+            sampled(record, 5, mode)
+        assert f"'{mode}'" in caught.value.message
+        assert "leave the mode out" in caught.value.hint
+
+
+def test_a_mode_that_is_none_is_refused():
+    for name in ("fivebar", "planar_3rpr"):
+        with pytest.raises(UsageError, match="bogus"):
+            sampled(assur.load(name), 5, "bogus")

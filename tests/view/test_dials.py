@@ -6,16 +6,17 @@ import numpy as np
 import pytest
 
 import assur
+from assur.kinematics.border import inputs_of
 from assur.kinematics.pose import pose_of
 from assur.model.pose import has_quaternion
-from assur.view.dials import Dial, dials, inputs, pose_with, read, read_inputs
+from assur.view.dials import Dial, dials, inputs, pose_with, read
 
 
 @pytest.mark.parametrize("name", assur.names())
 def test_home_lies_on_every_dial_and_reads_back(name):
     record = assur.load(name)
     home = record.home_values
-    for found, here in ((dials(record), read(record, home)), (inputs(record), read_inputs(record, home))):
+    for found, here in ((dials(record), read(record, home)), (inputs(record), inputs_of(record, home))):
         for dial, value in zip(found, here, strict=True):
             low, high = dial.ends
             assert low <= dial.shown(value) <= high

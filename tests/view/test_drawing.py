@@ -8,27 +8,25 @@ from assur.numerics import rotations
 from assur.scene.companion import companion
 from assur.scene.parts import parts
 from assur.scene.skeleton import skeleton
-from assur.view.drawing import FULL, drawing, places
+from assur.view.drawing import FULL, Drawing, cloud, drawing, places
 
 
 @pytest.mark.parametrize("name", assur.names())
 def test_solids_stand_where_the_scene_has_them(name):
     record = assur.load(name)
     home = record.home_values
-    found, stand = drawing(record, home), places(record, home, drawing(record, home).scale)
-    corners = []
-    for solid in found.solids:
-        turn, origin = stand[solid.link]
-        corners.append(solid.vertices[solid.faces.ravel()] @ rotations.from_quaternion(turn).T + origin)
+    found = drawing(record, home)
     shape = skeleton(record, companion(record), home)
     solids = parts(shape, companion(record))
     meshes = [(item.shape.mesh(item.colour).corners.reshape(-1, 3), *shape.frames[item.link]) for item in solids]
     wanted = found.scale * np.concatenate([points @ turn.T + origin for points, turn, origin in meshes])
-    got = np.concatenate(corners)
+    got = np.concatenate(
+        [cloud(Drawing((item,), (), found.scale), record, home)[item.faces.ravel()] for item in found.solids]
+    )
     assert len(got) == len(wanted)
     for axis in range(3):  # the order differs
         assert np.sort(got[:, axis]) == pytest.approx(np.sort(wanted[:, axis]), abs=1e-6 * FULL)
-    assert np.max(found.high - found.low) == pytest.approx(FULL)
+    assert found.scale * np.max(np.ptp(shape.cloud, axis=0)) == pytest.approx(FULL)
 
 
 def test_vertices_are_shared_within_a_smooth_face_and_not_across_edges():

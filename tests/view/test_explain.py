@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 import assur
-from assur.view.explain import explain, gap
+from assur.model.joint_graph import joint_graph
+from assur.numerics import rotations
+from assur.view.explain import _sense, explain, gap
 from assur.view.state import TOLERANCE
 
 
@@ -45,6 +47,21 @@ def test_inputs_with_which_the_loop_stays_open_say_by_how_much():
     missing = 2 * 120.0 + 2 * 100.0 - 2 * 194.0
     assert said == f"the loop closed by P stays open by {missing:.3g} mm"
     assert str(explain(path, np.array([np.pi, 0.0]))).startswith("parallel singularity: ")
+
+
+@pytest.mark.parametrize(
+    ("degrees", "said"),
+    [(0, "too short"), (44, "too short"), (47, "off"), (90, "off"), (133, "off"), (136, "too long")],
+)
+def test_a_leg_is_short_or_long_along_its_way_and_off_to_the_side(degrees, said):
+    """The gap of leg 2 of the five-bar, turned from the line A2 P; 45.6 deg is where 0.7 of it lies along the line."""
+    record = assur.load("fivebar")
+    home = record.home_values
+    way = record.point("P", home) - record.point("A2", home)
+    turned = rotations.from_vector(np.radians([0.0, 0.0, degrees])) @ way
+    joint = joint_graph(record).cut[0]
+    from_the_leg = -1.0 if joint.child == record.platform.link else 1.0  # a gap is that of the child from the parent
+    assert _sense(record, home, 0, from_the_leg * turned) == said
 
 
 def test_a_joint_limit_is_named_with_its_end():

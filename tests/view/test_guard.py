@@ -2,7 +2,7 @@
 
 import pytest
 
-from assur.view.guard import Answer, Guard, is_everywhere, is_loopback
+from assur.view.guard import Answer, Guard, as_sent, is_everywhere, is_loopback, reached_at
 
 GUARD = Guard("token")
 HOST = ("Host", "127.0.0.1:80")
@@ -32,7 +32,10 @@ def test_a_socket_needs_the_origin_of_the_page(header):
     [
         ("/token/", [], "host"),
         ("/token/", [HOST, HOST], "host"),
-        ("/token/", [("Host", "127.0.0.1")], "host"),
+        ("/token/", [("Host", "127.0.0.1:")], "host"),
+        ("/token/", [("Host", ":80")], "host"),
+        ("/token/", [("Host", "")], "host"),
+        ("/\ud800", [HOST], "path"),
         ("/token/", [("Host", "127.0.0.1:81")], "host"),
         ("/token/", [HOST, ("Origin", "null")], "origin"),
         ("/other/", [HOST], "path"),
@@ -70,6 +73,32 @@ def test_every_address_is_answered_under_numbers_never_under_a_name(everywhere):
     assert guard.check(path, [("Host", "192.0.2.3:80")], 80).answer is Answer.page
     assert guard.check(path, [("Host", "[fe80::1]:80")], 80).answer is Answer.page
     assert guard.check(path, [("Host", "rebound.example:80")], 80).why == "host"
+
+
+def test_port_80_goes_without_saying_and_no_other():
+    assert GUARD.check("/token/", [("Host", "127.0.0.1")], 80).answer is Answer.page
+    assert GUARD.check("/token/", [("Host", "127.0.0.1")], 81).why == "host"
+    socket = [("Host", "[::1]"), ("Upgrade", "websocket"), ("Origin", "http://[::1]")]
+    assert GUARD.check("/token", socket, 80).answer is Answer.socket
+    assert GUARD.check("/token", socket, 81).why == "host"
+
+
+@pytest.mark.parametrize(
+    ("host", "sent"),
+    [
+        ("127.0.0.1", "127.0.0.1"), ("127.0.0.2", "127.0.0.2"), ("localhost", "localhost"), ("LocalHost", "localhost"),
+        ("::1", "[::1]"), ("[::1]", "[::1]"), ("MyBox", "mybox"), ("FE80::1", "[fe80::1]"),
+        ("fe80:0:0::1", "[fe80::1]"), ("192.0.2.7", "192.0.2.7"), ("0.0.0.0", "127.0.0.1"), ("::", "[::1]"),
+    ],
+)  # fmt: skip
+def test_a_guard_answers_the_address_of_its_own_server(host, sent):
+    """As a browser sends it: in small letters, and short."""
+    guard = Guard.new(host)
+    assert as_sent(reached_at(host)) == sent
+    assert guard.check(f"/{guard.token}/", [("Host", f"{sent}:8123")], 8123).answer is Answer.page
+    assert guard.check(f"/{guard.token}/", [("Host", "192.0.2.99:8123")], 8123).why == (
+        "" if is_everywhere(host) else "host"
+    )
 
 
 def test_which_addresses_are_of_this_machine_alone():

@@ -41,6 +41,8 @@ def test_another_mode_comes_back():
         ("set=l1", "where numbers are wanted"),
         ("set=l1:-4", "cannot be -4"),
         ("camera=1,2,3", "3 numbers where 9"),
+        ("garbage", "no link of a view: 'garbage'"),
+        ("http://127.0.0.1:1/token/", "no link of a view"),
         ("at=" + "1," * 5000, "at most 6000"),
     ],
 )

@@ -22,7 +22,7 @@ def test_the_numbers_are_those_of_the_library(here):
     for item, value in zip(here.record.inputs, here.inputs, strict=True):
         assert found[item.name] == f"{value:.4f} mm"
     assert found["condition"] == f"{float(here.record.velocity_map(here.pose, '++-++').condition):.4g}"
-    assert found["working mode"], found["assembly mode"] == ("++-++", "+++")
+    assert (found["working mode"], found["assembly mode"]) == ("++-++", "+++")
     assert float(found["residual"].split()[0]) < 1e-9
 
 

@@ -5,6 +5,7 @@ import importlib.util
 import pathlib
 import socket
 import threading
+import urllib.request
 from types import SimpleNamespace
 
 import pytest
@@ -102,6 +103,16 @@ def test_a_server_that_does_not_ask_its_guard_does_not_start(monkeypatch):
     with pytest.raises(AssurError, match="does not ask its guard"):
         server.Served("127.0.0.1", 0, Guard.new(), [].append)
     assert threading.active_count() <= before
+
+
+@pytest.mark.parametrize("host", ["::", "::1", "127.0.0.2", "LOCALHOST"])
+def test_it_answers_its_own_address_wherever_it_listens(host):
+    found = server.Served(host, 0, Guard.new(host), [].append)
+    try:
+        with urllib.request.urlopen(found.url, timeout=10) as answer:
+            assert answer.status == 200
+    finally:
+        found.stop()
 
 
 def test_a_port_that_is_taken_is_refused(served):

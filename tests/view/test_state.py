@@ -1,11 +1,15 @@
 """How a change moves what is shown: every number against another route."""
 
+import re
+
 import numpy as np
 import pytest
 
 import assur
 from assur.errors import UsageError
 from assur.kinematics.closure import characteristic_length
+from assur.kinematics.paths.locked import general_ranks
+from assur.view import state
 from assur.view.dials import dials, read
 from assur.view.dials import inputs as input_dials
 from assur.view.state import start, to_inputs, to_poses, with_dial, with_input, with_parameter, with_values
@@ -99,9 +103,38 @@ def test_a_dimension_changes_and_the_inputs_stay(name):
     assert after.inputs == pytest.approx(before.inputs, abs=1e-9)
 
 
+def test_a_dimension_at_which_the_branch_ends_keeps_the_pose_instead():
+    """With the inputs held the 3-RPR's assembly merges with another at d3 = 28.1; no other one is jumped to."""
+    before = start(assur.load("planar_3rpr"))
+    after = with_parameter(before, "d3", 33.344)
+    assert after.reason is None
+    assert after.pose == pytest.approx(before.pose, abs=1e-9)
+    assert np.max(np.abs(after.inputs - before.inputs)) > 0.1
+
+
+def test_what_is_known_of_a_branch_is_kept_along_it_and_not_beyond(bar, monkeypatch):
+    asked = []
+    known = general_ranks(bar.record, bar.values)
+    monkeypatch.setattr(state, "general_ranks", lambda *given: asked.append(given) or known)
+    moved = with_dial(with_input(bar, 0, 2.0), 0, 5.0)
+    assert len(asked) == 1
+    with_input(with_values(moved, moved.values), 0, 2.0)
+    with_input(with_parameter(moved, "l1", 101.0), 0, 2.0)
+    assert len(asked) == 3
+    assert moved.values == pytest.approx(moved.record.follow(moved.values, poses=moved.pose).joints[-1], abs=1e-9)
+
+
 def test_a_dimension_with_which_nothing_closes_is_not_taken(bar):
     after = with_parameter(bar, "l2", 20.0)
     assert after.reason.kind == "dimension"
+    knees = np.linalg.norm(bar.record.point("B1", bar.values) - bar.record.point("B2", bar.values)) / 2
+    reach = np.hypot(bar.pose[0] + 70.0, bar.pose[1]) - 100.0
+    said = re.fullmatch(
+        r"l2 = 20 leaves the mode: with the inputs held it ends at (\S+) \(parallel singularity\), "
+        r"with the pose held it ends at (\S+) \(serial singularity\)",
+        str(after.reason),
+    )
+    assert [float(item) for item in said.groups()] == pytest.approx([knees, reach], abs=0.1)
     assert after.record is bar.record
     assert np.array_equal(after.values, bar.values)
 

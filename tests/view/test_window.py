@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 import assur
+from assur.errors import UsageError
 from assur.kinematics.closure import closure_error
+from assur.view import player
 from assur.view.guard import Guard
 from assur.view.link import query
 from assur.view.server import Served
@@ -130,6 +132,42 @@ def test_a_trajectory_plays_and_its_time_bar_moves_it(window):
     middle = window.player.way.at(0.5)
     _wait(lambda: np.array_equal(window.state.values, middle))
     assert closure_error(window.original, middle) < 1e-7
+
+
+def test_a_trajectory_that_cannot_be_planned_says_why_and_the_next_one_plays(window, monkeypatch):
+    def barred(*_):
+        raise UsageError("no way at all")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(player, "around", barred)
+        window.player.command("play")
+        _wait(lambda: window.notes["trajectory"].visible)
+        assert "no way at all" in window.notes["trajectory"].content
+    window.player.command("play")
+    _wait(lambda: window.player.way is not None and not np.array_equal(window.state.pose, start(window.original).pose))
+    assert not window.notes["trajectory"].visible
+
+
+def test_a_trajectory_that_fails_by_a_bug_does_not_stop_the_next_one(window, monkeypatch):
+    told = []
+    monkeypatch.setattr(window.worker, "_failed", told.append)
+    with monkeypatch.context() as patch:
+        patch.setattr(player, "around", lambda _: 1 / 0)
+        window.player.command("play")
+        _wait(lambda: told)
+    window.player.command("play")
+    _wait(lambda: window.player.way is not None)
+    assert [type(error) for error in told] == [ZeroDivisionError]
+
+
+def test_what_is_pasted_and_no_link_is_told(window, monkeypatch):
+    told = []
+    monkeypatch.setattr(window.worker, "_failed", told.append)
+    before = window.state
+    _press(window.keeper.line, "garbage")
+    _wait(lambda: told)
+    assert "no link of a view" in str(told[0])
+    assert window.state is before
 
 
 def test_layers_come_as_boxes_that_show_and_hide_them(window):

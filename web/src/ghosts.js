@@ -10,8 +10,9 @@ const BUDGET = 10; // milliseconds of a picture that ghosts may take
 
 export class Ghosts {
   constructor(mechanism, geometries, stage) {
+    const most = Math.max(mechanism.assembly.length, ...mechanism.working.map((item) => item.assembly?.length ?? 0));
     Object.assign(this, { mechanism, stage, shown: mechanism.assembly.length <= MANY, waiting: [], lit: -1 });
-    this.bodies = mechanism.assembly.map((_, k) => {
+    this.bodies = Array.from({ length: most }, (_, k) => {
       const ghost = body(mechanism.model, geometries, { ghost: COLOURS[k % COLOURS.length] });
       ghost.group.traverse((part) => (part.userData.branch = k));
       stage.root.add(ghost.group);
@@ -24,9 +25,11 @@ export class Ghosts {
 
   /** Queues every ghost for the new inputs; as many as time allows are moved before each picture. */
   follow() {
-    this.bodies[this.mechanism.branch].group.visible = false;
-    this.waiting = this.shown ? this.bodies.map((_, k) => k).filter((k) => k !== this.mechanism.branch) : [];
-    if (!this.shown) for (const { group } of this.bodies) group.visible = false;
+    const { assembly, branch } = this.mechanism;
+    this.bodies.forEach(({ group }, k) => {
+      if (!this.shown || k === branch || k >= assembly.length) group.visible = false;
+    });
+    this.waiting = this.shown ? [...assembly.keys()].filter((k) => k !== branch) : [];
     this.stage.invalidate();
   }
 
@@ -83,7 +86,7 @@ export class Ghosts {
     const { shown, bodies, mechanism } = this;
     if (!shown && bodies[this.lit]) bodies[this.lit].group.visible = false;
     this.lit = index;
-    if (!shown && bodies[index] && index !== mechanism.branch && mechanism.follow(index)) {
+    if (!shown && mechanism.assembly[index] && index !== mechanism.branch && mechanism.follow(index)) {
       bodies[index].group.visible = true;
       bodies[index].place(mechanism.assembly[index].values);
     }

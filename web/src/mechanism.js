@@ -5,11 +5,20 @@ import { frames, modelOf } from "./solver/frames.js";
 import { inputsOf, toInputs, toPose } from "./solver/motion.js";
 import { closestApproach } from "./solver/newton.js";
 import { poseOf } from "./solver/pose.js";
-import { nearestTurn } from "./solver/rotation.js";
+import { add, apply, nearestTurn, times } from "./solver/rotation.js";
 import { distanceToSingular, measuresAt } from "./solver/rates.js";
 
 const SAME = 1e-4;
 const FREELY = { limits: false, through: true };
+const AROUND = 0.2; // of the model's length, or rad: how far to the side a way goes that is blocked
+
+/** What a caller gave, if it is as many numbers as have names. */
+function numbers(name, given, wanted) {
+  const found = Array.from(given ?? []);
+  if (found.length === wanted.length && found.every((value) => Number.isFinite(value))) return found;
+  const said = wanted.length === 1 ? "1 finite number" : `${wanted.length} finite numbers`;
+  throw new Error(`${name}: [${found.join(", ")}] given; wanted are ${said}, lengths and rad: [${wanted.join(", ")}]`);
+}
 
 export class Mechanism {
   /** @param {object} scene @param {Function|null} kernel of the closed form's factors */
@@ -34,14 +43,60 @@ export class Mechanism {
 
   /** Back to home in the first mode. */
   reset() {
-    const { assembly, working } = this.scene.branches;
+    this.working = this.scene.branches.working;
     this.values = this.scene.home.slice();
-    this.assembly = assembly.map((item) => ({ ...item, values: item.values.slice(), reached: true }));
-    this.working = working;
+    this.list(0);
     this.branch = 0;
     this.note({ status: "moved", reason: null });
     this.changed("mode");
     return this.state();
+  }
+
+  /** Takes the assembly modes of a working mode, as they are at home's pose. @param {number} work its index */
+  list(work) {
+    const found = this.working[work].assembly ?? this.scene.branches.assembly;
+    this.assembly = found.map((item) => ({ ...item, values: item.values.slice(), reached: true, fresh: true }));
+  }
+
+  /**
+   * Takes the assembly modes of a working mode whose first one was followed to where the mechanism stands, and finds
+   * the current one: the first if no parallel singularity was on the way, else the one whose inputs lead here; -1 where
+   * none does.
+   */
+  settle(work, crossed, hint = 0) {
+    this.list(work);
+    const order = [...new Set([hint, ...this.assembly.keys()])].filter((k) => this.assembly[k]);
+    this.branch = crossed ? (order.find((k) => this.arrives(this.assembly[k])) ?? -1) : 0;
+    return this.branch >= 0;
+  }
+
+  /** Lets one assembly follow the inputs; whether it is the one in which the mechanism stands. */
+  arrives(item) {
+    return (
+      this.same(item.values, this.values) ||
+      (this.brought(item).status === "moved" && this.same(item.values, this.values))
+    );
+  }
+
+  /** Lets one assembly follow the inputs: straight, but round what is in the way when it comes from home's pose. */
+  brought(item) {
+    const [inputs, go] = [this.inputs, (values, to) => toInputs(this.model, values, to, { limits: false })];
+    let found = go(item.values, inputs);
+    const start = inputsOf(this.model, item.values);
+    for (const side of item.fresh && found.status !== "moved" ? [AROUND, -AROUND] : []) {
+      // every input by another amount: what is in the way may lie on an axis of symmetry
+      const aside = (k) => (side / (k + 1)) * (this.model.inputs[k].kind === "length" ? this.model.length : 1);
+      const half = go(
+        item.values,
+        inputs.map((value, k) => (start[k] + value) / 2 + aside(k)),
+      );
+      const whole = half.status === "moved" ? go(half.values, inputs) : half;
+      if (whole.status !== "moved") continue;
+      found = whole;
+      break;
+    }
+    Object.assign(item, { values: found.values, fresh: false });
+    return found;
   }
 
   note({ status, reason }) {
@@ -59,19 +114,26 @@ export class Mechanism {
 
   /** @param {number[]} printed inputs, lengths and rad; the assembly mode is kept */
   toInputs(printed) {
-    return this.moved(toInputs(this.model, this.values, printed, this));
+    const names = this.model.inputs.map(({ name }) => name);
+    return this.moved(toInputs(this.model, this.values, numbers("toInputs", printed, names), this));
   }
 
   /** @param {number[]} pose lengths and rad; the working mode is kept */
   toPose(pose) {
-    return this.moved(toPose(this.model, this.values, pose, this));
+    return this.moved(toPose(this.model, this.values, numbers("toPose", pose, this.model.pose), this));
   }
 
-  /** Straight to joint values that are nearly an assembly, as a link knows them; nothing where they are not. */
-  restore(values, branch) {
+  /**
+   * Straight to joint values that are nearly an assembly, as a link knows them; nothing where they are not.
+   * @param {number} hint the assembly mode that it says, to be tried first
+   */
+  restore(values, hint) {
     const closed = closestApproach(this.model, values, [], null);
     if (!(residual(this.model, closed) < 1e-9 * this.model.length)) return;
-    this.branch = branch;
+    this.values = closed;
+    const { index, crossed } = this.workHere();
+    if (index < 0 || !this.settle(index, crossed, hint))
+      this.working.some((_, k) => k !== index && this.settle(k, true, hint));
     this.jump(closed);
   }
 
@@ -95,10 +157,10 @@ export class Mechanism {
     const item = this.assembly[index];
     if (!item) return this.state();
     const left = this.assembly[this.branch];
-    Object.assign(left, { values: this.values, reached: true });
-    const found = toInputs(this.model, item.values, this.inputs, { limits: false });
+    if (left) Object.assign(left, { values: this.values, reached: true, fresh: false });
+    const found = this.brought(item);
     if (found.status === "moved") {
-      this.values = item.values = found.values;
+      this.values = found.values;
       this.branch = index;
       this.note(found);
     } else
@@ -117,6 +179,7 @@ export class Mechanism {
     const found = toPose(this.model, item.values, this.pose, FREELY);
     if (found.status === "moved") {
       this.values = found.values;
+      this.settle(index, found.crossed);
       this.note(found);
     } else
       this.note({
@@ -130,28 +193,41 @@ export class Mechanism {
   /** Lets one other assembly follow the inputs. @returns {boolean} whether it still exists and differs from the current one */
   follow(index) {
     const item = this.assembly[index];
-    const found = toInputs(this.model, item.values, this.inputs, { limits: false });
-    item.values = found.values;
+    const found = this.brought(item);
     item.reached = found.status === "moved" && !this.same(item.values, this.values);
     return item.reached;
   }
 
-  /** Whether two assemblies have all their links at one place. */
+  /** Whether two assemblies have all joints and the platform at one place; a rod may spin about its own line. */
   same(a, b) {
-    const [first, second] = [frames(this.model, a), frames(this.model, b)];
-    const near = (p, q, unit) => p.every((value, k) => Math.abs(value - q[k]) < SAME * unit);
-    return first.every(
-      (frame, k) => near(frame.origin, second[k].origin, this.model.length) && near(frame.turn, second[k].turn, 1),
-    );
+    const [first, second] = [a, b].map((values) => this.places(values));
+    return first.every((value, k) => Math.abs(value - second[k]) < SAME);
+  }
+
+  /** Points of all joints in units of the model's length, on both links, and the platform's orientation. */
+  places(values) {
+    const placed = frames(this.model, values);
+    const on = (link, at) =>
+      times(1 / this.model.length, add(apply(placed[link].turn, at), placed[link].origin));
+    const points = this.model.joints.flatMap((item) => [on(item.parent, item.at), on(item.child, item.childAt)]);
+    return [...points.flat(), ...placed[this.model.platform].turn];
   }
 
   /** Index of the working mode in which the mechanism stands, -1 where none of the list is. */
   currentWork() {
+    return this.workHere().index;
+  }
+
+  /** That index, and whether a parallel singularity is on the way from home's pose. */
+  workHere() {
     const pose = this.pose;
-    return this.working.findIndex((item) => {
+    let crossed = false;
+    const index = this.working.findIndex((item) => {
       const found = toPose(this.model, item.values, pose, FREELY);
+      crossed = found.crossed;
       return found.status === "moved" && this.same(found.values, this.values);
     });
+    return { index, crossed };
   }
 
   /** Factors of the closed form here, in the working mode whose inputs are the present ones. */
@@ -189,6 +265,7 @@ export class Mechanism {
         pose: this.pose,
         inputs: this.inputs,
         residual: residual(this.model, this.values),
+        assembly: this.assembly[this.branch]?.label ?? null,
         status: this.status,
         reason: this.reason,
         condition,

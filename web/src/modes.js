@@ -29,25 +29,29 @@ export function modeLists(mechanism, ghosts) {
       colour ? el("i", { style: `--colour:${colour}` }) : null,
       label(item.label, k),
     );
-  const assembly = mechanism.assembly.map((item, k) =>
-    button(item, k, COLOURS[k % COLOURS.length], () => mechanism.choose(k)),
-  );
-  const working = mechanism.working.map((item, k) => button(item, k, null, () => mechanism.work(k)));
+  const group = (name) => el("div", { class: "modes", role: "group", "aria-label": name });
+  const [assembly, working] = [group("Assembly modes"), group("Working modes")];
+  working.append(...mechanism.working.map((item, k) => button(item, k, null, () => mechanism.work(k))));
+  const pressed = (list, current) =>
+    [...list.children].forEach((node, k) => node.setAttribute("aria-pressed", String(k === current)));
+  let listed = null;
   let timer = 0;
   const show = () => {
-    assembly.forEach((node, k) => node.setAttribute("aria-pressed", String(k === mechanism.branch)));
+    if (listed !== mechanism.assembly) {
+      listed = mechanism.assembly; // of another working mode
+      assembly.replaceChildren(
+        ...listed.map((item, k) => button(item, k, COLOURS[k % COLOURS.length], () => mechanism.choose(k))),
+      );
+    }
+    pressed(assembly, mechanism.branch);
     clearTimeout(timer);
-    timer = setTimeout(() => {
-      const current = mechanism.currentWork();
-      working.forEach((node, k) => node.setAttribute("aria-pressed", String(k === current)));
-    }, 150);
+    timer = setTimeout(() => pressed(working, mechanism.currentWork()), 150);
   };
   ghosts.done = () =>
-    assembly.forEach((node, k) =>
+    [...assembly.children].forEach((node, k) =>
       node.classList.toggle("gone", k !== mechanism.branch && !mechanism.assembly[k].reached),
     );
   mechanism.listen(show);
   show();
-  const list = (nodes, name) => el("div", { class: "modes", role: "group", "aria-label": name }, ...nodes);
-  return { assembly: list(assembly, "Assembly modes"), working: list(working, "Working modes") };
+  return { assembly, working };
 }

@@ -100,7 +100,7 @@ export function panel({ scene, sliders, player, modes, looks, layers }) {
         section("Inputs", "", sliders.inputs),
         section("Pose", `of ${scene.platform.link}`, sliders.pose),
         section("Course", "", player.element),
-        section("Assembly modes", count(scene.branches.assembly), modes.assembly),
+        section("Assembly modes", "", modes.assembly),
         section("Working modes", count(scene.branches.working), modes.working),
       ],
     },

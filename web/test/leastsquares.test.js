@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { determinant, leastSquares, singular } from "../src/solver/leastsquares.js";
+import { determinant, leastSquares, nullSpace, singular } from "../src/solver/leastsquares.js";
 import { apart } from "./numbers.js";
 
 test("redundant rows do no harm, and of many solutions the shortest is found", () => {
@@ -65,4 +65,22 @@ test("determinants", () => {
       ]) - 18,
     ) < 1e-12,
   );
+});
+
+test("a null space is orthonormal, taken to zero and as large as the rank leaves it", () => {
+  const matrix = [
+    [1, 2, 0, -1, 3],
+    [2, 4, 0, -2, 6],
+    [0, 1, 1, 0.5, 0],
+    [1, 3, 1, -0.5, 3],
+  ];
+  const basis = nullSpace(matrix, 5);
+  assert.equal(basis.length, 3);
+  const dot = (a, b) => a.reduce((sum, value, k) => sum + value * b[k], 0);
+  basis.forEach((first, i) => {
+    for (const row of matrix) assert.ok(Math.abs(dot(first, row)) < 1e-14);
+    basis.forEach((second, j) => assert.ok(Math.abs(dot(first, second) - (i === j ? 1 : 0)) < 1e-14));
+  });
+  assert.equal(nullSpace([], 2).length, 2);
+  assert.equal(nullSpace([[0, 0]], 2).length, 2);
 });

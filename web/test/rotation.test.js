@@ -14,8 +14,21 @@ const VECTORS = [
 ];
 
 test("a rotation vector comes back from its rotation", () => {
-  for (const vector of VECTORS)
-    assert.ok(apart(rotation.toVector(rotation.fromVector(vector)), vector) < 1e-9 || rotation.norm(vector) > 3);
+  for (const vector of VECTORS.slice(0, -1))
+    assert.ok(apart(rotation.toVector(rotation.fromVector(vector)), vector) < 1e-9, String(vector));
+});
+
+test("so it does, with its sense, as near to a half turn as can be told", () => {
+  for (const left of [1e-3, 9e-5, 5e-5, 1e-6])
+    for (const axis of [
+      [0, 0, 1],
+      [0, -1, 0],
+      [0.6, -0.8, 0],
+      [-2 / 3, 1 / 3, 2 / 3],
+    ]) {
+      const vector = axis.map((value) => value * (Math.PI - left));
+      assert.ok(apart(rotation.toVector(rotation.fromVector(vector)), vector) < 1e-9, `${axis} ${left}`);
+    }
 });
 
 test("a half turn is as far from the identity as can be", () => {

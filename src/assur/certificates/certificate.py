@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from importlib.metadata import version
@@ -23,13 +23,17 @@ from assur.model.mechanism import MechanismRecord
 from assur.model.registry import CLOSED_FORM
 from assur.results.files import write_whole
 from assur.workspace.bounds import Stroke
-from assur.workspace.certified.boxes import Boxes
-from assur.workspace.domain import Box, box_of
+from assur.workspace.certified.boxes import Boxes, together
+from assur.workspace.domain import box_of
 
 FORMAT, VERSION = "assur certificate", 1
 FloatArray = NDArray[np.float64]
-Kind = Literal["workspace", "box"]
-CLAIMS = {"workspace": ("leaves", "volume", "regular_volume"), "box": ("leaves", "reached", "regular")}
+Kind = Literal["workspace", "box", "path"]
+CLAIMS = {
+    "workspace": ("leaves", "volume", "regular_volume"),
+    "box": ("leaves", "reached", "regular"),
+    "path": ("leaves", "reached", "regular"),
+}
 GAPS = {"workspace": 1e-2, "box": 1e-4}
 """What may stay open, as a share of what is certainly reached."""
 
@@ -42,11 +46,12 @@ class Certificate:
     """A statement with its proof; `assur.verifier` checks it.
 
     Attributes:
-        kind: "workspace", bounds of a volume; "box", whether a box is reached and free of singularities. Of the
-            volume: of all free coordinates, in length units and rad.
-        statement: mechanism, hashes of its files, dimensions that are not the file's, mode, strokes, box.
+        kind: "workspace", bounds of a volume; "box", whether a box is reached and free of singularities; "path",
+            that all of a polyline is, see `path_certificate`. Of the volume: of all free coordinates, in length units
+            and rad.
+        statement: mechanism, hashes of its files, dimensions that are not the file's, mode, strokes, box or path.
         program: the formulas as data.
-        proof: the tree, depth first.
+        proof: the tree, depth first; of a path, that of each of its boxes.
         claims: what the leaves prove together.
     """
 
@@ -88,7 +93,7 @@ def certificate(
     strokes: Mapping[str, Stroke | None] | None = None,
     held: Mapping[str, float] | None = None,
     *,
-    kind: Kind = "workspace",
+    kind: Literal["workspace", "box"] = "workspace",
     gap: float | None = None,
     finest: float = 0.0,
     most: int = MOST,
@@ -125,22 +130,22 @@ def certificate(
     rules = formulas(record, mode, strokes, held)
     where = box_of(record, box, rules.slice.free)
     leaves = Leaves(rules)
-    low, high = (np.array(side)[:, None] for side in (where.low, where.high))
+    whole = Boxes(*(np.array(side)[:, None] for side in (where.low, where.high)))
     unsettled = (OPEN, INSIDE) if kind == "box" else (OPEN,)
-    whole, extents = Boxes(low, high), high - low
-    limits = Limits(unsettled, gap, _least(whole, finest, rules.used), most)
-    statement, program = _statement(record, mode, strokes, rules, where), rules.to_json()
+    limits = Limits(unsettled, gap, least_sides(whole, finest, rules.used), most)
+    box_stated = [exact(pair) for pair in zip(where.low, where.high, strict=True)]
+    statement = {**common_statement(record, mode, strokes, rules), "box": box_stated}
+    program = rules.to_json()
     if start is not None and [start.get(key) for key in ("kind", "statement", "program")] != [kind, statement, program]:
         raise UsageError("the certificate to be carried on states something else", hint="write to another file")
-    tree = grow(
+    tree = tree_of(
+        leaves,
         whole,
-        leaves.tokens,
-        lambda boxes: leaves.axes(boxes, extents, limits.least),
         limits,
         progress,
         None if start is None else planted(start.get("proof"), whole, leaves.tokens),
     )
-    everything = _claims(leaves, tree)
+    everything = proved_by(leaves, [tree])
     return Certificate(
         kind,
         statement,
@@ -150,7 +155,15 @@ def certificate(
     )
 
 
-def _least(whole: Boxes, finest: float, used: Sequence[bool]) -> FloatArray:
+def tree_of(
+    leaves: Leaves, whole: Boxes, limits: Limits, progress: Progress | None = None, start: Tree | None = None
+) -> Tree:
+    """The tree of one box."""
+    extents = whole.high - whole.low
+    return grow(whole, leaves.tokens, lambda boxes: leaves.axes(boxes, extents, limits.least), limits, progress, start)
+
+
+def least_sides(whole: Boxes, finest: float, used: Sequence[bool]) -> FloatArray:
     """Sides (k, 1) that are not halved: finer than asked for, at the end of floats, or without influence."""
     end = 4 * np.spacing(np.maximum(np.abs(whole.low), np.abs(whole.high)))
     return np.where(np.array(used)[:, None], np.maximum(finest * (whole.high - whole.low), end), np.inf)
@@ -164,8 +177,8 @@ def file_hashes(record: MechanismRecord) -> dict[str, str]:
 
 def _checked(kind: str, gap: float | None, finest: float, most: int) -> float:
     """The gap that is meant."""
-    if kind not in CLAIMS:
-        raise UsageError(f"kind: {kind!r} is none of {', '.join(CLAIMS)}")
+    if kind not in GAPS:
+        raise UsageError(f"kind: {kind!r} is none of {', '.join(GAPS)}")
     gap = GAPS[kind] if gap is None else gap
     if not 0 <= gap < math.inf:
         raise UsageError(f"gap: {gap!r} is no share", hint="1e-2 leaves a hundredth of the volume open")
@@ -176,14 +189,11 @@ def _checked(kind: str, gap: float | None, finest: float, most: int) -> float:
     return gap
 
 
-def _statement(
-    record: MechanismRecord,
-    mode: str | None,
-    strokes: Mapping[str, Stroke | None] | None,
-    rules: Formulas,
-    box: Box,
+def common_statement(
+    record: MechanismRecord, mode: str | None, strokes: Mapping[str, Stroke | None] | None, rules: Formulas
 ) -> dict[str, Any]:
-    given = {name: None if pair is None else _hex(pair) for name, pair in (strokes or {}).items()}
+    """What every kind states: which mechanism, in which mode, with which strokes, and over which coordinates."""
+    given = {name: None if pair is None else exact(pair) for name, pair in (strokes or {}).items()}
     return {
         "mechanism": record.name,
         "files": file_hashes(record),
@@ -191,19 +201,23 @@ def _statement(
         "mode": record.modes.default_working if mode is None else mode,
         "strokes": given,
         "held": {name: value.hex() for name, value in rules.slice.held.items()},
-        "coordinates": list(box.names),
-        "box": [_hex(pair) for pair in zip(box.low, box.high, strict=True)],
+        "coordinates": list(rules.slice.free),
     }
 
 
-def _hex(pair: Sequence[float]) -> list[str]:
-    return [float(value).hex() for value in pair]
+def exact(values: Iterable[float]) -> list[str]:
+    """Numbers as hex, which loses nothing.
+
+    >>> exact([3])
+    ['0x1.8000000000000p+1']
+    """
+    return [float(value).hex() for value in values]
 
 
-def _claims(leaves: Leaves, tree: Tree) -> dict[str, Any]:
-    """What the leaves prove together; volumes are exact sums, rounded outwards in the end."""
-    ends = np.flatnonzero(tree.leaves)
-    boxes, tokens = tree.boxes[ends], tree.tokens[ends]
+def proved_by(leaves: Leaves, trees: Sequence[Tree]) -> dict[str, Any]:
+    """What the leaves of trees prove together; volumes are exact sums, rounded outwards in the end."""
+    boxes = together([tree.boxes[np.flatnonzero(tree.leaves)] for tree in trees])
+    tokens = np.concatenate([tree.tokens[tree.leaves] for tree in trees])
     of = {key: tokens == key for key in (INSIDE, REGULAR, OPEN)}
     of[OUTSIDE] = ~(of[INSIDE] | of[REGULAR] | of[OPEN])
     count = {key: int(np.sum(mask)) for key, mask in of.items()}
@@ -218,7 +232,7 @@ def _claims(leaves: Leaves, tree: Tree) -> dict[str, Any]:
             "outside": count[OUTSIDE],
             "open": count[OPEN],
         },
-        "volume": _hex((_below(inside), -_below(-inside - volume[OPEN]))),
+        "volume": exact((_below(inside), -_below(-inside - volume[OPEN]))),
         "regular_volume": _below(volume[REGULAR]).hex(),
         "reached": reached,
         "regular": "no" if changes else "yes" if reached == "yes" and not count[INSIDE] else "open",

@@ -15,11 +15,10 @@ DIGITS = 8
 
 
 def statement_lines(document: Mapping[str, Any], record: MechanismRecord | None = None) -> list[str]:
-    """Mechanism, mode, box and what is held; angles in degrees where the mechanism's file has them so."""
+    """Mechanism, mode, box or path and what is held; angles in degrees where the mechanism's file has them so."""
     statement = document["statement"]
-    pairs = zip(statement["coordinates"], statement["box"], strict=True)
-    box = [_interval(record, name, float.fromhex(low), float.fromhex(high)) for name, (low, high) in pairs]
-    lines = [f"{statement['mechanism']}, working mode {statement['mode'] or 'of home'}", f"box: {', '.join(box)}"]
+    where = _path(statement, record) if document["kind"] == "path" else _box(statement, record)
+    lines = [f"{statement['mechanism']}, working mode {statement['mode'] or 'of home'}", *where]
     if statement["held"]:
         held = [f"{name} = {_value(record, name, float.fromhex(v))}" for name, v in statement["held"].items()]
         lines.append(f"held: {', '.join(held)}")
@@ -44,7 +43,7 @@ def claim_lines(document: Mapping[str, Any], record: MechanismRecord | None = No
         least = rounded(float.fromhex(claims["regular_volume"]), 0.0).split(" ")[0]
         lines += [f"at least {least}{unit} of it is free of singularities"]
     if "reached" in claims:
-        lines += [f"all of the box is reached: {claims['reached']}"]
+        lines += [f"all of the {document['kind']} is reached: {claims['reached']}"]
         lines += [f"all of it is free of singularities: {claims['regular']}"]
     leaves = ", ".join(f"{count} {name}" for name, count in claims["leaves"].items())
     return [*lines, f"factors looked at: {factors}", f"leaves: {leaves}"]
@@ -58,6 +57,22 @@ def rounded(low: float, high: float) -> str:
     """
     down, up = (Context(prec=DIGITS, rounding=rule) for rule in (ROUND_FLOOR, ROUND_CEILING))
     return f"{float(down.create_decimal(low)):.8g} .. {float(up.create_decimal(high)):.8g}"
+
+
+def _box(statement: Mapping[str, Any], record: MechanismRecord | None) -> list[str]:
+    pairs = zip(statement["coordinates"], statement["box"], strict=True)
+    box = [_interval(record, name, float.fromhex(low), float.fromhex(high)) for name, (low, high) in pairs]
+    return [f"box: {', '.join(box)}"]
+
+
+def _path(statement: Mapping[str, Any], record: MechanismRecord | None) -> list[str]:
+    """Both ends of a path, and of how many pieces it is."""
+    lines = []
+    for word in ("from", "to"):
+        pairs = zip(statement["coordinates"], statement[word], strict=True)
+        pose = [f"{name} = {_value(record, name, float.fromhex(value))}" for name, value in pairs]
+        lines.append(f"{word}: {', '.join(pose)}")
+    return [*lines, f"path: {len(statement['boxes'])} straight pieces, each in a box"]
 
 
 def _unit(document: Mapping[str, Any], record: MechanismRecord | None) -> str:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from assur.cli import regions
+from assur.cli import region_question
 from assur.cli.numbers import assignments, number, numbers
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
@@ -94,7 +94,7 @@ def _answer(record: Mechanism, asked: Asked, shared: Shared) -> Answer:
     from assur.workspace.aspects.checking import check_path
 
     mode = None if asked.mode == "all" else asked.mode
-    words = regions.question(record, mode, asked.box, asked.stroke, None, (), None, asked.at)
+    words = region_question.question(record, mode, asked.box, asked.stroke, None, (), None, asked.at)
     finest = None if asked.finest is None else number(asked.finest, "--finest")
     modes = all_modes(record, "inverse") if asked.mode == "all" else (words.mode,)
     found = []
@@ -104,16 +104,16 @@ def _answer(record: Mechanism, asked: Asked, shared: Shared) -> Answer:
     if asked.start is None:
         return Answer(tuple(found))
     first = found[0]
-    start = _pose(record, asked.start, "--from", first.box.names)
+    start = pose(record, asked.start, "--from", first.box.names)
     if asked.end is None:
         return Answer(tuple(found), place=first.of(start))
-    path = first.path(start, _pose(record, asked.end, "--to", first.box.names))
+    path = first.path(start, pose(record, asked.end, "--to", first.box.names))
     check = check_path(record, first, path) if path.status == "connected" else None
     return Answer(tuple(found), path, check)
 
 
-def _pose(record: Mechanism, text: str, option: str, names: Sequence[str]) -> list[float]:
-    """The pose that is meant, in lengths and rad."""
+def pose(record: Mechanism, text: str, option: str, names: Sequence[str]) -> list[float]:
+    """The pose that is meant, in lengths and rad: values in the order of the names, or NAME=VALUE."""
     parts = text.split(",")
     if "=" in text:
         given = assignments(parts, option, ",".join(f"{name}=0" for name in names))

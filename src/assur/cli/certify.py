@@ -1,4 +1,4 @@
-"""`assur certify`: a proof of what a working mode reaches, as a file."""
+"""`assur certify`: a proof of what a working mode reaches, or of a path, as a file."""
 
 from __future__ import annotations
 
@@ -26,13 +26,22 @@ def certify(
     *,
     output: Annotated[str, Parameter(name=("-o", "--output"), metavar="FILE", help="Where the proof goes (.json).")],
     kind: Annotated[
-        Literal["workspace", "box"],
-        Parameter(help="Bounds of the volume, or whether all of the box is reached and free of singularities."),
+        Literal["workspace", "box", "path"],
+        Parameter(
+            help="Bounds of the volume; whether all of the box is reached and free of singularities; a path that is."
+        ),
     ] = "workspace",
     mode: WorkingMode = None,
     box: Box = (),
     stroke: Stroke = (),
     at: Held = (),
+    start: Annotated[
+        str | None,
+        Parameter(name="--from", metavar="X,Y,..", help="A pose, of --kind path: values in order, or NAME=VALUE."),
+    ] = None,
+    end: Annotated[
+        str | None, Parameter(name="--to", metavar="X,Y,..", help="Another pose, of --kind path: where it leads.")
+    ] = None,
     gap: Annotated[
         str | None,
         Parameter(metavar="SHARE", help="Share of the volume that may stay open; 0.01, or 0.0001 of --kind box."),
@@ -51,6 +60,8 @@ def certify(
     The file holds the formulas and a tree of boxes, each of which is inside,
     outside, or left open; `assur verify` checks every one of them again. After
     Ctrl-C what is proved is kept, the rest is open, and --resume carries on.
+    --kind path looks for one inside --box, as `assur aspects` does, with boxes
+    down to --finest, and proves it; exit code 4: there is none, 5: undecided.
     --box and --stroke may be repeated; lengths and angles are in the
     mechanism's units. Degrees become floats in rad, those of a box of --kind box
     rounded outwards.
@@ -58,21 +69,27 @@ def certify(
     For example:
         assur certify zeng2019 -o cert.json
         assur certify zeng2019 -o b.json --kind box --box x=-20:0 --box z=400:420
+        assur certify fivebar -o p.json --kind path --from -60,150 --to 60,220
     """
     record = shared.mechanism(mechanism)
     from assur.certificates.certificate import certificate
-    from assur.certificates.summary import claim_lines, statement_lines
+    from assur.cli.certified_path import written
     from assur.cli.certified_regions import outer_box
     from assur.cli.numbers import number, whole_number
-    from assur.cli.output import heading
     from assur.cli.paths import output_file
     from assur.cli.progress import progress
-    from assur.cli.regions import question
+    from assur.cli.region_question import question
 
+    _compatible(kind, start, end, gap, resume)
     asked = question(record, mode, box, stroke, None, (), None, at)
     target = output_file(output, (".json",))
     share = None if gap is None else number(gap, "--gap")
     least, leaves = number(finest, "--finest"), whole_number(most, "--most")
+    if start is not None and end is not None:
+        from assur.cli import certified_path
+
+        ends = certified_path.Ends(start, end)
+        return certified_path.outcome(record, asked, ends, least, leaves, target, shared)
     with progress("certify", shared) as step:
         found = certificate(
             record,
@@ -80,19 +97,25 @@ def certify(
             outer_box(record, asked.box, asked.held) if kind == "box" else asked.box,
             asked.strokes,
             asked.held,
-            kind=kind,
+            kind="box" if kind == "box" else "workspace",
             gap=share,
             finest=least,
             most=leaves,
             progress=step,
             start=_earlier(target) if resume and target.exists() else None,
         )
-    found.write(target)
-    document = found.to_json()
-    first, *rest = [*statement_lines(document, record), *claim_lines(document, record)]
-    lines = [*rest, "how: interval arithmetic, not yet checked by `assur verify`", f"written: {target}"]
-    data = {key: value for key, value in document.items() if key not in ("program", "proof")}
-    return Outcome({**data, "written": str(target)}, lambda: [heading(first), *lines])
+    return written(found, target, record)
+
+
+def _compatible(kind: str, start: str | None, end: str | None, gap: str | None, resume: bool) -> None:
+    if kind != "path":
+        if start is not None or end is not None:
+            raise UsageError("--from and --to are of a path", hint="add --kind path")
+        return
+    if start is None or end is None:
+        raise UsageError("--kind path: from which pose to which?", hint="add --from and --to")
+    if gap is not None or resume:
+        raise UsageError("--kind path has no --gap and no --resume", hint="leave them out: a path is proved whole")
 
 
 def _earlier(path: Path) -> dict[str, Any]:

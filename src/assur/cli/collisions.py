@@ -19,6 +19,13 @@ MEET = 1
 SHOWN = 10
 """Pairs that a person sees; --json has all."""
 
+WHERE = {
+    "box": "poses of the workspace",
+    "home": "assemblies near home",
+    "motion": "poses along a closed motion from home",
+}
+"""What the configurations are, by what they were drawn from."""
+
 
 def collisions(
     mechanism: MechanismName,
@@ -26,7 +33,10 @@ def collisions(
     *,
     over: Annotated[
         Literal["workspace", "motion"],
-        Parameter(help="Poses drawn from the workspace (if left out), or the closed motion that --format glb shows."),
+        Parameter(
+            help="Poses drawn from the workspace (if left out; without a closed form, assemblies near home), or the "
+            "closed motion that --format glb shows."
+        ),
     ] = "workspace",
     samples: Annotated[str, Parameter(metavar="COUNT", help="How many poses; 200 if left out.")] = "200",
     seed: Annotated[str, Parameter(metavar="NUMBER", help="Of the random poses; 0 if left out.")] = "0",
@@ -59,16 +69,20 @@ def collisions(
     with progress("collisions", shared) as step:
         joints = sampled(record, count, mode, start) if over == "workspace" else closed_motion(record, count)[:-1]
         found = collisions(record, joints, step)
-    data = _data(record, found, over, mode or record.modes.default_working)
+    data = _data(record, found, over, mode or record.modes.default_working or None)
     return Outcome(data, lambda: _shown(record, found, data), MEET if found.meeting else 0)
 
 
-def _data(record: Mechanism, found: Collisions, over: str, mode: str) -> dict[str, Any]:
+def _data(record: Mechanism, found: Collisions, over: str, mode: str | None) -> dict[str, Any]:
+    from assur.scene.sampled import from_box
+
+    drawn = over if over == "motion" else "box" if from_box(record) else "home"
     return {
         "mechanism": record.name,
         "unit": record.unit,
         "over": over,
-        "mode": mode if over == "workspace" else None,
+        "drawn_from": drawn,
+        "mode": mode if drawn == "box" else None,
         "poses": found.poses,
         "known": "sampled",
         "coordinates": list(record.platform.pose),
@@ -97,8 +111,8 @@ def _shown(record: Mechanism, found: Collisions, data: dict[str, Any]) -> Iterab
     style, names = style_of(record), data["coordinates"]
     said = f"{count(len(found.meeting), 'pair')} of links meet" if found.meeting else "no links meet"
     yield heading(f"{record.name}, collisions: {said}")
-    where = f"poses of the workspace, mode {data['mode']}" if data["mode"] else "poses along a closed motion from home"
-    yield f"known at {found.poses} {where}; between them links may come nearer"
+    mode = f", mode {data['mode']}" if data["mode"] else ""
+    yield f"known at {found.poses} {WHERE[data['drawn_from']]}{mode}; between them links may come nearer"
     if not data["pairs"]:
         yield "every two links share a joint: nothing to ask"
         return

@@ -11,7 +11,8 @@ from assur.cli.output import heading, table
 from assur.cli.positions import EXIT_CODES, failures
 from assur.cli.progress import progress
 from assur.cli.quantities import point_text, point_title, pose_text, short, style_of
-from assur.cli.regions import Question, with_error
+from assur.cli.region_question import Question
+from assur.cli.regions import with_error
 from assur.errors import UsageError
 
 if TYPE_CHECKING:

@@ -71,7 +71,7 @@ def indices(
         assur indices zeng2019 --map x,z --at y=0 -o maps.npz
     """
     record = shared.mechanism(mechanism)
-    from assur.cli import indexed, mapped, regions
+    from assur.cli import indexed, mapped, region_question
     from assur.cli.numbers import numbers
     from assur.kinematics.answers.at_border import pose_from_border
 
@@ -87,5 +87,5 @@ def indices(
     if pose:
         values = numbers(pose, record.platform.pose, f"pose of {record.name}")
         return indexed.at_pose(record, pose_from_border(record, values), mode, unit_length)
-    asked = regions.question(record, mode, box, stroke, resolution, (), None, at)
+    asked = region_question.question(record, mode, box, stroke, resolution, (), None, at)
     return indexed.over_workspace(record, asked, points, unit_length, shared)

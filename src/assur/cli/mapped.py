@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from assur.cli import regions
+from assur.cli import region_question
 from assur.cli.indexed import Length, length_words
 from assur.cli.numbers import assignments, whole_number
 from assur.cli.options import Outcome, Shared
@@ -44,7 +44,9 @@ def over_plane(
 
     names = _names(record, plane)
     mode, box, stroke, resolution = asked
-    question = regions.question(record, mode, box, stroke, resolution, (), None, [*at, *_rest(record, names, at)])
+    question = region_question.question(
+        record, mode, box, stroke, resolution, (), None, [*at, *_rest(record, names, at)]
+    )
     count = whole_number(nodes, "--nodes")
     written = None if output is None else output_file(output, ENDINGS)
     if written is not None and written.suffix.lower() in PICTURES and len(names) != 2:

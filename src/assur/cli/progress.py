@@ -1,4 +1,4 @@
-"""Progress on standard error: a bar on a terminal, one line elsewhere where it takes long, nothing with --json."""
+"""Progress on standard error: a bar and times on a terminal, a line elsewhere if it takes long, none with --json."""
 
 from __future__ import annotations
 
@@ -22,7 +22,10 @@ LONG = 20.0
 
 @contextmanager
 def progress(label: str, shared: Plain) -> Iterator[Step]:
-    """A bar while the block runs, which goes when it ends; it pulses until the first step is reported."""
+    """A bar while the block runs, the time so far, and that left once it can be told; all goes when the block ends.
+
+    The bar pulses until the first step is reported.
+    """
     if shared.json:
         yield _nothing
         return
@@ -30,9 +33,10 @@ def progress(label: str, shared: Plain) -> Iterator[Step]:
         with _line(f"{label}: still at work after {LONG:g} s\n"):
             yield _nothing
         return
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    left = (TextColumn("left"), TimeRemainingColumn())
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn(), *left)
     with Progress(*columns, console=console(error=True), transient=True) as bars:
         bar = bars.add_task(label, total=None)
 

@@ -1,21 +1,19 @@
-"""What `assur workspace` is asked, and how its answer reads."""
+"""How the answer of `assur workspace` reads, as data, as a file and for a person."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from assur.cli import parasitic
-from assur.cli.numbers import assignments, interval, number, whole_number
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.paths import output_file
 from assur.cli.progress import progress
 from assur.cli.quantities import is_length, mode_words, short
-from assur.errors import UnknownNameError, UsageError
+from assur.cli.region_question import Question, unit_factor
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -23,53 +21,9 @@ if TYPE_CHECKING:
     from assur.mechanism import Mechanism
     from assur.workspace.region import Workspace
 
-Interval = tuple[float, float]
 ENDINGS = (".json", ".obj")
 SAME = 1e-9
 """A region is its box where it lacks no more than this share of it."""
-
-
-@dataclass(frozen=True)
-class Question:
-    """One workspace problem: lengths in the mechanism's unit, angles in rad."""
-
-    mode: str
-    box: dict[str, Interval]
-    strokes: dict[str, Interval]
-    resolution: int | None
-    sections: tuple[float, ...] | None
-    near: float | None
-    held: dict[str, float] | None
-
-
-def question(
-    record: Mechanism,
-    mode: str | None,
-    box: Sequence[str],
-    stroke: Sequence[str],
-    resolution: str | None,
-    section: Sequence[str],
-    near: str | None,
-    at: Sequence[str] = (),
-) -> Question:
-    """What was asked for, with every word checked."""
-    from assur.workspace.slices import slice_at
-
-    held = _held(record, at)
-    last = slice_at(record, held).free[-1]
-    cuts = tuple(number(text, "--section") * _factor(record, is_length(last)) for text in section)
-    distance = None if near is None else number(near, "--near")
-    if near is not None and distance is not None and distance <= 0:
-        raise UsageError(f"--near: {near.strip()} is not a positive length")
-    return Question(
-        mode=mode or record.modes.default_working,
-        box=_box(record, box),
-        strokes=_strokes(record, stroke),
-        resolution=None if resolution is None else whole_number(resolution, "--resolution"),
-        sections=cuts or None,
-        near=distance,
-        held=held,
-    )
 
 
 def target(text: str) -> Path:
@@ -109,17 +63,18 @@ def _data(record: Mechanism, asked: Question, found: Workspace) -> dict[str, Any
     data = found.to_json()
     limits = {item.name: item.stroke for item in record.inputs if item.stroke is not None} | asked.strokes
     box = [_outside(record, pair, is_length(name)) for name, pair in zip(names, data["box"], strict=True)]
-    last, factor = names[-1], _factor(record, is_length(names[-1]))
+    last, factor = names[-1], unit_factor(record, is_length(names[-1]))
     return {
         "mechanism": record.name,
         **data,
-        "held": {name: value / _factor(record, is_length(name)) for name, value in data["held"].items()},
+        "held": {name: value / unit_factor(record, is_length(name)) for name, value in data["held"].items()},
         "box": box,
         "sections": [{**item, last: item[last] / factor} for item in data["sections"]],
         "resolution": asked.resolution or default_resolution(record, found.slice),
         "strokes": {name: _outside(record, pair, lengths[name]) for name, pair in limits.items()},
         "parasitic": parasitic.largest(record, found),
         "nowhere": _nowhere(record, asked, found),
+        "empty": _empty(record, asked, found),
     }
 
 
@@ -128,63 +83,26 @@ def _nowhere(record: Mechanism, asked: Question, found: Workspace) -> list[str]:
     from assur.workspace.aspects.nowhere import nowhere_zero
 
     unseen = [item.factor for item in found.loci if not item.area and not item.everywhere]
-    if record.closed_form is None or not unseen:
+    if record.closed_form is None or not unseen or found.volume == 0:
         return []
     return sorted(nowhere_zero(record, unseen, asked.mode, asked.box, asked.strokes, asked.held))
 
 
-def _box(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
-    from assur.workspace.slices import coordinates
+def _empty(record: Mechanism, asked: Question, found: Workspace) -> Literal["proved", "sampled"] | None:
+    """How it is known that nothing is reached, where nothing is."""
+    from assur.workspace.aspects.nowhere import nothing_reached
 
-    example = f"{record.platform.pose[0]}=-110:90"
-    found = {}
-    for name, text in assignments(texts, "--box", example).items():
-        if name not in coordinates(record):
-            raise UnknownNameError(f"pose coordinate of {record.name}", name, coordinates(record))
-        found[name] = _inside(record, interval(text, f"--box {name}", example), is_length(name))
-    return found
-
-
-def _held(record: Mechanism, texts: Sequence[str]) -> dict[str, float] | None:
-    """What is held, None where nothing was said."""
-    example = f"{record.platform.pose[-1]}=0"
-    found = {
-        name: number(text, f"--at {name}") * _factor(record, is_length(name))
-        for name, text in assignments(texts, "--at", example).items()
-    }
-    return found or None
-
-
-def _strokes(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
-    """Strokes by input; one without a name is for every input that has none of its own."""
-    lengths = {item.name: item.coordinate.kind == "length" for item in record.inputs}
-    example = f"{record.inputs[0].name}=-300:300"
-    common = [text for text in texts if "=" not in text]
-    if len(common) > 1:
-        raise UsageError("--stroke: two intervals for all inputs", hint=f"name the input, as --stroke {example}")
-    found = {}
-    for text in common:
-        pair = interval(text, "--stroke", example)
-        found = {name: _inside(record, pair, length) for name, length in lengths.items()}
-    for name, text in assignments([text for text in texts if "=" in text], "--stroke", example).items():
-        if name not in lengths:
-            raise UnknownNameError(f"input of {record.name}", name, lengths)
-        found[name] = _inside(record, interval(text, f"--stroke {name}", example), lengths[name])
-    return found
-
-
-def _inside(record: Mechanism, pair: Interval, length: bool) -> Interval:
-    factor = _factor(record, length)
-    return pair[0] * factor, pair[1] * factor
+    if found.volume > 0:
+        return None
+    proved = record.closed_form is not None and nothing_reached(
+        record, asked.mode, asked.box, asked.strokes, asked.held
+    )
+    return "proved" if proved else "sampled"
 
 
 def _outside(record: Mechanism, pair: Sequence[float], length: bool) -> list[float]:
-    factor = _factor(record, length)
+    factor = unit_factor(record, length)
     return [pair[0] / factor, pair[1] / factor]
-
-
-def _factor(record: Mechanism, length: bool) -> float:
-    return math.pi / 180 if record.angle == "deg" and not length else 1.0
 
 
 def _content(path: Path, found: Workspace, data: dict[str, Any]) -> str:
@@ -209,7 +127,11 @@ def _shown(record: Mechanism, data: dict[str, Any], written: Path | None) -> Ite
         yield f"strokes: {_intervals(record, data['strokes'])}"
     what = "volume" if dimension == 3 else "area"
     size = f"{with_error(data['volume'], data['volume_error'])} {data['unit']}"
-    if _whole(record, data):
+    if data["empty"] == "proved":
+        yield f"{what}: 0 {data['unit']}: nothing is reached, proved"
+    elif data["empty"]:
+        yield f"{what}: 0 {data['unit']}: nothing is reached on {data['resolution']} cells along each coordinate"
+    elif _whole(record, data):
         yield f"{what}: {data['volume']:.10g} {data['unit']}, all of the box: {_unlimited(data)}"
     else:
         yield f"{what}: {size} (error: difference to half the resolution)"
@@ -225,7 +147,7 @@ def _shown(record: Mechanism, data: dict[str, Any], written: Path | None) -> Ite
 
 def _whole(record: Mechanism, data: dict[str, Any]) -> bool:
     """Whether the region is the box, as far as its grid can tell."""
-    factors = [_factor(record, is_length(name)) for name in data["coordinates"]]
+    factors = [unit_factor(record, is_length(name)) for name in data["coordinates"]]
     box = math.prod((high - low) * factor for (low, high), factor in zip(data["box"], factors, strict=True))
     return bool(data["volume_error"] <= SAME * box and abs(data["volume"] - box) <= SAME * box)
 
@@ -287,7 +209,8 @@ def _sections(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableTyp
 
 def _singular(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
     singular = data["parallel_singular"]
-    none = {name: "none, proved" if name in data["nowhere"] else "none found" for name in singular["factors"]}
+    unseen = "nothing is reached" if data["empty"] else "none found"
+    none = {name: "none, proved" if name in data["nowhere"] else unseen for name in singular["factors"]}
     rows = [
         (
             name,

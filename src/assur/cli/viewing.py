@@ -11,6 +11,8 @@ from assur.cli.options import Outcome
 from assur.errors import UsageError
 from assur.model.mechanism import MechanismRecord
 from assur.view.guard import Guard, is_loopback
+from assur.view.link import restored
+from assur.view.opening import leading_to
 
 LAST_PORT = 65535
 WARNING = (
@@ -23,6 +25,7 @@ WARNING = (
 def outcome(record: MechanismRecord, *, host: str, port: int, allow_network: bool, link: str, opens: bool) -> Outcome:
     """Run the view until it is interrupted."""
     check(host, port, allow_network=allow_network)
+    restored(record, link)  # raises where it is no link of this mechanism
     from assur.view.server import Served
     from assur.view.window import Window
 
@@ -32,24 +35,20 @@ def outcome(record: MechanismRecord, *, host: str, port: int, allow_network: boo
         for window in windows:
             window.restore(query)
 
-    served = Served(host, port, Guard.new(host), opened)
-    try:
+    with contextlib.ExitStack() as ends:
+        served = Served(host.strip("[]"), port, Guard.new(host), opened)
+        ends.callback(served.stop)
         window = Window(record, served)
+        ends.callback(window.close)
         windows.append(window)
-        try:
-            if link:
-                window.restore(link)
-            said = [WARNING] if not is_loopback(host) else []
-            sys.stderr.write("\n".join([*said, f"{record.name}: {served.url}", "Ctrl-C ends the view.", ""]))
-            sys.stderr.flush()
+        window.restore(link)
+        said = [WARNING] if not is_loopback(host) else []
+        sys.stderr.write("\n".join([*said, f"{record.name}: {served.url}", "Ctrl-C ends the view.", ""]))
+        sys.stderr.flush()
+        with contextlib.suppress(KeyboardInterrupt):
             if opens:
-                webbrowser.open(served.url)
-            with contextlib.suppress(KeyboardInterrupt):
-                wait()
-        finally:
-            window.close()
-    finally:
-        served.stop()
+                webbrowser.open(ends.enter_context(leading_to(served.url)).as_uri())
+            wait()
     return Outcome({"mechanism": record.name, "url": served.url}, lambda: [f"the view of {record.name} has ended"])
 
 

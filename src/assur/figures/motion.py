@@ -21,10 +21,9 @@ from assur.figures.context import Context
 from assur.figures.raster import SAMPLES, filled, lit
 from assur.figures.solid import model_camera
 from assur.figures.style import RED
-from assur.kinematics.border import held_inputs
-from assur.kinematics.closure import assemble
 from assur.kinematics.home import home_values
-from assur.kinematics.paths.following import follow
+from assur.kinematics.paths.course import course
+from assur.kinematics.paths.following import LARGEST_STEP, follow
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
 from assur.scene.mesh import Mesh, box, joined, rgb
@@ -122,19 +121,32 @@ def _frame(mesh: Mesh, trace: Mesh, view: View, sides: tuple[float, float]) -> N
 def there_and_back(record: MechanismRecord, to: ArrayLike, frames: int) -> FloatArray:
     """Joint values (frames + 1, n) from home to a pose (m,), over poses (k, m), and back the same way.
 
-    It slows down at both ends. Errors: `UsageError` that says what bars the way.
+    It slows down at both ends. Every frame is followed to with its pose prescribed, from the frame before: poses are
+    those of the straight way, as near a parallel singularity as it may pass, where inputs would hardly hold them.
+
+    Errors: `UsageError` that says what bars the way.
     """
-    way = follow(record, home_values(record), poses=to)
-    if way.stopped is not None:
+    home = home_values(record)
+    _unbarred(record, home, to, LARGEST_STEP)
+    way = course(record, "poses", pose_of(record, home), to)
+    found = [home]
+    for k in range(1, frames // 2 + 1):
+        share = (1 - np.cos(2 * np.pi * k / frames)) / 2 * way.shares[-1]
+        segment = int(np.searchsorted(way.shares, share)) - 1  # where the pose is home's there is none
+        found.append(home if segment < 0 else _unbarred(record, found[-1], way.at(share, segment), 1.0))
+    there = np.arange(frames + 1)
+    return np.array(found)[np.minimum(there, frames - there)]
+
+
+def _unbarred(record: MechanismRecord, joints: FloatArray, to: ArrayLike, largest_step: float) -> FloatArray:
+    """Joint values (n,) at the end of the path to a pose, which must not stop before it."""
+    path = follow(record, joints, poses=to, largest_step=largest_step)
+    if path.stopped is not None:
         raise UsageError(
-            f"{record.name}: the way from home is barred: {way.stopped}",
+            f"{record.name}: the way from home is barred: {path.stopped}",
             hint=f"see how far it goes: assur follow {record.name} --to ...",
         )
-    shares = (1 - np.cos(2 * np.pi * np.arange(frames + 1) / frames)) / 2 * way.shares[-1]
-    between = np.stack([np.interp(shares, way.shares, column) for column in way.joints.T], axis=1)
-    inputs = np.stack([np.interp(shares, way.shares, column) for column in way.inputs.T], axis=1)
-    held = np.stack([held_inputs(record, row, own) for row, own in zip(between, inputs, strict=True)])
-    return np.asarray(assemble(record, held, held=record.input_indices, near=True).values)
+    return np.asarray(path.joints[-1])
 
 
 def encoded_film(pictures: NDArray[np.uint8], form: Form, seconds: float = 4.0) -> bytes:

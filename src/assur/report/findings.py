@@ -42,7 +42,7 @@ from assur.singularity.examples import SingularExample
 from assur.singularity.verdict import Verdict, verdict_at
 from assur.topology.facts import Topology
 from assur.workspace.aspects.aspects import Aspects
-from assur.workspace.aspects.nowhere import nowhere_zero
+from assur.workspace.aspects.nowhere import nothing_reached, nowhere_zero
 from assur.workspace.certified.largest import LargestShape
 from assur.workspace.certified.region import CertifiedWorkspace
 from assur.workspace.grid import grid_over
@@ -262,9 +262,16 @@ class Findings:
     @cached_property
     def nowhere(self) -> frozenset[str]:
         """Of the parallel factors that have no locus inside the workspace those that are proved to have none."""
+        if self.workspace.volume == 0:  # of nothing everything is true
+            return frozenset()
         unseen = [locus.factor for locus in self.workspace.loci if not locus.area and not locus.everywhere]
         proved = attempt(lambda: nowhere_zero(self.record, unseen)) if unseen else frozenset[str]()
         return frozenset() if isinstance(proved, str) else proved
+
+    @cached_property
+    def unreached(self) -> bool:
+        """Whether it is proved that no pose of the workspace's box is reached."""
+        return attempt(lambda: nothing_reached(self.record)) is True
 
     @cached_property
     def cube(self) -> LargestShape | str:

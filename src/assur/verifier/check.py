@@ -1,8 +1,9 @@
 """The check: walk through the tree of boxes, prove every leaf anew, and compare what follows with what is claimed.
 
 The proof is the tree, depth first: a digit halves the box across that coordinate, at the float 0.5 low + 0.5 high, the
-lower half first. Leaves: i inside, every margin >= 0 in all of the box; r the same and no factor zero; oNN outside,
-margin NN (hex) < 0 in all of it; b left open. So the leaves cover the box and do not overlap, whatever is written.
+lower half first; a path has a tree for each of its boxes in turn. Leaves: i inside, every margin >= 0 in all of the
+box; r the same and no factor zero; oNN outside, margin NN (hex) < 0 in all of it; b left open. So the leaves cover the
+box and do not overlap, whatever is written.
 """
 
 from __future__ import annotations
@@ -24,7 +25,11 @@ from assur.verifier.reading import MalformedError, RefusedError, names, number, 
 
 BITS = 128
 LEAVES = {"i": "inside", "r": "regular", "o": "outside", "b": "open"}
-CLAIMS = {"workspace": ("leaves", "volume", "regular_volume"), "box": ("leaves", "reached", "regular")}
+CLAIMS = {
+    "workspace": ("leaves", "volume", "regular_volume"),
+    "box": ("leaves", "reached", "regular"),
+    "path": ("leaves", "reached", "regular"),
+}
 TOKEN = re.compile(r"[0-9]|[irb]|o[0-9a-f]{2}")
 Box = tuple[list[float], list[float]]
 
@@ -56,22 +61,44 @@ def _check(document: dict[str, Any], folder: Path | None) -> None:
             raise RefusedError(f"another mechanism: {folder} has no file {name}")
         if hashlib.sha256((folder / name).read_bytes()).hexdigest() != expected:
             raise RefusedError(f"another mechanism or version: {folder / name} is not the file it was made for")
-    coordinates, pairs = names(statement["coordinates"]), statement["box"]
-    low, high = ([number(pair[k]) for pair in pairs] for k in (0, 1))
-    if not all(a < b for a, b in zip(low, high, strict=True)) or not len(low) == len(coordinates) > 0:
-        raise ValueError("a box that is empty or reversed, or one of other coordinates")
-    proved = _proved(Program(document["program"], coordinates), coordinates, (low, high), document["proof"])
+    coordinates, is_path = names(statement["coordinates"]), document["kind"] == "path"
+    boxes = [_box(pairs, len(coordinates)) for pairs in (statement["boxes"] if is_path else [statement["box"]])]
+    if is_path:
+        _covered(statement, boxes)
+    proved = _proved(Program(document["program"], coordinates), coordinates, boxes, document["proof"])
     wanted = {name: proved[name] for name in CLAIMS[document["kind"]]}
     if claims != wanted:
         raise RefusedError(f"{claims} is claimed, {wanted} is proved")
+    if is_path and proved["regular"] != "yes":
+        raise RefusedError("not every box of the path is reached and free of singularities")
 
 
-def _proved(program: Program, coordinates: list[str], whole: Box, proof: str) -> dict[str, Any]:
+def _box(pairs: list[list[str]], count: int) -> Box:
+    low, high = ([number(pair[k]) for pair in pairs] for k in (0, 1))
+    if not all(a < b for a, b in zip(low, high, strict=True)) or not len(low) == count > 0:
+        raise ValueError("a box that is empty or reversed, or one of other coordinates")
+    return low, high
+
+
+def _covered(statement: dict[str, Any], boxes: list[Box]) -> None:
+    """Both ends of every piece lie in its box, which is convex: so all of the piece does. Floats compare exactly."""
+    points = [[number(value) for value in point] for point in statement["points"]]
+    if not len(points) == len(boxes) + 1 > 1:
+        raise ValueError(f"a path of {len(points)} vertices in {len(boxes)} boxes")
+    if (statement["points"][0], statement["points"][-1]) != (statement["from"], statement["to"]):
+        raise RefusedError("the path does not lead from the one pose to the other")
+    for k, (low, high) in enumerate(boxes):
+        ends = (value for point in points[k : k + 2] for value in zip(low, point, high, strict=True))
+        if not all(a <= value <= b for a, value, b in ends):
+            raise RefusedError(f"piece {k + 1} of the path, of {len(boxes)}, does not lie in its box")
+
+
+def _proved(program: Program, coordinates: list[str], boxes: list[Box], proof: str) -> dict[str, Any]:
     """Everything that the leaves prove together."""
     tokens = TOKEN.findall(proof)
     if sum(map(len, tokens)) != len(proof):
         raise ValueError("the proof has signs that no proof has")
-    stack, count, signs = [whole], Counter[str](), set[tuple[int, bool]]()
+    stack, count, signs = boxes[::-1], Counter[str](), set[tuple[int, bool]]()
     inner: list[Box] = []
     volume = dict.fromkeys(LEAVES, fmpq(0))
     for place, token in enumerate(tokens, 1):

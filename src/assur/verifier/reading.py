@@ -14,6 +14,8 @@ KEYS = {
     "statement": {"mechanism", "files", "parameters", "mode", "strokes", "held", "coordinates", "box"},
     "program": {"operations", "margins", "nonzero", "factors"},
 }
+PATH = KEYS["statement"] - {"box"} | {"from", "to", "points", "boxes"}
+"""Keys of a statement about a path."""
 
 
 class RefusedError(Exception):
@@ -38,7 +40,8 @@ def read(data: bytes) -> dict[str, Any]:
         raise MalformedError(f"no certificate: its format is not {FORMAT!r}")
     if document.get("version") != VERSION:
         raise MalformedError(f"version {document.get('version')!r} of the format; this verifier knows {VERSION}")
-    for part, keys in KEYS.items():
+    for part, usual in KEYS.items():
+        keys = PATH if part == "statement" and document["kind"] == "path" else usual
         found = document[part] if part else document
         if not isinstance(found, dict) or set(found) != keys:
             raise MalformedError(f"{part or 'the certificate'} does not have the keys {', '.join(sorted(keys))}")

@@ -13,7 +13,6 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.border import inputs_of
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, QUATERNION, has_quaternion, is_angle
@@ -121,11 +120,6 @@ def read(record: MechanismRecord, values: FloatArray) -> FloatArray:
         turn = rotations.from_quaternion(np.array([named[name] for name in QUATERNION]))
         named |= {name: float(angle) for name, angle in zip(ANGLES, rotations.to_angles(turn), strict=True)}
     return np.array([named[item.name] for item in dials(record)])
-
-
-def read_inputs(record: MechanismRecord, values: FloatArray) -> FloatArray:
-    """Where the inputs' dials stand (k,) at joint values (n,), in lengths and rad."""
-    return inputs_of(record, values)
 
 
 def pose_with(record: MechanismRecord, named: Mapping[str, float]) -> FloatArray:

@@ -51,14 +51,11 @@ class Drawing:
 
     Attributes:
         solids, letters: in the frames of their links.
-        low, high: (3,) corners of the box about all at home.
         scale: the view's unit per unit of the mechanism.
     """
 
     solids: tuple[Solid, ...]
     letters: tuple[Letter, ...]
-    low: FloatArray
-    high: FloatArray
     scale: float
 
 
@@ -82,13 +79,7 @@ def drawing(record: MechanismRecord, values: FloatArray) -> Drawing:
         Solid(link, f"{link} {colour[1:]}", *_indexed(joined(meshes), scale), _bytes(colour))
         for (link, colour), meshes in grouped.items()
     ]
-    return Drawing(
-        tuple(solids),
-        _letters(record, shape, scale),
-        shape.cloud.min(axis=0) * scale,
-        shape.cloud.max(axis=0) * scale,
-        scale,
-    )
+    return Drawing(tuple(solids), _letters(record, shape, scale), scale)
 
 
 def places(record: MechanismRecord, values: FloatArray, scale: float) -> Mapping[str, tuple[FloatArray, FloatArray]]:
@@ -108,6 +99,17 @@ def places(record: MechanismRecord, values: FloatArray, scale: float) -> Mapping
         )
         for link, (turn, origin) in frames(record, values).items()
     }
+
+
+def cloud(found: Drawing, record: MechanismRecord, values: FloatArray) -> FloatArray:
+    """The vertices (m, 3) of all that is drawn, where it stands at joint values (n,), in the view's unit."""
+    stand = places(record, values, found.scale)
+    return np.concatenate(
+        [
+            item.vertices @ rotations.from_quaternion(stand[item.link][0]).T + stand[item.link][1]
+            for item in found.solids
+        ]
+    )
 
 
 def _indexed(mesh: Mesh, scale: float) -> tuple[FloatArray, NDArray[np.int64]]:

@@ -133,7 +133,7 @@ def _at_platform(record: MechanismRecord, start: FloatArray, pose: FloatArray) -
         gaps, derivative = closing_system(record, trial * scale, np.broadcast_to(pose, (len(rows), len(pose))))
         return gaps * weights / size, derivative * scale * weights[:, None] / size
 
-    found = least_squares.minimise(system, (start / scale)[None], tolerance=1e-12, max_steps=80)
+    found = least_squares.minimise(system, (start / scale)[None], tolerance=1e-12, max_steps=300)
     return np.asarray(found.x[0] * scale)
 
 

@@ -20,6 +20,9 @@ LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
 SAFE_SITES = ("none", "same-origin")
 """Sec-Fetch-Site of a page that is opened by hand, or from itself."""
 
+HTTP = 80
+"""The port that an address without one means."""
+
 BYTES = 24
 """Random bytes of a token."""
 
@@ -63,11 +66,9 @@ class Guard:
         >>> len(guard.token), guard.hosts
         (32, ('127.0.0.1', 'localhost', '[::1]'))
         """
-        token = secrets.token_urlsafe(BYTES)
-        if is_loopback(host):
-            return cls(token)
-        own = f"[{host}]" if ":" in host else host
-        return cls(token, (*LOOPBACK, own), any_address=is_everywhere(host))
+        own = as_sent(host)
+        hosts = LOOPBACK if own in LOOPBACK else (*LOOPBACK, own)
+        return cls(secrets.token_urlsafe(BYTES), hosts, any_address=is_everywhere(host))
 
     def check(self, path: str, headers: Iterable[tuple[str, str]], port: int) -> Verdict:
         """What becomes of a GET request that came in on `port`.
@@ -105,18 +106,41 @@ class Guard:
         return "" if socket or _by_hand(sent) else "embedded"
 
     def _is_own(self, host: str, port: int) -> bool:
-        """Whether a Host header names this server."""
-        name, colon, number = host.rpartition(":")
-        if not colon or number != str(port):
+        """Whether a Host header names this server; browsers leave the port of HTTP out."""
+        name = host.removesuffix(f":{port}")
+        if name == host and port != HTTP:
             return False
         return name in self.hosts or (self.any_address and _is_address(name))
 
     def _has_token(self, target: str) -> bool:
         """Whether a path is that of the page, compared in constant time and never decoded."""
         wanted = f"/{self.token}".encode()
-        given = target.encode("utf-8", "surrogateescape")
+        given = target.encode("utf-8", "surrogatepass")
         bare, slash = hmac.compare_digest(given, wanted), hmac.compare_digest(given, wanted + b"/")
         return bare or slash
+
+
+def as_sent(host: str) -> str:
+    """A host as a browser writes it into an address and sends it: in small letters, an IPv6 address short, in brackets.
+
+    >>> as_sent("MyBox"), as_sent("FE80:0::1"), as_sent("[::1]"), as_sent("127.0.0.2")
+    ('mybox', '[fe80::1]', '[::1]', '127.0.0.2')
+    """
+    if not _is_address(host):
+        return host.lower()
+    address = ipaddress.ip_address(host.strip("[]").partition("%")[0])
+    return f"[{address}]" if address.version == 6 else str(address)
+
+
+def reached_at(host: str) -> str:
+    """A host by which this machine reaches a server that listens on `host`: itself, or this machine for "every one".
+
+    >>> reached_at("::"), reached_at("0.0.0.0"), reached_at("mybox")
+    ('::1', '127.0.0.1', 'mybox')
+    """
+    if not is_everywhere(host):
+        return host
+    return "::1" if ":" in host else "127.0.0.1"
 
 
 def is_loopback(host: str) -> bool:
@@ -125,7 +149,7 @@ def is_loopback(host: str) -> bool:
     >>> is_loopback("localhost"), is_loopback("127.0.0.2"), is_loopback("::1"), is_loopback("192.0.2.7")
     (True, True, True, False)
     """
-    return host == "localhost" or (_is_address(host) and ipaddress.ip_address(host.strip("[]")).is_loopback)
+    return host.lower() == "localhost" or (_is_address(host) and ipaddress.ip_address(host.strip("[]")).is_loopback)
 
 
 def is_everywhere(host: str) -> bool:

@@ -45,7 +45,7 @@ class Keeper:
 
     def _pasted(self, event: Any) -> None:
         if event.client is not None:
-            self.window.restore(str(self.line.value))
+            self.window.go(str(self.line.value))
 
     def _picture(self, event: Any) -> None:
         if event.client is None:

@@ -18,6 +18,11 @@ FloatArray = NDArray[np.float64]
 LONGEST = 6000
 """Characters of a query: what a browser sends in one line, and more than any mechanism needs."""
 
+FIELDS = frozenset({"mechanism", "set", "at", "camera"})
+"""What a link can hold."""
+
+HINT = "copy the line 'link' of the view, or the address of the page with it"
+
 
 @dataclass(frozen=True)
 class Camera:
@@ -65,6 +70,8 @@ def restored(record: MechanismRecord, text: str) -> tuple[State, Camera | None]:
     if len(text) > LONGEST:
         raise UsageError(f"a link of {len(text)} characters; at most {LONGEST} are read")
     fields = parse_qs(urlsplit(text).query if "?" in text else text)
+    if text and not FIELDS & set(fields):
+        raise UsageError(f"this is no link of a view: '{text[:40]}'", hint=HINT)
     names = fields.get("mechanism", [record.name])
     if names != [record.name]:
         raise UsageError(f"this is a link of {', '.join(names)}, not of {record.name}", hint=f"assur view {names[0]}")

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import threading
 import time
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.view.state import State
+from assur.errors import AssurError
+from assur.view.explain import Reason
 from assur.view.trajectory import Trajectory, around, through
 
 if TYPE_CHECKING:
@@ -66,7 +68,15 @@ class Player:
     def _plan(self) -> None:
         if self.way is None:
             state = self.window.state
-            self.way = through(state, self.kept) if self.kept else around(state)
+            try:
+                self.way = through(state, self.kept) if self.kept else around(state)
+            except AssurError as error:
+                self.stop()
+                self.window.explain("trajectory", Reason("input", error.message))
+                return
+            except Exception:  # a bug: the worker shows it, and the next "play" begins anew
+                self.stop()
+                raise
             self.time.disabled = False
         self.window.explain("trajectory", self.way.reason)
 
@@ -82,7 +92,7 @@ class Player:
     def _at(self, share: float) -> None:
         if self.way is not None:
             self.time.value = share
-            self.window.now(State(self.window.state.record, self.way.at(share)), "time")
+            self.window.now(replace(self.window.state, values=self.way.at(share), reason=None), "time")
 
     def _scrubbed(self, event: Any) -> None:
         if event.client is not None and self.way is not None:

@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from assur.errors import AssurError, UsageError
-from assur.view.guard import POLICY, Answer, Guard, is_everywhere
+from assur.view.guard import POLICY, Answer, Guard, as_sent, reached_at
 
 REFUSED = b"refused\n"
 Opened = Callable[[str], None]
@@ -58,8 +58,7 @@ class Served:
     @property
     def url(self) -> str:
         """The address with its token."""
-        host = "127.0.0.1" if is_everywhere(self.host) else f"[{self.host}]" if ":" in self.host else self.host
-        return f"http://{host}:{self.port}/{self.guard.token}/"
+        return f"http://{as_sent(reached_at(self.host))}:{self.port}/{self.guard.token}/"
 
     def stop(self) -> None:
         """End it, threads included."""
@@ -102,8 +101,7 @@ class Served:
 
     def _check_guarded(self) -> None:
         """Ask for the page without the token, and stop everything where it is not refused."""
-        target = "127.0.0.1" if is_everywhere(self.host) else self.host
-        line = http.client.HTTPConnection(target, self.port, timeout=10)
+        line = http.client.HTTPConnection(reached_at(self.host), self.port, timeout=10)
         try:
             line.request("GET", "/")
             status = line.getresponse().status

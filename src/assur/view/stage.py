@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from assur.model.mechanism import MechanismRecord
 from assur.scene.layers import Layer
-from assur.view.drawing import Drawing, drawing, places
+from assur.view.drawing import Drawing, cloud, drawing, places
 from assur.view.link import Camera
 
 FloatArray = NDArray[np.float64]
@@ -20,7 +21,13 @@ GHOSTS = 12
 
 FAINT = 0.3
 STEADY = (1.0, -1.25, 0.75)
-"""From where the box about the mechanism is seen first, in its largest sides."""
+"""The side from which the mechanism is seen first."""
+
+OPENING = math.radians(45.0)
+"""Angle between the lower and the upper edge of the picture."""
+
+ROOM = 0.85
+"""Share of the smaller side of the picture that the mechanism takes at most when it is seen first."""
 
 
 class Stage:
@@ -39,6 +46,8 @@ class Stage:
             "/light", sky_color=(255, 255, 255), ground_color=(170, 165, 160), intensity=1.1
         )
         server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="medium")
+        server.gui.main_panel.dock_right()  # beside the scene, not over it
+        server.initial_camera.fov = OPENING
 
     @property
     def scale(self) -> float:
@@ -111,14 +120,11 @@ class Stage:
         for _, node in self._ghosts:
             node.visible = visible
 
-    def first_camera(self) -> Camera:
-        """Where the reader stands first, in the view's own unit."""
+    def first_camera(self, record: MechanismRecord, values: FloatArray) -> Camera:
+        """Where the reader stands first, in the view's own unit: all of the mechanism at (n,) is in the picture."""
         if self.drawing is None:
             return Camera((3.0, -3.0, 2.0), (0.0, 0.0, 0.0))
-        middle = (self.drawing.low + self.drawing.high) / 2
-        size = float(np.max(self.drawing.high - self.drawing.low))
-        there = middle + size * np.array(STEADY)
-        return Camera(_three(there), _three(middle))
+        return framed(cloud(self.drawing, record, values))
 
     def look(self, camera: Camera) -> None:
         """From a camera in the view's unit, for those who come and those who are there."""
@@ -143,6 +149,24 @@ class Stage:
             node.remove()
         self._ghosts, self._layers, self._letters = [], [], []
         self._frames = {}
+
+
+def framed(points: FloatArray) -> Camera:
+    """The camera that sees points (n, 3) as large as there is room for in a square picture.
+
+    >>> seen = framed(np.array([[1.0, -1.0, 5.0], [1.0, 1.0, 5.0], [-1.0, 1.0, 5.0], [-1.0, -1.0, 5.0]]))
+    >>> bool(np.max(np.abs(np.array(seen.look_at) - [0.0, 0.0, 5.0])) < 1e-12)
+    True
+    """
+    back = np.array(STEADY) / np.linalg.norm(STEADY)
+    right = np.cross([0.0, 0.0, 1.0], back)
+    right /= np.linalg.norm(right)
+    axes = np.array([right, np.cross(back, right), back])
+    seen = points @ axes.T
+    middle = (np.min(seen, axis=0) + np.max(seen, axis=0)) / 2
+    aside = np.max(np.abs(seen - middle)[:, :2], axis=1)
+    distance = float(np.max((seen - middle)[:, 2] + aside / (ROOM * math.tan(OPENING / 2))))
+    return Camera(_three(middle @ axes + distance * back), _three(middle @ axes))
 
 
 def _three(values: FloatArray) -> tuple[float, float, float]:

@@ -15,13 +15,14 @@ from assur.errors import AssurError, UsageError
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import CLOSED, assemble, characteristic_length, closure_error
 from assur.kinematics.home import home_values
-from assur.kinematics.paths.course import Prescribed
+from assur.kinematics.paths.course import Prescribed, Turns
 from assur.kinematics.paths.following import follow, mode_names
+from assur.kinematics.paths.locked import general_ranks
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
-from assur.model.registry import with_parameters
 from assur.view.dials import dials, pose_with, read
 from assur.view.explain import Reason, explain
+from assur.view.resizing import resized
 
 FloatArray = NDArray[np.float64]
 TOLERANCE = 1e-5
@@ -30,8 +31,8 @@ TOLERANCE = 1e-5
 OPEN = 1e-6
 """Joint values whose loops are open by more, in characteristic lengths, are no assembly."""
 
-PARTS = 8
-"""A dimension that cannot be changed at once is changed in so many parts."""
+HELD: dict[Prescribed, str] = {"inputs": "with the inputs held", "poses": "with the pose held"}
+"""What stays where a dimension changes, in the order in which it is tried."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,11 +43,13 @@ class State:
         record: the mechanism with its dimensions.
         values: (n,) joint values, an assembly, in rad or lengths.
         reason: why the last change stopped short; None where it did not.
+        ranks: those in general on this branch (`assur.kinematics.paths.locked`); None where they are not known yet.
     """
 
     record: MechanismRecord
     values: FloatArray
     reason: Reason | None = None
+    ranks: dict[str, int] | None = None
 
     @property
     def inputs(self) -> FloatArray:
@@ -132,7 +135,9 @@ def with_values(state: State, values: ArrayLike) -> State:
 
 
 def with_parameter(state: State, name: str, value: float) -> State:
-    """Another dimension, in the unit of the file, the mode kept: the inputs held where that closes, else the pose.
+    """Another dimension, in the unit of the file: with the inputs held as far as both modes are kept, else the pose.
+
+    Where neither can be, nothing changes, and the reason says at which dimension a mode ends.
 
     >>> from assur.model.registry import load_record
     >>> longer = with_parameter(start(load_record("fivebar")), "l1", 110.0)
@@ -141,55 +146,39 @@ def with_parameter(state: State, name: str, value: float) -> State:
     >>> print(with_parameter(longer, "l1", -1.0).reason)
     parameter 'l1' of fivebar (cranks) cannot be -1; allowed: a positive number in mm
     """
-    try:
-        changed = with_parameters(state.record, **{name: value})
-    except AssurError as error:
-        return replace(state, reason=Reason("dimension", error.message))
-    for held in ("inputs", "poses"):
-        values = _carried(state, name, value, held)
-        if values is not None:
-            return State(changed, values)
-    why = f"{name} = {value:g}: the loops do not close in this mode"
-    return replace(state, reason=Reason("dimension", why))
+    ranks = _ranks(state)
+    ends = []
+    for held in HELD:
+        try:
+            found = resized(state.record, state.values, name, value, held, ranks)
+        except AssurError as error:
+            return replace(state, reason=Reason("dimension", error.message))
+        if not found.why:
+            return State(found.record, found.values)
+        ends.append(f"{HELD[held]} it ends at {found.reached:.4g} ({found.why})")
+    return replace(state, reason=Reason("dimension", f"{name} = {value:g} leaves the mode: {', '.join(ends)}"))
 
 
-def _carried(state: State, name: str, value: float, held: str) -> FloatArray | None:
-    """Joint values (n,) with the changed dimension, followed in parts; None where a loop opens or the mode changes."""
-    before = state.record.parameters[name].value
-    for parts in (1, PARTS):
-        values: FloatArray | None = state.values
-        for share in np.arange(1, parts + 1) / parts:
-            try:
-                record = with_parameters(state.record, **{name: before + float(share) * (value - before)})
-            except AssurError:
-                values = None
-            values = None if values is None else _closed(record, values, state, held)
-            if values is None:
-                break
-        if values is not None and mode_names(record, values) == state.modes:
-            return values
-    return None
-
-
-def _closed(record: MechanismRecord, values: FloatArray, state: State, held: str) -> FloatArray | None:
-    if held == "inputs":
-        found = assemble(record, values, held=record.input_indices, near=True)
-    else:
-        found = assemble(record, values, poses=state.pose, near=True)
-    return found.values if bool(found.closed) else None
-
-
-def _followed(state: State, prescribed: Prescribed, wanted: FloatArray, turns: str) -> State:
+def _followed(state: State, prescribed: Prescribed, wanted: FloatArray, turns: Turns) -> State:
     record = state.record
     here = state.inputs if prescribed == "inputs" else state.pose
     if np.max(np.abs(wanted - here)) <= CLOSED * characteristic_length(record):
         return replace(state, reason=None)
-    asked = {"inputs" if prescribed == "inputs" else "poses": wanted}
+    ranks = _ranks(state)
+    inputs, poses = (wanted if prescribed == kind else None for kind in ("inputs", "poses"))
     try:
-        path = follow(record, state.values, turns=turns, tolerance=TOLERANCE, largest_step=1.0, **asked)  # type: ignore[arg-type]
+        path = follow(
+            record, state.values, inputs=inputs, poses=poses, turns=turns, tolerance=TOLERANCE, largest_step=1.0,
+            ranks=ranks,
+        )  # fmt: skip
     except AssurError as error:
         return replace(state, reason=Reason("input", error.message))
-    return State(record, path.joints[-1], explain(path, wanted))
+    return State(record, path.joints[-1], explain(path, wanted), ranks)
+
+
+def _ranks(state: State) -> dict[str, int]:
+    """Ranks in general; a change that is followed keeps them, so that they are found once on a branch."""
+    return general_ranks(state.record, state.values) if state.ranks is None else state.ranks
 
 
 def _names(record: MechanismRecord) -> tuple[str, ...]:

@@ -45,7 +45,7 @@ class Window:
         self.worker = Worker(self._idle, self._failed)
         self.stage = Stage(served.viser, self._ghost_clicked)
         self.stage.build(record, self.state.values)
-        self.stage.look(self.stage.first_camera())
+        self.stage.look(self.stage.first_camera(record, self.state.values))
         self.notes: dict[str, Any] = {}
         self.gui.set_panel_label(record.name)
         self._inputs = self._sliders("Inputs", dials.inputs(record), self.state.inputs, with_input)
@@ -72,8 +72,11 @@ class Window:
 
     def restore(self, query: str) -> None:
         """Show what a link says; a query without one is no wish."""
-        if "at=" not in query and "set=" not in query and "camera=" not in query:
-            return
+        if any(f"{field}=" in query for field in ("at", "set", "camera")):
+            self.go(query)
+
+    def go(self, query: str) -> None:
+        """Show what a link says; a person is told where it is none."""
 
         def task() -> None:
             state, camera = link.restored(self.original, query)
@@ -197,9 +200,9 @@ class Window:
         place = "dimension" if label.startswith("dimension") else label
         for name, note in self.notes.items():
             wanted = reason is not None and name == place
-            note.visible = wanted
             if wanted:
                 note.content = f'<div role="alert" style="{RED}">{html.escape(str(reason))}</div>'
+            note.visible = wanted
 
     def _idle(self) -> bool:
         """What takes longer, when nothing moves: other modes first, then the distance to the nearest singularity."""

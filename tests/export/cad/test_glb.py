@@ -109,6 +109,22 @@ def test_frames_of_the_animation_are_those_of_the_joint_graph(made):
     assert (record.platform.link, "translation") in found
 
 
+def test_a_link_that_goes_round_keeps_the_sense_of_its_quaternion():
+    """Half a turn on, the quaternion of a rotation comes with the other sign; a viewer would turn back all the way."""
+    record = assur.load("fivebar")
+    values = np.repeat(record.home_values[None], 25, axis=0)
+    column = record.inputs[0].coordinate.index
+    values[:, column] += np.linspace(0.0, 2 * np.pi, 25)
+    document, rows = read(glb(record, values))
+    plain = [rotations.to_quaternion(turns) for turns, _ in frames(record, values).values()]
+    assert any(np.any(np.sum(turn[1:] * turn[:-1], axis=1) < 0) for turn in plain)  # it does come so
+    channels, samplers = (document["animations"][0][name] for name in ("channels", "samplers"))
+    turned = [rows[samplers[item["sampler"]]["output"]] for item in channels if item["target"]["path"] == "rotation"]
+    assert turned
+    for turn in turned:
+        np.testing.assert_array_less(np.cos(np.pi / 12), np.sum(turn[1:] * turn[:-1], axis=1))
+
+
 def test_one_configuration_has_no_animation():
     record = assur.load("fivebar")
     assert "animations" not in read(glb(record, record.home_values[None]))[0]

@@ -10,14 +10,8 @@ import pytest
 
 import assur
 from assur.errors import UnknownNameError, UsageError
-from assur.kinematics.closed_form.sweep import (
-    WANT,
-    direct_all_sweep,
-    inverse_all_expanded_sweep,
-    inverse_all_sweep,
-    inverse_sweep,
-)
-from assur.kinematics.modes import all_modes
+from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep, inverse_all_sweep
+from assur.kinematics.closed_form.sweep import WANT, inverse_sweep
 
 COUNT = 4999  # odd, and no multiple of any block
 WITH_BRANCHES = [name for name in assur.names() if callable(assur.load(name).closed_form.direct)]
@@ -58,8 +52,8 @@ def jobs(mechanism):
     return {
         "one": lambda **options: list(inverse_sweep(mechanism, poses, **options).values()),
         "distinct": lambda **options: _flat(inverse_all_sweep(mechanism, poses, **options)),
-        "expanded": lambda **options: list(inverse_all_expanded_sweep(mechanism, poses, **options)),
-        "direct": lambda **options: list(direct_all_sweep(mechanism, inputs, **options)),
+        "expanded": lambda **options: list(all_modes_sweep(mechanism, "inverse", poses, **options)),
+        "direct": lambda **options: list(all_modes_sweep(mechanism, "direct", inputs, **options)),
     }
 
 
@@ -115,65 +109,10 @@ def test_determinants_are_the_products_of_their_factors(zeng):
         np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-12 * 280**3)
 
 
-def test_every_row_of_the_expanded_answer_is_its_mode(mechanism):
-    poses = poses_of(mechanism)
-    inputs, exists = inverse_all_expanded_sweep(mechanism, poses, block=999)
-    modes = all_modes(mechanism, "inverse")
-    assert inputs.shape == (len(modes), len(mechanism.inputs), COUNT)
-    for k, mode in enumerate(modes):
-        one = inverse_sweep(mechanism, poses, mode, ("inputs", "exists"))
-        np.testing.assert_array_equal(inputs[k], one["inputs"])
-        np.testing.assert_array_equal(exists[k], one["exists"])
-
-
-def test_distinct_numbers_broadcast_to_the_expanded_answer(mechanism):
-    poses = poses_of(mechanism)
-    distinct, exists = inverse_all_sweep(mechanism, poses)
-    expanded, all_exist = inverse_all_expanded_sweep(mechanism, poses)
-    axes = (2,) * len(mechanism.modes.working)
-    for k, values in enumerate(distinct):
-        wide = np.broadcast_to(values, (*axes, COUNT)).reshape(-1, COUNT)
-        np.testing.assert_array_equal(wide, expanded[:, k])
-    np.testing.assert_array_equal(np.broadcast_to(exists, (*axes, COUNT)).reshape(-1, COUNT), all_exist)
-
-
-def test_32_inverses_are_12_numbers(zeng):
-    distinct, exists = inverse_all_sweep(zeng, poses_of(zeng))
-    assert [values.size // COUNT for values in distinct] == [4, 4, 4]
-    assert exists.size // COUNT == 4
-
-
-def test_directs_contain_the_pose_whose_inputs_they_are_given(mechanism):
-    poses = poses_of(mechanism)
-    found = inverse_sweep(mechanism, poses)
-    sizes = np.abs(found["factors"]) / np.abs(found["factors"]).max(axis=1, keepdims=True)
-    regular = found["exists"] & np.all(sizes > 1e-3, axis=0)
-    assert regular.sum() > 50
-    directs, exist = direct_all_sweep(mechanism, found["inputs"][:, regular])
-    gaps = np.abs(directs - poses[:, regular]).max(axis=1)  # (K, N)
-    np.testing.assert_array_less(np.where(exist, gaps, np.inf).min(axis=0), 1e-8 * np.ptp(poses))
-
-
-def test_directs_agree_with_the_solution_set(mechanism):
-    inputs = inputs_of(mechanism)
-    poses, exist = direct_all_sweep(mechanism, inputs, block=100)
-    found = mechanism.direct(inputs.T)
-    np.testing.assert_array_equal(exist.T, found.exists)
-    assert exist.any()
-    np.testing.assert_array_equal(np.moveaxis(poses, 2, 0)[exist.T], found.poses[exist.T])
-
-
 @pytest.mark.parametrize(("x", "exists"), [(80.0, True), (79.9999, True), (80.0 + 1e-15, True), (80.0 + 1e-6, False)])
 def test_existence_ends_where_a_margin_ends(zeng, x, exists):
     # x + b - d = l4 at x = 80: link 12 lies along X, the margin is zero to rounding and the branch still exists
     assert inverse_sweep(zeng, ([x], [0.0], [250.0]), "++-++")["exists"].tolist() == [exists]
-
-
-@pytest.mark.parametrize(("gap", "exists"), [(0.0, False), (1e-3, True), (-1e-3, True)])
-def test_self_motion_is_no_pose(zeng, gap, exists):
-    # B = yA1 - l3 - yA2 = 0 lets the platform move with all inputs locked: a curve, of which no sample is listed
-    _, exist = direct_all_sweep(zeng, ([100.0 + gap], [-40.0], [60.0]))
-    assert bool(exist.any()) is exists
 
 
 def test_no_poses_at_all(mechanism):
@@ -189,8 +128,8 @@ def test_no_poses_at_all(mechanism):
     distinct, exists = inverse_all_sweep(mechanism, np.empty((m, 0)))
     assert len(distinct) == n
     assert exists.shape[-1] == 0
-    assert inverse_all_expanded_sweep(mechanism, np.empty((m, 0)))[0].shape[1:] == (n, 0)
-    assert direct_all_sweep(mechanism, np.empty((n, 0)))[0].shape[1:] == (m, 0)
+    assert all_modes_sweep(mechanism, "inverse", np.empty((m, 0)))[0].shape[1:] == (n, 0)
+    assert all_modes_sweep(mechanism, "direct", np.empty((n, 0)))[0].shape[1:] == (m, 0)
 
 
 @pytest.mark.parametrize("want", WANT)
@@ -239,7 +178,7 @@ def test_refuses_wrong_names_and_components(zeng):
     with pytest.raises(UsageError, match="shapes"):
         inverse_all_sweep(zeng, (poses[0], poses[1], poses[2, :5]))
     with pytest.raises(UsageError, match="shapes"):
-        direct_all_sweep(zeng, (1.0, 2.0, 3.0))
+        all_modes_sweep(zeng, "direct", (1.0, 2.0, 3.0))
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
@@ -247,7 +186,7 @@ def test_refuses_what_is_not_finite(zeng, bad):
     poses = poses_of(zeng, 10)
     poses[1, 7] = bad
     with pytest.raises(UsageError, match="finite"):
-        inverse_all_expanded_sweep(zeng, poses, block=4)
+        all_modes_sweep(zeng, "inverse", poses, block=4)
 
 
 def test_condition_index_is_that_of_the_velocity_map_by_svd(mechanism):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import pytest
 
 from assur.model.registry import load_record
@@ -47,3 +49,18 @@ def test_that_there_is_no_singularity_inside_says_how_it_is_known(name, said):
     table = next(item for item in made.results if isinstance(item, Table))
     assert all(row[2].startswith(said) for row in table.rows)
     assert table.known_by.startswith("proved" if "proved" in said else "not proved")
+
+
+@pytest.mark.parametrize(
+    ("box", "known"),
+    [
+        ({"x": (1000.0, 1100.0), "y": (1000.0, 1100.0)}, "proved by interval arithmetic: nothing is reached"),
+        ({"x": (223.99, 323.0), "y": (-40.0, 50.0)}, "not proved: that nothing is reached"),
+    ],
+)
+def test_of_an_empty_workspace_no_factor_is_said_to_be_proved(box, known):
+    found = Findings(dataclasses.replace(load_record("fivebar"), box=box), 4, False)
+    assert found.workspace.volume == 0
+    table = next(item for item in reach(found).results if isinstance(item, Table))
+    assert {row[2] for row in table.rows} == {"nothing is reached"}
+    assert table.known_by.startswith(known)

@@ -9,7 +9,7 @@ import pytest
 
 import assur
 from assur.errors import UsageError
-from assur.workspace.aspects.nowhere import nowhere_zero
+from assur.workspace.aspects.nowhere import nothing_reached, nowhere_zero
 from assur.workspace.region import workspace
 
 NAMES = ("zeng2019", "fivebar", "linear_delta_4r", "three_upu", "h4_robot")
@@ -43,6 +43,23 @@ def test_the_region_counts_and_so_do_strokes():
     assert "w" in nowhere_zero(record, box={"z": (300, 480)})
     assert nowhere_zero(record, ["v"], box={"z": (300, 480)}) == {"v"}
     assert nowhere_zero(record, ["sin_alpha_minus_beta"]) == {"sin_alpha_minus_beta"}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_region_with_poses_is_never_said_to_have_none(name):
+    assert not nothing_reached(assur.load(name))
+
+
+def test_nothing_is_reached_beyond_the_arms_and_something_just_within():
+    """P of the five-bar is at most l1 + l2 = 294 from either pivot, at (-+70, 0): beyond x = 224 nothing is."""
+    record = assur.load("fivebar")
+    for x, there in ((223.0, True), (224.5, False)):
+        box = {"x": (x, x + 100.0), "y": (-50.0, 50.0)}
+        assert nothing_reached(record, box=box) is not there
+        points = np.stack(np.meshgrid(np.linspace(*box["x"], 201), np.linspace(*box["y"], 101)), axis=-1).reshape(-1, 2)
+        assert bool(np.any(record.inverse(points, "-+").exists)) is there
+    short = {item.name: (0.0, 1e-3) for item in record.inputs}
+    assert nothing_reached(record, box={"x": (-20.0, 20.0), "y": (100.0, 120.0)}, strokes=short)
 
 
 def test_without_a_closed_form_nothing_is_proved():

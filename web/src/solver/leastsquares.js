@@ -1,4 +1,4 @@
-/** Least squares by Householder's reflections, and singular values by Jacobi's rotations. No more than that. */
+/** Least squares and null spaces by Householder's reflections, singular values by Jacobi's rotations. That is all. */
 
 /**
  * The x that makes |A x - b|^2 + (damping |x|)^2 least, for several right sides at once.
@@ -56,6 +56,39 @@ function backSubstituted(work, column, n) {
     x[k] = work[k][k] === 0 ? 0 : sum / work[k][k];
   }
   return x;
+}
+
+/**
+ * An orthonormal basis of what a matrix takes to zero, by reflections of its transpose, the longest column first.
+ * @param {ArrayLike<number>[]} matrix m rows of n numbers
+ * @param {number} n
+ * @param {number} tolerance share of the largest pivot below which a row adds nothing
+ * @returns {Float64Array[]} n - rank vectors of n numbers
+ */
+export function nullSpace(matrix, n, tolerance = 1e-9) {
+  const m = matrix.length;
+  // the rows of the matrix, then the rows of an identity, which become the basis
+  const work = [...matrix.map((row) => Float64Array.from(row)), ...Array.from({ length: n }, (_, i) => unit(n, i))];
+  let rank = 0;
+  let first = 0;
+  for (; rank < Math.min(m, n); rank++) {
+    const left = work.slice(rank, m).map((row) => tail(row, rank));
+    const pivot = left.reduce((best, size, i) => (size > left[best] ? i : best), 0);
+    first ||= left[pivot];
+    if (!(left[pivot] > tolerance * first)) break;
+    [work[rank], work[rank + pivot]] = [work[rank + pivot], work[rank]];
+    reflect(work, rank, n);
+  }
+  return Array.from({ length: n - rank }, (_, k) => Float64Array.from({ length: n }, (_, i) => work[m + i][rank + k]));
+}
+
+const unit = (n, i) => Float64Array.from({ length: n }, (_, k) => (k === i ? 1 : 0));
+
+/** Length of a row from its k-th number on. */
+function tail(row, k) {
+  let sum = 0;
+  for (let i = k; i < row.length; i++) sum += row[i] * row[i];
+  return Math.sqrt(sum);
 }
 
 /**

@@ -1,24 +1,29 @@
 /**
  * Moving from where the mechanism stands to wanted inputs or a wanted pose, its mode kept.
  *
- * A step is taken where Newton's corrections shrink at once and no singularity is passed that would change the mode;
- * else it is halved. Where even a tiny step fails the motion stops, and a reason says why.
+ * A step is taken where Newton's corrections shrink at once, no joint moves far and no singularity that would change
+ * the mode can lie on it, be it passed once or twice; else it is halved. Where even a tiny step fails the motion stops,
+ * and a reason says why.
  */
 
 import { gaps, largestGap } from "./closure.js";
 import { frames } from "./frames.js";
 import { closestApproach, nearAssembly } from "./newton.js";
 import { between, poseOf } from "./pose.js";
-import { measuresAt } from "./rates.js";
+import { measuresAt, passage } from "./rates.js";
 import { apply, cross, dot, fromVector, norm } from "./rotation.js";
 
 const LEAST_STEP = 1 / 8192;
 const NEAR = 0.08; // a step as small as the least one ends that near to a singularity
 const ALMOST = 1e-9;
+const FURTHEST = 0.3; // that a joint value goes in one step, in rad or of the model's length
+const AIM = 0.9; // share of that which the next step is meant to go
+const FLOOR = 1e-8; // a measure below this may be on either side of 0
 
 /**
  * @typedef {{kind: "stroke"|"gap"|"singular"|"limit", text: string, joint: string, amount: number}} Reason
- * @typedef {{values: number[], status: "moved"|"stopped", reason: Reason|null, share: number}} Moved share: of the way
+ * @typedef {{values: number[], status: "moved"|"stopped", reason: Reason|null, share: number,
+ *   crossed: boolean}} Moved share: of the way; crossed: a parallel singularity may have been passed, as was asked for
  */
 
 /** Printed values of the inputs, lengths and rad. @returns {number[]} */
@@ -58,40 +63,57 @@ export function toPose(model, values, target, options = {}) {
 
 function followed(model, start, attempt, ask, { side, limits = true, through = false }) {
   const guard = limits ? limitsOf(model, start) : [];
-  let [values, share, step, reason] = [start, 0, 1, null];
-  const harmless = side === "inputs" ? "serial" : through ? "parallel" : "neither";
-  let before = measuresAt(model, values);
+  const forbidden = regularKinds(model).filter((kind) => (kind === "parallel" ? !through : side === "pose"));
+  let [values, share, step, reason, crossed] = [start, 0, 1, null, false];
+  let here = measuresAt(model, values);
   while (share < 1) {
     const next = Math.min(1, share + step);
     const found = attempt(values, next);
-    const after = found && measuresAt(model, found);
-    const limit = found && guard.find((item) => item.margin(found) < -item.slack);
-    const crossed = found && passed(before, after);
-    const refused = !found || limit || (crossed && crossed !== harmless);
-    if (refused) {
-      reason = limit ? limit.reason : { passed: crossed };
+    const long = found && longest(model, values, found);
+    const far = long > FURTHEST;
+    const limit = found && !far && guard.find((item) => item.margin(found) < -item.slack);
+    const there = found && !far && !limit && measuresAt(model, found);
+    const lost = there && forbidden.find((kind) => passed(here, there, kind));
+    if (!there || lost) {
+      reason = limit ? limit.reason : { passed: lost || null };
       if (next - share <= LEAST_STEP) break;
       step = (next - share) / 2;
     } else {
-      [values, share, before] = [found, next, after];
-      [step, reason] = [step * 2, null];
+      crossed ||= through && passed(here, there, "parallel");
+      [values, share, here] = [found, next, there];
+      [step, reason] = [step * Math.min(2, (AIM * FURTHEST) / long), null];
     }
   }
   values = wrapped(model, values);
-  if (share >= 1) return { values, status: "moved", reason: null, share: 1 };
+  if (share >= 1) return { values, status: "moved", reason: null, share: 1, crossed };
   return {
     values,
     status: "stopped",
-    reason: reason.kind ? reason : why(model, values, before, reason.passed, ask, side),
+    reason: reason.kind ? reason : why(model, values, here, reason.passed, ask, side),
     share,
+    crossed,
   };
 }
 
-/** Which singularity lies between two assemblies: "serial" or "parallel", or null. */
-function passed(before, after) {
-  if (before.sign * after.sign >= 0) return null;
-  return Math.max(before.parallel, after.parallel) < Math.max(before.serial, after.serial) ? "parallel" : "serial";
+/** How far the joint that moves most goes, without dimensions. */
+const longest = (model, from, to) =>
+  to.reduce((most, value, k) => Math.max(most, Math.abs(value - from[k]) / model.scale[k]), 0);
+
+/** The singularities that change a mode: those that home does not have, as one that has them has them everywhere. */
+function regularKinds(model) {
+  if (!regular.has(model)) {
+    const home = measuresAt(model, model.home);
+    regular.set(
+      model,
+      ["parallel", "serial"].filter((kind) => home[kind] > FLOOR),
+    );
+  }
+  return regular.get(model);
 }
+const regular = new WeakMap();
+
+/** Whether a singularity may lie between two assemblies, or at the second one. */
+const passed = (here, there, kind) => there[kind] < FLOOR || !passage(here, there, kind).kept;
 
 /** Why no small step succeeds. @returns {Reason} */
 function why(model, values, measured, crossed, ask, side) {

@@ -18,13 +18,15 @@ from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics import border
+from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep
 from assur.kinematics.closed_form.blocks import FloatArray, Progress
 from assur.kinematics.closed_form.filling import chosen
+from assur.kinematics.closed_form.formulas import formulas
 from assur.kinematics.closed_form.grids import Grid
 from assur.kinematics.closed_form.kept import KINDS, State
 from assur.kinematics.closed_form.recorded import recording
 from assur.kinematics.closed_form.streamed import BLOCK, begun_grid, write_grid
-from assur.kinematics.closed_form.sweep import Want, direct_all_sweep, inverse_all_expanded_sweep, inverse_sweep
+from assur.kinematics.closed_form.sweep import Want, inverse_sweep
 from assur.kinematics.modes import Problem, all_modes, mode_signs
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.status import Status, branch_kernel, classify, closed_form_of
@@ -111,6 +113,7 @@ class StoredSweep:
         question = {
             "kind": "stored sweep",
             "mechanism": self.record.name,
+            **formulas(self.record, self.problem),
             "dimensions": {name: float(value) for name, value in vars(self.record.values).items()},
             "problem": self.problem,
             "mode": self.mode,
@@ -162,8 +165,7 @@ class StoredSweep:
         if self.problem == "inverse" and self.mode != ALL:
             wanted = tuple(dict.fromkeys(self._wanted))
             return inverse_sweep(record, given, self.mode, wanted, engine=engine, threads=1)  # type: ignore[arg-type]  # engine is one of them
-        sweep = direct_all_sweep if self.problem == "direct" else inverse_all_expanded_sweep
-        values, exists = sweep(record, given, engine=engine, threads=1)  # type: ignore[arg-type]  # the same
+        values, exists = all_modes_sweep(record, self.problem, given, engine=engine, threads=1)  # type: ignore[arg-type]  # the same
         name = "poses" if self.problem == "direct" else "inputs"
         if self.mode == ALL:
             return {name: values, "exists": exists}

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.closed_form.blocks import FloatArray, Progress, in_order, parts_of
 from assur.kinematics.closed_form.filling import Engine, chosen, threads_of
+from assur.kinematics.closed_form.formulas import formulas
 from assur.kinematics.closed_form.grids import Box, Grid, grid_over
 from assur.kinematics.closed_form.kept import RowsFile, State, make_files
 from assur.kinematics.closed_form.recorded import recording
@@ -219,6 +220,7 @@ def _question(
 
     return solve, {
         "mechanism": record.name,
+        **formulas(record, "inverse"),
         "dimensions": {name: float(value) for name, value in vars(record.values).items()},
         "mode": asked,
         "box": {name: [a, b] for name, a, b in zip(grid.names, grid.low, grid.high, strict=True)},

@@ -1,5 +1,7 @@
 """Sweeps: the closed forms over millions of poses, block by block, so that only the answer needs memory.
 
+Here the inverse problem in one mode; `all_modes_sweep.py` has both problems in all of them, with the same engines.
+
 A kernel's temporaries are as long as a block and stay in the cache; components come as separate arrays and
 the answers have the components first, (rows, N). Where `exists` is False the other numbers are those of the
 nearest branch (roots of negative radicands count as 0) and mean nothing.
@@ -12,7 +14,7 @@ threads; only a zero may have another sign, which compares equal.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from types import SimpleNamespace
 from typing import Any, Literal
 
@@ -25,11 +27,10 @@ from assur.kinematics.closed_form.blocks import Components, FloatArray, Progress
 from assur.kinematics.closed_form.existence import exists
 from assur.kinematics.closed_form.filling import Engine, Filler, chosen, empty, run
 from assur.kinematics.closed_form.recorded import recording
-from assur.kinematics.modes import Problem, mode_signs, sign_axes, sign_names
-from assur.kinematics.status import branch_kernel, closed_form_of
+from assur.kinematics.modes import mode_signs, sign_names
+from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
-from assur.numerics.recording.loops import empty_rows
 from assur.numerics.singular_values import float_condition_index
 from assur.numerics.small_matrices import determinant
 
@@ -41,10 +42,7 @@ WANT: tuple[Want, ...] = ALL_WANTED[:5]
 """What is worked out where nothing is said."""
 
 BLOCK = 16384
-"""Poses per block in one mode: measured, long enough to hide the calls and short enough for a cache of 1 MB."""
-
-BLOCK_ALL = 8192
-"""Poses per block where every temporary holds several branches."""
+"""Poses per block: measured, long enough to hide the calls and short enough for a cache of 1 MB."""
 
 
 def inverse_sweep(
@@ -140,165 +138,6 @@ def _in_one_mode(
         if "factors" in answer:
             found = form.factors(ns, p, branch.core)
             _store(answer["factors"], [found[item.name] for item in form.factor_list])
-
-
-def inverse_all_sweep(
-    record: MechanismRecord,
-    components: Components,
-    *,
-    block: int | None = None,
-    progress: Progress | None = None,
-    engine: Engine = "auto",
-    threads: int = 0,
-) -> tuple[tuple[FloatArray, ...], BoolArray]:
-    """All inverses at N poses, as the few distinct numbers that they are combinations of.
-
-    Returns:
-        One array per input, and `exists`, with an axis per working sign (plus, then minus) before the axis N;
-        an axis is 1 long where the sign makes no difference. Broadcasting gives every combination.
-
-    Example: the 32 inverses of a pose of Zeng et al. 2019 are combinations of 4 + 4 + 4 numbers.
-
-        >>> from assur.model.registry import load_record
-        >>> inputs, exists = inverse_all_sweep(load_record("zeng2019"), ([-15.4714], [9.6849], [456.3315]))
-        >>> [array.shape for array in inputs], exists.shape
-        ([(2, 1, 2, 1, 1, 1), (2, 1, 1, 2, 1, 1), (1, 2, 1, 1, 2, 1)], (2, 2, 1, 1, 1, 1))
-    """
-    columns, count = columns_of(components, record.platform.pose, f"poses of {record.name}")
-    solve = _all_branches(record, "inverse")
-    values, exists = solve(np.empty((0, len(columns))))  # of no poses: shapes only
-    axes = [np.shape(value)[:-1] for value in values]
-    numbers = empty_rows(sum(map(_size, axes)), count)
-    places = np.cumsum([0, *map(_size, axes)])
-    answer = tuple(
-        numbers[first:last].reshape(*shape, count)
-        for first, last, shape in zip(places[:-1], places[1:], axes, strict=True)
-    )
-    real = np.empty((*exists.shape[:-1], count), dtype=bool)
-    tape = chosen(engine, count, lambda: recording(record, "inverse", every=True))
-    if tape is not None:
-        n, modes = len(values), _mode_axes(record, "inverse")
-        rows = tuple(tape.rows["inputs"][n * mode + k] for k in range(n) for mode in _firsts(axes[k], modes))
-        wanted = tuple(tape.truths[mode] for mode in _firsts(real.shape[:-1], modes))
-        filler = Filler(tape, tape.uniform(), rows, wanted, numbers, real.reshape(len(wanted), count))
-        run(filler, components, columns, block, progress, threads)
-        return answer, real
-
-    def work(part: slice, given: FloatArray) -> None:
-        values, real[..., part] = solve(given)
-        for row, value in zip(answer, values, strict=True):
-            row[..., part] = value
-
-    each_block(work, columns, count, BLOCK_ALL if block is None else block, progress, threads or 1)
-    return answer, real
-
-
-def inverse_all_expanded_sweep(
-    record: MechanismRecord,
-    components: Components,
-    *,
-    block: int | None = None,
-    progress: Progress | None = None,
-    engine: Engine = "auto",
-    threads: int = 0,
-) -> tuple[FloatArray, BoolArray]:
-    """All inverses at N poses: printed inputs (K, n, N) and exists (K, N), K in the order of the working modes."""
-    columns, _ = columns_of(components, record.platform.pose, f"poses of {record.name}")
-    return _expanded(record, "inverse", components, columns, block, progress, engine, threads)
-
-
-def direct_all_sweep(
-    record: MechanismRecord,
-    components: Components,
-    *,
-    block: int | None = None,
-    progress: Progress | None = None,
-    engine: Engine = "auto",
-    threads: int = 0,
-) -> tuple[FloatArray, BoolArray]:
-    """All directs at N inputs (n arrays (N,), as printed): poses (K, m, N) and exists (K, N), K by assembly mode.
-
-    Where the inputs let the platform move (self-motion) no pose exists: it would be one sample of a curve.
-
-    Example: the inputs of Table 1 of Zeng et al. 2019 have four poses.
-
-        >>> from assur.model.registry import load_record
-        >>> poses, exists = direct_all_sweep(load_record("zeng2019"), ([162.6907], [-143.3209], [-24.6776]))
-        >>> poses.shape, int(exists.sum())
-        ((8, 3, 1), 4)
-    """
-    columns, _ = columns_of(components, border.input_names(record), f"inputs of {record.name}")
-    return _expanded(record, "direct", components, columns, block, progress, engine, threads)
-
-
-def _expanded(
-    record: MechanismRecord,
-    problem: Problem,
-    components: Components,
-    columns: tuple[FloatArray, ...],
-    block: int | None,
-    progress: Progress | None,
-    engine: Engine,
-    threads: int,
-) -> tuple[FloatArray, BoolArray]:
-    axes, count = _mode_axes(record, problem), len(columns[0])
-    branches = _size(axes)
-    rows = len(record.inputs) if problem == "inverse" else len(record.platform.pose)
-    solve = _all_branches(record, problem)
-    numbers, truths = empty_rows(branches * rows, count), np.empty((branches, count), dtype=bool)
-    found = numbers.reshape(branches, rows, count), truths
-    tape = chosen(engine, count, lambda: recording(record, problem, every=True))
-    if tape is not None:
-        wanted = tape.rows["inputs" if problem == "inverse" else "poses"]
-        filler = Filler(tape, tape.uniform(), wanted, tape.truths, numbers, truths)
-        run(filler, components, columns, block, progress, threads)
-        return found
-    answer, real = numbers.reshape(*axes, rows, count), truths.reshape(*axes, count)
-
-    def work(part: slice, given: FloatArray) -> None:
-        values, real[..., part] = solve(given)
-        for k, value in enumerate(values):
-            answer[..., k, part] = value
-
-    each_block(work, columns, count, BLOCK_ALL if block is None else block, progress, threads or 1)
-    return found
-
-
-def _mode_axes(record: MechanismRecord, problem: Problem) -> tuple[int, ...]:
-    return (2,) * len(sign_names(record, problem))
-
-
-def _firsts(shape: Sequence[int], axes: Sequence[int]) -> list[int]:
-    """For each place of an array of a shape that broadcasts to `axes`, the first combination of signs it stands for."""
-    numbers = np.arange(_size(axes)).reshape(axes)
-    chosen = numbers[tuple(slice(length) for length in shape[len(shape) - len(axes) :])] if axes else numbers
-    return [int(number) for number in chosen.reshape(-1)[: _size(shape)]]
-
-
-def _size(shape: Sequence[int]) -> int:
-    return int(np.prod(shape, dtype=int))
-
-
-def _all_branches(
-    record: MechanismRecord, problem: Problem
-) -> Callable[[FloatArray], tuple[list[FloatArray], BoolArray]]:
-    """A function from a block (b, k) of problems to its answers and their existence, along the sign axes."""
-    form, p, ns = closed_form_of(record), record.values, Floats()
-    direct = None if problem == "inverse" else branch_kernel(record)
-    sign = sign_axes(sign_names(record, problem))
-    margins = form.inverse_margins if problem == "inverse" else form.direct_margins
-
-    def solve(given: FloatArray) -> tuple[list[FloatArray], BoolArray]:
-        with np.errstate(divide="ignore", invalid="ignore"):
-            if direct is None:
-                branch = form.inverse(ns, p, border.pose_components(record, given), sign)
-                values = border.printed_inputs(record, branch.inputs)
-            else:
-                branch = direct(ns, p, border.input_components(record, given), sign)
-                values = [border.scalar(value) for value in branch.pose]
-            return values, exists(record, margins, branch.margins)
-
-    return solve
 
 
 def _store(rows: NDArray[Any], values: Sequence[Any]) -> None:

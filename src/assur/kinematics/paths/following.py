@@ -47,6 +47,7 @@ def follow(
     use_limits: bool = True,
     tolerance: float = TOLERANCE,
     largest_step: float = LARGEST_STEP,
+    ranks: dict[str, int] | None = None,
 ) -> Path:
     """The path from an assembled configuration to given inputs or to a given pose, the mode kept.
 
@@ -60,6 +61,7 @@ def follow(
         tolerance: share of the way within which the path stops before what stops it, or as near as the branches can
             be told from each other.
         largest_step: share of the way that one step takes at most.
+        ranks: those of `assur.kinematics.paths.locked.general_ranks` on this branch where they are known already.
 
     Returns:
         The points, adaptive steps apart, and `stopped`: None, or a `Stop` that says before what the path ends: a
@@ -91,7 +93,8 @@ def follow(
     here = inputs_of(record, start) if prescribed == "inputs" else pose_of(record, start)
     way = course(record, prescribed, here, np.asarray([] if wanted is None else wanted), turns)
     bounds = limits(record, start) if use_limits else ()
-    task = Task(record, way, bounds, general_ranks(record, start), tolerance, largest_step)
+    known = general_ranks(record, start) if ranks is None else ranks
+    task = Task(record, way, bounds, known, tolerance, largest_step)
     return _path(task, *_walk(task, start))
 
 

@@ -22,6 +22,7 @@ from assur.workspace.sections import section
 AGAINST = "AGAINST the proved bounds"
 SHARE = "estimate: by a solid about the surface, its error not estimated"
 NO_SURFACE = "not proved: no such surface was found"
+NOT_REACHED = "not proved: that nothing is reached, where no node of the cells is"
 UNSEEN = "not proved: that a factor is nowhere zero where it only keeps its sign at every node of the cells"
 ENDINGS = {
     "": "",
@@ -204,6 +205,8 @@ def _loci(found: Findings) -> list[Table]:
 
 def _right_of_loci(found: Findings) -> str:
     """By what right the sizes of loci are known, and that there is none."""
+    if found.workspace.volume == 0:
+        return f"{PROVED}: nothing is reached" if found.unreached else NOT_REACHED
     loci = [locus for locus in found.workspace.loci if not locus.everywhere]
     absent = {locus.factor for locus in loci if not locus.area}
     parts = [TWO_RESOLUTIONS] if len(absent) < len(loci) else []
@@ -218,6 +221,8 @@ def _size(found: Findings, locus: Locus, *, mixed: bool) -> str:
         return "everywhere"
     if locus.area:
         return "on a surface" if mixed else with_error(locus.area, locus.area_error)
+    if found.workspace.volume == 0:
+        return "nothing is reached"
     if locus.factor in found.nowhere:
         return "nowhere: proved"
     return f"none found on {found.resolution} cells along each coordinate"

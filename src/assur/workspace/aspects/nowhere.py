@@ -33,6 +33,7 @@ def nowhere_zero(
 
     Boxes are halved until each is proved to hold no pose that is reached, or none where the factor is zero. Of a
     factor that is left out nothing is proved: it may vanish somewhere, or come too near to zero for so many boxes.
+    Where nothing is reached all of them are there, which says nothing of them: see `nothing_reached`.
 
     Args:
         record: the mechanism; it needs a closed form.
@@ -45,11 +46,11 @@ def nowhere_zero(
     Errors:
         UsageError: no closed form; a mode, box or stroke that is none.
 
-    Example: of the paper's mechanism w and v vanish inside; the other two do not.
+    Example: of the paper's mechanism w and v vanish inside, and u1 - u2 where the region ends.
 
     >>> from assur.model.registry import load_record
     >>> sorted(nowhere_zero(load_record("zeng2019")))
-    ['sin_alpha_minus_beta', 'u1_minus_u2']
+    ['sin_alpha_minus_beta']
     """
     poses = slice_at(record, held)
     domain = box_of(record, box, poses.free)
@@ -63,13 +64,40 @@ def nowhere_zero(
     )
 
 
+def nothing_reached(
+    record: MechanismRecord,
+    mode: str | None = None,
+    box: Mapping[str, Sequence[float]] | ArrayLike | None = None,
+    strokes: Mapping[str, Stroke | None] | None = None,
+    held: Mapping[str, float] | None = None,
+) -> bool:
+    """Whether it is proved that no pose of the box is reached; all as for `nowhere_zero`.
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("fivebar")
+    >>> nothing_reached(record), nothing_reached(record, box={"x": (1000, 1100), "y": (1000, 1100)})
+    (False, True)
+    """
+    domain = box_of(record, box, slice_at(record, held).free)
+    asked = criteria(record, mode, strokes, held, ())
+    frame = Frame(asked, domain, asked.used if any(asked.used) else (True, *asked.used[1:]))
+    boxes, looked = _whole(frame), 0
+    while looked < MOST:
+        looked += len(boxes)
+        known = judged(frame, boxes, shares=False)
+        if known.inside.any():
+            return False
+        left = ~known.outside
+        if not left.any():
+            return True
+        boxes = boxes[left].halved(known.axis[left])
+    return False
+
+
 def _nonzero(frame: Frame, factor: str) -> bool:
     """Whether a factor, one of what must not be zero, is proved to be zero at no pose that is reached."""
     column = frame.criteria.names.index(factor)
-    ends = zip(frame.used, frame.box.intervals, strict=True)
-    low, high = np.array([pair for has, pair in ends if has]).T
-    boxes = Boxes(low[:, None], high[:, None])
-    looked = 0
+    boxes, looked = _whole(frame), 0
     while looked < MOST:
         looked += len(boxes)
         known = judged(frame, boxes, shares=False)
@@ -79,3 +107,10 @@ def _nonzero(frame: Frame, factor: str) -> bool:
             return True
         boxes = boxes[left].halved(known.axis[left])
     return False
+
+
+def _whole(frame: Frame) -> Boxes:
+    """The box of a frame, of the coordinates that are used."""
+    ends = zip(frame.used, frame.box.intervals, strict=True)
+    low, high = np.array([pair for has, pair in ends if has]).T
+    return Boxes(low[:, None], high[:, None])

@@ -1,0 +1,73 @@
+"""A path that `assur certify` looks for and proves, and how a certificate that was written is told."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from assur.cli.aspects_answer import APART, UNDECIDED, pose
+from assur.cli.options import Outcome, Shared
+from assur.cli.output import heading
+from assur.cli.progress import progress
+from assur.errors import UsageError
+
+if TYPE_CHECKING:
+    from assur.certificates.certificate import Certificate
+    from assur.cli.region_question import Question
+    from assur.mechanism import Mechanism
+
+
+@dataclass(frozen=True)
+class Ends:
+    """Both poses, as typed."""
+
+    start: str
+    end: str
+
+
+def outcome(
+    record: Mechanism, asked: Question, ends: Ends, finest: float, most: int, target: Path, shared: Shared
+) -> Outcome:
+    """The path from one pose to the other, written with its proof; told and not written where none was found."""
+    from assur.certificates.paths import path_certificate
+    from assur.workspace.aspects.aspects import aspects
+    from assur.workspace.domain import box_of
+    from assur.workspace.slices import slice_at
+
+    if most < 1:
+        raise UsageError(f"--most: {most} leaves; a proof has at least one")
+    if not 0 <= finest < 1:
+        raise UsageError(
+            f"--finest: {finest!r} is no share of the box", hint="0 for the usual size, 1e-3 for a thousandth"
+        )
+    where = box_of(record, asked.box, slice_at(record, asked.held).free)
+    size = {name: finest * (high - low) for name, low, high in zip(where.names, where.low, where.high, strict=True)}
+    start, end = pose(record, ends.start, "--from", where.names), pose(record, ends.end, "--to", where.names)
+    with progress("aspects", shared) as step:
+        found = aspects(record, asked.mode, asked.box, asked.strokes, asked.held, size if finest else None, step)
+    path = found.path(start, end)
+    if path.status != "connected":
+        return _none(path.status, path.why, UNDECIDED if path.status == "undecided" else APART)
+    with progress("certify", shared) as step:
+        made = path_certificate(record, found, path, most, step)
+    if made.claims["regular"] != "yes":
+        return _none("undecided", "a box of the path is not proved with so few leaves", UNDECIDED)
+    return written(made, target, record)
+
+
+def written(found: Certificate, target: Path, record: Mechanism) -> Outcome:
+    """Write a certificate, and say what it claims."""
+    from assur.certificates.summary import claim_lines, statement_lines
+
+    found.write(target)
+    document = found.to_json()
+    first, *rest = [*statement_lines(document, record), *claim_lines(document, record)]
+    lines = [*rest, "how: interval arithmetic, not yet checked by `assur verify`", f"written: {target}"]
+    data = {key: value for key, value in document.items() if key not in ("program", "proof")}
+    return Outcome({**data, "written": str(target)}, lambda: [heading(first), *lines])
+
+
+def _none(status: str, why: str, code: int) -> Outcome:
+    data = {"status": status, "why": why, "written": None}
+    return Outcome(data, lambda: [heading(f"no path written: {status}"), why], code)

@@ -1,0 +1,115 @@
+"""What `assur workspace` is asked: words of the command line, each checked, in lengths and rad."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from assur.cli.numbers import assignments, interval, number, whole_number
+from assur.cli.quantities import is_length
+from assur.errors import UnknownNameError, UsageError
+
+if TYPE_CHECKING:
+    from assur.mechanism import Mechanism
+
+Interval = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Question:
+    """One workspace problem: lengths in the mechanism's unit, angles in rad."""
+
+    mode: str
+    box: dict[str, Interval]
+    strokes: dict[str, Interval]
+    resolution: int | None
+    sections: tuple[float, ...] | None
+    near: float | None
+    held: dict[str, float] | None
+
+
+def question(
+    record: Mechanism,
+    mode: str | None,
+    box: Sequence[str],
+    stroke: Sequence[str],
+    resolution: str | None,
+    section: Sequence[str],
+    near: str | None,
+    at: Sequence[str] = (),
+) -> Question:
+    """What was asked for, with every word checked."""
+    from assur.workspace.slices import slice_at
+
+    held = _held(record, at)
+    last = slice_at(record, held).free[-1]
+    cuts = tuple(number(text, "--section") * unit_factor(record, is_length(last)) for text in section)
+    distance = None if near is None else number(near, "--near")
+    if near is not None and distance is not None and distance <= 0:
+        raise UsageError(f"--near: {near.strip()} is not a positive length")
+    return Question(
+        mode=mode or record.modes.default_working,
+        box=_box(record, box),
+        strokes=_strokes(record, stroke),
+        resolution=None if resolution is None else whole_number(resolution, "--resolution"),
+        sections=cuts or None,
+        near=distance,
+        held=held,
+    )
+
+
+def _box(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
+    from assur.workspace.slices import coordinates
+
+    example = f"{record.platform.pose[0]}=-110:90"
+    found = {}
+    for name, text in assignments(texts, "--box", example).items():
+        if name not in coordinates(record):
+            raise UnknownNameError(f"pose coordinate of {record.name}", name, coordinates(record))
+        found[name] = _inside(record, interval(text, f"--box {name}", example), is_length(name))
+    return found
+
+
+def _held(record: Mechanism, texts: Sequence[str]) -> dict[str, float] | None:
+    """What is held, None where nothing was said."""
+    example = f"{record.platform.pose[-1]}=0"
+    found = {
+        name: number(text, f"--at {name}") * unit_factor(record, is_length(name))
+        for name, text in assignments(texts, "--at", example).items()
+    }
+    return found or None
+
+
+def _strokes(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
+    """Strokes by input; one without a name is for every input that has none of its own."""
+    lengths = {item.name: item.coordinate.kind == "length" for item in record.inputs}
+    example = f"{record.inputs[0].name}=-300:300"
+    common = [text for text in texts if "=" not in text]
+    if len(common) > 1:
+        raise UsageError("--stroke: two intervals for all inputs", hint=f"name the input, as --stroke {example}")
+    found = {}
+    for text in common:
+        pair = interval(text, "--stroke", example)
+        found = {name: _inside(record, pair, length) for name, length in lengths.items()}
+    for name, text in assignments([text for text in texts if "=" in text], "--stroke", example).items():
+        if name not in lengths:
+            raise UnknownNameError(f"input of {record.name}", name, lengths)
+        found[name] = _inside(record, interval(text, f"--stroke {name}", example), lengths[name])
+    return found
+
+
+def _inside(record: Mechanism, pair: Interval, length: bool) -> Interval:
+    factor = unit_factor(record, length)
+    return pair[0] * factor, pair[1] * factor
+
+
+def unit_factor(record: Mechanism, length: bool) -> float:
+    """What a printed value is multiplied by inside: rad per degree for an angle of a file in degrees, 1 otherwise.
+
+    >>> from assur.model.registry import load_record
+    >>> unit_factor(load_record("fivebar"), length=True)
+    1.0
+    """
+    return math.pi / 180 if record.angle == "deg" and not length else 1.0

@@ -1,0 +1,74 @@
+"""What was begun with one closed form is not ended with another; what changes no formula changes nothing."""
+
+from __future__ import annotations
+
+import dataclasses
+import shutil
+
+import numpy as np
+import pytest
+
+import assur
+from assur.errors import UsageError
+from assur.kinematics.closed_form import formulas as module
+from assur.kinematics.closed_form.formulas import formulas
+from assur.kinematics.closed_form.grids import Grid
+from assur.kinematics.closed_form.stored import stored_sweep
+from assur.kinematics.closed_form.streamed import reduce_grid, sweep_grid
+
+LINE = "across = sign * ns.sqrt(reach)"
+
+
+def changed(folder, old, new):
+    """The five-bar from a copy of its folder, with its closed form changed."""
+    shutil.copytree(assur.load("fivebar").folder, folder, ignore=shutil.ignore_patterns("__pycache__"))
+    path = folder / "closed_form.py"
+    text = path.read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    return assur.load(str(folder / "mechanism.toml"))
+
+
+def test_a_sign_counts_and_a_comment_does_not(tmp_path):
+    own = assur.load("fivebar")
+    told = changed(tmp_path / "told", LINE, f"{LINE}  # to one side")
+    other = changed(tmp_path / "other", LINE, LINE.replace("sign", "-sign"))
+    for problem in ("inverse", "direct"):
+        assert formulas(told, problem) == formulas(own, problem)
+        assert formulas(other, "inverse")["formulas"] != formulas(own, "inverse")["formulas"]
+
+
+def test_a_size_that_zero_is_judged_against_counts(tmp_path):
+    own = assur.load("fivebar")
+    factor = dataclasses.replace(own.closed_form.factor_list[0], scale="2 * g")
+    form = dataclasses.replace(own.closed_form, factor_list=(factor, *own.closed_form.factor_list[1:]))
+    assert formulas(dataclasses.replace(own, closed_form=form), "inverse") != formulas(own, "inverse")
+
+
+def test_a_sweep_is_not_carried_on_with_other_formulas(tmp_path):
+    own, other = assur.load("fivebar"), changed(tmp_path / "other", LINE, LINE.replace("sign", "-sign"))
+    sweep_grid(own, (6, 5), tmp_path / "streamed", want=("inputs",))
+    with pytest.raises(UsageError, match="another question; it differs in formulas"):
+        sweep_grid(other, (6, 5), tmp_path / "streamed", want=("inputs",))
+    reduce_grid(own, (6, 5), lambda n, *_: n + 1, 0, keep=tmp_path / "total.json")
+    with pytest.raises(UsageError, match="another question; it differs in formulas"):
+        reduce_grid(other, (6, 5), lambda n, *_: n + 1, 0, keep=tmp_path / "total.json")
+
+
+@pytest.mark.parametrize("problem", ["inverse", "direct"])
+def test_a_stored_sweep_is_not_carried_on_with_other_formulas(tmp_path, problem):
+    own, other = assur.load("fivebar"), changed(tmp_path / "other", LINE, LINE.replace("sign", "-sign"))
+    names = own.platform.pose if problem == "inverse" else tuple(item.name for item in own.inputs)
+    grid = Grid(names, (0.1, 0.2), (0.9, 1.1), (3, 2))
+    stored_sweep(own, problem, grid).begin(tmp_path / "kept")
+    with pytest.raises(UsageError, match="another question; it differs in formulas"):
+        stored_sweep(other, problem, grid).begin(tmp_path / "kept")
+
+
+def test_nor_with_another_version(tmp_path, monkeypatch):
+    own = assur.load("fivebar")
+    first = np.array(sweep_grid(own, (6, 5), tmp_path, want=("inputs",))["inputs"])
+    np.testing.assert_array_equal(sweep_grid(own, (6, 5), tmp_path, want=("inputs",))["inputs"], first)
+    monkeypatch.setattr(module, "version", lambda _: "0.0.1")
+    with pytest.raises(UsageError, match="another question; it differs in version"):
+        sweep_grid(own, (6, 5), tmp_path, want=("inputs",))
