@@ -1,5 +1,7 @@
 """Reasons: amounts against plain geometry."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -28,6 +30,17 @@ def test_the_leg_that_is_too_short_is_named_with_what_it_misses(aim):
     missing = [np.hypot(aim[0] + 70.0, aim[1]) - reach, np.hypot(aim[0] - 70.0, aim[1]) - reach]
     worst = int(np.argmax(np.round(missing, 6)))
     assert gap(path, aim) == f"leg{worst + 1} is {max(missing):.3g} mm too short"
+
+
+@pytest.mark.parametrize("turn", np.arange(12) * np.pi / 6 + 0.1)
+@pytest.mark.parametrize("reach", [330.0, 420.0])
+def test_what_is_said_of_the_leg_that_is_named_is_true(turn, reach):
+    """All around and far out, where one leg misses or both do."""
+    path, aim = _to("fivebar", poses=[reach * np.cos(turn), reach * np.sin(turn)])
+    leg, amount, sense = re.fullmatch(r"leg([12]) is ([\d.e+-]+) mm (too \w+)", gap(path, aim)).groups()
+    away = np.hypot(aim[0] + (70.0 if leg == "1" else -70.0), aim[1])
+    missing = away - 294.0 if sense == "too short" else 94.0 - away
+    assert float(amount) == pytest.approx(missing, rel=6e-3)
 
 
 def test_a_leg_that_is_too_long_is_said_to_be():

@@ -21,6 +21,9 @@ FloatArray = NDArray[np.float64]
 FIRM = 1e3
 """How much more a gap at the platform weighs than one in a loop, so that the loops show what is missing."""
 
+MISSED = 1e3 * CLOSED
+"""Gap from which on a leg misses, as a share of the characteristic length."""
+
 STRAIGHT = 0.7
 """Cosine from which on a gap counts as one along the leg."""
 
@@ -104,7 +107,10 @@ def gap(path: Path, wanted: FloatArray) -> str:
 
 
 def _open_legs(record: MechanismRecord, start: FloatArray, pose: FloatArray) -> str:
-    """The leg that misses the platform most where the platform is held at a pose (m,)."""
+    """A leg that misses the platform where that is wanted at a pose (m,): the carrying one, else the worst.
+
+    What the others miss is only known where the carrying one can bring the platform there.
+    """
     values = _at_platform(record, start, pose)
     rows = closing_system(record, values[None], pose[None])[0][0]
     graph, length = joint_graph(record), characteristic_length(record)
@@ -112,10 +118,10 @@ def _open_legs(record: MechanismRecord, start: FloatArray, pose: FloatArray) -> 
     at_platform = float(np.linalg.norm(rows[6 * len(graph.cut) :][lengths]))
     gaps = rows[: 6 * len(graph.cut)].reshape(-1, 6)[:, :3]
     sizes = np.linalg.norm(gaps, axis=-1)
-    if max(at_platform, float(np.max(sizes, initial=0.0))) <= 1e3 * CLOSED * length:
+    if at_platform > MISSED * length:
+        return f"{_leg(record, None)} is {_length(record, at_platform)} {_carrying_sense(record, values, pose)}"
+    if float(np.max(sizes, initial=0.0)) <= MISSED * length:
         return ""
-    if at_platform >= np.max(sizes, initial=0.0):
-        return f"{_leg(record, None)} is {_length(record, at_platform)} too short"
     worst = int(np.argmax(sizes))
     return (
         f"{_leg(record, worst)} is {_length(record, float(sizes[worst]))} {_sense(record, values, worst, gaps[worst])}"
@@ -158,6 +164,22 @@ def _named(record: MechanismRecord, joints: list[str]) -> str:
     return limbs[0] if limbs else f"the leg of {joints[0]}"
 
 
+def _carrying_sense(record: MechanismRecord, values: FloatArray, pose: FloatArray) -> str:
+    """Whether the leg that carries the platform is too short to bring it to a pose (m,), or too long."""
+    rotation, origin = frames(record, values)[record.platform.link]
+    reached = rotation @ record.platform.point + origin
+    named = dict(zip(record.platform.pose, pose.tolist(), strict=True))
+    wanted = np.array([named.get(name, here) for name, here in zip(LENGTHS, reached, strict=True)])
+    root = _root(record, list(joint_graph(record).paths[record.platform.link]))
+    return "too short" if np.linalg.norm(wanted - root) >= np.linalg.norm(reached - root) else "too long"
+
+
+def _root(record: MechanismRecord, names: list[str]) -> FloatArray:
+    """The point (3,) of the base on which a chain of joints stands."""
+    root = next(record.joints[name] for name in names if record.base in _links(record.joints[name]))
+    return root.at if root.parent == record.base else root.child_at
+
+
 def _sense(record: MechanismRecord, values: FloatArray, cut: int, gap: FloatArray) -> str:
     """Whether the leg of a cut joint is too short, too long, or off to the side."""
     graph = joint_graph(record)
@@ -170,10 +192,8 @@ def _sense(record: MechanismRecord, values: FloatArray, cut: int, gap: FloatArra
     inner = joint.parent if outer == joint.child else joint.child
     missing = -gap if outer == joint.child else gap  # from the leg's side to the platform's
     roots = list(graph.paths[inner]) or [joint.name]
-    root = next(record.joints[name] for name in roots if record.base in _links(record.joints[name]))
-    own = root.at if root.parent == record.base else root.child_at
     rotation, origin = placed[record.platform.link]
-    way = rotation @ record.platform.point + origin - own
+    way = rotation @ record.platform.point + origin - _root(record, roots)
     cosine = float(missing @ way) / max(float(np.linalg.norm(missing) * np.linalg.norm(way)), 1e-300)
     return "too short" if cosine > STRAIGHT else "too long" if cosine < -STRAIGHT else "off"
 
