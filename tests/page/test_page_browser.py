@@ -201,3 +201,30 @@ def test_a_users_own_file_moves_too(shown, drafted):
     assert state["reason"] is None
     assert state["factor"] is None
     assert float(closure_error(here.record, np.array(state["values"]))) < 1e-9
+
+
+def test_a_number_that_is_typed_is_kept_inside_its_slider_and_what_is_none_goes_back(shown):
+    page = shown("zeng2019")
+    page.open()
+    box = page.tab.get_by_label("x in mm", exact=True)
+    before = box.input_value()
+    box.fill("")
+    box.press("Enter")
+    box.blur()
+    assert box.input_value() == before
+    low, high = page.scene["poseRange"][0]
+    box.fill("-100000")
+    box.press("Enter")
+    page.tab.wait_for_function("(x) => window.assur.state().pose[0] < x - 1", arg=float(before))
+    assert low <= page.call("state")["pose"][0] < high
+    page.open()
+
+
+def test_a_factor_is_named_as_a_person_writes_it(shown):
+    page = shown("zeng2019")
+    page.open()
+    labels = [item["label"] for item in page.scene["branches"]["working"]]
+    page.tab.evaluate("(k) => window.assur.work(k)", labels.index("++---"))
+    row = page.tab.get_by_text("closest factor", exact=True).locator("xpath=following-sibling::dd[1]")
+    assert (row.text_content() or "").startswith("u1 \N{MINUS SIGN} u2")
+    page.open()

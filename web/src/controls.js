@@ -10,7 +10,7 @@ const DEGREE = 180 / Math.PI;
  */
 class Slider {
   constructor({ label, name, low, high, unit, factor, note }, moved) {
-    this.factor = factor;
+    Object.assign(this, { factor, low, high, value: low });
     this.places = Math.max(0, Math.min(6, 3 - Math.floor(Math.log10(Math.max(1e-9, (high - low) * factor)))));
     const id = `slider-${name.replace(/\W/g, "-")}`;
     this.range = el("input", {
@@ -28,7 +28,7 @@ class Slider {
       step: 10 ** -Math.min(2, this.places),
       "aria-label": `${name} in ${unit}`,
       inputmode: "decimal",
-      onchange: () => Number.isFinite(this.number.valueAsNumber) && moved(this.number.valueAsNumber / factor),
+      onchange: () => this.typed(moved),
     });
     this.why = el("p", { class: "why", id: `${id}-why` });
     this.ends = el(
@@ -49,7 +49,16 @@ class Slider {
     );
   }
 
+  /** A number that was typed: kept inside the slider's ends, or where it stands beyond them; what is none goes back. */
+  typed(moved) {
+    const wanted = this.number.valueAsNumber / this.factor;
+    if (!Number.isFinite(wanted)) return this.show(this.value);
+    const [low, high] = [Math.min(this.low, this.value), Math.max(this.high, this.value)];
+    return moved(Math.min(high, Math.max(low, wanted)));
+  }
+
   show(value) {
+    this.value = value;
     const shown = value * this.factor;
     this.range.value = shown;
     this.range.setAttribute("aria-valuetext", `${figures(shown)}`);

@@ -52,6 +52,15 @@ export function symbol(latex) {
 /** Names of joint values have their index without a line: q1, rho2. */
 export const indexed = (name) => name.replace(/^([A-Za-z]+?)_?(\d+)$/, "$1_$2");
 
+/** A factor's name as a person writes it: "u1_minus_u2" is u1 − u2, "sin_alpha" is sin α. @returns {HTMLElement} */
+export function spelt(name) {
+  const words = name.split("_").map((word) => {
+    if (word === "minus") return " \u2212 ";
+    return /^[a-z]\d?$/i.test(word) || GREEK[word] ? symbol(indexed(word)) : `${word} `;
+  });
+  return el("span", {}, ...words);
+}
+
 /** A point's name as a letter and its index, its own or its leg's: "leg2.K" is K 2. @returns {[string, string]} */
 export function letterOf(name) {
   const [, leg, own] = /^(?:.*?(\d*)\.)?([^.]*)$/.exec(name) ?? [null, "", name];

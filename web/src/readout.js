@@ -1,6 +1,6 @@
 /** Live numbers: what the page can say of the present configuration. */
 
-import { el, figures, indexed, symbol } from "./dom.js";
+import { el, figures, spelt } from "./dom.js";
 
 const REST = 120; // milliseconds without motion after which the distance is computed
 
@@ -43,7 +43,7 @@ export function readout(mechanism) {
     rows.residual.textContent = `${figures(state.residual, 2)} ${scene.unit}`;
     if (rows.factor)
       rows.factor.replaceChildren(
-        ...(state.factor ? [symbol(indexed(state.factor.name)), ` ${figures(state.factor.value, 3)}`] : ["–"]),
+        ...(state.factor ? [spelt(state.factor.name), ` ${figures(state.factor.value, 3)}`] : ["–"]),
       );
     clearTimeout(timer);
     timer = setTimeout(() => {

@@ -40,7 +40,7 @@ def errata(record: MechanismRecord) -> list[dict[str, str]]:
         return []
     entries = checked(ErrataFile, read_toml(path.read_text(encoding="utf-8"), str(path)), path).root
     return [
-        {"id": name, "text": f"{entry.where}: printed {entry.printed.rstrip('.')}. {entry.finding}"}
+        {"id": name, "text": f"{entry.where}: printed {entry.printed.rstrip('., ')}. {entry.finding}"}
         for name, entry in entries.items()
     ]
 
