@@ -110,6 +110,7 @@ def test_ctrl_c_from_a_keyboard(tmp_path):
         stderr=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # not as a shell's background has it
     )
     state, deadline = tmp_path / "state.json", time.monotonic() + 120
     while not (state.exists() and json.loads(state.read_text())["done"] > 0) and time.monotonic() < deadline:

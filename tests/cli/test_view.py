@@ -18,10 +18,16 @@ from assur.cli.main import main
 COMMAND = [sys.executable, "-c", "from assur.cli.main import main; raise SystemExit(main())"]
 
 
+def _heeds_interrupts():
+    """What a shell starts in the background ignores Ctrl-C, and so does what that starts."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @pytest.mark.view
 def test_it_serves_its_page_until_it_is_interrupted():
     words = [*COMMAND, "view", "fivebar", "--no-open", "--json"]
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running:
+    options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    with subprocess.Popen(words, **options, preexec_fn=_heeds_interrupts) as running:
         try:
             line = next(text for text in running.stderr if "http://" in text)
             url = urllib.parse.urlsplit(re.search(r"http://\S+", line)[0])
@@ -32,7 +38,11 @@ def test_it_serves_its_page_until_it_is_interrupted():
             assert url.hostname == "127.0.0.1"
         finally:
             running.send_signal(signal.SIGINT)
-            said, _ = running.communicate(timeout=60)
+            try:
+                said, _ = running.communicate(timeout=60)
+            except subprocess.TimeoutExpired:
+                running.kill()
+                raise
     assert running.returncode == 0
     assert f'"url": "{url.geturl()}"' in said
     with pytest.raises(ConnectionRefusedError):

@@ -202,7 +202,8 @@ def _closed_form(record: MechanismRecord, path: Path) -> ClosedForm | None:
     signs = {*record.modes.working, *record.modes.assembly}
     if signs != set(form.signs):
         found = f"signs {listed(form.signs)}"
-        raise _broken(path, None, found, f"those of [modes] in {record.file.name}: {listed(signs)}")
+        hint = "it belongs to every file of its folder: is it meant for this one?"
+        raise _broken(path, None, found, f"those of [modes] in {record.file.name}: {listed(signs)}", hint)
     _check_claims(record, form, path)
     return form
 
@@ -228,8 +229,7 @@ def _check_claims(record: MechanismRecord, form: ClosedForm, path: Path) -> None
             raise _broken(path, None, f"the scale '{formula}' is {size:g}", "it must be positive")
 
 
-def _broken(path: Path, line: int | None, found: str, allowed: str) -> MechanismFileError:
-    hint = "it belongs to every file of its folder: is it meant for this one?"
+def _broken(path: Path, line: int | None, found: str, allowed: str, hint: str = "") -> MechanismFileError:
     return MechanismFileError([Problem(str(path), line, "", found, allowed, hint)])
 
 

@@ -137,7 +137,7 @@ def bounds(low: float, high: float) -> str:
     >>> bounds(22814087.41, 22816107.86), bounds(0.1125, 0.1125), bounds(2.82893, 2.85454)
     ('22\u202f814\u202f000 to 22\u202f816\u202f200', '0.1125', '2.828 to 2.855')
     >>> bounds(10053.096491487308, 10053.096491487359)
-    '10\u202f053.09648 to 10\u202f053.09651'
+    '10\u202f053.096481 to 10\u202f053.096502'
     """
     if not (math.isfinite(low) and math.isfinite(high)):
         return NOTHING
