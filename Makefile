@@ -11,7 +11,7 @@ INSTALL := PIP_CONSTRAINT=constraints.txt PIP_BUILD_CONSTRAINT=constraints.txt P
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help demo test check figures report docs bench format constraints clean
+.PHONY: help demo test mutations check figures report docs bench format constraints clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\): .*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
@@ -21,6 +21,9 @@ demo: $(VENV)/installed ## set up, then the main job: the paper's mechanism, che
 
 test: $(VENV)/installed-$(if $(ALL),all,dev) ## set up, then every test; ALL=yes installs every extra for those that need one
 	OPENBLAS_NUM_THREADS=1 $(if $(ALL),ASSUR_EXTRAS=required )$(BIN)/python -m pytest -n 2 $(ARGS)
+
+mutations: $(VENV)/installed-dev ## put faults into a copy of the source, one by one: the test named for each notices it (needs Node)
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 -m mutation tests/test_mutations.py
 
 check: $(VENV)/installed-dev ## ruff, mypy strict and the direction of the imports
 	$(BIN)/ruff check .
@@ -52,7 +55,7 @@ format: $(VENV)/installed-dev ## put the code into the form that `check` asks fo
 
 constraints: ## pin every package anew, each at its newest version that pyproject.toml allows
 	rm -rf build/pins && $(PYTHON) -m venv build/pins
-	build/pins/bin/python -m pip install --quiet --editable '.[dev,sim,view,cad,docs,bench]' hatchling editables
+	build/pins/bin/python -m pip install --quiet --editable '.[dev,sim,view,cad,movie,docs,bench]' hatchling editables
 	sed -n '/^#/p' constraints.txt > build/constraints.txt
 	build/pins/bin/python -m pip list --format=freeze --exclude pip --exclude setuptools --exclude assur \
 	    >> build/constraints.txt
@@ -84,5 +87,5 @@ $(VENV)/installed-docs: pyproject.toml constraints.txt | $(VENV)/made
 	@touch $(VENV)/installed $@
 
 $(VENV)/installed-all: pyproject.toml constraints.txt | $(VENV)/made
-	$(INSTALL) '.[dev,sim,view,cad,docs]'
+	$(INSTALL) '.[dev,sim,view,cad,movie,docs]'
 	@touch $(VENV)/installed $(VENV)/installed-dev $(VENV)/installed-docs $@

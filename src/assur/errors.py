@@ -10,6 +10,15 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 
+def cut(text: str, length: int = 60) -> str:
+    """A text for a message, cut where it is very long.
+
+    >>> cut("a long name", 9)
+    'a long...'
+    """
+    return text if len(text) <= length else text[: length - 3] + "..."
+
+
 class AssurError(Exception):
     """An error with a hint. `exit_code` is what the command line returns for it."""
 
@@ -25,7 +34,11 @@ class AssurError(Exception):
 
 
 class UsageError(AssurError):
-    """A call with a wrong name, shape or value."""
+    """A call with a wrong name, shape or value.
+
+    A message about one argument begins with its name and a colon, as `gap: -1 is no share`; the command line puts the
+    option there that the argument came from.
+    """
 
     exit_code = 2
 
@@ -38,7 +51,7 @@ class UnknownNameError(UsageError):
         near = difflib.get_close_matches(name, ordered, n=3, cutoff=0.5)
         guess = f"did you mean {' or '.join(near)}?" if near else ""
         listed = ", ".join(ordered) if ordered else "none"
-        super().__init__(f"unknown {kind} '{name}'; there is: {listed}", hint=hint or guess)
+        super().__init__(f"unknown {kind} '{cut(name)}'; there is: {listed}", hint=hint or guess)
         self.choices = tuple(ordered)
 
 

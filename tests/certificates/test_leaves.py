@@ -5,6 +5,7 @@ import pytest
 
 from assur.certificates.formulas import Formulas, formulas
 from assur.certificates.leaves import BLOCK, Leaves
+from assur.mechanism import load
 from assur.model.registry import load_record
 from assur.numerics.recording.tape import Recorder
 from assur.workspace.certified.boxes import Boxes
@@ -41,6 +42,43 @@ def test_leaves_are_true_of_points_inside(leaves):
         assert np.all(values[:, np.isin(tokens, ("i", "r"))] >= 0)
         for k in range(4):
             assert np.all(values[k, tokens == f"o{k:02x}"] < 0)
+
+
+def test_no_factor_changes_its_sign_inside_a_regular_leaf(leaves):
+    record, found = load("zeng2019"), boxes(2000, 8.0)
+    regular = found[leaves.tokens(found) == "r"]
+    assert len(regular) > 200
+    for name, values in factors_inside(record, regular).items():
+        assert np.all(np.all(values > 0, axis=0) | np.all(values < 0, axis=0)), name
+
+
+def test_where_a_leaf_is_only_inside_a_factor_may_change_its_sign(leaves):
+    found = boxes(2000, 8.0)
+    inside = found[leaves.tokens(found) == "i"]
+    signs = [np.sign(values) for values in factors_inside(load("zeng2019"), inside).values()]
+    assert np.mean(np.any([np.any(each != each[0], axis=0) for each in signs], axis=0)) > 0.1
+
+
+def factors_inside(record, found):
+    """Factors (20, N) at random poses of boxes, by the solver, which knows no intervals."""
+    rng = np.random.default_rng(5)
+    poses = found.low + rng.random((20, *found.low.shape)) * (found.high - found.low)
+    solved = record.inverse(np.moveaxis(poses, 1, -1), record.modes.default_working)
+    assert solved.exists.all()
+    return {name: values[..., 0] for name, values in solved.factors.items()}
+
+
+def test_inside_a_leaf_a_stroke_is_kept():
+    record, stroke = load("zeng2019"), (0.0, 250.0)
+    bounded = Leaves(formulas(load_record("zeng2019"), strokes={"yA1": stroke}))
+    found = boxes(2000, 8.0)
+    inside = found[np.isin(bounded.tokens(found), ("i", "r"))]
+    assert len(inside) > 100
+    rng = np.random.default_rng(6)
+    for _ in range(10):
+        poses = inside.low + rng.random(inside.low.shape) * (inside.high - inside.low)
+        first = record.inverse(poses.T, record.modes.default_working).inputs[:, 0, 0]
+        assert np.all((stroke[0] <= first) & (first <= stroke[1]))
 
 
 def test_small_boxes_are_decided_but_near_the_boundary(leaves):

@@ -1,6 +1,10 @@
 from __future__ import annotations
 
-from assur.certificates.summary import claim_lines, rounded, statement_lines
+import math
+
+import pytest
+
+from assur.certificates.summary import claim_lines, rounded, shares, statement_lines
 from assur.model.registry import load_record
 
 
@@ -12,7 +16,37 @@ def test_statement_and_claims_with_units(made_of):
     assert "held: phi = 17.1887339 deg" in lines
     assert "strokes: rho1 0 .. 12, rho2 1 .. 9" in lines
     assert any(line.startswith("area reached: ") and line.endswith(" mm^2") for line in lines)
-    assert lines[-1].startswith("leaves: ")
+    counts = document["claims"]["leaves"]
+    assert f"parts: {sum(counts.values())}, which cover the box without overlap; of these" in lines
+    told = [line.split(" (")[0] for line in lines[-sum(map(bool, counts.values())) :]]
+    assert told == [f"  {counts[name]}" for name in ("regular", "inside", "outside", "open") if counts[name]]
+
+
+@pytest.mark.parametrize("kind", ["held angle", "angle"])
+def test_shares_are_those_of_the_volume(made_of, kind):
+    """The tree against the exact volumes that are claimed."""
+    document = made_of(kind).to_json()
+    found, claims = shares(document["proof"]), document["claims"]
+    whole = math.prod(float.fromhex(b) - float.fromhex(a) for a, b in document["statement"]["box"])
+    low, high = (float.fromhex(text) / whole for text in claims["volume"])
+    assert found["regular"] + found["inside"] == pytest.approx(low, rel=1e-9)
+    assert found["open"] == pytest.approx(high - low, rel=1e-9)
+    assert sum(found.values()) == pytest.approx(1.0, rel=1e-12)
+    assert found["regular"] == pytest.approx(float.fromhex(claims["regular_volume"]) / whole, rel=1e-9)
+
+
+def test_what_is_undecided_is_said_in_words_and_how_much_it_is():
+    claims = {"leaves": {"inside": 1, "regular": 1, "outside": 0, "open": 1}, "reached": "open", "regular": "open"}
+    document = {"kind": "box", "claims": claims, "proof": "0r1bi", "program": {"factors": [["w", 3]]}}
+    assert claim_lines(document) == [
+        "all of the box is reached: undecided",
+        "all of it is free of singularities: undecided",
+        "factors looked at: w",
+        "parts: 3, which cover the box without overlap; of these",
+        "  1 (50 %) reached all over, and free of singularities",
+        "  1 (25 %) reached all over; whether free of singularities is undecided",
+        "  1 (25 %) undecided: nothing is proved there",
+    ]
 
 
 def test_without_the_mechanism_units_are_left_out(made_of):
@@ -37,4 +71,5 @@ def test_a_path_has_both_ends_and_its_pieces(made_of):
 def test_bounds_are_rounded_outwards():
     assert rounded(1.000000049, 1.00000001) == "1 .. 1.0000001"
     assert rounded(-1.00000001, 0.0) == "-1.0000001 .. 0"
+    assert rounded(-0.0, -0.0) == "0 .. 0"
     assert rounded(22678527.9, 22964630.1) == "22678527 .. 22964631"

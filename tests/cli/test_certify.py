@@ -34,7 +34,7 @@ def test_angles_are_in_degrees(assur_cli, tmp_path):
 def test_a_box_of_degrees_is_rounded_outwards(assur_cli, tmp_path):
     path = tmp_path / "c.json"
     words = ("--box", "phi=-10:10", "--box", "x=-1:1", "--box", "y=-1:1", "--kind", "box")
-    assert assur_cli("certify", "planar_3rpr", "-o", str(path), *words, *FEW).code == 0
+    assert assur_cli("certify", "planar_3rpr", "-o", str(path), *words, *FEW).code == 5  # so few leaves decide nothing
     (x, _), _, (low, high) = (map(float.fromhex, pair) for pair in json.loads(path.read_text())["statement"]["box"])
     with mpmath.workdps(40):
         assert low < -10 * mpmath.pi / 180 < 10 * mpmath.pi / 180 < high

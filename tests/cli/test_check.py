@@ -30,6 +30,7 @@ def test_a_sound_file(check) -> None:
         "fourbar: sound",
         "4 links, 4 joints; 1 freedom",
         "no closed form: it is solved on its joint graph",
+        "next: assur page m.toml",
     ]
 
 
@@ -61,6 +62,68 @@ def test_faults_of_the_joint_graph_come_all_at_once(check) -> None:
     assert rows == [["m.toml:24", "limbs.leg.joints.C1.cone"], ["m.toml:27", "limbs.leg.inputs.M.stroke"]]
 
 
+def places(run) -> list[str]:
+    return [line.split(": ")[1] for line in run.out.splitlines() if line.startswith(("m.toml:", "closed_form.py"))][1:]
+
+
+def test_a_fault_of_the_text_hides_none_of_the_joint_graph_that_does_not_follow_from_it(check) -> None:
+    text = FOURBAR.replace('working = "-"', 'working = "-+"').replace("x = [-40", "x = [900")
+    assert places(check(text)) == ["modes.default.working", "workspace.box.x"]
+    assert places(check(text.replace("value = 100", "value = 300"))) == [
+        "links.ground",
+        "modes.default.working",
+        "workspace.box.x",
+    ]
+    assert places(check(text.replace("rocker = {}", "rocker = {}\nspare = {}"))) == [
+        "links.spare",
+        "modes.default.working",
+        "workspace.box.x",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "where"),
+    [
+        ('child = "crank"', 'child = "cranc"', ["joints.A.child"]),
+        ("value = 100", "value = -300", ["parameters.g.value"]),
+        ("crank = {}", "crank = 3", ["links.crank"]),
+        ('base = "ground"', 'base = "grund"', ["base"]),
+        ("B = -50", "B = [1, 2]", ["home.B"]),
+        ('child = "crank"', 'child = "ground"', ["joints.A.child"]),
+        ('at = ["l2", 0, 0], child_at', 'at = ["l2", "lx", 0], child_at', ["joints.C.at[1]"]),
+    ],
+)
+def test_no_fault_follows_from_one_that_is_told(check, old: str, new: str, where: list[str]) -> None:
+    assert old in FOURBAR
+    assert places(check(FOURBAR.replace(old, new, 1))) == where
+
+
+FORM = """
+from assur.model.closed_form import ClosedForm, Sign
+
+CLOSED_FORM = ClosedForm(
+    complete_for="joint_graph", direct=None, inverse=None, joints=None, factors=None, jacobians=None,
+    signs={"s": Sign("sine", "1")}, direct_margins=(), inverse_margins=(), factor_list=(),
+    constraint_singular=(("v",),), self_motion_singular=(("w",),),
+)
+"""
+
+
+def test_the_closed_form_is_looked_at_with_the_file_and_all_that_it_claims_at_once(check, tmp_path) -> None:
+    (tmp_path / "closed_form.py").write_text(FORM.replace('"1")', '"-l1")'), encoding="utf-8")
+    told = check(FOURBAR.replace('working = "-"', 'working = "-+"')).out
+    for text in ("modes.default.working", "the group ('v',)", "the group ('w',)", "the scale '-l1' is -40"):
+        assert text in told
+    (tmp_path / "closed_form.py").write_text(FORM.replace('{"s"', '{"t"').replace('"1")', '"lx")'), encoding="utf-8")
+    told = check(FOURBAR).out
+    assert "signs t; those of [modes] in m.toml: s" in told
+    assert "the scale" not in told  # it is that of another mechanism, whose parameters these are not
+    (tmp_path / "closed_form.py").write_text("x = 1 / 0", encoding="utf-8")
+    told = check(FOURBAR.replace('child = "crank"', 'child = "cranc"')).out
+    assert "joints.A.child" in told
+    assert "ZeroDivisionError" in told
+
+
 def test_a_line_is_never_broken(check) -> None:
     """A fault is one line, however long, so that an editor can jump to it."""
     found = check(FOURBAR.replace("value = 100", "value = 300"))
@@ -80,6 +143,7 @@ def test_a_note_is_no_fault(check) -> None:
         "note: m.toml:3: unit: the longest link measures 120 m, that is 120 m; "
         "allowed: it is unusual, but may be: 0.001 m to 50 m",
         "    hint: is it mm that is meant?",
+        "next: assur page m.toml",
     ]
 
 
@@ -108,10 +172,15 @@ def test_the_same_as_json(check) -> None:
         ("none.toml", 2, "cannot read 'none.toml': No such file or directory"),
         (".", 2, ""),
         ("zneg2019", 2, "zeng2019"),
+        ("folder", 2, "'folder' is a folder without mechanism.toml"),
+        ("./file", 2, "'./file' is a file that does not end in .toml"),
+        ("a" * 300, 2, "unknown mechanism 'aaa"),
     ],
 )
 def test_what_is_no_file_is_a_usage_error(assur_cli, tmp_path, monkeypatch, name: str, code: int, told: str) -> None:
     monkeypatch.chdir(tmp_path)
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "file").write_text("")
     found = assur_cli("check", name)
     assert (found.code, found.out) == (code, "")
     assert found.err.startswith("error: ")

@@ -73,3 +73,33 @@ def test_what_makes_no_sense_is_refused(assur_cli):
         run = assur_cli("collisions", "fivebar", *words)
         assert run.code == 2, words
         assert said in run.err
+
+
+@pytest.mark.parametrize(("ending", "head"), [("svg", b"<?xml"), ("pdf", b"%PDF"), ("png", b"\x89PNG")])
+def test_the_closest_pair_is_drawn(assur_cli, tmp_path, ending, head):
+    path = tmp_path / f"closest.{ending}"
+    run = assur_cli("collisions", "fivebar", "--samples", "10", "-o", str(path), "--json")
+    assert run.code == 0, run.err
+    assert run.json["file"] == str(path)
+    assert path.read_bytes().startswith(head)
+
+
+def test_a_picture_of_another_kind_is_refused_before_the_work(assur_cli, tmp_path):
+    run = assur_cli("collisions", "fivebar", "-o", str(tmp_path / "closest.gif"))
+    assert run.code == 2
+    assert "its ending is none of .png, .pdf, .svg" in run.err
+
+
+def test_the_thickness_is_told_and_decides(assur_cli):
+    thin = assur_cli("collisions", "fivebar", "--samples", "10", "--json")
+    thick = assur_cli("collisions", "fivebar", "--samples", "10", "--thickness", "20", "--json")
+    assert (thin.code, thick.code) == (0, 1)
+    assert thin.json["thickness"] < thick.json["thickness"] == 20
+    run = assur_cli("collisions", "fivebar", "--samples", "10")
+    assert f"{thin.json['thickness']:.3g} mm thick" in run.out
+
+
+def test_the_delta_robot_is_drawn_so_that_its_rods_keep_apart(assur_cli):
+    """Its balls on the platform are 10 mm apart, while the robot is more than a metre wide."""
+    run = assur_cli("collisions", "delta_4s", "--samples", "20", "--json")
+    assert run.code == 0, [item for item in run.json["pairs"] if item["meeting"]]

@@ -6,8 +6,10 @@ import io
 import pytest
 
 import assur
+from assur.cli import demo_documents
 from assur.cli.claims import Ledger
 from assur.cli.demonstration import MECHANISM
+from assur.cli.options import PLAIN
 
 
 @pytest.fixture
@@ -15,7 +17,7 @@ def short(monkeypatch):
     """The demonstration without its slow parts."""
     for name in ("demo_analysis.singularities", "demo_analysis.workspace", "demo_documents.audit"):
         monkeypatch.setattr(f"assur.cli.{name}", lambda *_: None)
-    for name in ("figures", "report"):
+    for name in ("figures", "report", "page"):
         monkeypatch.setattr(f"assur.cli.demo_documents.{name}", lambda *_: [])
 
 
@@ -33,9 +35,12 @@ def test_all_of_it(assur_process, tmp_path):
     assert max(map(len, run.out.splitlines())) <= 80
     total = run.out.count("\N{CHECK MARK}")
     assert f"{total} claims checked, all hold" in run.out
-    for part in ("Topology", "Direct", "Inverse", "Velocity", "Singular", "Workspace", "Audit", "Figures", "Report"):
+    solved = ("Topology", "Direct", "Inverse", "Velocity", "Singular", "Workspace")
+    for part in (*solved, "Audit", "Figures", "Report", "Page"):
         assert f"\n{part}" in run.out
-    assert (tmp_path / "out" / "report.html").is_file()
+    for name in ("report.html", "page.html"):
+        assert (tmp_path / "out" / name).is_file()
+        assert f"{name}: " in run.out
     assert len(list((tmp_path / "out" / "figures").glob("*.png"))) >= 9
 
 
@@ -118,3 +123,27 @@ def test_a_gap_in_a_loop_is_found(assur_cli, short, tmp_path, monkeypatch):
     run = assur_cli("demo", "-o", str(tmp_path), "--json")
     failed = [claim["claim"] for claim in run.json["claims"] if not claim["holds"]]
     assert (run.code, failed) == (1, ["every solution closes every loop of the joint graph"] * 2)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "claim"), [("MOST", 1e3, "under 1 MB"), ("ROUNDING", -1.0, "the poses of the closed form")]
+)
+def test_a_page_that_is_too_large_or_stands_elsewhere_is_found(monkeypatch, tmp_path, name, value, claim):
+    ledger, record = Ledger(silent=True), assur.load("fivebar")
+    demo_documents.page(ledger, record, tmp_path / "page.html", PLAIN)
+    assert (len(ledger.claims), ledger.failed) == (2, 0)
+    monkeypatch.setattr(demo_documents, name, value)
+    demo_documents.page(ledger, record, tmp_path / "page.html", PLAIN)
+    assert [claim in item.claim for item in ledger.claims if not item.holds] == [True]
+
+
+def test_the_lines_after_it_can_be_typed(assur_cli, short, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    run = assur_cli("demo", "-o", "out")
+    typed = run.out.strip().splitlines()[-1].split()
+    assert typed[0] == "assur"
+    for _ in range(3):  # new, check, page: each says the next
+        run = assur_cli(*typed[1:])
+        assert run.code == 0
+        typed = run.out.strip().splitlines()[-1].removeprefix("next: ").split()
+    assert (tmp_path / "page.html").is_file()

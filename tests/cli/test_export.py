@@ -80,6 +80,20 @@ def test_step_has_its_bill_beside_it(assur_cli, tmp_path):
     assert (tmp_path / "it.step").read_text().startswith("ISO-10303-21")
 
 
+def test_the_thickness_is_that_of_the_bill(assur_cli, tmp_path):
+    run = assur_cli("export", "fivebar", "--format", "bom", "--thickness", "12", "-o", str(tmp_path / "it.csv"))
+    assert run.code == 0, run.err
+    assert "flat bars are 12 mm thick" in " ".join(run.out.split())
+    assert "x 12" in (tmp_path / "it.csv").read_text()
+
+
+def test_simulators_have_no_thickness(assur_cli, tmp_path):
+    run = assur_cli("export", "fivebar", "--thickness", "12", "-o", str(tmp_path / "it.xml"))
+    assert run.code == 2
+    assert "mjcf has balls and arms of its own sizes" in run.err
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_step_without_its_extra_says_what_to_install(assur_cli, tmp_path, monkeypatch):
     import sys
 

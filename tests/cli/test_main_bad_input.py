@@ -23,7 +23,7 @@ BAD = {
     "direct zen 1 2 3": "unknown mechanism 'zen'; there is: "
     + ", ".join(assur.names())
     + "\nhint: did you mean zeng2019?",
-    "show": 'command "show" parameter MECHANISM requires an argument\nhint: see assur show --help',
+    "show": "MECHANISM is missing\nhint: see assur show --help",
     "direct zeng2019 1 2 3 --set l2=0": (
         "parameter 'l2' of zeng2019 (links 9 and 10) cannot be 0; allowed: a positive number in mm"
     ),
@@ -43,11 +43,11 @@ BAD = {
     "direct zeng2019 1 2 3 --set l2=nan": "--set l2: nan is not a finite number",
     "direct zeng2019 1 2 3 --set l2": "--set: 'l2' is not NAME=VALUE\nhint: for example --set l2=300",
     "direct zeng2019 1 2 3 --set l2=1 --set l2=2": "--set: l2 is given twice",
-    "list --set l2=1": "unknown option: --set\nhint: see assur list --help",
-    "direct zeng2019 1 2 3 --jsno": "unknown option: --jsno. Did you mean --json?\nhint: see assur direct --help",
-    "direct zeng2019 1 2 3 --mode": (
-        'command "direct" parameter --mode requires an argument\nhint: see assur direct --help'
+    "list --set l2=1": "unknown option --set of assur list\nhint: see assur list --help",
+    "direct zeng2019 1 2 3 --jsno": (
+        "unknown option --jsno of assur direct\nhint: did you mean --json? see assur direct --help"
     ),
+    "direct zeng2019 1 2 3 --mode": "--mode needs a value\nhint: see assur direct --help",
     "direct zeng2019 1 2 3 --mode ++0": (
         "unknown assembly mode of zeng2019 '++0'; there is: +++, ++-, +-+, +--, -++, -+-, --+, ---\n"
         "hint: one sign + or - for each of: e1, e2, e3"
@@ -67,7 +67,7 @@ BAD = {
     "workspace zeng2019 --near -5": "--near: -5 is not a positive length",
     "workspace zeng2019 --near 0": "--near: 0 is not a positive length",
     "workspace zeng2019 --resolution 5.5": "--resolution: '5.5' is not a whole number",
-    "workspace zeng2019 --resolution -5": "resolution: (-5, -5, -5); 2 to 400 cells along each coordinate",
+    "workspace zeng2019 --resolution -5": "--resolution: (-5, -5, -5); 2 to 400 cells along each coordinate",
     "workspace zeng2019 -o /nowhere/x.json": (
         "cannot write /nowhere/x.json: the folder /nowhere does not exist\nhint: mkdir -p /nowhere"
     ),

@@ -1,10 +1,13 @@
 from __future__ import annotations
 
+import subprocess
+
 import numpy as np
 import pytest
 from PIL import Image
 
 import assur
+from assur.figures.motion import ffmpeg
 
 SMALL = ("--frames", "8", "--size", "64")
 
@@ -48,9 +51,9 @@ def test_a_person_reads_how_far_it_goes(assur_cli, tmp_path):
     ("words", "message"),
     [
         (("-o", "m.avi"), "error: cannot write m.avi: its ending is none of .gif, .webp, .mp4\n"),
-        (("--frames", "3"), "error: frames: 3; from 8 to 240\n"),
-        (("--size", "1"), "error: size: 1; from 64 to 1280\n"),
-        (("--seconds", "0"), "error: seconds: 0; from 0.1 to 60\n"),
+        (("--frames", "3"), "error: --frames: 3; from 8 to 240\n"),
+        (("--size", "1"), "error: --size: 1; from 64 to 1280\n"),
+        (("--seconds", "0"), "error: --seconds: 0; from 0.1 to 60\n"),
         (("--to", "1"), "error: --to, pose of fivebar: 1 value, 2 wanted\n"),
         (("--to", "1", "far"), "error: "),
         (("--to", "0", "400"), "error: fivebar: the way from home is barred: stopped at "),
@@ -64,9 +67,23 @@ def test_wrong_input_is_refused_and_nothing_is_written(assur_cli, tmp_path, monk
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.movie
+def test_an_mp4_is_written_and_described(assur_cli, tmp_path):
+    path = tmp_path / "m.mp4"
+    run = assur_cli("motion", "fivebar", "-o", str(path), *SMALL, "--seconds", "2", "--json")
+    assert (run.code, run.err, run.json["format"]) == (0, "", "mp4")
+    width, height = run.json["pixels"]
+    told = subprocess.run([ffmpeg(), "-i", str(path)], capture_output=True, text=True, check=False).stderr
+    assert "Duration: 00:00:02.00," in told
+    assert f" {width}x{height}" in told
+
+
 def test_an_mp4_without_ffmpeg_is_refused_before_the_work(assur_cli, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setattr("assur.figures.motion._ffmpeg_of_the_extra", str)
     run = assur_cli("motion", "fivebar", "-o", str(tmp_path / "m.mp4"))
     assert (run.code, run.out) == (2, "")
-    assert run.err.startswith("error: an MP4 needs the program ffmpeg, which is not found\nhint: install it")
+    assert run.err.startswith(
+        "error: an MP4 needs the program ffmpeg, which is not found\nhint: pip install 'assur[movie]' "
+    )
     assert list(tmp_path.iterdir()) == []

@@ -143,9 +143,28 @@ def test_a_person_is_told_what_it_takes_and_how_to_read_it(assur_cli, tmp_path):
 def test_a_disk_that_is_too_small_is_told_before_anything_is_written(assur_cli, tmp_path, monkeypatch):
     usage = namedtuple("usage", "total used free")
     monkeypatch.setattr(shutil, "disk_usage", lambda _: usage(10**9, 10**9 - 1000, 1000))
-    run = assur_cli("sweep", "zeng2019", *PLANE, "-o", str(tmp_path))
-    assert run.code == 2
-    assert "the answer takes" in run.err
+    for folder in (tmp_path, tmp_path / "new" / "deep"):
+        run = assur_cli("sweep", "zeng2019", *PLANE, "-o", str(folder))
+        assert run.code == 2
+        assert "the answer takes" in run.err
+        assert run.err.endswith("hint: keep less of it, or take fewer places\n")
+        assert not list(tmp_path.iterdir())
+
+
+def test_a_disk_that_fills_while_files_are_made_leaves_none(assur_cli, tmp_path, monkeypatch):
+    make, made = np.lib.format.open_memmap, []
+
+    def full(path, **options):
+        if made:
+            raise OSError(28, "No space left on device")
+        made.append(make(path, **options))
+        return made[-1]
+
+    monkeypatch.setattr(np.lib.format, "open_memmap", full)
+    run = assur_cli("sweep", "zeng2019", *PLANE, "-o", str(tmp_path / "new" / "deep"))
+    assert (run.code, run.out) == (2, "")
+    assert run.err.startswith(f"error: cannot write {tmp_path / 'new' / 'deep'}: No space left on device\n")
+    assert len(made) == 1
     assert not list(tmp_path.iterdir())
 
 

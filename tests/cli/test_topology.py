@@ -174,7 +174,7 @@ BAD = {
     ],
     "--actuate names the joint 1.1 twice; each once": [*chains(*TRIPTERON), "--actuate", "1.1,1.1"],
     "cannot write graph.gif: its ending is none of .svg, .pdf, .png": ["zeng2019", "--graph", "graph.gif"],
-    'command "topology" parameter --chain requires an argument': ["--chain"],
+    "--chain needs a value": ["--chain"],
 }
 
 

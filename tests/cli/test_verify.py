@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import math
 import shutil
 
 import pytest
@@ -21,9 +22,16 @@ def test_a_valid_one_is_verified(assur_cli, path):
     assert run.json["mechanism_compared"] is True
     assert run.json["claims"] == json.loads(path.read_text())["claims"]
     shown = assur_cli("verify", str(path))
-    assert "proved: every leaf by ball arithmetic, volumes exact, in" in shown.out
-    assert "formulas: the mechanism's, recorded anew" in shown.out
-    assert "leaves: " in shown.out
+    assert shown.out.startswith(f"verified: {path}\n")
+    text = " ".join(shown.out.split())
+    assert "checked: every part, proved again by ball arithmetic; the sums, exactly; in" in text
+    assert "formulas: the mechanism's, recorded anew" in text
+    assert "parts: 60, which cover the box without overlap; of these" in text
+    open_ = run.json["shares"]["open"]
+    assert f"{run.json['claims']['leaves']['open']} ({100 * open_:.3g} %) undecided: nothing is proved there" in text
+    low, high = (float.fromhex(value) for value in run.json["claims"]["volume"])
+    sides = [float.fromhex(b) - float.fromhex(a) for a, b in run.json["statement"]["box"]]
+    assert open_ == pytest.approx((high - low) / math.prod(sides))
     assert max(map(len, shown.out.splitlines())) <= 80
 
 

@@ -96,6 +96,11 @@ def test_so_does_that_of_the_file(assur_cli):
     assert outer_box(record, {}, {"phi": 0.0}).keys() == {"x", "y"} & record.box.keys()
 
 
+def test_a_mechanism_whose_only_mode_has_no_signs_says_so(assur_cli):
+    for words in (("--prove", "x=0:1,y=0:1,phi=0:1"), ("--largest", "ball", "--at", "phi=0", "--around", "x=0,y=0")):
+        assert " in its only working mode\n" in assur_cli("workspace", "planar_3rpr", *words).out
+
+
 def test_what_is_undecided_has_a_code_of_its_own(assur_cli):
     run = assur_cli("workspace", "zeng2019", "--mode", "+++++", "--prove", "x=-40:0,y=-50:50,z=380:400")
     assert run.code == 5
@@ -131,7 +136,7 @@ def test_the_largest_shapes(assur_cli):
         (("--largest", "cube"), "about which point"),
         (("--largest", "cube", "--around", "x=1"), "x given"),
         (("--largest", "sphere", "--around", "x=1"), "sphere"),
-        (("--around", "x=1"), "add --largest cylinder"),
+        (("--around", "x=1"), "add --largest cube"),
         (("--largest", "ball", "--around", "x=0,y=0,z=400", "--ratio", "2"), "--ratio is of a cylinder"),
         (("--certify", "--ratio", "2"), "--ratio belongs to --largest"),
         (("--certify", "--section", "1000"), "outside the box"),

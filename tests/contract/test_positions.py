@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from assur import load, names
 from assur.kinematics import border
 from assur.kinematics.closure import characteristic_length, closure_error
 from assur.kinematics.modes import mode_text
@@ -12,6 +13,7 @@ from assur.kinematics.pose import pose_of
 from assur.kinematics.search import search
 from assur.kinematics.status import NEAR_SINGULAR, Status, closed_form_of, relative_factors
 from assur.model.closed_form import Eliminant
+from assur.model.file.place import table_place
 from assur.model.joint_graph import frames
 from assur.model.points import quantity
 
@@ -32,6 +34,23 @@ def test_home_closes_and_is_in_the_default_modes(mechanism):
     assembly = [np.sign(quantity(mechanism, f, mechanism.home_values)) for f in mechanism.modes.assembly.values()]
     assert mode_text(working) == mechanism.modes.default_working
     assert mode_text(assembly) == mechanism.modes.default_assembly
+
+
+@pytest.mark.parametrize("name", [name for name in names() if table_place(load(name), "home") != ("home",)])
+def test_home_of_alike_limbs_is_as_symmetric_as_they_are(name):
+    """A template's home is the same for every limb, and closing it leaves it so: its digits are enough of them."""
+    mechanism = load(name)
+    driven = border.inputs_of(mechanism, mechanism.home_values)
+    assert np.ptp(driven) < 1e-9 * characteristic_length(mechanism)
+
+
+@pytest.mark.parametrize("name", ["linear_delta_4s", "three_p2us", "delta_4s", "three_crr", "planar_3rrr"])
+def test_a_platform_in_the_middle_is_in_the_middle(name):
+    mechanism = load(name)
+    pose = pose_of(mechanism, mechanism.home_values)
+    names = mechanism.platform.pose
+    away = [value for axis, value in zip(names, pose, strict=True) if axis != "z"]
+    assert np.max(np.abs(away)) < 1e-9 * characteristic_length(mechanism)
 
 
 def test_every_inverse_solution_closes_the_whole_joint_graph(mechanism, poses):

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import re
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
@@ -11,6 +12,7 @@ import assur
 from assur import figures
 from assur.errors import OutputError, UnknownNameError
 from assur.figures.catalogue import ENTRIES
+from assur.report.formulas.latex import latex_mathml
 from assur.workspace.region import workspace
 
 MAGIC = {"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}
@@ -37,6 +39,8 @@ def test_catalogue_has_a_number_title_and_caption_for_each(context):
         assert spec.title
         assert spec.caption.endswith(".")
         assert spec.caption.count("$") % 2 == 0, spec.caption
+        for latex in re.findall(r"\$([^$]+)\$", spec.caption):
+            assert "<merror>" not in latex_mathml(latex), latex
 
 
 def test_every_figure_is_written_in_every_format(context, tmp_path):
@@ -149,3 +153,5 @@ def test_without_closed_form_few_figures_are_missing():
     for spec in figures.catalogue(record, bare):
         assert spec.caption.endswith(".")
         assert spec.caption.count("$") % 2 == 0, spec.caption
+        for latex in re.findall(r"\$([^$]+)\$", spec.caption):
+            assert "<merror>" not in latex_mathml(latex), latex

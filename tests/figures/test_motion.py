@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import importlib.util
 import io
+import re
+import subprocess
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +20,7 @@ from assur.kinematics.closure import characteristic_length, closure_error
 from assur.kinematics.paths.neighbours import working_signs
 from assur.kinematics.pose import pose_of
 from assur.numerics import rotations
+from assur.scene.mesh import rgb
 
 FEW, SMALL = 8, 64
 
@@ -132,17 +137,73 @@ def test_an_mp4_is_made_by_ffmpeg(tmp_path, monkeypatch):
     assert int(size) == 10 * 40 * 64 * 3
 
 
+def read_back(data, path):
+    """The frames (k, h, w, 3) of a file, decoded, and in words what it says of itself."""
+    path.write_bytes(data)
+    words = [ffmpeg(), "-i", str(path), "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
+    done = subprocess.run(words, capture_output=True, check=True)
+    said = " ".join(line for line in done.stderr.decode().splitlines() if "Duration" in line or "Video: h264" in line)
+    width, height = map(int, re.search(r" (\d+)x(\d+)[, ]", said).groups())
+    return np.frombuffer(done.stdout, np.uint8).reshape(-1, height, width, 3), said
+
+
+@pytest.fixture
+def without_a_system(tmp_path, monkeypatch):
+    """No ffmpeg but that of the extra."""
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.delenv("IMAGEIO_FFMPEG_EXE", raising=False)
+
+
+@pytest.mark.movie
+@pytest.mark.usefixtures("without_a_system")
+def test_an_mp4_that_is_read_back_has_every_frame_as_it_was_drawn(fivebar, tmp_path):
+    data = encoded_film(fivebar.pictures, "mp4", seconds=2.0)
+    shown, said = read_back(data, tmp_path / "m.mp4")
+    height, width = fivebar.pictures.shape[1:3]
+    assert shown.shape == (FEW, height - height % 2, width - width % 2, 3)
+    assert "Duration: 00:00:02.00," in said
+    assert f" {FEW // 2} fps," in said
+    assert " yuv420p(" in said
+    assert data[4:8] == b"ftyp"
+    assert data.index(b"moov") < data.index(b"mdat")  # it plays while it is still read
+    drawn = fivebar.pictures[:, : shown.shape[1], : shown.shape[2]].astype(float)
+    gaps = np.array([[np.mean(np.abs(one - other)) for other in drawn] for one in shown.astype(float)])
+    assert np.max(np.diag(gaps)) < 3.0
+    np.testing.assert_array_equal(np.argmin(gaps, axis=1), np.arange(FEW))
+
+
+@pytest.mark.movie
+@pytest.mark.usefixtures("without_a_system")
+def test_the_colours_of_an_mp4_are_those_that_were_drawn(tmp_path):
+    """Whole frames of one colour: what a swapped channel, another matrix or another range would change."""
+    colours = [
+        rgb(name) for name in ("#ff0000", "#00ff00", "#0000ff", "#ffffff", "#000000", "#c44e52", "#4c72b0", "#dddddd")
+    ]
+    drawn = np.round(255 * np.array(colours)).astype(np.uint8)
+    pictures = np.broadcast_to(drawn[:, None, None], (8, 64, 96, 3)).copy()
+    shown, said = read_back(encoded_film(pictures, "mp4", seconds=1.0), tmp_path / "m.mp4")
+    assert "(tv, bt709" in said
+    assert np.max(np.abs(shown.astype(int) - pictures)) <= 4
+
+
 def test_what_ffmpeg_complains_of_is_said(tmp_path, monkeypatch):
     stand_in(tmp_path, monkeypatch, fails=True)
     with pytest.raises(UsageError, match="ffmpeg made no MP4: no such codec"):
         encoded_film(np.zeros((8, 64, 64, 3), dtype=np.uint8), "mp4")
 
 
-def test_without_ffmpeg_there_is_a_hint(tmp_path, monkeypatch):
+@pytest.mark.parametrize("package", ["missing", "without a program"])
+def test_without_ffmpeg_there_is_a_hint(tmp_path, monkeypatch, package):
     monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", SimpleNamespace(get_ffmpeg_exe=_none))
+    monkeypatch.setattr(importlib.util, "find_spec", lambda _: None if package == "missing" else True)
     with pytest.raises(UsageError, match="ffmpeg, which is not found") as caught:
         ffmpeg()
-    assert ".gif" in caught.value.hint
+    assert caught.value.hint == "pip install 'assur[movie]' brings one; or write .gif or .webp"
+
+
+def _none():
+    raise RuntimeError("No ffmpeg exe could be found.")
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from assur.figures import singular, sketch, style
-from assur.scene import parts
+from assur.scene import part
 from assur.scene.mesh import rgb
 
 VISION = {
@@ -48,10 +48,10 @@ def closest(colours, vision):
         pytest.param(style.SERIES, id="series"),
         pytest.param(sketch.CHAINS, id="chains"),
         *(
-            pytest.param((*parts.LINKS, parts.DRIVE, parts.STAGE, grey), id=f"parts-{grey}")
-            for grey in (parts.STEEL, parts.DARK, parts.PLATE)
+            pytest.param((*part.LINKS, part.DRIVE, part.STAGE, grey), id=f"parts-{grey}")
+            for grey in (part.STEEL, part.DARK, part.PLATE)
         ),
-        pytest.param((singular.ACCENT, singular.MUTED, parts.DRIVE, parts.DARK), id="accents"),
+        pytest.param((singular.ACCENT, singular.MUTED, part.DRIVE, part.DARK), id="accents"),
     ],
 )
 def test_colours_stay_apart(colours, vision):

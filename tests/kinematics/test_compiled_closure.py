@@ -68,7 +68,6 @@ def test_as_many_unknowns_as_independent_equations(name):
 
 
 def test_machine_code_has_the_same_bits_whatever_the_block(monkeypatch):
-    pytest.importorskip("numba")
     mechanism = assur.load("zeng2019")
     start = _starts(mechanism, 333)
     closure = compiled_closure(mechanism, mechanism.input_indices)

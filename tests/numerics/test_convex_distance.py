@@ -7,7 +7,7 @@ import pytest
 from manifold3d import Manifold
 
 from assur.numerics import rotations
-from assur.numerics.convex_distance import convex_distance
+from assur.numerics.convex_distance import convex_distance, nearest_points
 
 CUBE = np.array([[x, y, z] for x in (0.0, 1) for y in (0.0, 1) for z in (0.0, 1)])
 SMALL, LARGE = 0.02, 200.0
@@ -63,3 +63,17 @@ def test_the_two_bodies_may_be_exchanged():
     back = np.swapaxes(turns, 1, 2)
     found = convex_distance(second, first, back, -np.einsum("kij,kj->ki", back, places))
     np.testing.assert_allclose(convex_distance(first, second, turns, places), found, rtol=1e-5, atol=1e-5)
+
+
+@pytest.mark.parametrize("scale", [SMALL, 1.0, LARGE])
+def test_nearest_points_are_in_the_bodies_and_as_far_apart_as_these(scale):
+    rng = np.random.default_rng(11)
+    for _ in range(30):
+        first, second = scale * rng.normal(size=(30, 3)), scale * rng.normal(size=(9, 3))
+        turn, place = rotations.from_vector(rng.normal(size=3)), scale * rng.uniform(-5, 5, size=3)
+        wanted = convex_distance(first, second, turn[None], place[None])[0]
+        pair = nearest_points(first, second @ turn.T + place)
+        assert np.linalg.norm(pair[1] - pair[0]) == pytest.approx(wanted, rel=2e-5, abs=2e-5 * scale)
+        for body, point in ((first, pair[0]), (second @ turn.T + place, pair[1])):
+            way = rng.normal(size=(200, 3))  # no plane has all of the body on one side and the point on the other
+            assert np.all(point @ way.T <= np.max(body @ way.T, axis=0) + 1e-9 * scale)

@@ -5,9 +5,11 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from assur.numerics import krawczyk
 from assur.numerics.intervals import interval, rounding
 from assur.numerics.intervals.interval import Interval
 from assur.numerics.krawczyk import derivative, image, inflated, proves, refutes, tightened
+from assur.numerics.recording import interval_program
 
 
 def circle_and_line(_, x):
@@ -76,6 +78,7 @@ def test_narrow_boxes_hold_the_zero_exactly():
 
 
 def test_rounding_that_is_off_is_noticed(monkeypatch):
+    monkeypatch.setattr(interval_program, "_DONE", interval_program._Done(there=False))
     for name in ("down", "up", "down_sum", "up_sum"):
         monkeypatch.setattr(rounding, name, lambda result: np.asarray(result, dtype=float))
     assert not squares_enclosed()
@@ -86,3 +89,20 @@ def test_a_containment_test_that_is_reversed_is_noticed(monkeypatch):
     monkeypatch.setattr(interval.Interval, "within", lambda one, other: within(other, one))
     with pytest.raises(AssertionError):
         test_a_box_about_a_zero_is_proved_and_its_image_holds_the_zero()
+
+
+@pytest.mark.parametrize("size", range(1, krawczyk.SMALL + 1))
+def test_machine_code_moves_boxes_as_numpy_does(monkeypatch, size):
+    """The same bits, of images that prove something, that have no bounds and that are not defined."""
+    rng = np.random.default_rng(size)
+    middle, inverse = rng.normal(size=(40, size)), rng.normal(size=(40, size, size))
+    offset, here = (Interval.of(low - rng.random(low.shape), low) for low in (0 * middle, middle))
+    low = rng.normal(size=(40, size, size))
+    low[3, 0, 0], inverse[4] = -np.inf, 0.0
+    slopes = Interval(low, low + rng.random(low.shape), rng.random(low.shape) < 0.9)
+    found = []
+    for there in (True, False):
+        monkeypatch.setattr(interval_program, "_DONE", interval_program._Done(interval_program.REPAID, there))
+        found.append(krawczyk._moved(middle, offset, here, slopes, inverse))
+    for part in ("low", "high", "defined"):
+        np.testing.assert_array_equal(getattr(found[0], part), getattr(found[1], part))

@@ -11,6 +11,10 @@ import numpy as np
 import pytest
 
 from assur.cli.main import main
+from assur.mechanism import load
+from assur.page.page import page_html, scene
+
+READY = "html[data-ready='1']"
 
 
 @pytest.fixture(scope="session")
@@ -58,3 +62,42 @@ def restored():
         return low + steps / 65535 * (high - low), faces.astype(np.int64)
 
     return read
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory):
+    """The address of the page of a mechanism, with other dimensions if so asked."""
+    folder, known = tmp_path_factory.mktemp("controls"), {}
+
+    def made(name, **given):
+        key = (name, *sorted(given.items()))
+        if key not in known:
+            path = folder / f"{len(known)}.html"
+            path.write_text(page_html(scene(load(name, **given), resolution=12)), encoding="utf-8")
+            known[key] = path.as_uri()
+        return known[key]
+
+    return made
+
+
+@pytest.fixture
+def opened(browser, address):
+    """Open a page in a window of a size; whatever it complains of fails the test."""
+    tabs, said = [], []
+
+    def open_(name, *, width=1300, height=800, dark=False, at="", **given):
+        context = browser.new_context(
+            viewport={"width": width, "height": height}, color_scheme="dark" if dark else "light"
+        )
+        tab = context.new_page()
+        tabs.append(context)
+        tab.on("console", lambda message: said.append(f"{message.type}: {message.text}"))
+        tab.on("pageerror", lambda error: said.append(f"error: {error}"))
+        tab.goto(at if at.startswith("file:") else address(name, **given) + at, wait_until="commit")
+        tab.wait_for_selector(READY, state="attached", timeout=60_000)
+        return tab
+
+    yield open_
+    for context in tabs:
+        context.close()
+    assert said == []

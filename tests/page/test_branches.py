@@ -11,7 +11,7 @@ from assur.kinematics.paths.following import mode_names
 from assur.kinematics.pose import pose_of
 from assur.mechanism import load, names
 from assur.page import branches as page
-from assur.page.branches import modes, unwound
+from assur.page.branches import modes
 from assur.topology.joints import SPHERICAL
 
 
@@ -83,20 +83,11 @@ def test_where_the_inputs_do_not_hold_the_platform_a_working_mode_stands_alone()
 
 
 def test_a_home_that_no_solution_is_stands_first_under_its_own_name(monkeypatch):
-    monkeypatch.setattr("assur.page.branches._away", lambda _, joints, __: np.ones(len(joints)))
+    monkeypatch.setattr("assur.kinematics.postures.SAME", -1.0)
     record = load("fivebar")
     found = page.branches(record)["assembly"]
     assert [item["label"] for item in found] == ["home", "+", "-"]
     assert found[0]["values"] == record.home_values.tolist()
-
-
-def test_whole_turns_are_taken_off_angles_but_not_off_rotation_vectors():
-    record = load("gough_stewart")
-    home = np.array(record.home_values)
-    spherical = [record.joints[item.joint].type is SPHERICAL for item in record.coordinates]
-    lengths = [item.kind == "length" for item in record.coordinates]
-    moved = unwound(record, home + 4 * np.pi, home)
-    assert np.array_equal(np.abs(moved - home) > 1, np.array(spherical) | np.array(lengths))
 
 
 def test_modes_are_rows_of_signs():

@@ -225,6 +225,7 @@ def test_a_factor_is_named_as_a_person_writes_it(shown):
     page.open()
     labels = [item["label"] for item in page.scene["branches"]["working"]]
     page.tab.evaluate("(k) => window.assur.work(k)", labels.index("++---"))
-    row = page.tab.get_by_text("closest factor", exact=True).locator("xpath=following-sibling::dd[1]")
+    name = page.tab.locator(".numbers").get_by_text("closest factor", exact=True)
+    row = name.locator("xpath=following-sibling::dd[1]")
     assert (row.text_content() or "").startswith("u1 \N{MINUS SIGN} u2")
     page.open()

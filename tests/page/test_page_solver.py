@@ -15,7 +15,7 @@ from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import characteristic_length, closing_system
 from assur.kinematics.paths.following import mode_names
 from assur.kinematics.pose import pose_of
-from assur.mechanism import load
+from assur.mechanism import load, names
 from assur.page.content import content
 
 WEB = Path(__file__).parents[2] / "web"
@@ -29,6 +29,17 @@ MOVED = 0.02
 
 DIGITS = 9
 """After the point, of joint values that are only compared."""
+
+WALKED = ("graph", "coordinates", "platform", "inputs", "characteristicLength", "home", "unit")
+"""What of a scene the solver needs to walk."""
+
+WALK = """
+import { readFileSync } from "node:fs";
+const { scene, moves, seed } = JSON.parse(readFileSync(0, "utf8"));
+const { modelOf } = await import(`${process.argv[1]}/src/solver/frames.js`);
+const { walked } = await import(`${process.argv[1]}/test/walks.js`);
+process.stdout.write(JSON.stringify(walked(modelOf(scene), { moves, seed })));
+"""
 
 AWAY = {"fivebar": (0.0, 270.0)}
 """Where modes are named: this lies beyond a parallel singularity of a working mode, others near home."""
@@ -111,3 +122,19 @@ def test_the_pages_own_tests_pass(node):
         [str(shutil.which("node")), "--test", *files], capture_output=True, text=True, timeout=240, check=False
     )
     assert done.returncode == 0, done.stdout[-4000:] + done.stderr[-2000:]
+
+
+@pytest.mark.node
+@pytest.mark.slow
+@pytest.mark.parametrize("name", names())
+def test_no_stop_is_a_trap_and_every_reason_is_true(name):
+    """Random moves of every mechanism: from a stop the way back is free, and the measures are as the reason says."""
+    whole = content(load(name), [])
+    given = {"scene": {key: whole[key] for key in WALKED}, "moves": 60, "seed": 11}
+    command = [str(shutil.which("node")), "--input-type=module", "-e", WALK, str(WEB)]
+    done = subprocess.run(command, input=json.dumps(given), capture_output=True, text=True, timeout=240, check=False)
+    assert done.returncode == 0, done.stderr[-2000:]
+    found = json.loads(done.stdout)
+    assert found["faults"] == []
+    assert found["moves"] >= given["moves"]
+    assert sum(found["stops"].values()) > 0

@@ -1,12 +1,15 @@
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 from assur.kinematics.border import inputs_of
+from assur.kinematics.closure import characteristic_length
 from assur.kinematics.pose import pose_of
 from assur.mechanism import load, names
-from assur.page.ranges import input_ranges, pose_ranges
+from assur.page.ranges import input_ranges, pose_ranges, whole_turn
 
 
 @pytest.mark.parametrize("name", names())
@@ -40,7 +43,38 @@ def test_without_a_stroke_it_covers_what_the_workspace_needs():
     assert np.all(high - low < 1.2 * np.ptp(needed, axis=0))
 
 
-def test_without_a_box_it_lies_around_home(drafted):
-    record = load(drafted)
+@pytest.mark.parametrize("name", names())
+def test_an_angle_without_a_stroke_has_a_whole_turn_with_round_ends_and_home_well_inside(name):
+    record = load(name)
     home = inputs_of(record, record.home_values)
-    assert np.allclose(np.mean(input_ranges(record), axis=1), home)
+    for item, (low, high), here in zip(record.inputs, input_ranges(record), home, strict=True):
+        if item.coordinate.kind == "angle" and item.stroke is None:
+            assert np.degrees([low, high]) % 180 == pytest.approx(0, abs=1e-9)
+            assert high - low == pytest.approx(2 * np.pi)
+            assert min(here - low, high - here) >= np.pi / 4
+
+
+@pytest.mark.parametrize("degrees", [-300.0, -180.0, 0.0, 134.0, 136.0, 179.0, 181.0, 360.0, 725.0])
+def test_a_turn_lies_around_zero_where_home_is_well_inside(degrees):
+    low, high = np.degrees(whole_turn(np.radians(degrees)))
+    assert min(degrees - low, high - degrees) >= 45 - 1e-9
+    assert ((low, high) == pytest.approx((-180, 180))) == (abs(degrees) <= 135)
+
+
+@pytest.mark.parametrize("name", names())
+def test_a_length_without_a_stroke_has_round_ends(name):
+    record = load(name)
+    for item, ends in zip(record.inputs, input_ranges(record), strict=True):
+        if item.coordinate.kind == "length" and item.stroke is None:
+            step = 10.0 ** np.floor(np.log10((ends[1] - ends[0]) / 25))
+            assert np.allclose(np.array(ends) / step, np.round(np.array(ends) / step), rtol=0, atol=1e-6)
+
+
+def test_without_a_box_lengths_lie_around_home(drafted):
+    record = load(drafted)
+    record = dataclasses.replace(record, box={})
+    home = pose_of(record, record.home_values)
+    low, high = np.array(pose_ranges(record)).T
+    length = characteristic_length(record)
+    assert np.all((home - low >= length) & (high - home >= length))
+    assert np.all((home - low < 1.2 * length) & (high - home < 1.2 * length))

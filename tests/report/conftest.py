@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from html.parser import HTMLParser
 from pathlib import Path
@@ -9,9 +10,11 @@ from pathlib import Path
 import pytest
 
 import assur
+from assur.report import report_html
 from assur.report.findings import Findings
 from assur.report.render import page_html
 from assur.report.report import report_page
+from assur.results.kinds import RIGHTS, Scalar, Section, Table
 
 RESOLUTION = 20
 VOID = {"meta", "input", "img", "br", "mspace", "path"}
@@ -37,6 +40,12 @@ def html(page):
 def fourbar():
     """A mechanism without closed form and without reference data."""
     return assur.load(Path(__file__).parents[1] / "model" / "fourbar.toml")
+
+
+@pytest.fixture(scope="session")
+def bare(fourbar):
+    """The page of a mechanism without closed form."""
+    return report_html(fourbar, figures=False)
 
 
 @pytest.fixture(scope="session")
@@ -110,3 +119,35 @@ def read():
 @pytest.fixture(scope="session")
 def document(html):
     return Document(html)
+
+
+@pytest.fixture(scope="session")
+def results_of():
+    """A function: every result of a kind on a page, those of sections inside sections too."""
+    return _results
+
+
+@pytest.fixture(scope="session")
+def without_right():
+    """A function: names of the numbers of which a page does not say by what right they are known."""
+    return _without_right
+
+
+def _results(page, kind):
+    waiting = list(page.sections)
+    while waiting:
+        for item in waiting.pop(0).results:
+            if isinstance(item, Section):
+                waiting.append(item)
+            elif isinstance(item, kind):
+                yield item
+
+
+def _without_right(page):
+    found = [item.name for item in _results(page, Scalar) if not item.known_by.startswith(RIGHTS)]
+    return found + [
+        table.title
+        for table in _results(page, Table)
+        if any(re.match(r"(area|length|volume|inside)\b", column) for column in table.columns)
+        and not table.known_by.startswith(RIGHTS)
+    ]

@@ -26,9 +26,11 @@ def test_a_post_joins_a_bar_of_the_platform_to_its_plate(every):
         assert {"plate", "bar"} <= roles
 
 
-def test_a_stand_reaches_from_its_joint_to_the_plate(every):
-    plates = [item for item in of_role(every, "plate") if item.link == every.record.base]
+def test_a_stand_reaches_from_its_joint_to_the_plate_or_the_carriage(every):
+    plates = [*of_role(every, "plate"), *of_role(every, "carriage")]
     for item in of_role(every, "stand"):
-        assert any((solid(plate.shape) ^ solid(item.shape)).volume() > 0 for plate in plates), item.name
-        gap = np.linalg.norm(corners(item.shape) - every.skeleton.points[item.joint], axis=1)
+        own = [plate for plate in plates if plate.link == item.link]
+        assert any((solid(plate.shape) ^ solid(item.shape)).volume() > 0 for plate in own), item.name
+        rotation, origin = every.skeleton.frames[item.link]
+        gap = np.linalg.norm(corners(item.shape) @ rotation.T + origin - every.skeleton.points[item.joint], axis=1)
         assert gap.min() < 3 * unit(every.skeleton)

@@ -277,4 +277,4 @@ def test_the_verifier_is_small_and_imports_nothing_of_the_project():
                 assert node.module.split(".")[0] in allowed or node.module.startswith("assur.verifier")
             if isinstance(node, ast.Import):
                 assert {item.name.split(".")[0] for item in node.names} <= allowed
-    assert lines < 350
+    assert lines <= 320

@@ -1,9 +1,7 @@
 from __future__ import annotations
 
 import pytest
-from flint import arb
 
-from assur.verifier.bounds import UndefinedError
 from assur.verifier.program import Program
 
 ONE = (1.0).hex()
@@ -21,8 +19,8 @@ def data(*operations, margins=(), factors=()):
 
 def value(*operations, box=(2, 3), strict=True):
     program = Program(data(*operations), ["x"])
-    found = program.over([(arb(box[0]), arb(box[1]))], [program.margins[0][1]], strict)[0]
-    return float(found[0]), float(found[1])
+    found = program.over(([box[0]], [box[1]]), program.margins, strict)
+    return found and (float(found[0][0]), float(found[0][1]))
 
 
 def test_every_operation():
@@ -39,18 +37,16 @@ def test_every_operation():
 
 
 def test_what_has_no_value_proves_nothing():
-    with pytest.raises(UndefinedError):
-        value(["/", 1, 0], box=(-1, 1))
-    with pytest.raises(UndefinedError):
-        value(["/", 1, 0], box=(0, 1))
-    with pytest.raises(UndefinedError):
-        value(["root", 0], box=(-1, 4))
+    assert value(["/", 1, 0], box=(-1, 1)) is None
+    assert value(["/", 1, 0], box=(-1, 1), strict=False) is None
+    assert value(["/", 1, 0], box=(0, 1)) is None
+    assert value(["root", 0], box=(-1, 4)) is None
     assert value(["root", 0], box=(-1, 4), strict=False) == (0.0, 2.0)
 
 
 def test_only_what_is_wanted_is_worked_out():
     program = Program(data(["/", 1, 0], ["+", 0, 1]), ["x"])
-    assert [float(v) for v in program.over([(arb(-1), arb(1))], [3], True)[0]] == [-0.5, 2.0]
+    assert [float(v) for v in program.over(([-1], [1]), [3])[0]] == [-0.5, 2.0]
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,8 @@ import pytest
 
 import assur
 from assur.errors import AssurError, UsageError
-from assur.view.link import Camera, query, restored
-from assur.view.state import start, with_dial, with_parameter, with_values
+from assur.view.link import Viewpoint, query, restored
+from assur.view.snapshot import start, with_dial, with_parameter, with_values
 
 
 @pytest.mark.parametrize("name", ["fivebar", "zeng2019", "gough_stewart", "three_rps"])
@@ -14,12 +14,12 @@ def test_pose_mode_dimensions_and_camera_come_back(name):
     record = assur.load(name)
     first = next(item for item in record.parameters.values() if item.unit == record.unit)
     before = with_dial(with_parameter(start(record), first.name, 1.002 * first.value), 0, start(record).pose[0])
-    camera = Camera((1.5, -2.0, 0.1), (0.0, 1e-3, 7.0), (0.0, 0.0, 1.0))
-    after, seen = restored(record, "http://127.0.0.1:1/token/?" + query(before, camera))
+    viewpoint = Viewpoint((1.5, -2.0, 0.1), (0.0, 1e-3, 7.0), (0.0, 0.0, 1.0))
+    after, seen = restored(record, "http://127.0.0.1:1/token/?" + query(before, viewpoint))
     assert after.values == pytest.approx(before.values, abs=1e-12)
     assert dict(after.record.overrides) == dict(before.record.overrides)
     assert after.modes == before.modes
-    assert seen == camera
+    assert seen == viewpoint
 
 
 def test_another_mode_comes_back():
@@ -53,9 +53,9 @@ def test_what_is_no_link_of_this_mechanism_is_refused(text, said):
 
 def test_an_empty_link_is_home():
     record = assur.load("fivebar")
-    state, camera = restored(record, "")
-    assert np.array_equal(state.values, start(record).values)
-    assert camera is None
+    snapshot, viewpoint = restored(record, "")
+    assert np.array_equal(snapshot.values, start(record).values)
+    assert viewpoint is None
 
 
 def test_a_refusal_names_the_command_for_the_other_mechanism():

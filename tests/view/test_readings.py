@@ -4,10 +4,14 @@ import numpy as np
 import pytest
 
 import assur
+from assur.kinematics.postures import postures
 from assur.singularity.distance import distance
-from assur.view.modes import modes
 from assur.view.readings import Reading, clearance, closest_factor, readings, table
-from assur.view.state import start
+from assur.view.snapshot import start
+
+
+def _working(snapshot):
+    return postures(snapshot.record, snapshot.values, "inverse")
 
 
 @pytest.fixture(scope="module")
@@ -28,13 +32,13 @@ def test_the_numbers_are_those_of_the_library(here):
 
 def test_the_closest_factor_is_that_of_the_verdict(here):
     verdict = here.record.singularity(here.pose, "++-++")
-    said = closest_factor(here, modes(here, "inverse"))
+    said = closest_factor(here, _working(here))
     assert said.text == f"{verdict.closest} = {verdict.relative[verdict.closest]:.3g}"
 
 
 @pytest.mark.slow
 def test_the_clearance_is_the_distance_of_the_library(here):
-    said = clearance(here, modes(here, "inverse"))
+    said = clearance(here, _working(here))
     found = distance(here.record, here.pose, "++-++")
     assert said.text == f"{float(found.value):.4g} mm"
     assert said.about == f"there {found.factor} = 0"
@@ -45,7 +49,7 @@ def test_without_a_closed_form_there_is_neither():
     import dataclasses
 
     bare = start(dataclasses.replace(record, closed_form=None))
-    found = modes(bare, "inverse")
+    found = _working(bare)
     assert closest_factor(bare, found) is None
     assert clearance(bare, found) is None
     assert np.isfinite(float({item.name: item.text for item in readings(bare)}["condition"]))

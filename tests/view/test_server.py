@@ -115,14 +115,18 @@ def test_it_answers_its_own_address_wherever_it_listens(host):
         found.stop()
 
 
-def test_a_port_that_is_taken_is_refused(served):
-    with pytest.raises(UsageError, match=r"nothing can listen on 127\.0\.0\.1"):
-        server.Served("127.0.0.1", served[0].port, Guard.new(), [].append)
-
-
-def test_an_address_of_nobody_is_refused():
-    with pytest.raises(UsageError, match=r"nothing can listen on 192\.0\.2\.1"):
-        server.Served("192.0.2.1", 0, Guard.new(), [].append)
+@pytest.mark.parametrize(
+    ("host", "port", "said", "hint"),
+    [
+        ("127.0.0.1", "taken", r"nothing can listen on 127\.0\.0\.1, port \d+: Address already in use", "--port"),
+        ("192.0.2.1", 0, r"nothing can listen on 192\.0\.2\.1: Cannot assign", "--host"),
+        ("nobody.invalid", 0, r"nothing can listen on nobody\.invalid: \w+", "--host"),
+    ],
+)
+def test_where_nothing_can_listen_is_refused_with_what_to_change(served, host, port, said, hint):
+    with pytest.raises(UsageError, match=said) as caught:
+        server.Served(host, served[0].port if port == "taken" else port, Guard.new(), [].append)
+    assert hint in caught.value.hint
 
 
 def test_without_viser_it_says_what_to_install(monkeypatch):

@@ -7,7 +7,7 @@ import assur
 from assur.errors import UsageError
 from assur.kinematics.closure import characteristic_length, closure_error
 from assur.kinematics.paths.following import mode_names
-from assur.view.state import start, to_poses
+from assur.view.snapshot import start, to_poses
 from assur.view.trajectory import around, through
 
 
@@ -35,9 +35,21 @@ def test_it_passes_the_poses_that_were_kept():
 def test_one_that_cannot_be_gone_says_so_and_goes_as_far_as_it_can():
     here = start(assur.load("fivebar"))
     found = through(here, [np.array([0.0, 400.0])])
-    assert "singularity" in str(found.reason)
-    assert len(found.joints) > 1
-    assert found.shares[-1] == 1.0
+    assert "leg1 is 112 mm too short" in str(found.reason)
+    straight, height = np.sqrt(294.0**2 - 70.0**2), here.pose[1]
+    assert found.end == pytest.approx((straight - height) / (2 * (400.0 - height)), abs=1e-4)
+    assert here.record.point("P", found.at(found.end))[1] == pytest.approx(straight, abs=1e-2)
+
+
+def test_what_is_said_is_of_the_corner_on_the_way_to_which_it_stops():
+    here = start(assur.load("fivebar"))
+    found = through(here, [np.array([10.0, 220.0]), np.array([0.0, 310.0]), np.array([0.0, 400.0])])
+    missing = np.hypot(310.0, 70.0) - 294.0
+    assert f"leg1 is {missing:.3g} mm too short" in str(found.reason)
+
+
+def test_a_round_that_is_gone_ends_at_its_end():
+    assert around(start(assur.load("fivebar"))).end == 1.0
 
 
 def test_it_needs_somewhere_to_go():

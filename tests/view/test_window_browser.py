@@ -73,7 +73,7 @@ def _wait(holds):
 def test_a_slider_moves_the_mechanism_as_python_does(shown, in_browser, faults):
     """Sliders in the order of the page: two inputs, x, y. Keys move them by steps; then a link brings home back."""
     record = shown.original
-    home = shown.state.pose
+    home = shown.snapshot.pose
 
     def body(browser):
         page = _opened(browser, shown, faults)
@@ -81,8 +81,8 @@ def test_a_slider_moves_the_mechanism_as_python_does(shown, in_browser, faults):
         steps = shown._platform[0].step
         for _ in range(3):
             sliders.nth(2).press("ArrowRight", timeout=1000 * SECONDS)
-        _wait(lambda: shown.state.pose[0] > home[0] + 2.5 * steps)
-        there = shown.state.pose
+        _wait(lambda: shown.snapshot.pose[0] > home[0] + 2.5 * steps)
+        there = shown.snapshot.pose
         _until(page, "x", there[0])
         found = record.inverse(there, "-+").inputs[0]
         for name, value in zip(("theta1", "theta2"), found, strict=True):
@@ -103,12 +103,12 @@ def test_a_link_restores_and_a_limit_is_said_in_red(shown, in_browser, faults):
     def body(browser):
         page = _opened(browser, shown, faults, query)
         _until(page, "theta1", 2.0 * 180 / 3.141592653589793)
-        _wait(lambda: shown.state.modes[1] == "-")
+        _wait(lambda: shown.snapshot.modes[1] == "-")
         box = page.get_by_role("textbox").nth(3)  # y, beside its slider
         box.fill("260", timeout=1000 * SECONDS)
         red = page.get_by_role("alert").filter(has_text="singularity")
         red.wait_for(timeout=1000 * SECONDS)
-        assert red.inner_text() == str(shown.state.reason)
+        assert red.inner_text() == str(shown.snapshot.reason)
         page.screenshot(path=PICTURES / "fivebar-limit.png", timeout=1000 * SECONDS)
 
     in_browser(body)

@@ -22,9 +22,11 @@ def test_only_the_newest_of_a_kind_is_done():
         worker.ask("drag", lambda number=number: done.append(number))
     worker.ask("other", lambda: done.append("other"))
     assert worker.busy
+    assert [worker.waits(kind) for kind in ("drag", "other", "gate")] == [True, True, False]
     gate.set()
     worker.stop()
     assert done == [4, "other"]
+    assert not worker.waits("drag")
 
 
 def test_idle_work_is_done_until_there_is_no_more_and_again_after_a_wish():

@@ -1,69 +1,103 @@
 /** Sliders: one for each input and each coordinate of the pose, with a number beside it; both say the same state. */
 
-import { el, figures, indexed, symbol } from "./dom.js";
+import { el, figures, indexed, minus, symbol } from "./dom.js";
+import { holding, roundBelow, unwound } from "./ends.js";
 import { isLength, poseOfShown, shownPose } from "./solver/pose.js";
 
 const DEGREE = 180 / Math.PI;
+const STEPS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 };
+const STEP = 100; // an arrow key goes a round number that is at most this part of the slider
 
-/**
- * One slider with its number. What is inside is in lengths and rad, what is shown in the scene's units.
- */
+let made = 0;
+
+/** One slider with its number. What is inside is in lengths and rad, what is shown in the scene's units. */
 class Slider {
-  constructor({ label, name, low, high, unit, factor, note }, moved) {
-    Object.assign(this, { factor, low, high, value: low });
-    this.places = Math.max(0, Math.min(6, 3 - Math.floor(Math.log10(Math.max(1e-9, (high - low) * factor)))));
-    const id = `slider-${name.replace(/\W/g, "-")}`;
+  /** @param {object} given its ends are those of the range, unless what it shows lies beyond; `turns`: an angle that may wind */
+  constructor({ label, name, range, unit, factor, places, turns, stroke }, moved) {
+    const ends = range.map((end) => end * factor);
+    Object.assign(this, { factor, unit, places, turns, stroke, moved, least: ends, value: range[0] });
+    const id = `slider-${(made += 1)}`;
     this.range = el("input", {
       type: "range",
       id,
-      min: low * factor,
-      max: high * factor,
       step: "any",
       "aria-describedby": `${id}-why`,
-      oninput: () => moved(this.range.valueAsNumber / factor),
-      onchange: () => this.settled?.(),
+      oninput: () => this.ask(this.range.valueAsNumber),
+      onkeydown: (event) => this.pressed(event),
     });
     this.number = el("input", {
       type: "number",
       step: 10 ** -Math.min(2, this.places),
       "aria-label": `${name} in ${unit}`,
       inputmode: "decimal",
-      onchange: () => this.typed(moved),
+      onchange: () => this.typed(),
     });
     this.why = el("p", { class: "why", id: `${id}-why` });
-    this.ends = el(
-      "div",
-      { class: "ends", "aria-hidden": "true" },
-      el("span", {}, figures(low * factor)),
-      el("span", {}, note),
-      el("span", {}, figures(high * factor)),
-    );
+    [this.low, this.note, this.high] = [el("span"), el("span"), el("span")];
     this.row = el(
       "div",
       { class: "slider" },
       el("label", { for: id, title: name }, label),
       this.range,
       el("span", { class: "amount" }, this.number, el("span", { class: "unit" }, unit)),
-      this.ends,
+      el("div", { class: "ends", "aria-hidden": "true" }, this.low, this.note, this.high),
       this.why,
     );
+    this.span(ends);
   }
 
-  /** A number that was typed: kept inside the slider's ends, or where it stands beyond them; what is none goes back. */
-  typed(moved) {
-    const wanted = this.number.valueAsNumber / this.factor;
-    if (!Number.isFinite(wanted)) return this.show(this.value);
-    const [low, high] = [Math.min(this.low, this.value), Math.max(this.high, this.value)];
-    return moved(Math.min(high, Math.max(low, wanted)));
+  /** Takes ends, in what is shown. */
+  span(ends) {
+    this.ends = ends;
+    [this.range.min, this.range.max] = ends;
+    [this.low.textContent, this.high.textContent] = ends.map((end) => figures(end));
+    const beyond = ends[0] < this.least[0] || ends[1] > this.least[1];
+    this.note.textContent = this.stroke ? (beyond ? "beyond the stroke" : "stroke") : "";
   }
 
-  show(value) {
+  /** Asks for a value as it is shown, inside the ends; a turning angle with as many turns as it has made. */
+  ask(shown) {
+    const [low, high] = this.ends;
+    const inside = Math.min(high, Math.max(low, this.wound(shown)));
+    this.moved(this.value + (inside - this.shown(this.value)) / this.factor);
+  }
+
+  /** An angle as the slider shows it. */
+  wound(shown) {
+    return this.turns ? unwound(shown / this.factor, this.ends.map((end) => end / this.factor)) * this.factor : shown;
+  }
+
+  shown(value) {
+    return this.wound(value * this.factor);
+  }
+
+  /** Keys go by round numbers, in every browser. */
+  pressed(event) {
+    const count = STEPS[event.key];
+    if (!count || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    const step = roundBelow((this.ends[1] - this.ends[0]) / STEP);
+    const at = this.shown(this.value) / step;
+    this.ask(step * (count > 0 ? Math.floor(at + 1e-6) : Math.ceil(at - 1e-6)) + step * count);
+  }
+
+  /** A number that was typed; what is none goes back. */
+  typed() {
+    if (Number.isFinite(this.number.valueAsNumber)) this.ask(this.number.valueAsNumber);
+    else this.show(this.value);
+  }
+
+  /** Shows a value; its ends go as far as it needs, and back to those of the range when a mode is chosen. */
+  show(value, anew) {
     this.value = value;
-    const shown = value * this.factor;
+    if (anew) this.ends = this.least;
+    const shown = this.shown(value);
+    const ends = holding(this.ends, shown);
+    if (anew || ends !== this.ends) this.span(ends);
     this.range.value = shown;
-    this.range.setAttribute("aria-valuetext", `${figures(shown)}`);
-    const share = (shown - this.range.min) / (this.range.max - this.range.min);
+    const share = (shown - ends[0]) / (ends[1] - ends[0]);
     this.range.style.setProperty("--share", `${100 * Math.min(1, Math.max(0, share))}%`);
+    this.range.setAttribute("aria-valuetext", `${figures(shown)} ${this.unit}`);
     this.number.value = shown.toFixed(this.places).replace(/^-(?=[0.]*$)/, "");
   }
 
@@ -75,78 +109,58 @@ class Slider {
   }
 }
 
-/** @returns {{inputs: HTMLElement, pose: HTMLElement, show: () => void}} both groups of sliders, which follow the state */
+/** What a slider of the pose covers: what the scene says; the angles of a quaternion all that they can be. */
+function rangeOf(name, { scene, model }) {
+  const index = model.pose.indexOf(name);
+  if (index >= 0) return scene.poseRange[index];
+  return name === "theta" ? [-Math.PI / 2, Math.PI / 2] : [-Math.PI, Math.PI];
+}
+
+const replaced = (values, k, value) => values.map((other, j) => (j === k ? value : other));
+
+/** @returns {{inputs: HTMLElement, pose: HTMLElement}} both groups of sliders, which follow the state */
 export function controls(mechanism) {
   const { scene, model } = mechanism;
   const degrees = scene.angleUnit === "deg";
-  const scaled = (length) =>
-    length ? { unit: scene.unit, factor: 1 } : { unit: degrees ? "°" : "rad", factor: degrees ? DEGREE : 1 };
+  const angles = degrees ? { unit: "°", factor: DEGREE, places: 2 } : { unit: "rad", factor: 1, places: 4 };
+  const places = Math.min(6, Math.max(0, 3 - Math.floor(Math.log10(scene.extent))));
+  const scaled = (length) => (length ? { unit: scene.unit, factor: 1, places } : angles);
+  const winds = ({ kind, index }) => kind !== "length" && !model.joints.some((it) => it.type === "H" && it.first === index);
   let last = null;
   const inputs = scene.inputs.map((item, k) => {
-    const slider = new Slider(
-      {
-        label: symbol(item.latex || indexed(item.name)),
-        name: item.name,
-        low: item.range[0],
-        high: item.range[1],
-        ...scaled(item.kind === "length"),
-        note: item.stroke ? "stroke" : "",
-      },
-      (value) => {
-        last = slider;
-        const wanted = mechanism.inputs;
-        wanted[k] = turned(value, wanted[k], item);
-        mechanism.toInputs(wanted);
-      },
-    );
+    const length = item.kind === "length";
+    const label = symbol(item.latex || indexed(item.name));
+    const given = { label, name: item.name, range: item.range, stroke: item.stroke, turns: winds(item), ...scaled(length) };
+    const slider = new Slider(given, (value) => {
+      last = slider;
+      mechanism.toInputs(replaced(mechanism.inputs, k, value));
+    });
     return slider;
   });
-  const { names } = shownPose(model, mechanism.pose);
-  const pose = names.map((name, k) => {
-    const known = model.pose.indexOf(name);
-    const [low, high] = known >= 0 ? scene.poseRange[known] : [-Math.PI / 2, Math.PI / 2];
-    const slider = new Slider(
-      { label: symbol(name), name, low, high, ...scaled(isLength(name)), note: "" },
-      (value) => {
-        last = slider;
-        const wanted = shownPose(model, mechanism.pose).values.slice();
-        wanted[k] = value;
-        mechanism.toPose(poseOfShown(model, wanted));
-      },
-    );
+  const pose = shownPose(model, mechanism.pose).names.map((name, k) => {
+    const length = isLength(name);
+    const range = rangeOf(name, mechanism);
+    const given = { label: symbol(name), name, range, stroke: null, turns: !length, ...scaled(length) };
+    const slider = new Slider(given, (value) => {
+      last = slider;
+      mechanism.toPose(poseOfShown(model, replaced(shownPose(model, mechanism.pose).values, k, value)));
+    });
     return slider;
   });
-  const show = () => {
-    mechanism.inputs.forEach((value, k) => inputs[k].show(within(value, scene.inputs[k])));
-    shownPose(model, mechanism.pose).values.forEach((value, k) => pose[k].show(value));
+  const show = (anew) => {
+    mechanism.inputs.forEach((value, k) => inputs[k].show(value, anew));
+    shownPose(model, mechanism.pose).values.forEach((value, k) => pose[k].show(value, anew));
     const { reason } = mechanism;
-    const blamed =
-      reason && reason.kind === "stroke" ? inputs[scene.inputs.findIndex((item) => item.name === reason.joint)] : null;
+    const blamed = reason && inputs[scene.inputs.findIndex((item) => item.name === reason.joint)];
     for (const slider of [...inputs, ...pose])
-      slider.stop(reason && (slider === last || slider === blamed) ? reason.text : "");
+      slider.stop(reason && (slider === last || slider === blamed) ? minus(reason.text) : "");
   };
   mechanism.listen((what) => {
     if (what === "mode") last = null;
-    show();
+    show(what === "mode");
   });
-  show();
-  return {
-    inputs: el("div", { class: "sliders", role: "group", "aria-label": "Inputs" }, ...inputs.map((item) => item.row)),
-    pose: el(
-      "div",
-      { class: "sliders", role: "group", "aria-label": "Pose of the platform" },
-      ...pose.map((item) => item.row),
-    ),
-    show,
-  };
+  show(true);
+  const group = (name, sliders) =>
+    el("div", { class: "sliders", role: "group", "aria-label": name }, ...sliders.map(({ row }) => row));
+  return { inputs: group("Inputs", inputs), pose: group("Pose of the platform", pose) };
 }
-
-/** An angle as the slider shows it: whole turns added so that it lies in the range, if the range is that wide. */
-function within(value, { kind, range: [low, high] }) {
-  if (kind === "length" || (value >= low && value <= high)) return value;
-  const turns = Math.round((value - (low + high) / 2) / (2 * Math.PI));
-  return value - 2 * Math.PI * turns;
-}
-
-/** The printed value of a slider's: with the turns that the joint has made. */
-const turned = (wanted, now, item) => wanted + (now - within(now, item));

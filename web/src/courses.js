@@ -1,102 +1,135 @@
-/** Courses for the player: a circle of the platform, and every input to and fro, made small enough to be followed. */
+/** Courses for the player: a circle of the platform, and everything to and fro, of a stated size well inside reach. */
 
+import { greek } from "./dom.js";
+import { roundBelow } from "./ends.js";
 import { isLength, poseOfShown, shownPose } from "./solver/pose.js";
 import { toInputs, toPose } from "./solver/motion.js";
 
 const SAMPLES = 60;
-const AWAY = 0.15; // of the time goes into the way to a circle, and back
-const SMALLEST = 1 / 16;
+const RADIUS = 1 / 6; // of the shorter slider, at most
+const TRAVEL = 0.45; // of the slider, at most
+const WIDEST = (2 * Math.PI) / 3; // rad of an angle's slider that count
+const CLEAR = 1.25; // a course that is so much larger can be followed too
+const ROUGH = 20; // places at which that is asked
+const DEGREE = 180 / Math.PI;
+const SIZES = 5; // that are tried, each a round number
 
 /**
- * @typedef {{label: string, kind: "pose"|"inputs", ways: number, at: (t: number, size: number, way: number) => number[]}} Course
- * closed, t from 0 to 1; it starts where the mechanism stands, and `ways` are the sides to which it may lie
+ * @typedef {{name: (size: number) => string, amount: (size: number) => string, kind: "pose"|"inputs",
+ *   sizes: number[], ways: number, at: (t: number, size: number, way: number) => number[]}} Course
+ * closed, t from 0 to 1; it starts where the mechanism stands, `ways` are the sides to which it may lie, sizes fall
  */
 
-/** To and fro from where it starts: to both sides, or to one of them. */
-const SWINGS = [Math.sin, (angle) => (1 - Math.cos(angle)) / 2, (angle) => (Math.cos(angle) - 1) / 2];
+/** To and fro over 1 from where it starts: to both sides, or to one of them. */
+const SWINGS = [
+  (angle) => Math.sin(angle) / 2,
+  (angle) => (1 - Math.cos(angle)) / 2,
+  (angle) => (Math.cos(angle) - 1) / 2,
+];
 
-/** A circle through where it starts, its centre on one of four sides. */
+/** A circle of radius 1 through where it starts, its centre on one of four sides. */
 function round(angle, way) {
-  const turned = angle + (way * Math.PI) / 2;
   const start = (way * Math.PI) / 2;
-  return [Math.cos(turned) - Math.cos(start), Math.sin(turned) - Math.sin(start)];
+  return [Math.cos(angle + start) - Math.cos(start), Math.sin(angle + start) - Math.sin(start)];
 }
 
-/** Courses about a configuration: first a circle about the middle of the sliders, or one near where it stands. @returns {Course[]} */
+/** Round numbers from one down, as they are shown. @returns {number[]} */
+function sizesFrom(most) {
+  const found = [roundBelow(most)];
+  while (found.length < SIZES) found.push(roundBelow(0.6 * found.at(-1)));
+  return found;
+}
+
+/** Pairs of coordinates that circles lie in, those of the widest sliders first: lengths if there are two, else angles. */
+function planes(names, room) {
+  const of = (length) => names.flatMap((name, k) => (isLength(name) === length ? [k] : []));
+  const found = of(true).length > 1 ? of(true) : of(false);
+  const pairs = found.flatMap((one, k) => found.slice(k + 1).map((other) => [one, other]));
+  const width = ([one, other]) => room(one) * room(other);
+  return pairs.sort((a, b) => width(b) - width(a));
+}
+
+/** Courses from where the mechanism stands: circles first, if there are any. @returns {Course[]} */
 export function coursesOf(mechanism) {
   const { model, scene } = mechanism;
   const { names, values } = shownPose(model, mechanism.pose);
   const inputs = mechanism.inputs;
-  const reach = (name) => (isLength(name) ? 0.22 * scene.extent : 0.6);
-  const pose = (label, ways, change) => ({
-    label,
+  const degrees = scene.angleUnit === "deg";
+  const shown = (length) =>
+    length ? { factor: 1, unit: ` ${scene.unit}` } : { factor: degrees ? DEGREE : 1, unit: degrees ? "°" : " rad" };
+  const span = (length, [low, high]) => (length ? high - low : Math.min(WIDEST, high - low));
+  const room = (k) =>
+    span(isLength(names[k]), scene.poseRange[model.pose.indexOf(names[k])] ?? [-Math.PI, Math.PI]);
+  const course = (words, length, most, rest) => {
+    const { factor, unit } = shown(length);
+    const sizes = sizesFrom(most * factor).map((size) => size / factor);
+    const amount = (size) => `${Number((size * factor).toPrecision(3))}${unit}`;
+    return { amount, name: (size) => `${greek(words)} ${amount(size)}`, sizes, ...rest };
+  };
+  const pose = (ways, change) => ({
     kind: "pose",
     ways,
     at: (t, size, way) =>
       poseOfShown(
         model,
-        values.map((value, k) => value + size * reach(names[k]) * change(2 * Math.PI * t, way, k)),
+        values.map((value, k) => value + size * change(2 * Math.PI * t, way, k)),
       ),
   });
-  const swing = (label, j) => pose(label, SWINGS.length, (angle, way, k) => (k === j ? SWINGS[way](angle) : 0));
+  const circle = (pair) =>
+    course(
+      `circle in ${pair.map((k) => names[k]).join(" and ")}, radius`,
+      isLength(names[pair[0]]),
+      RADIUS * Math.min(...pair.map(room)),
+      pose(4, (angle, way, k) => (pair.includes(k) ? round(angle, way)[pair.indexOf(k)] : 0)),
+    );
+  const swing = (name, j) =>
+    course(
+      `${name} to and fro,`,
+      isLength(name),
+      TRAVEL * room(j),
+      pose(SWINGS.length, (angle, way, k) => (k === j ? SWINGS[way](angle) : 0)),
+    );
   const input = (item, j) => {
-    const half = 0.35 * (item.range[1] - item.range[0]);
+    const length = item.kind === "length";
     const at = (t, size, way) =>
-      inputs.map((value, k) => (k === j ? value + size * half * SWINGS[way](2 * Math.PI * t) : value));
-    return { label: `input ${item.name} to and fro`, kind: "inputs", ways: SWINGS.length, at };
+      inputs.map((value, k) => (k === j ? value + size * SWINGS[way](2 * Math.PI * t) : value));
+    const rest = { kind: "inputs", ways: SWINGS.length, at };
+    return course(`input ${item.name} to and fro,`, length, TRAVEL * span(length, item.range), rest);
   };
-  const middle = names.map((name, k) => {
-    const [low, high] = scene.poseRange[model.pose.indexOf(name)] ?? [values[k], values[k]];
-    return isLength(name) ? { at: (low + high) / 2, half: (high - low) / 2 } : { at: values[k], half: reach(name) };
-  });
-  const tour = (t, size) => {
-    const [share, angle] = [Math.min(1, t / AWAY, (1 - t) / AWAY), (2 * Math.PI * (t - AWAY)) / (1 - 2 * AWAY)];
-    const smooth = share * share * (3 - 2 * share);
-    const on = middle.map(
-      ({ at, half }, k) => at + (k === 0 ? size * half * Math.cos(angle) : k === 1 ? size * half * Math.sin(angle) : 0),
-    );
-    return poseOfShown(
-      model,
-      values.map((value, k) => value + smooth * (on[k] - value)),
-    );
-  };
-  const near = pose("", 4, (angle, way, k) => (k < 2 ? round(angle, way)[k] : 0));
-  const label = `circle of ${names[0]} and ${names[1]}`;
-  const circle =
-    names.length > 1
-      ? [
-          {
-            label,
-            kind: "pose",
-            ways: 5,
-            at: (t, size, way) => (way === 0 ? tour(t, 0.8 * size) : near.at(t, size, way - 1)),
-          },
-        ]
-      : [];
-  return [...circle, ...names.map((name, j) => swing(`${name} to and fro`, j)), ...scene.inputs.map(input)];
+  return [...planes(names, room).map(circle), ...names.map(swing), ...scene.inputs.map(input)];
 }
 
 /** Where a mechanism is asked to be. */
 const go = ({ kind }, mechanism, values, target) =>
   (kind === "pose" ? toPose : toInputs)(mechanism.model, values, target, mechanism);
 
+/** A course followed once round at so many places. @returns {{samples: number[][], reason: object|null}} as far as it goes */
+function around(mechanism, course, size, way, count) {
+  const samples = [mechanism.values];
+  for (let k = 1; k <= count; k++) {
+    const { status, values, reason } = go(course, mechanism, samples[k - 1], course.at(k / count, size, way));
+    if (status !== "moved") return { samples, reason };
+    samples.push(values);
+  }
+  return { samples, reason: null };
+}
+
 /**
- * A course followed once round from where the mechanism stands, as large as it can be.
+ * A course followed once round from where the mechanism stands, as large as it can be with room around it.
  * @param {Course} course
- * @returns {{size: number, way: number, samples: number[][]}|null} joint values at even times; null where none works
+ * @returns {{size: number, way: number, samples: number[][]}|{reason: object}} joint values at even times; why no size works
  */
 export function followedCourse(mechanism, course) {
-  for (let size = 1; size >= SMALLEST; size *= 0.6)
+  let reason = null;
+  for (const size of course.sizes)
     for (let way = 0; way < course.ways; way++) {
-      const samples = [mechanism.values];
-      for (let k = 1; k <= SAMPLES; k++) {
-        const found = go(course, mechanism, samples[k - 1], course.at(k / SAMPLES, size, way));
-        if (found.status !== "moved") break;
-        samples.push(found.values);
-      }
-      if (samples.length === SAMPLES + 1) return { size, way, samples };
+      ({ reason } = around(mechanism, course, CLEAR * size, way, ROUGH));
+      if (reason) continue;
+      const found = around(mechanism, course, size, way, SAMPLES);
+      if (!found.reason) return { size, way, samples: found.samples };
+      reason = found.reason;
     }
-  return null;
+  return { reason };
 }
 
 /** The configuration at a time from 0 to 1. @returns {{values: number[]}} */

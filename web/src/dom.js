@@ -68,15 +68,21 @@ export function letterOf(name) {
   return letter ? [letter, index || leg || ""] : [own, ""];
 }
 
+/** Negative numbers, and signs that name a mode, alone or among words. */
+const HYPHENS = /(?<![^\s(=±≈<>^])(?:-(?=[\d.∞])|[+-][+/-]*[+-](?![^\s),.:;]))|^[+-]$/g;
+
+/** Text as a person reads it: true minus signs; the hyphens of words, chains and formulas stay. @param {string} text */
+export const minus = (text) => text.replace(HYPHENS, (found) => found.replaceAll("-", "\u2212"));
+
 /** A number with so many figures, as a person reads it. */
 export function figures(value, count = 4) {
   if (value === Infinity) return "∞";
   if (!Number.isFinite(value)) return "–";
   if (value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e6)) {
     const [mantissa, power] = value.toExponential(1).split("e");
-    return `${mantissa.replace("-", "\u2212")}·10${[...String(Number(power))].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] ?? "⁻").join("")}`;
+    return `${minus(mantissa)}·10${[...String(Number(power))].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] ?? "⁻").join("")}`;
   }
-  return String(Number(value.toPrecision(count))).replace("-", "\u2212");
+  return minus(String(Number(value.toPrecision(count))));
 }
 
 /** An icon by its strokes on 24 x 24, for buttons that also have a label. */

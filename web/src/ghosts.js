@@ -1,6 +1,7 @@
 /** The other assembly modes: translucent bodies that follow the inputs; a click makes one current. */
 
 import { Raycaster, Vector2 } from "three";
+import { minus } from "./dom.js";
 import { body } from "./scene/links.js";
 
 /** Colours that colour-blind readers tell apart (after Okabe and Ito). */
@@ -13,9 +14,10 @@ export class Ghosts {
     const most = Math.max(mechanism.assembly.length, ...mechanism.working.map((item) => item.assembly?.length ?? 0));
     Object.assign(this, { mechanism, stage, shown: mechanism.assembly.length <= MANY, waiting: [], lit: -1 });
     this.bodies = Array.from({ length: most }, (_, k) => {
-      const ghost = body(mechanism.model, geometries, { ghost: COLOURS[k % COLOURS.length] });
+      const ghost = body(mechanism.model, geometries, { ghost: COLOURS[k % COLOURS.length], behind: 1 + (k % COLOURS.length) });
       ghost.group.traverse((part) => (part.userData.branch = k));
-      stage.root.add(ghost.group);
+      ghost.group.visible = false; // until it is placed
+      stage.add(ghost.group);
       return ghost;
     });
     this.follow();
@@ -43,11 +45,16 @@ export class Ghosts {
       if (group.visible) place(this.mechanism.assembly[k].values);
     }
     if (this.waiting.length) requestAnimationFrame(() => this.stage.invalidate());
-    else this.done?.();
+    else {
+      this.stage.stirred();
+      this.done?.();
+    }
   }
 
   show(shown) {
     this.shown = shown;
+    const groups = this.bodies.map(({ group }) => group);
+    this.stage.keep(groups, shown);
     this.follow();
   }
 
@@ -92,7 +99,7 @@ export class Ghosts {
     }
     this.bodies.forEach(({ tint }, k) => (tint.opacity = k === index ? 0.65 : 0.3));
     this.stage.canvas.style.cursor = index >= 0 ? "pointer" : "";
-    this.stage.canvas.title = index >= 0 ? `${this.mechanism.assembly[index].label}: click to make it current` : "";
+    this.stage.canvas.title = index >= 0 ? `${minus(this.mechanism.assembly[index].label)}: click to make it current` : "";
     this.stage.invalidate();
   }
 }

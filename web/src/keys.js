@@ -4,7 +4,8 @@ import { el } from "./dom.js";
 
 const KEYS = [
   ["Tab", "next control"],
-  ["← →", "move a slider, or the next tab"],
+  ["← →", "move a slider by a round step, or the next tab"],
+  ["PgUp PgDn", "move a slider by ten steps"],
   ["1 – 9", "choose an assembly mode"],
   ["p", "play or pause the course"],
   ["r", "reset"],
@@ -37,7 +38,7 @@ export function help() {
 /** Calls what belongs to a key, unless something is being typed. @param {Record<string, Function>} calls */
 export function shortcuts(calls) {
   addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
+    if (event.repeat || event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
     if (event.target.matches?.("input[type=number], select, textarea")) return;
     const digit = /^[1-9]$/.test(event.key) ? Number(event.key) : 0;
     if (digit) calls.digit(digit);

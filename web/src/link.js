@@ -1,6 +1,14 @@
-/** The camera, the pose and the mode in the address's hash, so that a link restores them. */
+/** Everything that is shown, in the address's hash: camera, pose, mode, tab, course and check boxes, so that a link restores it. */
 
 const REST = 350;
+const FURTHEST = 50; // sizes of the mechanism that the camera's target may be away
+const FLAGS = ["ghosts", "letters", "limits"];
+
+/**
+ * What can be chosen on the page beside pose and camera: each is read, and put back.
+ * @typedef {{tab: string, course: number, layers: number[], ghosts: boolean, letters: boolean, limits: boolean}} Choices
+ * @typedef {{count: number, branches: number, tabs: string[], courses: number, layers: number}} Known what there is to choose from
+ */
 
 /** Numbers as short text that an address may hold: 32-bit floats in base64. @param {number[]} values */
 export function packed(values) {
@@ -23,32 +31,68 @@ export function unpacked(text, count) {
   }
 }
 
-/** The hash of a state. @param {{branch: number, values: number[], camera: number[]}} state */
-export function hashOf({ branch, values, camera }) {
-  return `#mode=${branch}&joints=${packed(values)}&view=${camera.map((value) => Number(value.toFixed(3))).join(",")}`;
+/** The hash of a state. @param {{branch: number, values: number[], camera: number[], choices: Choices}} state */
+export function hashOf({ branch, values, camera, choices }) {
+  const view = camera.map((value) => Number(value.toFixed(3))).join(",");
+  const { tab, course, layers } = choices;
+  const flags = FLAGS.map((name) => `${name}=${Number(choices[name])}`).join("&");
+  return `#mode=${branch}&joints=${packed(values)}&view=${view}&tab=${tab}&course=${course}&layers=${layers}&${flags}`;
 }
 
-/** @returns {{branch: number|null, values: number[]|null, camera: number[]|null}} what of a hash makes sense */
-export function readHash(hash, { count, branches }) {
+/** A whole number below a bound. @returns {number|null} */
+const whole = (text, below) => (/^\d{1,5}$/.test(text) && Number(text) < below ? Number(text) : null);
+
+/** Whole numbers with commas between them, or none. @returns {number[]|null} */
+function several(text, below) {
+  const found = text ? text.split(",").map((part) => whole(part, below)) : [];
+  return found.includes(null) ? null : found;
+}
+
+function cameraOf(text) {
+  const found = text.split(",").map((part) => (part.trim() ? Number(part) : NaN));
+  const sound = found.length === 6 && found.every(Number.isFinite) && found[2] > 0;
+  return sound && Math.hypot(...found.slice(3)) < FURTHEST ? found : null;
+}
+
+/** What of a hash makes sense; the rest is null, as is what it does not say. @param {string} hash @param {Known} known */
+export function readHash(hash, { count, branches, tabs, courses, layers }) {
   const given = new URLSearchParams(hash.replace(/^#/, ""));
-  const branch = Number(given.get("mode") ?? NaN);
-  const camera = (given.get("view") ?? "").split(",").map(Number);
+  const read = (name, call) => (given.has(name) ? call(given.get(name)) : null);
+  const flag = (text) => (["0", "1"].includes(text) ? text === "1" : null);
   return {
-    branch: Number.isInteger(branch) && branch >= 0 && branch < branches ? branch : null,
-    values: given.has("joints") ? unpacked(given.get("joints"), count) : null,
-    camera: camera.length === 6 && camera.every(Number.isFinite) && camera[2] > 0 ? camera : null,
+    branch: read("mode", (text) => whole(text, branches)),
+    values: read("joints", (text) => unpacked(text, count)),
+    camera: read("view", cameraOf),
+    choices: {
+      tab: read("tab", (text) => (tabs.includes(text) ? text : null)),
+      course: read("course", (text) => whole(text, courses)),
+      layers: read("layers", (text) => several(text, layers)),
+      ...Object.fromEntries(FLAGS.map((name) => [name, read(name, flag)])),
+    },
   };
 }
 
-/** Restores what the address says and keeps it up to date. @returns {() => string} the address now */
-export function linked(mechanism, stage) {
+/**
+ * Restores what the address says and keeps it up to date.
+ * @param {Record<keyof Choices, {read: () => any, put: (value: any) => void}>} choices where each is read and put
+ * @param {Omit<Known, "count"|"branches">} known
+ * @returns {() => string} the address now
+ */
+export function linked(mechanism, stage, choices, known) {
   const restore = () => {
-    const found = readHash(location.hash, { count: mechanism.model.count, branches: mechanism.assembly.length });
+    const found = readHash(location.hash, {
+      ...known,
+      count: mechanism.model.count,
+      branches: mechanism.assembly.length,
+    });
+    for (const [name, value] of Object.entries(found.choices)) if (value !== null) choices[name].put(value);
     if (found.values) mechanism.restore(found.values, found.branch ?? 0);
     if (found.camera) stage.view.set(found.camera);
   };
   const address = () => {
-    const hash = hashOf({ branch: mechanism.branch, values: mechanism.values, camera: stage.view.numbers() });
+    const chosen = Object.fromEntries(Object.entries(choices).map(([name, { read }]) => [name, read()]));
+    const { branch, values } = mechanism;
+    const hash = hashOf({ branch, values, camera: stage.view.numbers(), choices: chosen });
     return location.href.split("#")[0] + hash;
   };
   let timer = 0;
@@ -56,13 +100,15 @@ export function linked(mechanism, stage) {
   const write = () => {
     clearTimeout(timer);
     timer = setTimeout(() => {
-      own = address();
-      history.replaceState(null, "", own);
+      const now = address();
+      if (now !== location.href) history.replaceState(null, "", now);
+      own = location.href;
     }, REST);
   };
   restore();
   mechanism.listen(write);
   stage.view.controls.addEventListener("end", write);
+  for (const kind of ["change", "click", "keyup"]) addEventListener(kind, write);
   addEventListener("hashchange", () => location.href !== own && restore());
   return address;
 }

@@ -9,15 +9,17 @@ import { help, shortcuts } from "./keys.js";
 import { linked } from "./link.js";
 import { Mechanism } from "./mechanism.js";
 import { modeLists } from "./modes.js";
-import { check, panel } from "./panel.js";
+import { boxOf, check, panel } from "./panel.js";
 import { Player } from "./player.js";
 import { readout } from "./readout.js";
 import { layerOf } from "./scene/layers.js";
 import { Letters } from "./scene/letters.js";
 import { body, linkGeometries } from "./scene/links.js";
-import { Stage } from "./scene/stage.js";
+import { Marker } from "./scene/marker.js";
+import { SPACE, Stage } from "./scene/stage.js";
 import { frames } from "./solver/frames.js";
 import { platformOf } from "./solver/pose.js";
+import { heading } from "./source.js";
 
 const scene = JSON.parse(document.getElementById("scene").textContent);
 const root = document.documentElement;
@@ -42,8 +44,9 @@ stage.canvas.setAttribute("role", "img");
 stage.canvas.setAttribute("aria-label", `${scene.title || scene.name} in space`);
 const geometries = linkGeometries(scene, model);
 const current = body(model, geometries);
-stage.root.add(current.group);
+stage.add(current.group);
 const letters = new Letters(scene, model, stage.root);
+const marker = new Marker(model, stage.root);
 const point = new Mesh(
   new SphereGeometry(0.011 * scene.extent, 24, 16),
   new MeshBasicMaterial({ color: "#d55e00", toneMapped: false, depthTest: false }),
@@ -55,6 +58,8 @@ stage.root.add(point);
 function paint() {
   stage.setDark(darkness.matches);
   letters.paint(darkness.matches);
+  marker.paint(darkness.matches);
+  marker.show(mechanism.reason, mechanism.values);
   current.tint.color.set(darkness.matches ? "#dde2e9" : "#ffffff");
 }
 paint();
@@ -62,31 +67,31 @@ paint();
 function placeAll() {
   current.place(mechanism.values);
   letters.place(mechanism.values);
+  marker.show(mechanism.reason, mechanism.values);
   point.position.set(...platformOf(model, frames(model, mechanism.values)).point);
   stage.moved();
 }
 placeAll();
 stage.frame(current.group, scene.extent);
 stage.resize();
-stage.view.look();
+stage.look();
 
 const layers = scene.layers.map((layer) => {
   const object = layerOf(layer);
   object.visible = Boolean(layer.visible);
-  stage.root.add(object);
+  stage.add(object);
   return check(
     layer.label.replaceAll("^2", "²"),
     object.visible,
     (shown) => {
       object.visible = shown;
-      stage.invalidate();
+      stage.keep([object], shown);
     },
     layer.colour,
   );
 });
 const ghosts = new Ghosts(mechanism, geometries, stage);
 const player = new Player(mechanism, stage);
-const address = linked(mechanism, stage);
 mechanism.listen(placeAll);
 placeAll();
 
@@ -97,21 +102,17 @@ const letterCheck = check("Letters", true, (shown) => {
 });
 const limitCheck = check("Stop at strokes and joint limits", true, (on) => (mechanism.limits = on));
 const view = (name, ...angles) =>
-  el("button", { type: "button", class: "plain", onclick: () => stage.view.look(...angles) }, name);
+  el("button", { type: "button", class: "plain", onclick: () => stage.look(angles) }, name);
 const views = el(
   "div",
   { class: "modes" },
-  view("3-D"),
+  view("3-D", ...SPACE),
   view("Front", -90, 0),
   view("Side", 0, 0),
   view("Top", -90, 90),
 );
 
-const status = statusLine(mechanism);
-const say = (text) => {
-  status.dataset.kind = "said";
-  status.firstChild.textContent = text;
-};
+const { element: status, say } = statusLine(mechanism);
 const save = async () => {
   const link = el("a", { download: `${scene.name}.png`, href: URL.createObjectURL(await stage.picture()) });
   link.click();
@@ -134,7 +135,7 @@ const tools = el(
   "div",
   { class: "tools", role: "group", "aria-label": "Tools" },
   tool("Reset (r)", "M4 12a8 8 0 1 0 2.6-5.9M4 4v4.5h4.5", () => reset()),
-  tool("Fit the view (f)", "M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5", () => stage.view.look()),
+  tool("Fit the view (f)", "M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5", () => stage.fit()),
   tool("Save a picture (s)", "M4 8h3.5L9 5.5h6L16.5 8H20v11H4zM12 10a3.4 3.4 0 1 0 0 6.8 3.4 3.4 0 0 0 0-6.8", save),
   tool(
     "Copy a link to this view (l)",
@@ -145,32 +146,43 @@ const tools = el(
 );
 const reset = () => {
   mechanism.reset();
-  stage.view.look();
+  stage.look();
 };
 
-place.append(
-  el("header", { class: "title" }, el("h1", {}, scene.title || scene.name), el("p", {}, scene.title ? scene.name : "")),
-  readout(mechanism).element,
-  status,
-  tools,
-);
-app.append(
-  panel({
-    scene,
-    sliders: controls(mechanism),
-    player,
-    modes: modeLists(mechanism, ghosts),
-    looks: { checks: [ghostCheck, letterCheck, limitCheck], views },
-    layers,
-  }),
-  dialog,
-);
+const foot = el("div", { class: "foot" }, readout(mechanism).element, tools);
+place.append(el("div", { class: "over" }, heading(scene), status, foot));
+const side = panel({
+  scene,
+  sliders: controls(mechanism),
+  player,
+  modes: modeLists(mechanism, ghosts),
+  looks: { checks: [ghostCheck, letterCheck, limitCheck], views },
+  layers,
+});
+app.append(side.element, dialog);
 stage.resize();
-if (!location.hash) stage.view.look();
+stage.look();
+const shown = layers.map(boxOf);
+const address = linked(
+  mechanism,
+  stage,
+  {
+    tab: side.tab,
+    course: player.course,
+    layers: {
+      read: () => [...shown.keys()].filter((k) => shown[k].read()),
+      put: (wanted) => shown.forEach((box, k) => box.put(wanted.includes(k))),
+    },
+    ghosts: boxOf(ghostCheck),
+    letters: boxOf(letterCheck),
+    limits: boxOf(limitCheck),
+  },
+  { tabs: side.tabs, courses: player.courses.length, layers: layers.length },
+);
 
 shortcuts({
   r: reset,
-  f: () => stage.view.look(),
+  f: () => stage.fit(),
   s: save,
   l: share,
   p: () => player.toggle(),
@@ -182,7 +194,11 @@ shortcuts({
 darkness.addEventListener("change", paint);
 stage.before.push(
   () => root.dataset.ready && ghosts.advance(), // the mechanism itself comes first
-  () => letters.arrange(stage.view.camera, place.clientWidth, place.clientHeight, stage.scale),
+  () => stage.follow(),
+  () => {
+    const picture = [stage.view.camera, place.clientWidth, place.clientHeight, stage.scale];
+    letters.arrange(...picture, marker.arrange(...picture));
+  },
   () => {
     if (root.dataset.ready) return;
     requestAnimationFrame(() => {

@@ -47,6 +47,7 @@ export class Mechanism {
     this.values = this.scene.home.slice();
     this.list(0);
     this.branch = 0;
+    this.here = 0;
     this.note({ status: "moved", reason: null });
     this.changed("mode");
     return this.state();
@@ -132,6 +133,7 @@ export class Mechanism {
     if (!(residual(this.model, closed) < 1e-9 * this.model.length)) return;
     this.values = closed;
     const { index, crossed } = this.workHere();
+    this.here = index < 0 ? null : index;
     if (index < 0 || !this.settle(index, crossed, hint))
       this.working.some((_, k) => k !== index && this.settle(k, true, hint));
     this.jump(closed);
@@ -147,6 +149,7 @@ export class Mechanism {
 
   moved(found) {
     this.values = found.values;
+    if (found.turned) this.here = null; // that working mode may have ended on the way
     this.note(found);
     this.changed("motion");
     return this.state();
@@ -162,6 +165,7 @@ export class Mechanism {
     if (found.status === "moved") {
       this.values = found.values;
       this.branch = index;
+      this.here = null;
       this.note(found);
     } else
       this.note({
@@ -179,6 +183,7 @@ export class Mechanism {
     const found = toPose(this.model, item.values, this.pose, FREELY);
     if (found.status === "moved") {
       this.values = found.values;
+      this.here = index;
       this.settle(index, found.crossed);
       this.note(found);
     } else
@@ -213,21 +218,28 @@ export class Mechanism {
     return [...points.flat(), ...placed[this.model.platform].turn];
   }
 
-  /** Index of the working mode in which the mechanism stands, -1 where none of the list is. */
+  /**
+   * Index of the working mode in which the mechanism stands, -1 where none of the list is: the last one that was known
+   * if no serial singularity has been passed since, else that in which the way back to home's pose ends.
+   */
   currentWork() {
-    return this.workHere().index;
+    if (this.here === null) {
+      const { index, sure } = this.workHere();
+      if (!sure) return index; // elsewhere it may be found
+      this.here = index;
+    }
+    return this.here;
   }
 
-  /** That index, and whether a parallel singularity is on the way from home's pose. */
+  /**
+   * That index by going back to home's pose, -1 also where there is no way (it is not sure then); and whether a parallel
+   * singularity is on the way.
+   */
   workHere() {
-    const pose = this.pose;
-    let crossed = false;
-    const index = this.working.findIndex((item) => {
-      const found = toPose(this.model, item.values, pose, FREELY);
-      crossed = found.crossed;
-      return found.status === "moved" && this.same(found.values, this.values);
-    });
-    return { index, crossed };
+    const home = poseOf(this.model, frames(this.model, this.scene.home));
+    const { status, values, crossed } = toPose(this.model, this.values, home, FREELY);
+    const index = status === "moved" ? this.working.findIndex((item) => this.same(item.values, values)) : -1;
+    return { index, crossed, sure: status === "moved" };
   }
 
   /** Factors of the closed form here, in the working mode whose inputs are the present ones. */

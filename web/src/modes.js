@@ -1,10 +1,16 @@
 /** Lists of assembly and working modes: what a click on a ghost does, for the keyboard and for fingers too. */
 
-import { el } from "./dom.js";
+import { el, minus } from "./dom.js";
 import { COLOURS } from "./ghosts.js";
 
-/** A mode's signs with true minus signs, so that they are as wide as plus signs. */
-const label = (text, k) => (/^[+-]/.test(text) ? text.replace(/-/g, "−") : text || `mode ${k + 1}`);
+/** A mode's name as a person reads it. */
+const label = (text, k) => minus(text) || `mode ${k + 1}`;
+
+/** The name, and what is not as usual. */
+function told({ label: name, status }, k, gone = false) {
+  const unusual = gone ? "not at these inputs" : status === "regular" ? "" : status;
+  return unusual ? `${label(name, k)}: ${unusual}` : label(name, k);
+}
 
 /** @returns {{assembly: HTMLElement, working: HTMLElement}} */
 export function modeLists(mechanism, ghosts) {
@@ -15,7 +21,7 @@ export function modeLists(mechanism, ghosts) {
         type: "button",
         class: "mode",
         "aria-pressed": "false",
-        title: item.status && item.status !== "regular" ? `${item.label}: ${item.status}` : item.label,
+        title: told(item, k),
         onclick: choose,
         ...(colour
           ? {
@@ -32,6 +38,7 @@ export function modeLists(mechanism, ghosts) {
   const group = (name) => el("div", { class: "modes", role: "group", "aria-label": name });
   const [assembly, working] = [group("Assembly modes"), group("Working modes")];
   working.append(...mechanism.working.map((item, k) => button(item, k, null, () => mechanism.work(k))));
+  const note = el("p", { class: "quiet", hidden: true }, "It stands in none of these, which are those of home’s pose.");
   const pressed = (list, current) =>
     [...list.children].forEach((node, k) => node.setAttribute("aria-pressed", String(k === current)));
   let listed = null;
@@ -45,13 +52,21 @@ export function modeLists(mechanism, ghosts) {
     }
     pressed(assembly, mechanism.branch);
     clearTimeout(timer);
-    timer = setTimeout(() => pressed(working, mechanism.currentWork()), 150);
+    const mark = () => {
+      const index = mechanism.currentWork();
+      pressed(working, index);
+      note.hidden = index >= 0;
+    };
+    if (mechanism.here !== null) mark();
+    else timer = setTimeout(mark, 150); // it must be searched for
   };
   ghosts.done = () =>
-    [...assembly.children].forEach((node, k) =>
-      node.classList.toggle("gone", k !== mechanism.branch && !mechanism.assembly[k].reached),
-    );
+    [...assembly.children].forEach((node, k) => {
+      const gone = k !== mechanism.branch && !mechanism.assembly[k].reached;
+      node.classList.toggle("gone", gone);
+      node.title = told(listed[k], k, gone);
+    });
   mechanism.listen(show);
   show();
-  return { assembly, working };
+  return { assembly, working: el("div", {}, working, note) };
 }

@@ -1,6 +1,8 @@
 /** The panel: tabs with everything that moves, shows and says something; on a phone a sheet that folds. */
 
-import { el, icon } from "./dom.js";
+import { el, icon, minus } from "./dom.js";
+import { NUMBERS } from "./readout.js";
+import { difference, dimensions, errata } from "./source.js";
 
 const section = (title, note, ...content) =>
   el("section", {}, el("h2", {}, title, note ? el("small", {}, note) : null), ...content);
@@ -14,11 +16,17 @@ export function check(label, checked, changed, colour) {
     { class: "check" },
     box,
     colour ? el("i", { style: `--colour:${colour}` }) : null,
-    el("span", {}, label),
+    el("span", {}, minus(label)),
   );
 }
 
-/** Tabs as the keyboard expects them: arrows go from one to the next. */
+/** Whether a check box is on, and how to put it on or off as a hand would. @param {HTMLElement} label of `check` */
+export const boxOf = (label) => ({
+  read: () => label.control.checked,
+  put: (on) => label.control.checked !== on && label.control.click(),
+});
+
+/** Tabs as the keyboard expects them: arrows go from one to the next, Home and End to the first and the last. */
 function tabs(pages) {
   const list = el("div", { role: "tablist", class: "tabs", "aria-label": "Panel" });
   const choose = (k, focus) => {
@@ -38,51 +46,39 @@ function tabs(pages) {
     );
     item.page = el(
       "div",
-      { role: "tabpanel", id, "aria-labelledby": `tab-${id}`, class: "tabpage", tabindex: -1 },
+      { role: "tabpanel", id, "aria-labelledby": `tab-${id}`, class: "tabpage", tabindex: item.text ? 0 : -1 },
       ...item.content,
     );
     list.append(item.tab);
   });
-  list.addEventListener("keydown", ({ key }) => {
+  list.addEventListener("keydown", (event) => {
     const now = pages.findIndex(({ tab }) => tab === document.activeElement);
-    const next = { ArrowRight: now + 1, ArrowLeft: now - 1 }[key];
-    if (next !== undefined) choose((next + pages.length) % pages.length, true);
+    const next = { ArrowRight: now + 1, ArrowLeft: now - 1, Home: 0, End: pages.length - 1 }[event.key];
+    if (next === undefined) return;
+    event.preventDefault();
+    choose((next + pages.length) % pages.length, true);
   });
   choose(0);
-  return { list, pages: pages.map(({ page }) => page) };
+  const names = pages.map(({ name }) => name.toLowerCase());
+  const chosen = {
+    read: () => names[pages.findIndex(({ page }) => !page.hidden)],
+    put: (name) => choose(names.indexOf(name)),
+  };
+  return { list, pages: pages.map(({ page }) => page), names, chosen };
 }
 
 /** Facts of the topology, errata of the source and its dimensions. */
 function facts(scene) {
-  const pair = ({ title, text }) => el("div", {}, el("dt", {}, title), el("dd", {}, text));
-  const parameter = ({ name, value, unit, meaning }) =>
-    el(
-      "tr",
-      { title: meaning },
-      el("th", { scope: "row" }, name),
-      el("td", {}, String(Number(value.toPrecision(8)))),
-      el("td", {}, unit),
-      el("td", {}, meaning),
-    );
+  const meanings = Object.entries(NUMBERS)
+    .filter(([key]) => key !== "factor" || scene.kernel)
+    .map(([, [title, text]]) => ({ title, text }));
+  const pair = ({ title, text }) => el("div", {}, el("dt", {}, title), el("dd", {}, minus(text)));
   return [
     scene.facts.length ? section("Topology", "", el("dl", { class: "facts" }, ...scene.facts.map(pair))) : null,
-    section(
-      "Errata of the source",
-      "",
-      ...(scene.errata.length
-        ? [
-            el(
-              "ul",
-              { class: "errata" },
-              ...scene.errata.map(({ id, text }) => el("li", {}, el("b", {}, id), " ", text)),
-            ),
-          ]
-        : [el("p", { class: "quiet" }, "None are known.")]),
-    ),
-    scene.parameters.length
-      ? section("Dimensions", "", el("table", {}, el("tbody", {}, ...scene.parameters.map(parameter))))
-      : null,
+    section("Errata of the source", "", errata(scene)),
+    scene.parameters.length ? section("Dimensions", difference(scene), dimensions(scene)) : null,
     scene.source ? section("Source", "", el("p", { class: "quiet" }, scene.source)) : null,
+    section("What the numbers mean", "", el("dl", { class: "facts" }, ...meanings.map(pair))),
   ].filter(Boolean);
 }
 
@@ -90,10 +86,10 @@ const count = (list) => (list.length > 1 ? String(list.length) : "");
 
 /**
  * @param {object} parts what goes into it, made elsewhere
- * @returns {HTMLElement}
+ * @returns {{element: HTMLElement, tabs: string[], tab: {read: () => string, put: (name: string) => void}}}
  */
 export function panel({ scene, sliders, player, modes, looks, layers }) {
-  const { list, pages } = tabs([
+  const { list, pages, names, chosen } = tabs([
     {
       name: "Move",
       content: [
@@ -112,22 +108,25 @@ export function panel({ scene, sliders, player, modes, looks, layers }) {
         section("View", "", looks.views),
       ],
     },
-    { name: "Facts", content: facts(scene) },
+    { name: "Facts", text: true, content: facts(scene) },
   ]);
+  const { classList } = document.documentElement;
+  const folded = (on) => {
+    classList.toggle("folded", on);
+    fold.setAttribute("aria-expanded", String(!on));
+    fold.setAttribute("aria-label", on ? "Unfold the panel" : "Fold the panel");
+  };
   const fold = el(
     "button",
-    {
-      type: "button",
-      class: "fold",
-      "aria-expanded": "true",
-      "aria-label": "Fold the panel",
-      onclick: () => {
-        const folded = document.documentElement.classList.toggle("folded");
-        fold.setAttribute("aria-expanded", String(!folded));
-        fold.setAttribute("aria-label", folded ? "Unfold the panel" : "Fold the panel");
-      },
-    },
+    { type: "button", class: "fold", onclick: () => folded(!classList.contains("folded")) },
     icon("M6 9l6 6 6-6"),
   );
-  return el("aside", { class: "panel", "aria-label": "Controls" }, el("div", { class: "bar" }, list, fold), ...pages);
+  folded(false);
+  list.addEventListener("click", () => folded(false));
+  const bar = el("div", { class: "bar" }, list, fold);
+  return {
+    element: el("aside", { class: "panel", "aria-label": "Controls" }, bar, ...pages),
+    tabs: names,
+    tab: chosen,
+  };
 }

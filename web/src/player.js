@@ -2,7 +2,7 @@
 
 import { BufferGeometry, Line, LineBasicMaterial, Vector3 } from "three";
 import { coursesOf, followedCourse, onCourse } from "./courses.js";
-import { el, greek, icon } from "./dom.js";
+import { el, icon, minus } from "./dom.js";
 import { frames } from "./solver/frames.js";
 import { platformOf } from "./solver/pose.js";
 
@@ -28,9 +28,10 @@ export class Player {
       "aria-label": "Time",
       oninput: () => this.seek(this.bar.valueAsNumber),
     });
-    this.note = el("p", { class: "why" });
+    this.note = el("p", { class: "why", role: "status" });
     this.courses = coursesOf(mechanism);
-    this.choice.append(...this.courses.map(({ label }, k) => el("option", { value: k }, greek(label))));
+    this.choice.append(...this.courses.map((_, k) => el("option", { value: k })));
+    this.named();
     this.element = el(
       "div",
       { class: "player" },
@@ -38,19 +39,40 @@ export class Player {
       el("div", { class: "time" }, this.button, this.bar),
       this.note,
     );
-    this.bar.style.setProperty("--share", "0%");
+    this.show();
     this.paint();
     mechanism.listen(() => {
       if (!this.own) this.fresh(); // moved by hand: the next course starts from there
     });
   }
 
+  /** Which course is chosen, for a link. */
+  get course() {
+    return {
+      read: () => Number(this.choice.value),
+      put: (index) => {
+        this.choice.value = index;
+        this.fresh();
+      },
+    };
+  }
+
+  /** Names every course by its size: that in which it is followed, else the largest that is tried. */
+  named() {
+    this.courses.forEach(({ name, sizes }, k) => {
+      const followed = this.known && k === Number(this.choice.value);
+      this.choice.options[k].textContent = name(followed ? this.known.size : sizes[0]);
+    });
+  }
+
   fresh() {
     this.pause();
-    this.known = null;
+    if (this.known) {
+      this.known = null;
+      this.named();
+    }
     this.time = 0;
-    this.bar.value = 0;
-    this.bar.style.setProperty("--share", "0%");
+    this.show();
     this.note.textContent = "";
     if (this.trail.visible) this.stage.invalidate();
     this.trail.visible = false;
@@ -63,9 +85,14 @@ export class Player {
     this.courses = coursesOf(this.mechanism);
     const course = this.courses[index];
     const found = followedCourse(this.mechanism, course);
-    this.note.textContent = found ? "" : "this course cannot be followed from here";
-    if (!found) return false;
+    if (found.reason) {
+      this.tell("why", `It cannot be followed from here: ${minus(found.reason.text)}.`);
+      return false;
+    }
     this.known = { course, ...found };
+    this.named();
+    const [wanted] = course.sizes;
+    this.tell("quiet", found.size < wanted ? `${course.amount(wanted)} would be too far from here.` : "");
     const { model } = this.mechanism;
     this.trail.geometry.setFromPoints(
       found.samples.map((values) => new Vector3(...platformOf(model, frames(model, values)).point)),
@@ -74,11 +101,24 @@ export class Player {
     return true;
   }
 
+  /** The time, on its bar. */
+  show() {
+    const percent = Math.round(100 * this.time);
+    this.bar.value = this.time;
+    this.bar.style.setProperty("--share", `${100 * this.time}%`);
+    this.bar.setAttribute("aria-valuetext", `${percent} %`);
+  }
+
+  tell(kind, text) {
+    this.note.className = kind;
+    this.note.textContent = text;
+  }
+
   seek(t) {
-    if (!this.prepare()) return;
-    this.time = t;
-    this.bar.value = t;
-    this.bar.style.setProperty("--share", `${100 * t}%`);
+    const there = this.prepare();
+    this.time = there ? t : 0;
+    this.show();
+    if (!there) return;
     this.own = true;
     this.mechanism.moved(onCourse(this.mechanism, this.known.course, this.known, t));
     this.own = false;

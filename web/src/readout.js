@@ -4,34 +4,32 @@ import { el, figures, spelt } from "./dom.js";
 
 const REST = 120; // milliseconds without motion after which the distance is computed
 
+/** Each number: its name, and what it means. */
+export const NUMBERS = {
+  condition: [
+    "condition number",
+    "of the map from the inputs' rates to the platform's, lengths in units of the mechanism's size; 1 is best, infinite at a singularity",
+  ],
+  smallest: [
+    "parallel measure",
+    "smallest singular value of Jp, of orthonormal relations Jp v = Jq q'; 0 at a parallel singularity",
+  ],
+  serial: ["serial measure", "smallest singular value of Jq; 0 at a serial singularity"],
+  distance: ["to singularity", "to first order, the platform's orientation held"],
+  factor: ["closest factor", "the factor of the closed form that is nearest to zero, as a share of its own scale"],
+  residual: ["residual", "largest gap of the loops"],
+};
+
 /** @returns {{element: HTMLElement}} a list of numbers that follows the mechanism */
 export function readout(mechanism) {
   const { scene } = mechanism;
   const rows = {};
   const list = el("dl");
-  const row = (key, name, title) => {
+  for (const [key, [name, title]] of Object.entries(NUMBERS)) {
+    if (key === "factor" && !mechanism.kernel) continue;
     rows[key] = el("dd");
     list.append(el("div", { title }, el("dt", {}, name), rows[key]));
-  };
-  row(
-    "condition",
-    "condition number",
-    "of the map from the inputs' rates to the platform's, lengths in units of the mechanism's size; 1 is best, infinite at a singularity",
-  );
-  row(
-    "smallest",
-    "parallel measure",
-    "smallest singular value of Jp, of orthonormal relations Jp v = Jq q'; 0 at a parallel singularity",
-  );
-  row("serial", "serial measure", "smallest singular value of Jq; 0 at a serial singularity");
-  row("distance", "to singularity", "to first order, the platform's orientation held");
-  if (mechanism.kernel)
-    row(
-      "factor",
-      "closest factor",
-      "the factor of the closed form that is nearest to zero, as a share of its own scale",
-    );
-  row("residual", "residual", "largest gap of the loops");
+  }
   let timer = 0;
   const show = () => {
     const state = mechanism.state();

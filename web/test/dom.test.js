@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { figures, greek, indexed, letterOf } from "../src/dom.js";
+import { figures, greek, indexed, letterOf, minus } from "../src/dom.js";
 
 test("a letter has its own index, or its leg's", () => {
   assert.deepEqual(letterOf("C2"), ["C", "2"]);
@@ -23,4 +23,19 @@ test("names become symbols", () => {
   assert.equal(greek("input theta2 to and fro").slice(0, 6), "input ");
   assert.equal(indexed("rho2"), "rho_2");
   assert.equal(indexed("v"), "v");
+});
+
+test("minus signs are true ones in numbers and modes, hyphens stay in words and chains", () => {
+  for (const [text, wanted] of [
+    ["-1.5", "−1.5"],
+    ["z = -1.065, not (-.5)", "z = −1.065, not (−.5)"],
+    ["++-++", "++−++"],
+    ["-", "−"],
+    ["mode +-/-- does not exist", "mode +−/−− does not exist"],
+    ["10^-3", "10^−3"],
+    ["2P4R-R-R of IRB 360-1/1600 on the -Y side", "2P4R-R-R of IRB 360-1/1600 on the -Y side"],
+    ["R[0.8,0,-0.6] R[x]", "R[0.8,0,-0.6] R[x]"],
+    ["l2 - l3", "l2 - l3"],
+  ])
+    assert.equal(minus(text), wanted);
 });

@@ -3,12 +3,27 @@ import { test } from "node:test";
 import { hashOf, packed, readHash, unpacked } from "../src/link.js";
 import { apart } from "./numbers.js";
 
+const KNOWN = { count: 4, branches: 3, tabs: ["move", "show", "facts"], courses: 5, layers: 3 };
+const NONE = { tab: null, course: null, layers: null, ghosts: null, letters: null, limits: null };
+
 test("an address brings back what it says", () => {
   const values = [1.5, -2.25e-3, 1e5, 0];
-  const found = readHash(hashOf({ branch: 2, values, camera: [-52, 24, 3.25, 0, 0, 0.5] }), { count: 4, branches: 3 });
-  assert.equal(found.branch, 2);
-  assert.deepEqual(found.camera, [-52, 24, 3.25, 0, 0, 0.5]);
-  assert.ok(apart(found.values, values) < 1e-2);
+  const camera = [-52, 24, 3.25, 0, 0, 0.5];
+  for (const choices of [
+    { tab: "show", course: 4, layers: [0, 2], ghosts: false, letters: true, limits: false },
+    { tab: "facts", course: 0, layers: [], ghosts: true, letters: false, limits: true },
+  ]) {
+    const found = readHash(hashOf({ branch: 2, values, camera, choices }), KNOWN);
+    assert.equal(found.branch, 2);
+    assert.deepEqual(found.camera, camera);
+    assert.ok(apart(found.values, values) < 1e-2);
+    assert.deepEqual(found.choices, choices);
+  }
+});
+
+test("an address of before there were choices says nothing of them", () => {
+  const found = readHash(`#mode=1&joints=${packed([1, 2, 3, 4])}&view=-52,24,3.25,0,0,0.5`, KNOWN);
+  assert.deepEqual(found, { branch: 1, values: [1, 2, 3, 4], camera: [-52, 24, 3.25, 0, 0, 0.5], choices: NONE });
 });
 
 test("an address that makes no sense changes nothing", () => {
@@ -16,10 +31,14 @@ test("an address that makes no sense changes nothing", () => {
     "",
     "#",
     "#mode=9&joints=!!&view=1,2",
+    "#mode=&joints=&view=&tab=&course=&ghosts=&letters=&limits=",
     "#mode=-1&joints=AAAA&view=a,b,c,d,e,f",
-    `#joints=${packed([NaN, 1])}`,
+    `#joints=${packed([NaN, 1, 1, 1])}&view=1,,1,0,0,0`,
+    "#view=1,1,1,1e9,0,0&tab=__proto__&course=5&layers=0,3&ghosts=yes&letters=2&limits=-1",
+    "#layers=0,&course=1.5&tab=Show&ghosts=constructor&mode=1e0",
+    "#layers=,&view=0,0,-1,0,0,0&%E0%A4%A&&&=",
   ])
-    assert.deepEqual(readHash(hash, { count: 2, branches: 3 }), { branch: null, values: null, camera: null });
+    assert.deepEqual(readHash(hash, KNOWN), { branch: null, values: null, camera: null, choices: NONE }, hash);
 });
 
 test("numbers of another mechanism are not taken", () => {

@@ -2,7 +2,6 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { explained } from "../src/explain.js";
 import { Mechanism } from "../src/mechanism.js";
-import { coursesOf, followedCourse, onCourse } from "../src/courses.js";
 import { apart, mechanism } from "./numbers.js";
 
 const made = () => new Mechanism(mechanism("zeng2019").scene, null);
@@ -38,16 +37,6 @@ test("ghosts follow the inputs", () => {
   assert.ok(it.follow(1));
   const there = it.choose(1);
   assert.ok(there.residual < 1e-9);
-});
-
-test("a circle is followed and closes; every time on it is an assembly", () => {
-  const it = made();
-  const [course] = coursesOf(it);
-  const found = followedCourse(it, course);
-  assert.ok(found);
-  assert.ok(apart(found.samples[0], found.samples.at(-1)) < 1e-6);
-  const { status } = onCourse(it, course, found, 0.377);
-  assert.equal(status, "moved");
 });
 
 test("what is said depends on what stands in the way", () => {

@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Mechanism } from "../src/mechanism.js";
 import { apart, MECHANISMS, mechanism } from "./numbers.js";
+import { random } from "./walks.js";
 
 const made = (name) => new Mechanism(mechanism(name).scene, null);
 
@@ -65,3 +66,26 @@ test("numbers that are none, and too few of them, are refused with what is wante
   assert.throws(() => it.toPose([0]), /toPose: .*wanted are 2 finite numbers.*x, y/);
   assert.deepEqual(it.state().values, values);
 });
+
+for (const { name, scene, model } of MECHANISMS.filter(({ scene }) => !scene.platform.pose.includes("qw")))
+  test(`${name}: the working mode is known wherever the platform is led, also by a search`, () => {
+    const draw = random(5);
+    const it = new Mechanism(scene, null);
+    let seen = 0;
+    for (let work = 0; work < Math.min(3, it.working.length); work++) {
+      it.reset();
+      if (it.work(work).status !== "moved") continue;
+      for (let step = 0; step < 4; step++) {
+        it.toPose(scene.poseRange.map(([low, high]) => low + (high - low) * draw()));
+        assert.equal(it.currentWork(), work);
+        assert.equal(it.workHere().index, work);
+        seen += 1;
+      }
+    }
+    assert.ok(seen > 10);
+    for (let step = 0; step < 5; step++) {
+      it.toInputs(it.inputs.map((value, k) => value + (model.inputs[k].kind === "length" ? model.length : 2) * (draw() - 0.5)));
+      const { index } = it.workHere();
+      if (index >= 0) assert.equal(it.currentWork(), index);
+    }
+  });

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
+from collections import Counter
 from collections.abc import Mapping
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context
+from fractions import Fraction
 from typing import Any
 
 from assur.kinematics.answers.at_border import power
@@ -12,6 +15,15 @@ from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 
 DIGITS = 8
+ANSWERS = {"yes": "yes", "no": "no", "open": "undecided"}
+PARTS = {
+    "regular": "reached all over, and free of singularities",
+    "inside": "reached all over; whether free of singularities is undecided",
+    "outside": "not reached anywhere",
+    "open": "undecided: nothing is proved there",
+}
+"""What is proved of the parts of a proof, by the names that a certificate has for its leaves."""
+_LEAVES = {"r": "regular", "i": "inside", "o": "outside", "b": "open"}
 
 
 def statement_lines(document: Mapping[str, Any], record: MechanismRecord | None = None) -> list[str]:
@@ -31,7 +43,7 @@ def statement_lines(document: Mapping[str, Any], record: MechanismRecord | None 
 
 
 def claim_lines(document: Mapping[str, Any], record: MechanismRecord | None = None) -> list[str]:
-    """What the certificate claims, and in how many leaves."""
+    """What the certificate claims, and how much of the box is proved to be what."""
     claims = document["claims"]
     factors = ", ".join(name for name, _ in document["program"]["factors"]) or "none"
     lines = []
@@ -43,20 +55,58 @@ def claim_lines(document: Mapping[str, Any], record: MechanismRecord | None = No
         least = rounded(float.fromhex(claims["regular_volume"]), 0.0).split(" ")[0]
         lines += [f"at least {least}{unit} of it is free of singularities"]
     if "reached" in claims:
-        lines += [f"all of the {document['kind']} is reached: {claims['reached']}"]
-        lines += [f"all of it is free of singularities: {claims['regular']}"]
-    leaves = ", ".join(f"{count} {name}" for name, count in claims["leaves"].items())
-    return [*lines, f"factors looked at: {factors}", f"leaves: {leaves}"]
+        lines += [f"all of the {document['kind']} is reached: {ANSWERS[claims['reached']]}"]
+        lines += [f"all of it is free of singularities: {ANSWERS[claims['regular']]}"]
+    return [*lines, f"factors looked at: {factors}", *_part_lines(document)]
+
+
+def _part_lines(document: Mapping[str, Any]) -> list[str]:
+    """Into how many parts the proof cuts the box, and how many, and how much of it, is proved to be what."""
+    counts, share = document["claims"]["leaves"], shares(document["proof"])
+    parts = sum(counts.values())
+    where = "boxes of the path" if document["kind"] == "path" else "box"
+    told = [f"{counts[name]} ({_percent(share[name])}) {PARTS[name]}" for name in PARTS if counts[name]]
+    head = f"parts: {parts}, which cover the {where} without overlap; of these"
+    return [head, *(f"  {text}" for text in told)]
+
+
+def shares(proof: str) -> dict[str, float]:
+    """Which share of the boxes of a proof is regular, inside, outside and open: every halving halves.
+
+    >>> shares("0r1bi")
+    {'regular': 0.5, 'inside': 0.25, 'outside': 0.0, 'open': 0.25}
+    """
+    leaves, trees, depths = Counter[tuple[str, int]](), 0, list[int]()
+    for token in re.findall("[0-9]|[irb]|o..", proof):
+        trees += not depths
+        depth = depths.pop() if depths else 0
+        if token.isdigit():
+            depths += [depth + 1, depth + 1]
+        else:
+            leaves[_LEAVES[token[0]], depth] += 1
+    found = dict.fromkeys(PARTS, Fraction(0))
+    for (name, depth), count in leaves.items():
+        found[name] += Fraction(count, 2**depth)
+    return {name: float(total / max(trees, 1)) for name, total in found.items()}
+
+
+def _percent(share: float) -> str:
+    """A share in per cent, with three digits; what is not all is never called all.
+
+    >>> _percent(1.0), _percent(0.12345), _percent(0.99999), _percent(1e-9)
+    ('100 %', '12.3 %', 'over 99.9 %', '1e-07 %')
+    """
+    return "over 99.9 %" if 0.9995 <= share < 1 else f"{100 * share:.3g} %"
 
 
 def rounded(low: float, high: float) -> str:
-    """Bounds with eight digits, rounded outwards.
+    """Bounds with eight digits, rounded outwards; no minus before zero.
 
     >>> rounded(1 / 3, 2 / 3)
     '0.33333333 .. 0.66666667'
     """
     down, up = (Context(prec=DIGITS, rounding=rule) for rule in (ROUND_FLOOR, ROUND_CEILING))
-    return f"{float(down.create_decimal(low)):.8g} .. {float(up.create_decimal(high)):.8g}"
+    return f"{float(down.create_decimal(low)) + 0.0:.8g} .. {float(up.create_decimal(high)) + 0.0:.8g}"
 
 
 def _box(statement: Mapping[str, Any], record: MechanismRecord | None) -> list[str]:

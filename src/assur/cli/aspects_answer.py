@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from assur.cli import region_question
+from assur.cli import exit_codes, region_question
 from assur.cli.numbers import assignments, number, numbers
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
@@ -27,10 +27,8 @@ if TYPE_CHECKING:
     from assur.workspace.aspects.path import AspectPath
     from assur.workspace.aspects.places import Place
 
-APART = 4
-"""Exit code where two poses are proved to lie in different aspects, or one is not reached."""
-
-UNDECIDED = 5
+ANSWERS = {"inside": "yes", "connected": "yes", "undecided": "open"}
+"""What a pose or a path says of its question; where two poses lie apart, or one is not reached, it is "no"."""
 
 PICTURES = (".svg", ".png", ".pdf")
 
@@ -127,12 +125,12 @@ def pose(record: Mechanism, text: str, option: str, names: Sequence[str]) -> lis
 
 def _exit_code(answer: Answer) -> int:
     if answer.place is not None:
-        return {"inside": 0, "undecided": UNDECIDED}.get(answer.place.status, APART)
+        return exit_codes.of_answers([ANSWERS.get(answer.place.status, "no")])
     if answer.path is None:
         return 0
     if answer.check is not None and not answer.check.passed:
-        return 1
-    return {"connected": 0, "undecided": UNDECIDED}.get(answer.path.status, APART)
+        return exit_codes.FAILS
+    return exit_codes.of_answers([ANSWERS.get(answer.path.status, "no")])
 
 
 def _data(record: Mechanism, answer: Answer) -> dict[str, Any]:

@@ -30,7 +30,7 @@ def audit(
     """
     record = shared.mechanism(mechanism)
     from assur.cli import auditing
-    from assur.cli.paths import output_folder
+    from assur.cli.paths import planned_folder
 
-    folder = output_folder(documents) if documents is not None else None
+    folder = planned_folder(documents) if documents is not None else None
     return auditing.outcome(record, folder, shared)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from assur.cli.numbers import NUMBER
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table, words
+from assur.cli.paths import made
 from assur.cli.progress import progress
 
 if TYPE_CHECKING:
@@ -33,6 +34,7 @@ def outcome(record: Mechanism, folder: Path | None, shared: Shared) -> Outcome:
         found = audit(record)
     written: list[Path] = []
     if folder is not None:
+        made(folder)
         written = [write_whole(folder / name, text) for name, text in documents(found).items()]
     return Outcome(found.data(), lambda: _shown(found, written), 0 if found.claims_hold else CLAIM_FAILS)
 

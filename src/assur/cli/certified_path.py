@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from assur.cli.aspects_answer import APART, UNDECIDED, pose
+from assur.cli import exit_codes
+from assur.cli.aspects_answer import ANSWERS, pose
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading
 from assur.cli.progress import progress
@@ -48,24 +49,26 @@ def outcome(
         found = aspects(record, asked.mode, asked.box, asked.strokes, asked.held, size if finest else None, step)
     path = found.path(start, end)
     if path.status != "connected":
-        return _none(path.status, path.why, UNDECIDED if path.status == "undecided" else APART)
+        return _none(path.status, path.why, exit_codes.of_answers([ANSWERS.get(path.status, "no")]))
     with progress("certify", shared) as step:
         made = path_certificate(record, found, path, most, step)
     if made.claims["regular"] != "yes":
-        return _none("undecided", "a box of the path is not proved with so few leaves", UNDECIDED)
+        return _none("undecided", "a box of the path is not proved with so few leaves", exit_codes.UNDECIDED)
     return written(made, target, record)
 
 
 def written(found: Certificate, target: Path, record: Mechanism) -> Outcome:
-    """Write a certificate, and say what it claims."""
-    from assur.certificates.summary import claim_lines, statement_lines
+    """Write a certificate, and say what it claims; of a box or a path the exit code is that of the answer."""
+    from assur.certificates.summary import claim_lines, shares, statement_lines
 
     found.write(target)
     document = found.to_json()
     first, *rest = [*statement_lines(document, record), *claim_lines(document, record)]
     lines = [*rest, "how: interval arithmetic, not yet checked by `assur verify`", f"written: {target}"]
     data = {key: value for key, value in document.items() if key not in ("program", "proof")}
-    return Outcome({**data, "written": str(target)}, lambda: [heading(first), *lines])
+    data |= {"shares": shares(document["proof"]), "written": str(target)}
+    asked = [found.claims[name] for name in ("reached", "regular") if name in found.claims]
+    return Outcome(data, lambda: [heading(first), *lines], exit_codes.of_answers(asked))
 
 
 def _none(status: str, why: str, code: int) -> Outcome:

@@ -7,11 +7,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from assur.cli import exit_codes
 from assur.cli.numbers import assignments, interval, number
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.progress import progress
-from assur.cli.quantities import is_length
+from assur.cli.quantities import is_length, mode_words
 from assur.errors import UnknownNameError, UsageError
 from assur.results.outward import outward
 
@@ -24,11 +25,6 @@ if TYPE_CHECKING:
     from assur.workspace.certified.proving import ProvedBox
     from assur.workspace.certified.region import CertifiedWorkspace
     from assur.workspace.certified.shapes import ShapeName
-
-UNDECIDED = 5
-"""Exit code where neither a proof nor a pose that fails was found; 4 where one fails."""
-
-REFUTED = 4
 
 
 @dataclass(frozen=True)
@@ -88,7 +84,7 @@ def _volume(record: Mechanism, question: Question, asked: Asked, shared: Shared)
 
 
 def _shown_volume(record: Mechanism, found: CertifiedWorkspace, data: Mapping[str, Any]) -> Iterable[RenderableType]:
-    yield heading(f"{record.name}, certified workspace of working mode {found.mode}")
+    yield heading(f"{record.name}, certified workspace of {mode_words(record, found.mode)}")
     yield f"box: {_pairs(record, data['coordinates'], data['box'])}"
     if data["held"]:
         yield f"held: {_values(record, data['held'])}"
@@ -127,7 +123,7 @@ def _box(record: Mechanism, question: Question, text: str, shared: Shared) -> Ou
     with progress("proof", shared) as step:
         found = prove_box(record, box, question.mode, question.strokes, held=question.held, progress=step)
     data = {"mechanism": record.name, **_outside(record, found.to_json())}
-    code = {"proved": 0, "refuted": REFUTED, "undecided": UNDECIDED}[found.status]
+    code = exit_codes.of_answers([{"proved": "yes", "refuted": "no", "undecided": "open"}[found.status]])
     return Outcome(data, lambda: _shown_box(record, found, data), exit_code=code)
 
 
@@ -153,7 +149,7 @@ def outer_box(
 
 
 def _shown_box(record: Mechanism, found: ProvedBox, data: Mapping[str, Any]) -> Iterable[RenderableType]:
-    yield heading(f"{record.name}, a box in working mode {found.mode}")
+    yield heading(f"{record.name}, a box in {mode_words(record, found.mode)}")
     yield f"box: {_pairs(record, data['coordinates'], data['box'])}"
     if data["held"]:
         yield f"held: {_values(record, data['held'])}"
@@ -193,13 +189,13 @@ def _largest(record: Mechanism, question: Question, asked: Asked, shape: ShapeNa
             record, shape, centre, ratio, question.mode, question.strokes, held=question.held, progress=step
         )
     data = {"mechanism": record.name, **_outside(record, found.to_json())}
-    code = 0 if found.size > 0 else REFUTED if found.witness is not None else UNDECIDED
+    code = exit_codes.of_answers(["yes" if found.size > 0 else "no" if found.witness is not None else "open"])
     return Outcome(data, lambda: _shown_largest(record, found, data), exit_code=code)
 
 
 def _shown_largest(record: Mechanism, found: LargestShape, data: Mapping[str, Any]) -> Iterable[RenderableType]:
     name = found.shape.name
-    yield heading(f"{record.name}, the largest {name} in working mode {found.mode}")
+    yield heading(f"{record.name}, the largest {name} in {mode_words(record, found.mode)}")
     yield f"around: {_values(record, data['centre'])}"
     if data["held"]:
         yield f"held: {_values(record, data['held'])}"

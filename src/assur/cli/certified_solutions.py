@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from assur.cli import exit_codes
 from assur.cli.options import MethodName, Outcome
 from assur.cli.output import heading, table
-from assur.cli.positions import NO_SOLUTION, UNDECIDED
 from assur.cli.quantities import Style, pose_text, short, style_of
 from assur.errors import UsageError
 
@@ -42,7 +42,7 @@ def outcome(record: Mechanism, found: CertifiedSolutions) -> Outcome:
     from assur.kinematics.certified.result import answer
 
     data = answer(found)
-    code = UNDECIDED if not found.proved else 0 if len(found) else NO_SOLUTION
+    code = exit_codes.of_answers(["open" if not found.proved else "yes" if len(found) else "no"])
     return Outcome(data, lambda: _shown(record, data, found.headline), code)
 
 

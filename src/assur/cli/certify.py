@@ -61,7 +61,8 @@ def certify(
     outside, or left open; `assur verify` checks every one of them again. After
     Ctrl-C what is proved is kept, the rest is open, and --resume carries on.
     --kind path looks for one inside --box, as `assur aspects` does, with boxes
-    down to --finest, and proves it; exit code 4: there is none, 5: undecided.
+    down to --finest, and proves it; where there is none no file is written.
+    Exit code of --kind box and path, 4: it is proved not to be so; 5: undecided.
     --box and --stroke may be repeated; lengths and angles are in the
     mechanism's units. Degrees become floats in rad, those of a box of --kind box
     rounded outwards.

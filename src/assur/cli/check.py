@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from assur.cli import exit_codes
+from assur.cli.called import called
 from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
 from assur.cli.output import Verbatim, heading
 from assur.cli.quantities import count
@@ -12,30 +14,31 @@ from assur.cli.quantities import count
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-BAD_FILE = 3
-
 
 def check(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> Outcome:
     """Every fault of a mechanism's file, each with its line.
 
-    First the text: its form, names, numbers and formulas. Where that is sound,
-    the joint graph: whether it closes and moves, whether its inputs determine
-    it, whether pose, orientation and limits are as stated. Exit code 3: there
-    is a fault.
+    Of the text: its form, names, numbers and formulas; and of the closed form
+    beside it. Where what the loops are made of is sound, of the joint graph
+    too: whether it closes and moves, whether its inputs determine it, whether
+    pose, orientation and limits are as stated. Exit code 3: there is a fault.
 
     For example:
         assur check my.toml
         assur check my.toml --json
     """
-    from assur.errors import MechanismFileError, Problem
     from assur.kinematics.soundness.check import doubts, faults
+    from assur.model.registry import examine
 
-    try:
-        record = shared.mechanism(mechanism)
-    except MechanismFileError as error:
-        return _outcome(mechanism, error.problems, (), None)
-    found: tuple[Problem, ...] = faults(record)
-    return _outcome(record.name, found, () if found else doubts(record), None if found else _summary(record))
+    known, problems = examine(mechanism)
+    if problems:
+        every = [*problems, *(faults(known) if known else ())]
+        every.sort(key=lambda item: (item.file.endswith(".py"), item.line or 0))
+        return _outcome(mechanism, every, (), None)
+    record = shared.mechanism(mechanism)
+    found = faults(record)
+    facts = None if found else _summary(record)
+    return _outcome(record.name, found, () if found else doubts(record), facts, _next(mechanism))
 
 
 def _summary(record: Any) -> dict[str, Any]:
@@ -51,7 +54,14 @@ def _summary(record: Any) -> dict[str, Any]:
     }
 
 
-def _outcome(name: str, problems: Iterable[Any], notes: Iterable[Any], facts: dict[str, Any] | None) -> Outcome:
+def _next(mechanism: str) -> str:
+    """What to do with a sound file of one's own; nothing where it is one of the catalogue."""
+    return f"next: {called()} page {mechanism}" if mechanism.endswith(".toml") else ""
+
+
+def _outcome(
+    name: str, problems: Iterable[Any], notes: Iterable[Any], facts: dict[str, Any] | None, then: str = ""
+) -> Outcome:
     problems, notes = list(problems), list(notes)
     data = {
         "mechanism": name,
@@ -60,10 +70,12 @@ def _outcome(name: str, problems: Iterable[Any], notes: Iterable[Any], facts: di
         "notes": [vars(note) for note in notes],
         "facts": facts,
     }
-    return Outcome(data, lambda: _shown(data, problems, notes), BAD_FILE if problems else 0)
+    return Outcome(
+        data, lambda: _shown(data, problems, notes, then), exit_codes.BAD_FILE if problems else exit_codes.FINE
+    )
 
 
-def _shown(data: dict[str, Any], problems: list[Any], notes: list[Any]) -> Iterable[RenderableType]:
+def _shown(data: dict[str, Any], problems: list[Any], notes: list[Any], then: str) -> Iterable[RenderableType]:
     if problems:
         yield heading(f"{data['mechanism']}: {count(len(problems), 'fault')}")
         yield from (Verbatim(problem) for problem in problems)
@@ -78,3 +90,5 @@ def _shown(data: dict[str, Any], problems: list[Any], notes: list[Any]) -> Itera
         "a closed form stands beside it" if facts["closed_form"] else "no closed form: it is solved on its joint graph"
     )
     yield from (Verbatim(f"note: {note}") for note in notes)
+    if then:
+        yield Verbatim(then)

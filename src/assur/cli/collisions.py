@@ -7,15 +7,18 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
-from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared, WorkingMode
+from assur.cli.options import DRAWN_DEFAULTS, Drawn, MechanismName, Outcome, WorkingMode
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from rich.console import RenderableType
 
     from assur.mechanism import Mechanism
     from assur.scene.collisions import Collisions, Nearest
 
 MEET = 1
+ENDINGS = (".png", ".pdf", ".svg")
 SHOWN = 10
 """Pairs that a person sees; --json has all."""
 
@@ -41,20 +44,27 @@ def collisions(
     samples: Annotated[str, Parameter(metavar="COUNT", help="How many poses; 200 if left out.")] = "200",
     seed: Annotated[str, Parameter(metavar="NUMBER", help="Of the random poses; 0 if left out.")] = "0",
     mode: WorkingMode = None,
-    shared: Shared = SHARED_DEFAULTS,
+    output: Annotated[
+        str | None,
+        Parameter(name=("-o", "--output"), metavar="FILE", help="Draw the closest pair there: .png, .pdf or .svg."),
+    ] = None,
+    shared: Drawn = DRAWN_DEFAULTS,
 ) -> Outcome:
     """How near links come to one another, and which of them meet.
 
     Asked are all pairs of links that share no joint, drawn as assur draws them:
-    thicknesses are those of `assur export --format step`, not of a design. It is
-    known at the poses asked, not between them. Exit code 1: links meet somewhere.
+    thicknesses are those of `assur export --format step`, not of a design, and
+    --thickness says others. It is known at the poses asked, not between them.
+    Exit code 1: links meet somewhere.
 
     For example:
-        assur collisions zeng2019
+        assur collisions zeng2019 -o closest.png
+        assur collisions delta_4s --thickness 0.005
         assur collisions fivebar --over motion --json
     """
     record = shared.mechanism(mechanism)
     from assur.cli.numbers import whole_number
+    from assur.cli.paths import output_file
     from assur.cli.progress import progress
     from assur.errors import UsageError
     from assur.scene.collisions import collisions
@@ -66,16 +76,37 @@ def collisions(
         raise UsageError(f"--seed {start}: a seed is not negative")
     if over == "motion" and mode is not None:
         raise UsageError("--mode names a mode of the workspace; a motion begins at home", hint="leave one of them out")
+    path = None if output is None else output_file(output, ENDINGS)
     with progress("collisions", shared) as step:
         joints = sampled(record, count, mode, start) if over == "workspace" else closed_motion(record, count)[:-1]
         found = collisions(record, joints, step)
     data = _data(record, found, over, mode or record.modes.default_working or None)
+    if path is not None:
+        data["file"] = str(_written(record, found, path))
     return Outcome(data, lambda: _shown(record, found, data), MEET if found.meeting else 0)
 
 
-def _data(record: Mechanism, found: Collisions, over: str, mode: str | None) -> dict[str, Any]:
-    from assur.scene.sampled import from_box
+def _written(record: Mechanism, found: Collisions, path: Path) -> Path:
+    """The picture of the closest pair."""
+    from assur.errors import UsageError
+    from assur.figures.clearance import drawn
+    from assur.figures.encode import encoded
+    from assur.figures.style import styled
+    from assur.results.files import write_whole
 
+    if not found.pairs:
+        raise UsageError(f"{record.name}: every two links share a joint, so there is no pair to draw in {path}")
+    with styled():
+        figure = drawn(record, found.pairs[0]).figure
+    return write_whole(path, encoded(figure, path.suffix.lower()[1:]))
+
+
+def _data(record: Mechanism, found: Collisions, over: str, mode: str | None) -> dict[str, Any]:
+    from assur.scene.companion import companion
+    from assur.scene.sampled import from_box
+    from assur.scene.sizes import thickness
+
+    reasons = {frozenset(item.links): item.because for item in companion(record).meets}
     drawn = over if over == "motion" else "box" if from_box(record) else "home"
     return {
         "mechanism": record.name,
@@ -85,12 +116,13 @@ def _data(record: Mechanism, found: Collisions, over: str, mode: str | None) -> 
         "mode": mode if drawn == "box" else None,
         "poses": found.poses,
         "known": "sampled",
+        "thickness": thickness(record),
         "coordinates": list(record.platform.pose),
-        "pairs": [_pair(record, item) for item in found.pairs],
+        "pairs": [_pair(record, item, reasons.get(frozenset(item.links))) for item in found.pairs],
     }
 
 
-def _pair(record: Mechanism, item: Nearest) -> dict[str, Any]:
+def _pair(record: Mechanism, item: Nearest, because: str | None) -> dict[str, Any]:
     from assur.kinematics.answers.at_border import pose_at_border
     from assur.kinematics.pose import pose_of
     from assur.results.json_text import plain
@@ -100,6 +132,7 @@ def _pair(record: Mechanism, item: Nearest) -> dict[str, Any]:
         "clearance": item.clearance,
         "parts": list(item.parts),
         "meeting": item.meeting,
+        "because": because if item.meeting else None,
         "pose": plain(pose_at_border(record, pose_of(record, item.joints[None])[0])),
     }
 
@@ -113,6 +146,7 @@ def _shown(record: Mechanism, found: Collisions, data: dict[str, Any]) -> Iterab
     yield heading(f"{record.name}, collisions: {said}")
     mode = f", mode {data['mode']}" if data["mode"] else ""
     yield f"known at {found.poses} {WHERE[data['drawn_from']]}{mode}; between them links may come nearer"
+    yield f"flat bars are drawn {data['thickness']:.3g} {record.unit} thick; --thickness says otherwise"
     if not data["pairs"]:
         yield "every two links share a joint: nothing to ask"
         return
@@ -132,3 +166,8 @@ def _shown(record: Mechanism, found: Collisions, data: dict[str, Any]) -> Iterab
     yield table(columns, rows, left=("links", "nearest parts"), wrap=("links", "nearest parts"), styles=styles)
     if len(data["pairs"]) > SHOWN:
         yield f"{len(data['pairs']) - SHOWN} more pairs are farther apart: --json"
+    for item in data["pairs"]:
+        if item["because"]:
+            yield f"{' - '.join(item['links'])}: {item['because']}"
+    if "file" in data:
+        yield f"written: {data['file']}"

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from assur.cli import exit_codes
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
-from assur.cli.positions import EXIT_CODES, failures
+from assur.cli.positions import failures
 from assur.cli.quantities import count, mode_words, pose_text, short, style_of
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 def outcome(record: Mechanism, pose: NDArray[Any], mode: str) -> Outcome:
     """The outcome for one pose (m,) in a working mode."""
     data = verdict_data(record, pose, mode)
-    return Outcome(data, lambda: _shown(record, data), EXIT_CODES.get(data["kind"], 0))
+    return Outcome(data, lambda: _shown(record, data), exit_codes.of_status(data["kind"]))
 
 
 def verdict_data(record: Mechanism, pose: NDArray[Any], mode: str) -> dict[str, Any]:

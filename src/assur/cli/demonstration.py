@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from assur.cli.called import called
 from assur.cli.claims import Ledger
 from assur.cli.options import Outcome, Plain
 from assur.cli.output import heading
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
 MECHANISM = "zeng2019"
+BEGIN_WITH = "fivebar"
+"""A small mechanism, good to begin one's own with."""
 CLAIM_FAILS = 1
 
 
@@ -39,6 +42,7 @@ def outcome(folder: Path, shared: Plain) -> Outcome:
     demo_documents.audit(ledger, findings, shared)
     files = demo_documents.figures(ledger, findings, folder / "figures", shared)
     files += demo_documents.report(ledger, findings, folder / "report.html", shared)
+    files += demo_documents.page(ledger, record, folder / "page.html", shared)
     seconds = time.monotonic() - begin
     data = {
         "mechanism": record.name,
@@ -54,7 +58,12 @@ def _shown(ledger: Ledger, folder: Path, files: list[Path], seconds: float) -> I
     total = count(len(ledger.claims), "claim")
     yield ""
     yield heading(f"{total} checked, {'all hold' if not ledger.failed else f'{ledger.failed} FAIL'}; {seconds:.0f} s")
-    yield f"{count(len(files), 'file')} in {folder}; open {folder / 'report.html'} in a browser"
+    yield f"{count(len(files), 'file')} in {folder}; open these two in a browser:"
+    yield f"  {folder / 'report.html'}: all of the above, with its figures"
+    yield f"  {folder / 'page.html'}: the mechanism, to be moved by hand"
     for claim in ledger.claims:
         if not claim.holds:
             yield f"fails: {claim.section}: {claim.claim}: {claim.found}"
+    yield ""
+    yield "Next, a mechanism of your own:"
+    yield f"  {called()} new my.toml --from {BEGIN_WITH}"

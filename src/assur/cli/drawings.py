@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
-from assur.cli.paths import output_folder
+from assur.cli.paths import made, planned_folder
 from assur.cli.progress import progress
 from assur.cli.quantities import count
 from assur.errors import UnknownNameError
@@ -27,9 +27,9 @@ def outcome(record: Mechanism, output: str, only: Sequence[str], formats: Sequen
     context = Context(record)
     wanted = _wanted(record, context, only)
     _check_formats(formats)
-    folder = output_folder(output)
+    folder = planned_folder(output)
     with progress("figures", shared) as step:
-        paths = write(record, folder, wanted, formats, step, context)
+        paths = write(record, made(folder), wanted, formats, step, context)
     missing = {} if only else left_out(record, context)
     data = {
         "mechanism": record.name,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
-from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+from assur.cli.options import DRAWN_DEFAULTS, Drawn, MechanismName, Outcome
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -39,7 +39,7 @@ def export(
             name=("-o", "--output"), metavar="FILE", help="The file to be written, NAME.xml and so on; of stl a folder."
         ),
     ] = None,
-    shared: Shared = SHARED_DEFAULTS,
+    shared: Drawn = DRAWN_DEFAULTS,
 ) -> Outcome:
     """Write a mechanism for a simulator, for CAD, for viewers or for printers.
 
@@ -56,14 +56,19 @@ def export(
     For example:
         assur export fivebar -o fivebar.xml
         assur export zeng2019 --format urdf -o zeng.urdf
-        assur export zeng2019 --format step -o zeng.step
+        assur export zeng2019 --format step --thickness 12 -o zeng.step
         assur export zeng2019 --format stl -o printed
     """
     record = shared.mechanism(mechanism)
     from assur.cli.progress import progress
+    from assur.errors import UsageError
     from assur.export.cad.bill import bill
     from assur.export.files import export
 
+    if format_ in SIMULATED and shared.thickness is not None:
+        raise UsageError(
+            f"--thickness: {format_} has balls and arms of its own sizes", hint="it is for step, stl, glb and bom"
+        )
     path = _path(record, format_, output)
     with progress("export", shared):
         written = [str(item) for item in export(record, format_, path)]
@@ -75,6 +80,10 @@ def export(
         data["nominal_mass_kg"] = MASS
     if rows:
         data["bill"] = [row.to_json() for row in rows]
+    if format_ not in SIMULATED:
+        from assur.scene.sizes import thickness
+
+        data["thickness"] = thickness(record)
     return Outcome(data, lambda: _shown(record, data, rows))
 
 
@@ -111,5 +120,8 @@ def _shown(record: Mechanism, data: dict[str, Any], rows: tuple[Row, ...]) -> It
             yield ""
             columns = ("count", "what", "links" if kind == "make" else "joints")
             yield table(columns, chosen, title=title, left=columns[1:], wrap=columns[1:])
-    if rows:
-        yield "thicknesses, pins, balls and rails are as drawn: a beginning, not a design"
+    if "thickness" in data:
+        yield (
+            f"as drawn, a beginning and not a design: flat bars are {data['thickness']:.3g} {record.unit} thick, and"
+            " widths, pins, balls and rails go with them; --thickness says otherwise"
+        )

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+from assur.cli.options import DRAWN_DEFAULTS, Drawn, MechanismName, Outcome
 
 
 def figures(
@@ -19,18 +19,18 @@ def figures(
     ] = "figures",
     only: Annotated[
         tuple[str, ...],
-        Parameter(consume_multiple=True, metavar="NAME", help="Only these figures, as --only structure model."),
+        Parameter(consume_multiple=1, metavar="NAME", help="Only these figures, as --only structure model."),
     ] = (),
     formats: Annotated[
         tuple[str, ...],
         Parameter(
             name="--format",
-            consume_multiple=True,
+            consume_multiple=1,
             metavar="FORMAT",
             help="Of png, pdf, svg, json; default is all but svg.",
         ),
     ] = ("png", "pdf", "json"),
-    shared: Shared = SHARED_DEFAULTS,
+    shared: Drawn = DRAWN_DEFAULTS,
 ) -> Outcome:
     """Draw the figures of a mechanism, each also as data.
 

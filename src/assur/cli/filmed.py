@@ -43,7 +43,7 @@ def outcome(
         "format": form,
         "frames": len(found.pictures),
         "seconds": seconds,
-        "pixels": [found.pictures.shape[2], found.pictures.shape[1]],
+        "pixels": [side - side % (2 if form == "mp4" else 1) for side in found.pictures.shape[2:0:-1]],
         "coordinates": list(names),
         "poses": plain(pose_at_border(record, found.poses)),
         "inputs": plain(inputs_at_border(record, inputs_of(record, found.values))),

@@ -16,7 +16,7 @@ def follow(
     to: Annotated[
         tuple[str, ...],
         Parameter(
-            consume_multiple=True,
+            consume_multiple=1,
             metavar="VALUE",
             help="Where to go: one value per coordinate; the values of several points for a polyline.",
         ),
@@ -24,7 +24,7 @@ def follow(
     from_: Annotated[
         tuple[str, ...],
         Parameter(
-            name="--from", consume_multiple=True, metavar="VALUE", help="Where to begin; home of the file if left out."
+            name="--from", consume_multiple=1, metavar="VALUE", help="Where to begin; home of the file if left out."
         ),
     ] = (),
     along: Annotated[

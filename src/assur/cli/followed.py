@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
+from assur.cli import exit_codes
 from assur.cli.numbers import numbers
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
-from assur.cli.positions import UNDECIDED
 from assur.cli.quantities import Style, count, fixed, short, style_of
 from assur.errors import UsageError
 
@@ -22,9 +22,6 @@ if TYPE_CHECKING:
     from assur.mechanism import Mechanism
 
 Along = Literal["pose", "inputs"]
-STOPPED = 6
-"""Exit code where a path stops before its end; 5 where nothing is seen that would stop it."""
-
 ROWS = 12
 """Points that a person sees; --json has all."""
 
@@ -61,7 +58,9 @@ def outcome(
         joints = found.joints[row]
     options: dict[str, Any] = {"poses" if along == "pose" else "inputs": goal}
     path = follow(record, joints, **options, turns=turns, use_limits=use_limits)
-    code = 0 if path.stopped is None else UNDECIDED if path.stopped.kind == "undecided" else STOPPED
+    code = exit_codes.FINE
+    if path.stopped is not None:  # "undecided" where nothing is seen that would stop it
+        code = exit_codes.UNDECIDED if path.stopped.kind == "undecided" else exit_codes.STOPPED
     return Outcome(path.to_json(), lambda: _shown(record, path), code)
 
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Literal
 
+from assur.cli import exit_codes
 from assur.cli.numbers import number, whole_number
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
-from assur.cli.positions import EXIT_CODES, failures
+from assur.cli.positions import failures
 from assur.cli.progress import progress
 from assur.cli.quantities import point_text, point_title, pose_text, short, style_of
 from assur.cli.region_question import Question
@@ -62,7 +63,7 @@ def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) ->
         "failures": lost,
     }
     units = _units(found)
-    return Outcome(data, lambda: _pose_shown(record, data, units), EXIT_CODES.get(data["status"], 0))
+    return Outcome(data, lambda: _pose_shown(record, data, units), exit_codes.of_status(data["status"]))
 
 
 def _distance(record: Mechanism, pose: NDArray[Any], mode: str) -> dict[str, Any]:

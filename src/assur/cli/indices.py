@@ -25,7 +25,7 @@ def indices(
     *,
     pose: Annotated[
         tuple[str, ...],
-        Parameter(consume_multiple=True, metavar="X Y Z", help="One pose, one value per coordinate."),
+        Parameter(consume_multiple=1, metavar="X Y Z", help="One pose, one value per coordinate."),
     ] = (),
     mode: WorkingMode = None,
     length: Annotated[

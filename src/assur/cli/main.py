@@ -7,22 +7,23 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from cyclopts import App, CycloptsError, Group, Parameter, UnusedCliTokensError
+from cyclopts import App, CycloptsError, Group, Parameter
 
 import assur
+from assur.cli import parsing
+from assur.cli.exit_codes import BROKEN_PIPE, BUG
 from assur.cli.numbers import shielded
 from assur.cli.options import PLAIN
 from assur.cli.output import InterruptedByUserError, complain, console, emit, written
-from assur.errors import AssurError, UsageError
+from assur.cli.spelling import as_typed
+from assur.errors import AssurError
 
-BUG = 70
-BROKEN_PIPE = 141
 HELP = """From the topology of a parallel mechanism to its numbers, each with its proof.
 
 Negative numbers need no tricks. Angles are in the unit that the mechanism's
 file states. Exit codes: 0 fine, 1 a claim of ours fails, 2 usage, 3 bad file,
-4 proved that no solution exists, 5 undecided, 6 a path that stopped short,
-70 a bug of ours.
+4 proved: no (no solution, a box not all reached, no path), 5 undecided,
+6 a path that stopped short, 70 a bug of ours.
 
 For example:
     assur direct zeng2019 162.6907 -143.3209 -24.6776
@@ -94,7 +95,7 @@ def main(words: Sequence[str] | None = None) -> int:
         return _run(shielded(words))
     except AssurError as error:
         _traceback(debug)
-        complain(error, json=json)
+        complain(as_typed(error, parsing.options(application(), words)), json=json)
         return error.exit_code
     except BrokenPipeError:
         return BROKEN_PIPE
@@ -113,7 +114,7 @@ def _run(words: Sequence[str]) -> int:
     try:
         command, bound, _ = app.parse_args(words, exit_on_error=False, print_error=False, verbose=False)
     except CycloptsError as error:
-        raise UsageError(_message(error), hint=f"see {' '.join(_path(app, words))} --help") from error
+        raise parsing.complaint(app, words, error) from error
     if "shared" not in bound.signature.parameters:
         with written():  # help or version, printed by the parser
             command(*bound.args, **bound.kwargs)
@@ -121,19 +122,6 @@ def _run(words: Sequence[str]) -> int:
     outcome = command(*bound.args, **bound.kwargs)
     emit(outcome, json=bound.arguments.get("shared", PLAIN).json)
     return int(outcome.exit_code)
-
-
-def _message(error: CycloptsError) -> str:
-    if isinstance(error, UnusedCliTokensError):
-        return f"too many values: {', '.join(word.strip() for word in error.unused_tokens or ())}"
-    text = " ".join(str(error).split())
-    text = text if text.endswith("...") else text.rstrip(".")
-    return text[:1].lower() + text[1:]
-
-
-def _path(app: App, words: Sequence[str]) -> list[str]:
-    """assur, and the command where the first word is one."""
-    return ["assur", *(word for word in words[:1] if word in app)]
 
 
 def _traceback(wanted: bool) -> None:

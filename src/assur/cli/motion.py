@@ -6,7 +6,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+from assur.cli.options import DRAWN_DEFAULTS, Drawn, MechanismName, Outcome
 
 ENDINGS = (".gif", ".webp", ".mp4")
 
@@ -26,7 +26,7 @@ def motion(
     to: Annotated[
         tuple[str, ...],
         Parameter(
-            consume_multiple=True,
+            consume_multiple=1,
             metavar="VALUE",
             help="A pose to go to from home and back, one value per coordinate. All inputs swing if left out.",
         ),
@@ -34,14 +34,15 @@ def motion(
     frames: Annotated[int, Parameter(help="How many pictures, 8 to 240; 48 if left out.")] = 48,
     seconds: Annotated[float, Parameter(help="How long one turn takes, 0.1 to 60; 4 if left out.")] = 4.0,
     size: Annotated[int, Parameter(help="Pixels of the longest side, 64 to 1280; 480 if left out.")] = 480,
-    shared: Shared = SHARED_DEFAULTS,
+    shared: Drawn = DRAWN_DEFAULTS,
 ) -> Outcome:
     """Write moving pictures of a closed motion from home, the mode kept.
 
     All inputs swing, each a little behind the one before, as far as the mode and
     the limits of the file let them; or, with --to, the platform goes straight to
     a pose and back. The platform point leaves a red line. MP4 needs the program
-    ffmpeg; GIF and WebP need nothing. An old file is replaced whole or not at all.
+    ffmpeg, which pip install 'assur[movie]' brings; GIF and WebP need nothing. An
+    old file is replaced whole or not at all.
 
     For example:
         assur motion zeng2019 -o zeng.gif

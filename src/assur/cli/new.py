@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
+from assur.cli.called import called
 from assur.cli.numbers import whole_number
 from assur.cli.options import PLAIN, Outcome, Plain
 from assur.cli.output import heading
@@ -160,6 +161,8 @@ def _target(file: str, *, force: bool) -> Path:
     """The path to write; nothing is changed."""
     from assur.synthesis.drafting.copying import mechanism_name
 
+    if not file.strip():
+        raise OutputError("cannot write to an empty name", hint="name the file, as assur new my.toml ...")
     path = Path(file)
     mechanism_name(path)
     if path.is_dir():
@@ -191,4 +194,4 @@ def _shown(path: Path, data: dict[str, Any]) -> Iterable[RenderableType]:
 
     yield heading(f"wrote {' and '.join(data['files'])}")
     yield from map(Text, data["notes"])
-    yield Text(f"next: assur check {path}")
+    yield Text(f"next: {called()} check {path}")

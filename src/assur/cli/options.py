@@ -88,8 +88,33 @@ class Shared(Plain):
         return with_parameters(found, **values) if values else found
 
 
+@Parameter(name="*", group=SHARED)
+@dataclass(frozen=True)
+class Drawn(Shared):
+    """Options of every command that draws a mechanism as solids."""
+
+    thickness: Annotated[
+        str | None,
+        Parameter(
+            metavar="LENGTH",
+            help="How thick flat bars are, in the mechanism's unit; pins, balls, forks and rails go with it. If left "
+            "out: what figures.toml says, else as thick as looks well and neighbouring joints leave room.",
+        ),
+    ] = None
+
+    def mechanism(self, name: str) -> Mechanism:
+        """The mechanism of that name or file, with the dimensions of `--set` and the thickness."""
+        found = super().mechanism(name)
+        if self.thickness is None:
+            return found
+        from assur.scene.sizes import with_thickness
+
+        return with_thickness(found, number(self.thickness, "--thickness"))
+
+
 PLAIN = Plain()
 SHARED_DEFAULTS = Shared()
+DRAWN_DEFAULTS = Drawn()
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+from assur.cli.options import DRAWN_DEFAULTS, Drawn, MechanismName, Outcome
 
 ENDINGS = (".html", ".htm")
 
@@ -24,7 +24,7 @@ def page(
         int | None,
         Parameter(help="Cells along each coordinate of the workspace; what a page can show if left out."),
     ] = None,
-    shared: Shared = SHARED_DEFAULTS,
+    shared: Drawn = DRAWN_DEFAULTS,
 ) -> Outcome:
     """Write one HTML file in which the mechanism can be moved.
 

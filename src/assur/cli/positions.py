@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from assur.cli import parasitic
+from assur.cli import exit_codes, parasitic
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
 from assur.cli.quantities import Style, count, point_text, point_title, pose_text, short, style_of, tiny
@@ -17,17 +17,13 @@ if TYPE_CHECKING:
     from assur.kinematics.answers.solution_set import SolutionSet
     from assur.mechanism import Mechanism
 
-NO_SOLUTION = 4
-UNDECIDED = 5
-EXIT_CODES = {"unreachable": NO_SOLUTION, "undecided": UNDECIDED}
-
 
 def outcome(record: Mechanism, found: SolutionSet) -> Outcome:
     """The outcome of one problem: exit code 4 where it is proved that no solution exists, 5 where undecided."""
     from assur.kinematics.answers.at_border import answer
 
     data = answer(found)
-    return Outcome(data, lambda: _shown(record, data, found.candidates), EXIT_CODES.get(data["status"], 0))
+    return Outcome(data, lambda: _shown(record, data, found.candidates), exit_codes.of_status(data["status"]))
 
 
 def lines(record: Mechanism, found: SolutionSet) -> Iterable[RenderableType]:

@@ -16,7 +16,7 @@ def singularity(
     *,
     pose: Annotated[
         tuple[str, ...],
-        Parameter(consume_multiple=True, metavar="X Y Z", help="The pose to be judged, one value per coordinate."),
+        Parameter(consume_multiple=1, metavar="X Y Z", help="The pose to be judged, one value per coordinate."),
     ] = (),
     mode: WorkingMode = None,
     shared: Shared = SHARED_DEFAULTS,

@@ -12,7 +12,7 @@ import numpy as np
 from assur.cli import sweep_grid
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import Verbatim, heading, table
-from assur.cli.paths import output_folder
+from assur.cli.paths import planned_folder
 from assur.cli.progress import progress
 from assur.cli.quantities import mode_words
 from assur.errors import OutputError, UsageError
@@ -49,10 +49,13 @@ def outcome(
     if threads < 0:
         raise UsageError(f"--threads: {threads} is no number of threads", hint="leave it out")
     sweep = stored_sweep(record, problem, grid, mode or "", keep)
-    folder = output_folder(output)
+    folder = planned_folder(output)
     if (folder / NOTE).exists() and not (folder / STATE).exists():
         raise UsageError(f"{folder / NOTE}: already there, and no note of a sweep", hint="choose another folder")
-    state = sweep.begin(folder)
+    try:
+        state = sweep.begin(folder)
+    except OSError as error:
+        raise OutputError(f"cannot write {folder}: {error.strerror}", hint="choose another place") from error
     if not shared.json:
         sys.stderr.write(beforehand(sweep, state, folder) + "\n")
     try:

@@ -69,13 +69,13 @@ def synthesize(
         assur synthesize --actuators leg --symmetric --toml found
         assur synthesize --motion 2T1R --max-joints 3 --json
     """
-    from assur.cli.paths import output_folder
+    from assur.cli.paths import planned_folder
     from assur.synthesis.synthesis import synthesis
 
     number = None if limbs is None else whole_number(limbs, "--limbs")
     joints, degrees, place = whole_number(max_joints, "--max-joints"), _range(coupling), _place(actuators)
     count = _count(top)
-    folder = output_folder(toml) if toml else None
+    folder = planned_folder(toml) if toml else None
     with progress("synthesis", shared) as step:
         found = synthesis(motion, number, joints, degrees, symmetric=symmetric, actuators=place, step=step)
     return _outcome(found, count, folder)
@@ -126,9 +126,11 @@ def _outcome(found: Synthesis, top: int | None, folder: Path | None) -> Outcome:
 
 
 def _write(found: Synthesis, folder: Path, top: int) -> list[str]:
+    from assur.cli.paths import made
     from assur.results.files import write_whole
     from assur.synthesis.answers import skeletons
 
+    made(folder)
     return [str(write_whole(folder / name, text)) for name, text in skeletons(found, top).items()]
 
 

@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
+from assur.cli import exit_codes
 from assur.cli.options import PLAIN, Outcome, Plain
 from assur.errors import UnknownNameError, UsageError
 
 if TYPE_CHECKING:
     from assur.model.mechanism import MechanismRecord
-
-REFUSED, MALFORMED, UNDECIDED = 1, 3, 5
 
 
 def verify(
@@ -28,11 +27,16 @@ def verify(
 ) -> Outcome:
     """Check a certificate with the small verifier.
 
-    It proves every leaf again by ball arithmetic, with exact volumes, and shares
-    no code with what made the file. Then the formulas are recorded anew from the
-    mechanism's files and compared. Exit code 1: refused, a leaf or a claim does
-    not hold or it is that of another mechanism or version; 3: no whole
-    certificate; 5: it holds, but the mechanism is not at hand.
+    A proof cuts the box into parts, and says of each that it is reached all
+    over, not reached anywhere, or undecided. The verifier proves every part
+    again by ball arithmetic, with exact volumes, and shares no code with what
+    made the file; how much is undecided is told. Then the formulas are recorded
+    anew from the mechanism's files and compared.
+
+    The exit code is about the proof, not about what it answers. 0: it holds,
+    also where it proves a no; 1: refused, a part or a claim does not hold or it
+    is that of another mechanism or version; 3: no whole certificate; 5: it
+    holds, but the mechanism is not at hand.
 
     For example:
         assur verify cert.json
@@ -50,14 +54,14 @@ def verify(
     try:
         document = checked(content)
     except MalformedError as error:
-        return _refused(path, str(error), MALFORMED)
+        return _refused(path, str(error), exit_codes.BAD_FILE)
     except RefusedError as error:
-        return _refused(path, str(error), REFUSED)
+        return _refused(path, str(error), exit_codes.FAILS)
     seconds = time.perf_counter() - start
     try:
         return _compared(path, document, mechanism, seconds)
     except (AttributeError, KeyError, TypeError, ValueError) as error:  # its proof holds, its statement is unreadable
-        return _refused(path, f"a statement not in this format: {type(error).__name__}: {error}", MALFORMED)
+        return _refused(path, f"a statement not in this format: {type(error).__name__}: {error}", exit_codes.BAD_FILE)
 
 
 def _compared(path: Path, document: dict[str, Any], mechanism: str | None, seconds: float) -> Outcome:
@@ -72,21 +76,24 @@ def _compared(path: Path, document: dict[str, Any], mechanism: str | None, secon
         record = None
     different = differences(document, record) if record is not None else ()
     if different:
-        return _refused(path, f"another mechanism or version: {'; '.join(different)}", REFUSED)
+        return _refused(path, f"another mechanism or version: {'; '.join(different)}", exit_codes.FAILS)
     whose = "the mechanism's, recorded anew" if record is not None else "not compared: the mechanism is not at hand"
-    return _verified(document, record, whose, seconds)
+    return _verified(path, document, record, whose, seconds)
 
 
-def _verified(document: dict[str, Any], record: MechanismRecord | None, whose: str, seconds: float) -> Outcome:
-    from assur.certificates.summary import claim_lines, statement_lines
+def _verified(
+    path: Path, document: dict[str, Any], record: MechanismRecord | None, whose: str, seconds: float
+) -> Outcome:
+    from assur.certificates.summary import claim_lines, shares, statement_lines
     from assur.cli.output import heading
 
-    first, *rest = [*statement_lines(document, record), *claim_lines(document, record)]
-    how = f"proved: every leaf by ball arithmetic, volumes exact, in {seconds:.2g} s"
+    lines = [*statement_lines(document, record), *claim_lines(document, record)]
+    how = f"checked: every part, proved again by ball arithmetic; the sums, exactly; in {seconds:.2g} s"
     known = {key: document[key] for key in ("kind", "statement", "claims", "made_by", "sha256")}
     data = {"verified": True, "mechanism_compared": record is not None, "seconds": seconds, **known}
-    shown = [heading(first), *rest, how, f"formulas: {whose}"]
-    return Outcome(data, lambda: shown, 0 if record is not None else UNDECIDED)
+    shown = [heading(f"verified: {path}"), *lines, how, f"formulas: {whose}"]
+    code = exit_codes.of_answers(["yes" if record is not None else "open"])
+    return Outcome({**data, "shares": shares(document["proof"])}, lambda: shown, code)
 
 
 def _refused(path: Path, why: str, code: int) -> Outcome:

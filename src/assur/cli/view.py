@@ -6,7 +6,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+from assur.cli.options import DRAWN_DEFAULTS, Drawn, MechanismName, Outcome
 
 
 def view(
@@ -20,7 +20,7 @@ def view(
     port: Annotated[int, Parameter(metavar="NUMBER", help="The port; a free one if left out.")] = 0,
     link: Annotated[str, Parameter(metavar="LINK", help="A link that was kept: its dimensions, pose and camera.")] = "",
     no_open: Annotated[bool, Parameter(help="Print the link and open no browser.")] = False,
-    shared: Shared = SHARED_DEFAULTS,
+    shared: Drawn = DRAWN_DEFAULTS,
 ) -> Outcome:
     """Move a mechanism in the browser, until Ctrl-C.
 

@@ -105,7 +105,7 @@ def workspace(
     proofs = {"--gap": gap, "--finest": finest, "--around": around, "--ratio": ratio}
     for name, value in proofs.items():
         if value is not None:
-            question = "--certify" if name in ("--gap", "--finest") else "--largest cylinder"
+            question = {"--around": "--largest cube", "--ratio": "--largest cylinder"}.get(name, "--certify")
             raise UsageError(f"{name} is part of a proof", hint=f"add {question}")
     target = regions.target(output) if output is not None else None
     return regions.outcome(record, asked, target, shared)

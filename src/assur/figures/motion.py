@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import io
 import shutil
 import subprocess
@@ -28,7 +29,8 @@ from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
 from assur.scene.mesh import Mesh, box, joined, rgb
 from assur.scene.motion import closed_motion
-from assur.scene.parts import Part, parts, placed, unit
+from assur.scene.part import Part
+from assur.scene.parts import parts, placed, unit
 from assur.scene.skeleton import Skeleton, skeleton
 
 FloatArray = NDArray[np.float64]
@@ -40,6 +42,12 @@ FRAMES, SIZES, SECONDS = (8, 240), (64, 1280), (0.1, 60.0)
 """What may be asked for: frames, pixels of the longest side, seconds of a turn."""
 
 COLOURS = 256
+COLOURS_MEAN = (
+    *("-vf", "scale=out_color_matrix=bt709:out_range=tv"),
+    *("-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"),
+)
+"""Of an MP4: without these words each player takes its own guess at what its colours mean."""
+
 DOTS = 72.0
 """A point of a view is a pixel."""
 
@@ -154,7 +162,7 @@ def encoded_film(pictures: NDArray[np.uint8], form: Form, seconds: float = 4.0) 
 
     Args:
         pictures: bytes, three for each pixel.
-        form: "gif", "webp", or "mp4", for which the program ffmpeg must be installed.
+        form: "gif", "webp", or "mp4", which needs the program ffmpeg or the extra `movie`.
         seconds: of one turn, 0.1 to 60. A GIF counts in hundredths of a second.
 
     Errors: `UsageError` for another form, for numbers out of range, and where ffmpeg is missing or fails.
@@ -177,13 +185,26 @@ def encoded_film(pictures: NDArray[np.uint8], form: Form, seconds: float = 4.0) 
 
 
 def ffmpeg() -> str:
-    """The program that makes an MP4. Error: `UsageError` with what to do where there is none."""
-    found = shutil.which("ffmpeg")
-    if found is None:
+    """The program that makes an MP4: the system's, or that of the extra `movie`. Error: `UsageError` without both."""
+    found = shutil.which("ffmpeg") or _ffmpeg_of_the_extra()
+    if not found:
         raise UsageError(
-            "an MP4 needs the program ffmpeg, which is not found", hint="install it, or write .gif or .webp"
+            "an MP4 needs the program ffmpeg, which is not found",
+            hint="pip install 'assur[movie]' brings one; or write .gif or .webp",
         )
     return found
+
+
+def _ffmpeg_of_the_extra() -> str:
+    """The program that the wheel of imageio-ffmpeg carries; "" without it, or where it carries none."""
+    if not importlib.util.find_spec("imageio_ffmpeg"):
+        return ""
+    import imageio_ffmpeg
+
+    try:
+        return str(imageio_ffmpeg.get_ffmpeg_exe())
+    except RuntimeError:  # not from a wheel
+        return ""
 
 
 def _mp4(pictures: NDArray[np.uint8], rate: float) -> bytes:
@@ -193,7 +214,7 @@ def _mp4(pictures: NDArray[np.uint8], rate: float) -> bytes:
         path = Path(folder) / "film.mp4"
         raw = ("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", f"{rate:.6f}", "-i", "-")
         made = ("-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart")
-        words = [ffmpeg(), "-y", "-loglevel", "error", *raw, *made, str(path)]
+        words = [ffmpeg(), "-y", "-loglevel", "error", *raw, *COLOURS_MEAN, *made, str(path)]
         done = subprocess.run(words, input=cut.tobytes(), capture_output=True, check=False)
         if done.returncode or not path.is_file():
             said = " ".join(done.stderr.decode(errors="replace").split())[:200]

@@ -173,6 +173,7 @@ class MechanismRecord:
         folder: where the file's companions are (closed form, reference), None for a lone file.
         description: the file that the record was made of, for making it again with other dimensions.
         overrides: parameters whose values are not the file's.
+        thickness: of a flat bar as it is drawn, a length; None for what `assur.scene.sizes` chooses.
     """
 
     name: str
@@ -200,6 +201,7 @@ class MechanismRecord:
     closed_form: ClosedForm | None = None
     description: Description | None = None
     overrides: Mapping[str, float] = field(default_factory=dict)
+    thickness: float | None = None
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.name}: {self.title}>"

@@ -5,26 +5,23 @@ A folder has a mechanism (`mechanism.toml`, with dimensions) or a topology alone
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
-import importlib.util
-import sys
+import os
 import tomllib
-import traceback
 from importlib.resources import files
 from pathlib import Path
 from typing import Any, TypeVar
 
 from assur.errors import MechanismFileError, Problem, UnknownNameError, UsageError
 from assur.model.closed_form import ClosedForm
+from assur.model.closed_form_file import disagreements, read_closed_form
 from assur.model.file.build import build
-from assur.model.file.faults import Faults, listed
+from assur.model.file.faults import Faults
 from assur.model.file.parameters import checked_overrides
-from assur.model.file.reader import file_text, read_mechanism
+from assur.model.file.reader import examined, file_text, read_mechanism
 from assur.model.file.toml_source import read_toml
 from assur.model.file.topology_file import read_topology
 from assur.model.file.topology_schema import is_topology
-from assur.model.formula import parse
 from assur.model.mechanism import MechanismRecord
 from assur.model.topology_description import TopologyDescription
 
@@ -32,6 +29,9 @@ FILE = "mechanism.toml"
 TOPOLOGY = "topology.toml"
 LEFT_OUT = "left_out.toml"
 CLOSED_FORM = "closed_form.py"
+_TABLES = ("base", "platform", "links", "joints", "parameters", "inputs", "home", "unit", "angle", "repeat")
+_LOOPS = tuple((table,) for table in (*_TABLES, "generalised"))
+"""What loops are made of: where a fault leaves unknown whether they close and move."""
 Record = TypeVar("Record", bound=MechanismRecord)
 
 
@@ -152,7 +152,8 @@ def with_parameters(record: Record, /, **overrides: Any) -> Record:
         place = f"{problem.path}: {problem.found}; {problem.allowed}"
         raise UsageError(f"{record.name} cannot be with {given}: {place}", hint=problem.hint) from None
     parts = {item.name: getattr(changed, item.name) for item in dataclasses.fields(MechanismRecord)}
-    return dataclasses.replace(record, **{**parts, "closed_form": record.closed_form})
+    kept = {"closed_form": record.closed_form, "thickness": record.thickness}
+    return dataclasses.replace(record, **{**parts, **kept})
 
 
 def _folder() -> Path:
@@ -172,70 +173,59 @@ def _find(name_or_path: str | Path, files_of_folder: tuple[str, str]) -> Path:
     built_in = {*names(), *topology_names()}
     for folder in [_folder() / text] if text in built_in else [path]:
         for file in files_of_folder:
-            if (folder / file).is_file():
+            if os.path.isfile(folder / file):  # noqa: PTH113  # which a name that is too long does not upset
                 return folder / file
     if path.suffix == ".toml" or isinstance(name_or_path, Path) or len(path.parts) > 1:
         return path
+    if text.strip() and os.path.exists(path):  # noqa: PTH110  # as above
+        what = f"a folder without {files_of_folder[0]}" if path.is_dir() else "a file that does not end in .toml"
+        raise UsageError(f"'{text}' is {what}", hint="name a mechanism (`assur list` has them) or a .toml file")
     reasons = {item.name: f"{item.title} is left out: {item.reason}" for item in left_out()}
     choices = names() if files_of_folder[0] == FILE else built_in
     raise UnknownNameError("mechanism", text, choices, hint=reasons.get(text, ""))
+
+
+def examine(name_or_path: str | Path, /) -> tuple[MechanismRecord | None, tuple[Problem, ...]]:
+    """Every fault of a mechanism's file and of the closed form beside it, and the record where its loops are known.
+
+    Loops are known where no fault touches what they are made of, so that the joint graph can be looked at as well.
+
+    Errors:
+        UnknownNameError, UsageError: as `load_record`.
+
+    Example:
+        >>> record, problems = examine("fivebar")
+        >>> record.name, problems
+        ('fivebar', ())
+    """
+    path = _find(name_or_path, (FILE, TOPOLOGY))
+    beside = path.parent / CLOSED_FORM
+    try:
+        record, faults = examined(file_text(path), path)
+    except MechanismFileError as error:
+        return None, (*error.problems, *_faults_beside(beside, None, None))
+    problems = (*faults.told(), *_faults_beside(beside, record, faults))
+    return (record if faults.spares(*_LOOPS) and not faults.more else None), problems
+
+
+def _faults_beside(path: Path, record: MechanismRecord | None, faults: Faults | None) -> tuple[Problem, ...]:
+    """Faults of a closed form; what it claims of a mechanism where that is known."""
+    try:
+        form = read_closed_form(path, record.name if record else path.parent.name) if path.is_file() else None
+    except MechanismFileError as error:
+        return error.problems
+    if form is None or record is None or faults is None:
+        return ()
+    known = {"signs": faults.spares(("modes",)), "scales": faults.spares(("parameters",), ("unit",))}
+    return disagreements(record, form, path, **known)
 
 
 def _closed_form(record: MechanismRecord, path: Path) -> ClosedForm | None:
     """CLOSED_FORM of the Python file beside a mechanism file, None where there is no such file."""
     if not path.is_file():
         return None
-    name = f"assur_closed_form_of_{record.name}"
-    spec = importlib.util.spec_from_file_location(name, path)
-    if spec is None or spec.loader is None:
-        raise _broken(path, None, "no Python file", "allowed: a Python file")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    try:
-        with contextlib.redirect_stdout(sys.stderr):  # what it prints must not mix with an answer
-            spec.loader.exec_module(module)
-    except (Exception, SystemExit) as error:
-        raise _broken(path, _line(error, path), f"{type(error).__name__}: {error}", "it must run") from error
-    form = getattr(module, "CLOSED_FORM", None)
-    if not isinstance(form, ClosedForm):
-        raise _broken(path, None, "no CLOSED_FORM", "it must define CLOSED_FORM = ClosedForm(...)")
-    signs = {*record.modes.working, *record.modes.assembly}
-    if signs != set(form.signs):
-        found = f"signs {listed(form.signs)}"
-        hint = "it belongs to every file of its folder: is it meant for this one?"
-        raise _broken(path, None, found, f"those of [modes] in {record.file.name}: {listed(signs)}", hint)
-    _check_claims(record, form, path)
+    form = read_closed_form(path, record.name)
+    problems = disagreements(record, form, path)
+    if problems:
+        raise MechanismFileError(problems)
     return form
-
-
-def _check_claims(record: MechanismRecord, form: ClosedForm, path: Path) -> None:
-    """The names and scales that a closed form states must be there and be computable."""
-    factors = {item.name for item in form.factor_list}
-    for group in (*form.constraint_singular, *form.self_motion_singular):
-        if not set(group) <= factors:
-            raise _broken(path, None, f"the group {group}", f"names of factor_list: {listed(factors)}")
-    margins = {item.name for item in form.direct_margins}
-    if form.self_motion and form.self_motion.margin not in margins:
-        found = f"self_motion.margin = '{form.self_motion.margin}'"
-        raise _broken(path, None, found, f"a name of direct_margins: {listed(margins)}")
-    margin_scales = [item.scale for item in (*form.direct_margins, *form.inverse_margins)]
-    for formula in (*margin_scales, *(f.scale for f in form.factor_list), *(s.scale for s in form.signs.values())):
-        try:
-            size = float(parse(formula).evaluate(vars(record.values)))
-        except (KeyError, UsageError) as error:
-            found = f"the scale '{formula}': {error}"
-            raise _broken(path, None, found, f"a formula of {listed(record.parameters)}") from error
-        if not size > 0:
-            raise _broken(path, None, f"the scale '{formula}' is {size:g}", "it must be positive")
-
-
-def _broken(path: Path, line: int | None, found: str, allowed: str, hint: str = "") -> MechanismFileError:
-    return MechanismFileError([Problem(str(path), line, "", found, allowed, hint)])
-
-
-def _line(error: BaseException, path: Path) -> int | None:
-    """The last line of the file that was reached before an error."""
-    if isinstance(error, SyntaxError) and error.filename == str(path):
-        return error.lineno
-    frames = traceback.extract_tb(error.__traceback__)
-    return next((frame.lineno for frame in reversed(frames) if frame.filename == str(path)), None)

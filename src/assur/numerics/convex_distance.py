@@ -10,10 +10,14 @@ from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import nnls
 
 FloatArray = NDArray[np.float64]
 STEPS = 60
 TOLERANCE = 1e-6
+WEIGHT = 1e4
+"""How much more the sums of the weights count in `nearest_points` than the distance, in sizes of the bodies."""
+
 FACES = [list(item) for size in (1, 2, 3, 4) for item in combinations(range(4), size)]
 
 
@@ -57,6 +61,27 @@ def convex_distance(
         distance[busy] = np.linalg.norm(least[busy], axis=1)
     distance[distance <= tolerance * size] = 0.0
     return np.asarray(distance)
+
+
+def nearest_points(first: FloatArray, second: FloatArray) -> FloatArray:
+    """A point of each of the hulls of points (a, 3) and (b, 3) in one frame, next to one another: (2, 3).
+
+    The weights of the corners that are positive, have the sum 1 in each body and make the difference least are those
+    of a least-squares problem without negative unknowns (Lawson and Hanson 1974, chapter 23).
+
+    >>> cube = np.array([[x, y, z] for x in (0.0, 1) for y in (0.0, 1) for z in (0.0, 1)])
+    >>> nearest_points(cube, cube + [3.0, 2.0, 1.5]).round(6).tolist()
+    [[1.0, 1.0, 1.0], [3.0, 2.0, 1.5]]
+    """
+    middle = (first.mean(axis=0) + second.mean(axis=0)) / 2
+    size = float(np.max(np.abs(np.concatenate([first, second]) - middle)))
+    matrix = np.zeros((5, len(first) + len(second)))
+    matrix[:3, : len(first)] = (first - middle).T / size
+    matrix[:3, len(first) :] = -(second - middle).T / size
+    matrix[3, : len(first)] = matrix[4, len(first) :] = WEIGHT
+    weights, _ = nnls(matrix, np.array([0.0, 0.0, 0.0, WEIGHT, WEIGHT]))
+    one, other = weights[: len(first)], weights[len(first) :]
+    return np.array([one @ first / one.sum(), other @ second / other.sum()])
 
 
 def _support(

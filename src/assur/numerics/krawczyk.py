@@ -10,7 +10,9 @@ middle of J(X), in floats: whatever its error, the statements hold.
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Sequence
+from functools import lru_cache, reduce
 from typing import Any
 
 import numpy as np
@@ -20,11 +22,16 @@ from assur.numerics.dual import Dual, DualIntervals
 from assur.numerics.intervals.interval import Interval, as_interval, common
 from assur.numerics.intervals.shapes import broadcast, stack
 from assur.numerics.number_types import Intervals
+from assur.numerics.recording.interval_program import IntervalProgram, repaid
+from assur.numerics.recording.tape import Recorded, Recorder
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 Equations = Callable[[Any, tuple[Any, ...]], Sequence[Any]]
 """(namespace, n numbers of any type) -> n numbers that are to be zero, elementwise over a batch (N,)."""
+
+SMALL = 6
+"""Unknowns up to which an image may be worked out by a program, whose length grows with their cube."""
 
 INFLATION = 0.1
 """Part of its width by which a box is widened before it is tested: a zero on its border is then inside."""
@@ -48,11 +55,38 @@ def image(equations: Equations, box: Interval) -> Interval:
     singular = np.linalg.det(np.where(sound[:, None, None], centre, np.eye(size))) == 0
     invertible = (sound & ~singular)[:, None, None]
     inverse = np.linalg.inv(np.where(invertible, centre, np.eye(size)))
+    found = _moved(middle, box - middle, here, slopes, inverse)
+    return Interval(found.low, found.high, found.defined & invertible[..., 0])
+
+
+def _moved(middle: FloatArray, offset: Interval, here: Interval, slopes: Interval, inverse: FloatArray) -> Interval:
+    """The image (N, n), m - Y F(m) + (I - Y J) (X - m): by machine code where that is repaid, of the same bits."""
+    count, size = middle.shape
+    if size <= SMALL and repaid(len(_operator(size).tape.operations), count):
+        numbers = [*parts(Interval.of(middle)), *parts(offset), *parts(here)]
+        numbers += [slopes[:, i, j] for i in range(size) for j in range(size)]
+        numbers += [as_interval(inverse[:, i, j]) for i in range(size) for j in range(size)]
+        found = _operator(size)(numbers, [], "compiled")
+        return stacked([found[f"K{i}"] for i in range(size)], count)
     rest = np.eye(size) - _total(Interval.of(inverse[..., None]) * _rows(slopes[:, None]))
     moved = _total(Interval.of(inverse) * here[:, None, :], axis=-1)
-    spread = _total(rest * _rows(box - middle)[:, None, :], axis=-1)
-    found = Interval.of(middle) - moved + spread
-    return Interval(found.low, found.high, found.defined & invertible[..., 0])
+    spread = _total(rest * _rows(offset)[:, None, :], axis=-1)
+    return Interval.of(middle) - moved + spread
+
+
+@lru_cache(maxsize=SMALL)
+def _operator(size: int) -> IntervalProgram:
+    """The same for so many unknowns as a program."""
+    recorder, every = Recorder(), range(size)
+    middle, offset, here = ([recorder.varying(f"{name}{i}") for i in every] for name in "mdF")
+    slopes, inverse = ([[recorder.varying(f"{name}{i}{j}") for j in every] for i in every] for name in "JY")
+    outputs: dict[str, Recorded] = {}
+    for i in every:
+        rest = [float(i == j) - reduce(operator.add, [inverse[i][k] * slopes[k][j] for k in every]) for j in every]
+        moved = reduce(operator.add, [inverse[i][k] * here[k] for k in every])
+        spread = reduce(operator.add, [rest[j] * offset[j] for j in every])
+        outputs[f"K{i}"] = middle[i] - moved + spread
+    return IntervalProgram(recorder.tape(outputs))
 
 
 def derivative(equations: Equations, box: Interval) -> Interval:

@@ -1,4 +1,4 @@
-"""The other modes: every set of inputs at home's pose, every pose at each of these inputs, the current one first."""
+"""The branches of a page: every set of inputs at home's pose, every pose at each of these, the current one first."""
 
 from __future__ import annotations
 
@@ -7,18 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.answers.solution_set import SolutionSet
-from assur.kinematics.border import inputs_of
-from assur.kinematics.closure import assemble
 from assur.kinematics.home import home_values
-from assur.kinematics.modes import all_modes, mode_signs, sign_names
+from assur.kinematics.modes import Problem, all_modes, mode_signs, sign_names
 from assur.kinematics.paths.following import mode_names
-from assur.kinematics.pose import pose_of
-from assur.kinematics.position import direct, inverse
-from assur.kinematics.search import SAME, places
+from assur.kinematics.postures import Posture, postures, unwound
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
-from assur.topology.joints import SPHERICAL
 
 FloatArray = NDArray[np.float64]
 
@@ -39,21 +33,11 @@ def branches(record: MechanismRecord) -> dict[str, list[dict[str, Any]]]:
     {'++': ['+', '-'], '+-': ['-', '+'], '--': ['+', '-']}
     """
     home = home_values(record)
-    working = _listed(record, home, inverse(record, pose_of(record, home)), "home")
+    first, *others = _listed(record, home, "inverse", "home")
     return {
-        "assembly": _listed(record, home, direct(record, inputs_of(record, home)), "home"),
-        "working": [working[0], *({**item, "assembly": _assembly(record, home, item)} for item in working[1:])],
+        "assembly": [_plain(item) for item in _listed(record, home, "direct", "home")],
+        "working": [_plain(first), *({**_plain(item), "assembly": _assembly(record, home, item)} for item in others)],
     }
-
-
-def _assembly(record: MechanismRecord, home: FloatArray, item: dict[str, Any]) -> list[dict[str, Any]]:
-    """Assembly modes at the inputs of another working mode, itself first."""
-    values = np.array(item["values"])
-    label = mode_names(record, values)[1] or "this one"
-    if item["status"] != "regular":  # the platform moves by itself there, or as good as
-        return [{"label": label, "values": item["values"], "status": item["status"]}]
-    rows = _listed(record, values, direct(record, inputs_of(record, values)), label)
-    return [rows[0], *({**row, "values": unwound(record, np.array(row["values"]), home).tolist()} for row in rows[1:])]
 
 
 def modes(record: MechanismRecord) -> dict[str, Any]:
@@ -69,37 +53,20 @@ def modes(record: MechanismRecord) -> dict[str, Any]:
     }
 
 
-def _listed(record: MechanismRecord, current: FloatArray, found: SolutionSet, name: str) -> list[dict[str, Any]]:
-    """Solutions, the current one (n,) first with its values as they are; it has the given name where none is it."""
-    values, labels, status = found.joints[found.exists], found.labels[found.exists], found.status[found.exists]
-    rows = [
-        {"label": str(label), "values": unwound(record, row, current).tolist(), "status": Status(int(kind)).name}
-        for label, row, kind in zip(labels, _closed(record, values), status, strict=True)
-    ]
-    here = np.flatnonzero(_away(record, values, current) <= SAME).tolist() if rows else []
-    first = rows.pop(here[0]) if here else {"label": name, "status": "regular"}
-    return [{**first, "values": current.tolist()}, *rows]
+def _assembly(record: MechanismRecord, home: FloatArray, item: Posture) -> list[dict[str, Any]]:
+    """Assembly modes at the inputs of another working mode, itself first."""
+    label = mode_names(record, item.values)[1] or "this one"
+    if item.status is not Status.regular:  # the platform moves by itself there, or as good as
+        return [{**_plain(item), "label": label}]
+    first, *others = _listed(record, item.values, "direct", label)
+    return [_plain(first), *({**_plain(row), "values": unwound(record, row.values, home).tolist()} for row in others)]
 
 
-def _away(record: MechanismRecord, values: FloatArray, current: FloatArray) -> FloatArray:
-    """How far configurations (K, n) are from the current one (n,), as `assur.kinematics.near_home` measures it."""
-    return np.asarray(np.linalg.norm(places(record, values) - places(record, current[None]), axis=1))
+def _listed(record: MechanismRecord, values: FloatArray, problem: Problem, name: str) -> list[Posture]:
+    """Postures at an assembly (n,), itself first; it has the given name where none is it."""
+    found = postures(record, values, problem)
+    return [found.current or Posture(name, values, Status.regular, -1), *found.others]
 
 
-def _closed(record: MechanismRecord, values: FloatArray) -> FloatArray:
-    """Joint values (K, n) with their loops closed to the last digits, inputs held."""
-    return assemble(record, values, held=record.input_indices, near=True).values if len(values) else values
-
-
-def unwound(record: MechanismRecord, values: FloatArray, home: FloatArray) -> FloatArray:
-    """Joint values (n,) whose angles are within half a turn of home's; rotation vectors of S joints stay.
-
-    >>> from assur.model.registry import load_record
-    >>> record = load_record("fivebar")
-    >>> unwound(record, np.full(5, 7.0), np.zeros(5)).round(4).tolist()
-    [0.7168, 0.7168, 0.7168, 0.7168, 0.7168]
-    """
-    turns = np.array(
-        [item.kind == "angle" and record.joints[item.joint].type is not SPHERICAL for item in record.coordinates]
-    )
-    return np.where(turns, values - 2 * np.pi * np.round((values - home) / (2 * np.pi)), values)
+def _plain(item: Posture) -> dict[str, Any]:
+    return {"label": item.label, "values": item.values.tolist(), "status": item.status.name}

@@ -14,8 +14,9 @@ from assur.kinematics.status import scale
 from assur.model.mechanism import MechanismRecord
 from assur.page import kernel
 from assur.page.branches import branches, modes
-from assur.page.facts import errata, facts
+from assur.page.facts import errata, errata_note, facts
 from assur.page.graph import coordinates, graph
+from assur.page.origin import Original, original
 from assur.page.quantised import quantised
 from assur.page.ranges import input_ranges, pose_ranges
 from assur.scene.companion import companion
@@ -45,6 +46,7 @@ def content(record: MechanismRecord, layers: Sequence[Layer]) -> dict[str, Any]:
     home = home_values(record)
     drawn = companion(record)
     body = skeleton(record, drawn, home)
+    source = original(record)
     return {
         "version": VERSION,
         "name": record.name,
@@ -55,7 +57,8 @@ def content(record: MechanismRecord, layers: Sequence[Layer]) -> dict[str, Any]:
         "size": body.size,
         "extent": body.size,
         "characteristicLength": characteristic_length(record),
-        "parameters": _parameters(record),
+        "parameters": _parameters(record, source),
+        "original": None if source is None else {"name": source.name},
         "graph": graph(record),
         "coordinates": coordinates(record),
         "platform": {
@@ -76,12 +79,19 @@ def content(record: MechanismRecord, layers: Sequence[Layer]) -> dict[str, Any]:
         "factors": _factors(record),
         "facts": facts(record),
         "errata": errata(record),
+        "errataNote": errata_note(record),
     }
 
 
-def _parameters(record: MechanismRecord) -> list[dict[str, Any]]:
+def _parameters(record: MechanismRecord, source: Original | None) -> list[dict[str, Any]]:
     return [
-        {"name": name, "value": item.value, "unit": item.unit, "meaning": item.meaning}
+        {
+            "name": name,
+            "value": item.value,
+            "unit": item.unit,
+            "meaning": item.meaning,
+            "original": None if source is None else source.other(name, item.value),
+        }
         for name, item in record.parameters.items()
     ]
 

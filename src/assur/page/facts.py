@@ -8,6 +8,7 @@ from assur.audit.reference import ERRATA, FOLDER, checked
 from assur.errors import AssurError
 from assur.model.file.toml_source import read_toml
 from assur.model.mechanism import MechanismRecord
+from assur.page.origin import has_errata, left_out
 from assur.report.sections.derived import rounded
 from assur.topology.facts import Topology
 
@@ -31,18 +32,33 @@ def facts(record: MechanismRecord) -> list[dict[str, str]]:
 def errata(record: MechanismRecord) -> list[dict[str, str]]:
     """Id and text of each erratum of the source as its file says it; `assur audit` computes the evidence.
 
+    None where they are not of this mechanism: `errata_note` says why.
+
     >>> from assur.model.registry import load_record
     >>> errata(load_record("zeng2019"))[0]["id"]
     'E1'
+    >>> errata(load_record("zeng2019", l2=300))
+    []
     """
-    path = None if record.folder is None else record.folder / FOLDER / ERRATA
-    if path is None or not path.is_file():
+    if record.folder is None or not has_errata(record) or left_out(record):
         return []
+    path = record.folder / FOLDER / ERRATA
     entries = checked(ErrataFile, read_toml(path.read_text(encoding="utf-8"), str(path)), path).root
     return [
         {"id": name, "text": f"{entry.where}: printed {entry.printed.rstrip('., ')}. {entry.finding}"}
         for name, entry in entries.items()
     ]
+
+
+def errata_note(record: MechanismRecord) -> str:
+    """What is said where there are no errata.
+
+    >>> from assur.model.registry import load_record
+    >>> errata_note(load_record("fivebar"))
+    'None are known.'
+    """
+    reason = left_out(record)
+    return f"{reason[0].upper()}{reason[1:]}." if reason else "None are known."
 
 
 def _facts(found: Topology) -> list[tuple[str, str]]:

@@ -1,4 +1,4 @@
-"""What the sliders cover: strokes where the file has them, else what the workspace needs, else a stated share."""
+"""What the sliders cover: strokes where the file has them, a whole turn of an angle, else what the workspace needs."""
 
 from __future__ import annotations
 
@@ -15,8 +15,14 @@ from assur.model.pose import LENGTHS, QUATERNION
 
 FloatArray = NDArray[np.float64]
 SAMPLES = 2000
-PAD = 0.05
-"""A slider goes beyond what the workspace needs by this share of it."""
+PAD = 0.02
+"""A slider goes beyond what the workspace needs by this share of it, and on to a round number."""
+
+ROUND = 20
+"""Ends are whole multiples of 1, 2 or 5 times a power of ten that is at most a share 1 / ROUND of the slider."""
+
+CENTRED = 0.75 * np.pi
+"""An angle at home up to this has a slider from -180 to 180 deg; others have one about 180, -180, 360, .. deg."""
 
 
 def input_ranges(record: MechanismRecord) -> list[list[float]]:
@@ -47,13 +53,27 @@ def pose_ranges(record: MechanismRecord) -> list[list[float]]:
     return found
 
 
+def whole_turn(here: float) -> tuple[float, float]:
+    """One turn in rad that holds an angle well inside, from -180 to 180 deg where it can be.
+
+    Every value of the angle has a place on it.
+
+    >>> [float(end) for end in np.degrees(whole_turn(np.radians(170.0)))]
+    [0.0, 360.0]
+    """
+    centre = 0.0 if abs(here) <= CENTRED else np.pi * round(here / np.pi)
+    return centre - np.pi, centre + np.pi
+
+
 def _around(record: MechanismRecord, name: str, here: float) -> tuple[float, float]:
     if name in QUATERNION:
         return -1.0, 1.0
     if name == "theta":
         return -np.pi / 2, np.pi / 2
-    half = characteristic_length(record) if name in LENGTHS else np.pi
-    return here - half, here + half
+    if name not in LENGTHS:
+        return whole_turn(here)
+    half = characteristic_length(record)
+    return _outward(here - half, here + half)
 
 
 def _needed(record: MechanismRecord, home: FloatArray) -> FloatArray:
@@ -70,9 +90,20 @@ def _range(record: MechanismRecord, item: Input, here: float, needed: FloatArray
     if item.stroke is not None:
         return [min(item.stroke[0], here), max(item.stroke[1], here)]
     if item.coordinate.kind == "angle":
-        needed = here + (needed - here + np.pi) % (2 * np.pi) - np.pi
+        return list(whole_turn(here))
     low, high = float(np.min(needed)), float(np.max(needed))
-    if high == low:
-        half = np.pi if item.coordinate.kind == "angle" else characteristic_length(record)
-        return [here - half, here + half]
-    return [low - PAD * (high - low), high + PAD * (high - low)]
+    half = PAD * (high - low) or characteristic_length(record)
+    return list(_outward(low - half, high + half))
+
+
+def _outward(low: float, high: float) -> tuple[float, float]:
+    """The nearest round numbers that hold a range.
+
+    >>> _outward(-12.3, 401.0), _outward(0.03, 0.98)
+    ((-20.0, 420.0), (0.02, 0.98))
+    """
+    most = (high - low) / ROUND
+    power = float(10.0 ** np.floor(np.log10(most)))
+    step = power * (5 if most >= 5 * power else 2 if most >= 2 * power else 1)
+    first, last = np.floor(low / step), np.ceil(high / step)
+    return float(f"{step * first:.12g}"), float(f"{step * last:.12g}")

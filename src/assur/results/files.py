@@ -23,7 +23,7 @@ def write_whole(path: str | Path, content: str | bytes) -> Path:
     try:
         handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
     except OSError as error:
-        raise OutputError(f"cannot write {target}: {error.strerror}", hint="choose another place with -o") from error
+        raise OutputError(f"cannot write {target}: {error.strerror}", hint="choose another place") from error
     temporary = Path(name)
     try:
         with os.fdopen(handle, "wb") as stream:
@@ -31,7 +31,7 @@ def write_whole(path: str | Path, content: str | bytes) -> Path:
         temporary.chmod(0o644)
         temporary.replace(target)
     except OSError as error:
-        raise OutputError(f"cannot write {target}: {error.strerror}", hint="choose another place with -o") from error
+        raise OutputError(f"cannot write {target}: {error.strerror}", hint="choose another place") from error
     finally:
         temporary.unlink(missing_ok=True)
     return target

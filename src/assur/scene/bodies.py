@@ -7,7 +7,6 @@ kinds make it: triangles here (`solid`), exact surfaces in `assur.export.cad.ste
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import cast
 
 import numpy as np
 from manifold3d import Manifold, OpType
@@ -18,7 +17,8 @@ from assur.kinematics.home import home_values
 from assur.model.mechanism import MechanismRecord
 from assur.scene.companion import Companion
 from assur.scene.companion import companion as companion_of
-from assur.scene.parts import Part, parts, unit
+from assur.scene.part import Part
+from assur.scene.parts import parts, unit
 from assur.scene.shapes import Ball, Box, Cylinder, Shape
 from assur.scene.skeleton import Skeleton, skeleton
 from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC
@@ -107,7 +107,7 @@ def _seen_from(here: Skeleton, item: Part, link: str) -> Shape:
     """A part's shape in the frame of another link, as both stand at home."""
     placed = item.shape.moved(*here.frames[item.link])
     rotation, origin = here.frames[link]
-    return cast(Shape, placed.moved(rotation.T, -rotation.T @ origin))
+    return placed.moved(rotation.T, -rotation.T @ origin)
 
 
 def solid(shape: Shape) -> Manifold:

@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.model.joint_graph import Frame, frames
 from assur.model.mechanism import MechanismRecord
-from assur.numerics.convex_distance import convex_distance
+from assur.numerics.convex_distance import convex_distance, nearest_points
+from assur.numerics.segments import segment_distances
 from assur.scene.bodies import Body, bodies, corners
 
 FloatArray = NDArray[np.float64]
@@ -92,6 +93,28 @@ def collisions(record: MechanismRecord, joints: FloatArray, step: Step | None = 
     return Collisions(record, tuple(found), len(joints))
 
 
+def ends(record: MechanismRecord, item: Nearest) -> FloatArray:
+    """The nearest points (2, 3) of two links, in the base frame of their configuration; one point where they meet.
+
+    >>> from assur.model.registry import load_record
+    >>> from assur.kinematics.home import home_values
+    >>> record = load_record("fivebar")
+    >>> nearest = collisions(record, home_values(record)[None]).pairs[0]
+    >>> first, second = ends(record, nearest)
+    >>> bool(abs(np.linalg.norm(second - first) - nearest.clearance) < 1e-3)
+    True
+    """
+    placed = frames(record, item.joints)
+    clouds = []
+    for link, name in zip(item.links, item.parts, strict=True):
+        rotation, origin = placed[link]
+        body = next(found for found in bodies(record) if found.link == link)
+        own = [part for part in (*body.fused, *body.pins) if part.name == name]  # plates of a fork share a name
+        clouds.append([np.unique(corners(part.shape), axis=0) @ rotation.T + origin for part in own])
+    found = [nearest_points(one, other) for one in clouds[0] for other in clouds[1]]
+    return min(found, key=lambda pair: float(np.linalg.norm(pair[1] - pair[0])))
+
+
 def _nearest(first: _Hulls, second: _Hulls) -> tuple[float, int, tuple[str, str], int]:
     """Least distance of two links, where it is, the parts' names, and in how many configurations they meet."""
     bounds = _bounds(first, second)  # (k, p, q)
@@ -123,7 +146,8 @@ def _relative(first: Frame, second: Frame) -> Frame:
 def _bounds(first: _Hulls, second: _Hulls) -> FloatArray:
     """Lower bounds (k, p, q) of the distances of two links' parts; not positive where their hulls meet."""
     a, b = first.ends[:, :, None], second.ends[:, None]
-    gaps = _segments(a[..., 0, :], a[..., 1, :], b[..., 0, :], b[..., 1, :]) - first.radii[:, None] - second.radii
+    axes = segment_distances(a[..., 0, :], a[..., 1, :], b[..., 0, :], b[..., 1, :])
+    gaps = axes - first.radii[:, None] - second.radii
     way = second.middles[:, None] - first.middles[:, :, None]
     for own in (first.sides[:, :, None], second.sides[:, None]):
         size = np.linalg.norm(own, axis=-1, keepdims=True)
@@ -186,26 +210,3 @@ def _hull(points: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, float
     along = (points - middle) @ axes[0]
     ends = np.array([min(float((along + slack).min()), 0.0), max(float((along - slack).max()), 0.0)])
     return middle, sides, middle + ends[:, None] * axes[0], radius
-
-
-def _segments(p: FloatArray, q: FloatArray, r: FloatArray, s: FloatArray) -> FloatArray:
-    """Distances (...) of segments pq and rs, (..., 3) each: inside both, or from an end of one to the other."""
-    u, v, w = q - p, s - r, p - r
-    uu, vv, uv = (np.sum(a * b, axis=-1) for a, b in ((u, u), (v, v), (u, v)))
-    uw, vw = np.sum(u * w, axis=-1), np.sum(v * w, axis=-1)
-    skew = uu * vv - uv**2 > 1e-12 * uu * vv
-    apart = np.where(skew, uu * vv - uv**2, 1.0)
-    t, k = (uv * vw - vv * uw) / apart, (uu * vw - uv * uw) / apart
-    inside = (t >= 0) & (t <= 1) & (k >= 0) & (k <= 1) & skew
-    t, k = np.where(inside, t, 0.0), np.where(inside, k, 0.0)
-    between = np.linalg.norm(w + t[..., None] * u - k[..., None] * v, axis=-1)
-    ends = [_from_point(p, r, v), _from_point(q, r, v), _from_point(r, p, u), _from_point(s, p, u)]
-    least = np.minimum.reduce(ends)
-    return np.asarray(np.where(inside, np.minimum(between, least), least))
-
-
-def _from_point(point: FloatArray, start: FloatArray, way: FloatArray) -> FloatArray:
-    """Distances (...) of points from segments that begin at `start` and run along `way`."""
-    length = np.maximum(np.sum(way * way, axis=-1), 1e-300)
-    share = np.clip(np.sum((point - start) * way, axis=-1) / length, 0.0, 1.0)
-    return np.asarray(np.linalg.norm(point - start - share[..., None] * way, axis=-1))

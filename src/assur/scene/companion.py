@@ -96,11 +96,23 @@ class Flow(_Part):
     steps: dict[str, Step] = {}
 
 
+class Meeting(_Part):
+    """Two links that share no joint and still meet at home as they are drawn, and why that cannot be helped."""
+
+    links: Annotated[list[str], Field(min_length=2, max_length=2)]
+    because: Annotated[str, Field(min_length=1)]
+
+
 class Companion(_Part):
-    """How a mechanism is drawn; an empty one draws it with its own names and common views."""
+    """How a mechanism is drawn; an empty one draws it with its own names and common views.
+
+    `thickness` is that of a flat bar and `rail` half the length of a rail, as formulas of the parameters.
+    """
 
     inputs: list[float] = []
     rail: str = ""
+    thickness: str = ""
+    meets: list[Meeting] = []
     bars: list[Bar] = []
     measures: list[Measure] = []
     links: dict[str, str] = {}
@@ -171,7 +183,13 @@ def _check_names(record: MechanismRecord, found: Companion, faults: Faults) -> N
         for end in measure.ends:
             _known(faults, ("measures", k, "ends"), "joint or point", end, named)
         _formula(record, faults, ("measures", k, "length"), measure.length)
+    for k, meeting in enumerate(found.meets):
+        for name in meeting.links:
+            _known(faults, ("meets", k, "links"), "link", name, record.links)
     _formula(record, faults, ("rail",), found.rail)
+    thickness = _formula(record, faults, ("thickness",), found.thickness)
+    if thickness is not None and not thickness > 0:
+        faults.add(("thickness",), f"{found.thickness} = {thickness:g}", "a length above 0")
     for part, choices in (
         ("links", record.links),
         ("chains", record.chains),
@@ -199,13 +217,15 @@ def _known(faults: Faults, path: tuple[str | int, ...], kind: str, name: str, ch
         faults.unknown(path, kind, name, names)
 
 
-def _formula(record: MechanismRecord, faults: Faults, path: tuple[str | int, ...], text: str) -> None:
+def _formula(record: MechanismRecord, faults: Faults, path: tuple[str | int, ...], text: str) -> float | None:
+    """The value of a formula; None where there is none, or a faulty one."""
     if not text:
-        return
+        return None
     try:
-        length(record, text)
+        return length(record, text)
     except (FormulaError, UnknownNameError) as error:
         faults.add(path, text, error.message)
+        return None
 
 
 def length(record: MechanismRecord, text: str) -> float:

@@ -14,6 +14,8 @@ from assur.scene.shapes import Bar, Cylinder
 from assur.scene.skeleton import Mark, Rod, Skeleton
 
 FloatArray = NDArray[np.float64]
+ALONG = 0.9
+"""A hinge whose axis runs along its stand by more than this cosine has a post in place of lugs."""
 
 
 def webs(skeleton: Skeleton, rod: Rod, aside: FloatArray, radius: float) -> Iterator[Cylinder]:
@@ -50,11 +52,14 @@ def posts(skeleton: Skeleton, level: float, radius: float) -> Iterator[Cylinder]
             yield Cylinder(foot, foot + height * rotation[:, 2], radius)
 
 
-def stand(mark: Mark, height: float, reach: float, size: float) -> Iterator[Bar | Cylinder]:
-    """What holds a joint of the base over (or under) a plate `height` from it: two lugs, or a post for a ball."""
-    foot = mark.at + np.array([0.0, 0.0, height])
-    if not len(mark.axes):
-        yield Cylinder(foot, mark.at + np.array([0.0, 0.0, 0.5 * np.sign(height) * size]), 1.7 * size)
+def stand(mark: Mark, way: FloatArray, reach: float, size: float) -> Iterator[Bar | Cylinder]:
+    """What holds a joint over a plate or a carriage that lies by `way` (3,) from it: two lugs, or a post.
+
+    A post holds a ball, and a hinge whose axis runs along the way.
+    """
+    foot, along = mark.at + way, way / np.linalg.norm(way)
+    if not len(mark.axes) or abs(float(mark.axes[0] @ along)) > ALONG:
+        yield Cylinder(foot, mark.at + 0.5 * size * along, 1.7 * size)
         return
     for sense in (1.0, -1.0):
         aside = sense * reach * mark.axes[0]

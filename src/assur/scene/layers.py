@@ -17,8 +17,14 @@ from assur.kinematics.pose import pose_of
 from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, is_angle
+from assur.scene.refining import combed, refined
 from assur.scene.thinning import thinned
+from assur.singularity.loci import Locus
+from assur.workspace.fields import Field
+from assur.workspace.followed import FollowedField
+from assur.workspace.grid import UniformGrid
 from assur.workspace.region import Workspace, workspace
+from assur.workspace.sections import Section
 from assur.workspace.slices import MOST, slice_at
 
 FloatArray = NDArray[np.float64]
@@ -28,6 +34,12 @@ RESOLUTION, FOLLOWED = 32, 12
 
 FACES = 8000
 """Triangles of a layer, at most."""
+
+COARSE = 3000
+"""Faces of a singular surface that was followed, at most: every vertex is solved for."""
+
+SLIVERS, TEETH = 0.7, 0.5
+"""Share of its faces that are left when slivers are merged, and how far a rim may move, in cells."""
 
 SOLID = "#4477aa"
 SECTION = "#225588"
@@ -72,11 +84,44 @@ def layers(
     >>> [(item.label, item.lines) for item in layers(load_record("fivebar"))][:1]
     [('workspace of mode -+', False)]
     """
+    found = region(record, mode, resolution, tick)
+    return () if found is None else layers_of(record, found)
+
+
+def region(
+    record: MechanismRecord,
+    mode: str | None = None,
+    resolution: int | None = None,
+    tick: Callable[[int, int], None] | None = None,
+) -> Workspace | None:
+    """The workspace that the layers show; None where there is none that can be seen.
+
+    >>> from assur.model.registry import load_record
+    >>> region(load_record("three_rps")) is None  # its pose has one length
+    True
+    """
     held = _held(record)
     if held is None:
-        return ()
+        return None
     cells = resolution or _resolution(record, held)
-    return tuple(_layers(record, workspace(record, mode, resolution=cells, held=held, progress=tick)))
+    return workspace(record, mode, resolution=cells, held=held, progress=tick)
+
+
+def layers_of(record: MechanismRecord, found: Workspace) -> tuple[Layer, ...]:
+    """The layers of a workspace, its sections among them."""
+    return tuple(_layers(record, found))
+
+
+def section_layer(record: MechanismRecord, cut: Section) -> Layer | None:
+    """The outline of a section; None where it is empty, or no area."""
+    if not cut.polygons or len(cut.plane) != 2:
+        return None
+    area = f"area about {float(f'{cut.area:.3g}'):.10g} {record.unit}^2"  # on a grid; proved ones: certify
+    label = f"section {cut.coordinate} = {cut.value:g} {record.unit}, {area}"
+    points, edges = _outlines(cut.polygons)
+    plane = np.column_stack([points, np.full(len(points), cut.value)])
+    mesh = thinned(_placed(record, (*cut.plane, cut.coordinate), plane), edges, FACES)
+    return Layer("section", label, SECTION, 1.0, *mesh)
 
 
 def _held(record: MechanismRecord) -> dict[str, float] | None:
@@ -102,17 +147,33 @@ def _layers(record: MechanismRecord, found: Workspace) -> Iterator[Layer]:
         mesh = thinned(_placed(record, names, found.vertices), found.faces, FACES)
         yield Layer("workspace", f"workspace{mode}", SOLID, 0.18, *mesh)
     for k, locus in enumerate(item for item in found.loci if len(item.faces)):
-        mesh = thinned(_placed(record, names, locus.vertices), locus.faces, FACES)
+        vertices, faces = _fine(locus, found.region.factors[locus.factor], found.region.grid)
+        mesh = thinned(_placed(record, names, vertices), faces, FACES)
         label = f"{locus.factor} = 0: {locus.meaning}"
         yield Layer("singular", label, SINGULAR[k % len(SINGULAR)], 0.45, *mesh, locus.factor)
     for cut in found.sections:
-        if cut.polygons and len(cut.plane) == 2:
-            area = f"area about {float(f'{cut.area:.3g}'):.10g} {record.unit}^2"  # on a grid; proved ones: certify
-            label = f"section {cut.coordinate} = {cut.value:g} {record.unit}, {area}"
-            points, edges = _outlines(cut.polygons)
-            plane = np.column_stack([points, np.full(len(points), cut.value)])
-            mesh = thinned(_placed(record, (*cut.plane, cut.coordinate), plane), edges, FACES)
-            yield Layer("section", label, SECTION, 1.0, *mesh)
+        outline = section_layer(record, cut)
+        if outline is not None:
+            yield outline
+
+
+def _fine(locus: Locus, field: Field, grid: UniformGrid) -> tuple[FloatArray, Faces]:
+    """The surface of a locus; of a mode that was followed, in few cells, its faces cut in parts that lie on it.
+
+    Where such a surface runs into the border of the mode it ends in teeth of a cell's size: rims are combed, but for
+    those on the sides of the box.
+    """
+    if not isinstance(field, FollowedField) or locus.faces.shape[1] == 2:
+        return locus.vertices, locus.faces
+    vertices, faces = thinned(locus.vertices, locus.faces, int(SLIVERS * len(locus.faces)))
+    far = TEETH * float(np.min(grid.step))
+
+    def rims(points: FloatArray, triangles: Faces) -> FloatArray:
+        sides = np.minimum(np.abs(points - grid.low), np.abs(points - grid.high))
+        return combed(points, triangles, far, np.any(sides < 0.1 * grid.step, axis=1))
+
+    vertices, faces = refined(rims(vertices, faces), faces, field.known, COARSE)
+    return rims(vertices, faces), faces
 
 
 def _placed(record: MechanismRecord, names: tuple[str, ...], points: FloatArray) -> FloatArray:

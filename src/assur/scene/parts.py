@@ -1,34 +1,30 @@
 """Parts: every link of a mechanism as bars, pins, sliders, rails and plates, in the link's own frame.
 
 Links that meet in a hinge lie in different layers along its axis (tongue, fork, wider fork), so that none
-runs through another. Sizes other than those of the joint graph are drawn only.
+runs through another. Sizes other than those of the joint graph are drawn only, as multiples of one thickness.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.scene.companion import Companion
+from assur.scene.ground import bed, depth, ground, held, upright
 from assur.scene.hull import hull
 from assur.scene.joining import posts, stand, webs
 from assur.scene.mesh import Mesh, joined
-from assur.scene.rails import rails
-from assur.scene.shapes import Ball, Bar, Box, Cylinder, Shape, Slab
+from assur.scene.part import DARK, DRIVE, LINKS, PLAIN, STAGE, STEEL, Part
+from assur.scene.shapes import Ball, Bar, Box, Cylinder, Slab
+from assur.scene.sizes import thickness
 from assur.scene.skeleton import Mark, Rod, Skeleton
-from assur.topology.joints import SPHERICAL
+from assur.scene.yokes import ASIDE, Yoke, cross, trimmed, yokes
+from assur.topology.joints import SPHERICAL, UNIVERSAL
 
 FloatArray = NDArray[np.float64]
-STEEL = "#9aa3ab"
-DARK = "#5d656c"
-PLATE = "#d5d8da"
-DRIVE = "#ecad1d"
-STAGE = "#ecd777"
-LINKS = ("#2381d4", "#41c793", "#cb6635", "#b473b4", "#94cdf3", "#8a7965")
-PLAIN = "#b4bac0"
 FLAT = 0.1
 """A platform whose outline has less than this share of the square of its length is drawn as a bar."""
 
@@ -46,30 +42,9 @@ THICK = (1.0, 0.7, 0.7)
 """Middles of the plates of a tongue, a fork and a wider fork, and their thickness, in units of `unit`."""
 
 
-@dataclass(frozen=True, eq=False)
-class Part:
-    """One solid of a link.
-
-    Attributes:
-        name: what it is: the joint's name and its role, as "A1 pin", or "bar B1 C1".
-        link: the link that carries it.
-        shape: in the frame of that link, in the mechanism's unit.
-        colour: "#rrggbb".
-        role: what it does: bar, web, plate, post, stand, pin, ball, tube, rod, collar, carriage, rail, pillar.
-        joint: the joint that it belongs to, "" where none.
-    """
-
-    name: str
-    link: str
-    shape: Shape
-    colour: str
-    role: str = "bar"
-    joint: str = ""
-
-
 def unit(skeleton: Skeleton) -> float:
-    """The length that drawn thicknesses are multiples of."""
-    return 0.018 * skeleton.size
+    """The thickness of a flat bar, of which all drawn sizes are multiples: one for every configuration."""
+    return thickness(skeleton.record)
 
 
 def parts(skeleton: Skeleton, companion: Companion, accents: Mapping[str, str] | None = None) -> tuple[Part, ...]:
@@ -102,7 +77,11 @@ def placed(solids: tuple[Part, ...], skeleton: Skeleton) -> Mesh:
 
 def _placed(skeleton: Skeleton, companion: Companion, colours: Mapping[str, str]) -> Iterator[Part]:
     """Every part with its shape still in the base frame."""
-    layers = link_layers(skeleton)
+    layers, forks = link_layers(skeleton), yokes(skeleton)
+    skeleton = trimmed(skeleton, forks, unit(skeleton))
+    for yoke in forks:
+        if yoke.link != skeleton.record.base:
+            yield from _yoke(skeleton, yoke, colours.get(yoke.link, PLAIN))
     for rod in skeleton.rods:
         if rod.size > 0:
             yield from _rod(skeleton, rod, layers[rod.link], colours.get(rod.link, PLAIN))
@@ -115,12 +94,17 @@ def _placed(skeleton: Skeleton, companion: Companion, colours: Mapping[str, str]
     for mark in skeleton.marks:
         yield from _joint(skeleton, mark, layers)
     yield from _stage(skeleton, colours.get(skeleton.record.platform.link, STAGE))
-    yield from _base(skeleton, companion)
+    yield from ground(skeleton, companion, forks, unit(skeleton), lambda mark: _reach(mark, layers, True))
+
+
+def _yoke(skeleton: Skeleton, yoke: Yoke, colour: str) -> Iterator[Part]:
+    for role, shape in yoke.shapes(unit(skeleton)):
+        yield Part(f"{yoke.joint} {role}", yoke.link, shape, colour, role, yoke.joint)
 
 
 def link_layers(skeleton: Skeleton) -> dict[str, int]:
-    """Link -> its layer, another one than those of the links that it is hinged to."""
-    hinges = [mark.joint for mark in skeleton.marks if not mark.slides]
+    """Link -> its layer, another one than those of the links that it is hinged to, but for universal joints."""
+    hinges = [mark.joint for mark in skeleton.marks if not mark.slides and mark.joint.type is not UNIVERSAL]
     found: dict[str, int] = {}
     for link in skeleton.record.links:
         others = {
@@ -171,29 +155,35 @@ def _joint(skeleton: Skeleton, mark: Mark, layers: Mapping[str, int]) -> Iterato
     if joint.type is SPHERICAL:
         yield Part(f"{joint.name} ball", joint.child, Ball(mark.at, 1.4 * size), DARK, "ball", joint.name)
         return
+    colour = DRIVE if mark.driven else DARK
     if mark.slides:
-        yield from _slider(mark, size)
+        yield from _slider(skeleton, mark, layers)
+    elif joint.type is UNIVERSAL:
+        for link, role, piece in cross(mark, size):
+            yield Part(f"{joint.name} {role}", link, piece, colour, "pin", joint.name)
     else:
-        reach = _reach(mark, layers) * size
-        colour = DRIVE if mark.driven else DARK
-        for axis, link in zip(mark.axes, (joint.parent, joint.child), strict=False):
-            shape = Cylinder(mark.at - reach * axis, mark.at + reach * axis, 0.7 * size)
-            yield Part(f"{joint.name} pin", link, shape, colour, "pin", joint.name)
-    if mark.grounded and not mark.slides and abs(float(mark.axes[0][2])) > 0.9:
+        over = any(mark in held(skeleton, item, size) for item in skeleton.marks)
+        reach = _reach(mark, layers, mark.grounded or over) * size * mark.axes[0]
+        shape = Cylinder(mark.at - reach, mark.at + reach, 0.7 * size)
+        yield Part(f"{joint.name} pin", joint.parent, shape, colour, "pin", joint.name)
+    if mark.grounded and not mark.slides and upright(mark):
         foot = Cylinder(mark.at - [0, 0, 4.6 * size], mark.at - [0, 0, 1.2 * size], 1.9 * size)
-        colour = DRIVE if mark.driven else DARK
         yield Part(f"{joint.name} pillar", skeleton.record.base, foot, colour, "pillar", joint.name)
 
 
-def _reach(mark: Mark, layers: Mapping[str, int]) -> float:
-    """Half the length of a pin, in units of `unit`: through all layers, and on the base through its stand."""
-    return max(max(LAYERS[layers[link]]) for link in (mark.joint.parent, mark.joint.child)) + 0.75 + 0.6 * mark.grounded
+def _reach(mark: Mark, layers: Mapping[str, int], stands: bool) -> float:
+    """Half the length of a pin, in units of `unit`: through all layers, and through a stand."""
+    if mark.joint.type is UNIVERSAL:
+        return ASIDE + 0.4
+    widest = max(max(LAYERS[layers[link]]) for link in (mark.joint.parent, mark.joint.child))
+    return widest + 0.75 + 0.6 * stands
 
 
-def _slider(mark: Mark, size: float) -> Iterator[Part]:
+def _slider(skeleton: Skeleton, mark: Mark, layers: Mapping[str, int]) -> Iterator[Part]:
     """A carriage on its rail; of a leg that grows longer a tube, a rod in it and a collar at the tube's end."""
-    joint, axis = mark.joint, mark.axes[0]
-    across, up = _across(axis)
+    joint, axis, size = mark.joint, mark.axes[0], unit(skeleton)
+    deep = 0.0 if mark.telescopes else depth(skeleton, size)
+    side, up = bed(skeleton, mark, deep)
     colour = DRIVE if mark.driven else PLAIN
     where, link, name = mark.at, joint.child, "carriage"
     if mark.telescopes:
@@ -204,16 +194,15 @@ def _slider(mark: Mark, size: float) -> Iterator[Part]:
         back, ahead = (SHAFT * size * axis,) * 2 if np.linalg.norm(way) < SHORT * size else (ROD * way, 0.0 * way)
         rod = Cylinder(mark.at - back, mark.at + ahead, 0.5 * size)
         yield Part(f"{joint.name} rod", joint.child, rod, STEEL, "rod", joint.name)
-    sides = size * np.array([2.6 * axis, 1.9 * across, 1.15 * up])
-    yield Part(f"{joint.name} {name}", link, Box(where + 0.1 * size * up, sides), colour, name, joint.name)
-
-
-def _across(axis: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Unit vectors across an axis, the second as far upwards as can be."""
-    up = np.array([0.0, 0.0, 1.0]) if abs(axis[2]) < 0.9 else np.array([1.0, 0.0, 0.0])
-    up = up - (up @ axis) * axis
-    up = up / np.linalg.norm(up)
-    return np.cross(up, axis), up
+    sides = size * np.array([2.6 * axis, 1.9 * side, 1.15 * up] if not deep else [3.2 * axis, 3.2 * side, 1.15 * up])
+    middle = where + (0.1 * size - deep) * up
+    yield Part(f"{joint.name} {name}", link, Box(middle, sides), colour, name, joint.name)
+    over = held(skeleton, mark, size) if deep else []
+    for item in over:
+        for shape in stand(item, middle - item.at, (_reach(item, layers, True) - 0.4) * size, size):
+            yield Part(f"{item.joint.name} stand", link, shape, colour, "stand", item.joint.name)
+    if deep and not over:
+        yield Part(f"{joint.name} post", link, Cylinder(middle, mark.at, 0.75 * size), colour, "post", joint.name)
 
 
 def _stage(skeleton: Skeleton, colour: str) -> Iterator[Part]:
@@ -254,34 +243,3 @@ def _outline(points: FloatArray, margin: float) -> FloatArray:
         return np.zeros((0, 2))
     outwards = corners - corners.mean(axis=0)
     return np.asarray(corners + margin * outwards / np.linalg.norm(outwards, axis=1, keepdims=True))
-
-
-def _base(skeleton: Skeleton, companion: Companion) -> Iterator[Part]:
-    """A plate under everything that stands on the base, and the rails."""
-    size, base = unit(skeleton), skeleton.record.base
-    found = rails(skeleton, companion)
-    feet = [mark.at for mark in skeleton.marks if mark.grounded and not mark.slides]
-    for k, (start, end) in enumerate(found, 1):
-        axis = (end - start) / np.linalg.norm(end - start)
-        across, up = _across(axis)
-        sides = np.array([(end - start) / 2, 0.8 * size * across, 0.95 * size * up])
-        yield Part(f"rail {k}", base, Box((start + end) / 2 - 0.65 * size * up, sides), STEEL, "rail")
-        feet += [start, end]
-    if not feet:
-        return
-    drop = 1.6 if found else 4.0
-    if np.min(skeleton.cloud[:, 2]) < np.min(feet, axis=0)[2] - drop * size:
-        hangs = np.max(skeleton.cloud[:, 2]) <= np.max(feet, axis=0)[2] + size
-        if found or not hangs or np.ptp(feet, axis=0)[2] > size:
-            return  # a plate would hide what is below it
-        drop = -drop - 1.3  # it hangs
-    low, high = np.min(feet, axis=0) - 3.2 * size, np.max(feet, axis=0) + 3.2 * size
-    high[2] = (np.min(feet, axis=0)[2] if drop > 0 else np.max(feet, axis=0)[2]) - drop * size
-    low[2] = high[2] - 1.3 * size
-    yield Part("base plate", base, Box((low + high) / 2, np.diag((high - low) / 2)), PLATE, "plate")
-    layers = link_layers(skeleton)
-    for mark in skeleton.marks:
-        if mark.grounded and not mark.slides and not (len(mark.axes) and abs(float(mark.axes[0][2])) > 0.9):
-            height = (low[2] + 1.15 * size if drop > 0 else high[2] - 1.15 * size) - mark.at[2]
-            for shape in stand(mark, height, (_reach(mark, layers) - 0.4) * size, size):
-                yield Part(f"{mark.joint.name} stand", base, shape, DARK, "stand", mark.joint.name)

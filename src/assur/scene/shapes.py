@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar, TypeAlias
+from typing import Any, ClassVar, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,23 +15,35 @@ FloatArray = NDArray[np.float64]
 
 
 class _Solid:
-    """What every shape can do; `points` are moved as points, `ways` are turned only."""
+    """What every shape can do. Its fields are the arguments of the function of its kind in `assur.scene.mesh`.
+
+    Attributes:
+        kind: its name in plain data, and that of the function.
+        points, ways: fields that are moved as points, and that are turned only.
+        units: fields of `ways` that have no length.
+    """
 
     kind: ClassVar[str]
     points: ClassVar[tuple[str, ...]] = ()
     ways: ClassVar[tuple[str, ...]] = ()
+    units: ClassVar[tuple[str, ...]] = ()
 
-    def moved(self, rotation: FloatArray, origin: FloatArray) -> Any:
+    def moved(self, rotation: FloatArray, origin: FloatArray) -> Self:
         """The same shape where the frame that it is given in has an orientation (3, 3) and an origin (3,)."""
+        placed = {name: getattr(self, name) @ rotation.T + origin for name in self.points}
         turned = {name: getattr(self, name) @ rotation.T for name in self.ways}
+        return type(self)(**{**vars(self), **placed, **turned})
+
+    def scaled(self, factor: float) -> Self:
+        """The same shape in another unit: all its lengths times a factor."""
         return type(self)(
-            **{**vars(self), **{n: getattr(self, n) @ rotation.T + origin for n in self.points}, **turned}
+            **{name: value if name in self.units else value * factor for name, value in vars(self).items()}
         )
 
-    def scaled(self, factor: float) -> Any:
-        """The same shape in another unit: all its lengths times a factor."""
-        fixed = [name for name in self.ways if name == "normal"]
-        return type(self)(**{name: value if name in fixed else value * factor for name, value in vars(self).items()})
+    def mesh(self, colour: str) -> Mesh:
+        """Triangles in a colour "#rrggbb"."""
+        made: Mesh = getattr(mesh, self.kind)(**vars(self), colour=colour)
+        return made
 
     def to_json(self) -> dict[str, Any]:
         """Plain data: its kind and its numbers."""
@@ -55,10 +67,6 @@ class Cylinder(_Solid):
     kind = "cylinder"
     points = ("start", "end")
 
-    def mesh(self, colour: str) -> Mesh:
-        """Triangles in a colour "#rrggbb"."""
-        return mesh.cylinder(self.start, self.end, self.radius, colour)
-
 
 @dataclass(frozen=True, eq=False)
 class Ball(_Solid):
@@ -68,10 +76,6 @@ class Ball(_Solid):
     radius: float
     kind = "ball"
     points = ("centre",)
-
-    def mesh(self, colour: str) -> Mesh:
-        """Triangles in a colour "#rrggbb"."""
-        return mesh.ball(self.centre, self.radius, colour)
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,10 +87,6 @@ class Box(_Solid):
     kind = "box"
     points = ("centre",)
     ways = ("sides",)
-
-    def mesh(self, colour: str) -> Mesh:
-        """Triangles in a colour "#rrggbb"."""
-        return mesh.box(self.centre, self.sides, colour)
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,10 +101,7 @@ class Bar(_Solid):
     kind = "bar"
     points = ("start", "end")
     ways = ("normal",)
-
-    def mesh(self, colour: str) -> Mesh:
-        """Triangles in a colour "#rrggbb"."""
-        return mesh.bar(self.start, self.end, self.normal, self.radius, self.thickness, colour)
+    units = ("normal",)
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,10 +113,6 @@ class Slab(_Solid):
     kind = "slab"
     points = ("outline",)
     ways = ("along",)
-
-    def mesh(self, colour: str) -> Mesh:
-        """Triangles in a colour "#rrggbb"."""
-        return mesh.slab(self.outline, self.along, colour)
 
 
 Shape: TypeAlias = Cylinder | Ball | Box | Bar | Slab

@@ -7,10 +7,6 @@ from flint import arb
 Bounds = tuple[arb, arb]
 
 
-class UndefinedError(ArithmeticError):
-    """Somewhere within the bounds the operation has no value."""
-
-
 def add(a: Bounds, b: Bounds) -> Bounds:
     """Sum."""
     return (a[0] + b[0]).lower(), (a[1] + b[1]).upper()
@@ -36,9 +32,9 @@ def multiply(a: Bounds, b: Bounds) -> Bounds:
 
 
 def divide(a: Bounds, b: Bounds) -> Bounds:
-    """Quotient, undefined where the divisor may be zero."""
+    """Quotient; the divisor must not be zero anywhere."""
     if not nonzero(b):
-        raise UndefinedError("division by what may be zero")
+        raise ZeroDivisionError("division by what may be zero")
     corners = [x / y for x in a for y in b]
     return min(c.lower() for c in corners), max(c.upper() for c in corners)
 

@@ -12,15 +12,14 @@ import hashlib
 import math
 import re
 from collections import Counter
-from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from flint import arb, ctx, fmpq
+from flint import ctx, fmpq
 
-from assur.verifier.bounds import UndefinedError, nonzero
-from assur.verifier.program import Program
+from assur.verifier.bounds import nonzero
+from assur.verifier.program import Box, Program
 from assur.verifier.reading import MalformedError, RefusedError, names, number, read
 
 BITS = 128
@@ -31,7 +30,6 @@ CLAIMS = {
     "path": ("leaves", "reached", "regular"),
 }
 TOKEN = re.compile(r"[0-9]|[irb]|o[0-9a-f]{2}")
-Box = tuple[list[float], list[float]]
 
 
 def verify(data: bytes, folder: Path | None = None) -> dict[str, Any]:
@@ -104,15 +102,15 @@ def _proved(program: Program, coordinates: list[str], boxes: list[Box], proof: s
     for place, token in enumerate(tokens, 1):
         if not stack:
             raise ValueError(f"the proof goes on after its end, with part {place} of {len(tokens)}")
-        low, high = stack.pop()
+        low, high = box = stack.pop()
         if token.isdigit():
             stack.extend(_halves(low, high, int(token)))
             continue
-        if not _holds(program, low, high, token, signs):
-            box = ", ".join(f"{n} {a:.9g} .. {b:.9g}" for n, a, b in zip(coordinates, low, high, strict=True))
-            raise RefusedError(f"part {place} of {len(tokens)} does not hold: {LEAVES[token[0]]} for {box}")
+        if not _holds(program, box, token, signs):
+            where = ", ".join(f"{n} {a:.9g} .. {b:.9g}" for n, a, b in zip(coordinates, low, high, strict=True))
+            raise RefusedError(f"part {place} of {len(tokens)} does not hold: {LEAVES[token[0]]} for {where}")
         count[token[0]] += 1
-        inner.extend([(low, high)] if token == "i" else [])
+        inner.extend([box] if token == "i" else [])
         sides = (fmpq(*b.as_integer_ratio()) - fmpq(*a.as_integer_ratio()) for a, b in zip(low, high, strict=True))
         volume[token[0]] += math.prod(sides, start=fmpq(1))
     if stack:
@@ -120,7 +118,7 @@ def _proved(program: Program, coordinates: list[str], boxes: list[Box], proof: s
     inside = volume["i"] + volume["r"]
     reached = "no" if count["o"] else "open" if count["b"] else "yes"
     both = [k for k, positive in sorted(signs) if positive and (k, False) in signs and reached == "yes"]
-    vanishes = any(all(_has_value(program, box, k) for box in inner) for k in both)
+    vanishes = any(all(program.over(box, [k]) for box in inner) for k in both)  # continuous, so zero somewhere
     return {
         "leaves": {name: count[key] for key, name in LEAVES.items()},
         "volume": [_below(inside).hex(), (-_below(-inside - volume["b"])).hex()],
@@ -139,35 +137,20 @@ def _halves(low: list[float], high: list[float], axis: int) -> tuple[Box, Box]:
     return ([*low[:axis], middle, *low[after]], high), (low, [*high[:axis], middle, *high[after]])
 
 
-def _holds(
-    program: Program, low: Sequence[float], high: Sequence[float], token: str, signs: set[tuple[int, bool]]
-) -> bool:
+def _holds(program: Program, box: Box, token: str, signs: set[tuple[int, bool]]) -> bool:
     """Whether a leaf is proved; signs of the factors of a regular one are noted."""
-    box = [(arb(a), arb(b)) for a, b in zip(low, high, strict=True)]
-    margins, divisors, factors = (
-        [k for _, k in group] for group in (program.margins, program.nonzero, program.factors)
-    )
-    try:
-        if token[0] == "o":
-            return bool(program.over(box, [margins[int(token[1:], 16)]], strict=False)[0][1] < 0)
-        if token[0] == "b":
-            return True
-        wanted = [*margins, *divisors, *(factors if token == "r" else ())]
-        values = dict(zip(wanted, program.over(box, wanted, strict=True), strict=True))
-    except UndefinedError:
+    if token == "b":
+        return True
+    if token[0] == "o":
+        found = program.over(box, [program.margins[int(token[1:], 16)]], strict=False)
+        return found is not None and bool(found[0][1] < 0)
+    factors = program.factors if token == "r" else []
+    found = program.over(box, [*program.margins, *factors, *program.nonzero])
+    if found is None:
         return False
-    if token == "r":
-        signs.update((k, bool(values[k][0] > 0)) for k in factors)
-    return all(values[k][0] >= 0 for k in margins) and all(nonzero(values[k]) for k in wanted[len(margins) :])
-
-
-def _has_value(program: Program, box: Box, output: int) -> bool:
-    """Whether an output has a value all over a box; it is continuous there, and changes its sign at a zero only."""
-    try:
-        program.over([(arb(a), arb(b)) for a, b in zip(*box, strict=True)], [output], strict=True)
-    except UndefinedError:
-        return False
-    return True
+    margins, others = found[: len(program.margins)], found[len(program.margins) :]
+    signs.update((k, bool(value[0] > 0)) for k, value in zip(factors, others, strict=False))
+    return all(margin[0] >= 0 for margin in margins) and all(map(nonzero, others))
 
 
 def _below(value: fmpq) -> float:

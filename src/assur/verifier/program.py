@@ -8,18 +8,16 @@ from typing import Any
 from flint import arb
 
 from assur.verifier import bounds
-from assur.verifier.bounds import Bounds
+from assur.verifier.bounds import Bounds, nonzero
 from assur.verifier.reading import names, number
 
+Box = tuple[list[float], list[float]]
 TWO = {"+": bounds.add, "-": bounds.subtract, "*": bounds.multiply, "/": bounds.divide}
-ONE = {
-    **{"negative": bounds.negative, "magnitude": bounds.magnitude, "root": bounds.root},
-    **{"cosine": bounds.cosine, "sine": bounds.sine},
-}
+ONE = {name: getattr(bounds, name) for name in ("negative", "magnitude", "root", "cosine", "sine")}
 
 
 class Program:
-    """Operations on earlier entries; `margins`, `nonzero` and `factors` are (name, entry) of what is wanted."""
+    """Operations on earlier entries; `margins`, `nonzero` and `factors` are the entries that are wanted."""
 
     def __init__(self, data: Mapping[str, Any], coordinates: list[str]) -> None:
         self.operations: list[tuple[str, list[int]]] = []
@@ -45,26 +43,22 @@ class Program:
         )
         self._orders: dict[tuple[int, ...], list[int]] = {}
 
-    def over(self, box: Sequence[Bounds], outputs: Sequence[int], strict: bool) -> list[Bounds]:
-        """Bounds of outputs over a box; `strict` where no radicand may be negative anywhere in it.
-
-        Errors:
-            UndefinedError: somewhere in the box there may be no value.
-        """
-        values = {**self.fixed, **{k: box[axis] for k, axis in self.given.items()}}
+    def over(self, box: Box, outputs: Sequence[int], strict: bool = True) -> list[Bounds] | None:
+        """Bounds of outputs over a box, None where they may have no value; with `strict` roots only of what has one."""
+        values = {**self.fixed, **{k: (arb(box[0][axis]), arb(box[1][axis])) for k, axis in self.given.items()}}
         for k in self._order(tuple(outputs)):
             name, arguments = self.operations[k]
-            first = values[arguments[0]]
-            if strict and name == "root" and not first[0] >= 0:
-                raise bounds.UndefinedError("the root of what may be negative")
-            values[k] = TWO[name](first, values[arguments[1]]) if name in TWO else ONE[name](first)
+            operands = [values[a] for a in arguments]
+            if (strict and name == "root" and not operands[0][0] >= 0) or (name == "/" and not nonzero(operands[1])):
+                return None
+            values[k] = (TWO if name in TWO else ONE)[name](*operands)
         return [values[k] for k in outputs]
 
-    def _outputs(self, pairs: list[tuple[str, int]]) -> list[tuple[str, int]]:
+    def _outputs(self, pairs: list[tuple[str, int]]) -> list[int]:
         names([name for name, _ in pairs])
         if any(type(k) is not int or not 0 <= k < len(self.operations) for _, k in pairs):
             raise ValueError("an output that is no entry of the program")
-        return [(name, k) for name, k in pairs]
+        return [k for _, k in pairs]
 
     def _order(self, outputs: tuple[int, ...]) -> list[int]:
         """The entries that some outputs need, in their order."""

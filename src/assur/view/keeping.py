@@ -9,7 +9,7 @@ import numpy as np
 from PIL import Image
 
 from assur.view import link
-from assur.view.link import Camera
+from assur.view.link import Viewpoint
 
 if TYPE_CHECKING:
     from assur.view.window import Window
@@ -36,12 +36,12 @@ class Keeper:
 
     def link(self) -> str:
         """The address that restores what is shown, seen as the first browser sees it."""
-        camera = None
+        viewpoint = None
         for client in list(self.window.served.viser.get_clients().values())[:1]:
             seen = client.camera
             position, look_at, up = (_three(part) for part in (seen.position, seen.look_at, seen.up_direction))
-            camera = Camera(position, look_at, up).times(1 / self.window.stage.scale)
-        return f"{self.window.served.url}?{link.query(self.window.state, camera)}"
+            viewpoint = Viewpoint(position, look_at, up).times(1 / self.window.stage.scale)
+        return f"{self.window.served.url}?{link.query(self.window.snapshot, viewpoint)}"
 
     def _pasted(self, event: Any) -> None:
         if event.client is not None:

@@ -1,4 +1,4 @@
-"""A link: dimensions, joint values and camera as the query of an address, and back; every number to its last bit."""
+"""A link: dimensions, joint values and viewpoint as the query of an address, and back; every number to its last bit."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import with_parameters
-from assur.view.state import State, start, with_values
+from assur.view.snapshot import Snapshot, start, with_values
 
 FloatArray = NDArray[np.float64]
 LONGEST = 6000
@@ -25,46 +25,46 @@ HINT = "copy the line 'link' of the view, or the address of the page with it"
 
 
 @dataclass(frozen=True)
-class Camera:
+class Viewpoint:
     """Where the reader stands, what is looked at, in the mechanism's unit, and what is upwards."""
 
     position: tuple[float, float, float]
     look_at: tuple[float, float, float]
     up: tuple[float, float, float] = (0.0, 0.0, 1.0)
 
-    def times(self, scale: float) -> Camera:
+    def times(self, scale: float) -> Viewpoint:
         """The same in another unit of length."""
         position, look_at = (
             (scale * part[0], scale * part[1], scale * part[2]) for part in (self.position, self.look_at)
         )
-        return Camera(position, look_at, self.up)
+        return Viewpoint(position, look_at, self.up)
 
 
-def query(state: State, camera: Camera | None = None) -> str:
-    """The query that restores a state; the joint values say its mode, its inputs and its pose.
+def query(snapshot: Snapshot, viewpoint: Viewpoint | None = None) -> str:
+    """The query that restores a snapshot; the joint values say its mode, its inputs and its pose.
 
     >>> from assur.model.registry import load_record
-    >>> query(start(load_record("fivebar", l1=110.0)), Camera((1.0, 2.0, 3.0), (0.0, 0.0, 0.0)))[:35]
+    >>> query(start(load_record("fivebar", l1=110.0)), Viewpoint((1.0, 2.0, 3.0), (0.0, 0.0, 0.0)))[:35]
     'mechanism=fivebar&set=l1%3A110.0&at'
     """
-    fields = [("mechanism", state.record.name)]
-    fields += [("set", f"{name}:{value!r}") for name, value in state.record.overrides.items()]
-    fields.append(("at", _numbers(state.values)))
-    if camera is not None:
-        fields.append(("camera", _numbers(np.array([*camera.position, *camera.look_at, *camera.up]))))
+    fields = [("mechanism", snapshot.record.name)]
+    fields += [("set", f"{name}:{value!r}") for name, value in snapshot.record.overrides.items()]
+    fields.append(("at", _numbers(snapshot.values)))
+    if viewpoint is not None:
+        fields.append(("camera", _numbers(np.array([*viewpoint.position, *viewpoint.look_at, *viewpoint.up]))))
     return urlencode(fields, safe=",")
 
 
-def restored(record: MechanismRecord, text: str) -> tuple[State, Camera | None]:
-    """The state and the camera of a query or of a whole link, for the mechanism with the dimensions of its file.
+def restored(record: MechanismRecord, text: str) -> tuple[Snapshot, Viewpoint | None]:
+    """The snapshot and the viewpoint of a query or of a whole link, for the mechanism with the dimensions of its file.
 
     Errors: UsageError where it is no link of this mechanism, or its joint values are no assembly.
 
     >>> from assur.model.registry import load_record
     >>> record = load_record("fivebar")
     >>> before = start(load_record("fivebar", l1=110.0))
-    >>> after, camera = restored(record, query(before))
-    >>> bool(np.max(np.abs(after.values - before.values)) < 1e-12), dict(after.record.overrides), camera
+    >>> after, viewpoint = restored(record, query(before))
+    >>> bool(np.max(np.abs(after.values - before.values)) < 1e-12), dict(after.record.overrides), viewpoint
     (True, {'l1': 110.0}, None)
     """
     if len(text) > LONGEST:
@@ -80,13 +80,13 @@ def restored(record: MechanismRecord, text: str) -> tuple[State, Camera | None]:
         name, _, value = item.partition(":")
         changed[name] = float(_read(value, 1)[0])
     found = with_parameters(record, **changed) if changed else record
-    state = start(found)
+    snapshot = start(found)
     if "at" in fields:
-        state = with_values(state, _read(fields["at"][-1], len(state.values)))
+        snapshot = with_values(snapshot, _read(fields["at"][-1], len(snapshot.values)))
     if "camera" not in fields:
-        return state, None
+        return snapshot, None
     parts = _read(fields["camera"][-1], 9).tolist()
-    return state, Camera(*(tuple(parts[k : k + 3]) for k in (0, 3, 6)))
+    return snapshot, Viewpoint(*(tuple(parts[k : k + 3]) for k in (0, 3, 6)))
 
 
 def _numbers(values: FloatArray) -> str:

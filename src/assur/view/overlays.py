@@ -1,50 +1,142 @@
-"""The folder of layers: workspace, singular surfaces and sections, computed when they are asked for."""
+"""The folder of layers: workspace, singular surfaces and sections, computed when they are asked for.
+
+The workspace is computed in a thread of its own, so that the mechanism can be moved meanwhile; it ends at its next step
+where it is cancelled or the dimensions change. A section at another height is cut from it by the worker.
+"""
 
 from __future__ import annotations
 
+import html
+import re
 import threading
 from typing import TYPE_CHECKING, Any
 
-from assur.scene.layers import layers
+from assur.model.mechanism import MechanismRecord
+from assur.scene.layers import Layer, layers_of, region, section_layer
+from assur.view.dials import Dial
+from assur.workspace.region import Workspace
 
 if TYPE_CHECKING:
     from assur.view.window import Window
 
-COMPUTE = "compute workspace and singular surfaces"
+COMPUTE, CANCEL = "compute workspace and singular surfaces", "cancel"
+NOTHING = "There is nothing to show: the pose has fewer than two lengths, or the file gives no box for them."
+EMPTY = "The workspace of this mode is empty in the box of the file."
+IN_SPACE = 3
+"""Coordinates of a workspace that has sections with an area."""
+
+LAST = 1e12
+"""Place of what stands at the end of a folder, whatever is added to it later."""
+
+
+class CancelledError(Exception):
+    """What is being computed is not wanted any more."""
 
 
 class Overlays:
-    """A button, and a box for each layer that was found."""
+    """A button, a box for each layer that was found, and the height of a section."""
 
     def __init__(self, window: Window) -> None:
         self.window = window
         self.boxes: list[Any] = []
-        self._folder = window.gui.add_folder("Layers", expand_by_default=False)
-        with self._folder:
+        self.height: Any = None
+        self._wanted: object | None = None
+        with window.gui.add_folder("Layers", expand_by_default=False) as self._folder:
             self.button = window.gui.add_button(COMPUTE)
-        self.button.on_click(lambda _: threading.Thread(target=self.compute, daemon=True).start())
+            self.progress = window.gui.add_progress_bar(0.0, visible=False)
+            self.note = window.gui.add_html("", visible=False, order=LAST)
+        self.button.on_click(lambda _: self._pressed())
 
     def compute(self) -> None:
-        """Find every layer of the working mode that is shown; dropped where the dimensions change meanwhile."""
-        state = self.window.state
-        record = state.record
-        self.button.label, self.button.disabled = "computing ...", True
+        """Find every layer of the working mode that is shown."""
+        wanted = self._wanted = object()
+        snapshot = self.window.snapshot
+
+        def tick(done: int, total: int) -> None:
+            if wanted is not self._wanted:
+                raise CancelledError
+            self.progress.value = 100.0 * done / total
+
+        self.button.label, self.progress.value, self.progress.visible = CANCEL, 0.0, True
         try:
-            found = layers(record, state.modes[0] or None)
-        finally:
-            self.button.label, self.button.disabled = COMPUTE, False
-        if record is not self.window.state.record:
+            found = region(snapshot.record, snapshot.modes[0] or None, tick=tick)
+            made = () if found is None else layers_of(snapshot.record, found)
+        except CancelledError:
+            self._end(wanted)
+        except Exception as error:  # this thread has nobody else who would hear of it
+            self._end(wanted)
+            self.window.failed(error)
+        else:  # by the worker, which changes dimensions too
+            self.window.worker.ask("layers", lambda: self._show(wanted, snapshot.record, found, made))
+
+    def clear(self) -> None:
+        """Forget the layers, and what is being computed."""
+        self._wanted = None
+        for handle in (*self.boxes, *([self.height] if self.height else [])):
+            handle.remove()
+        self.boxes, self.height, self.note.visible = [], None, False
+        self.window.stage.layers(())
+
+    def _pressed(self) -> None:
+        if self._wanted is None:
+            threading.Thread(target=self.compute, daemon=True).start()
+        else:
+            self._wanted = None
+
+    def _end(self, wanted: object) -> None:
+        """The button as it was, unless something newer is being computed."""
+        if self._wanted is None or self._wanted is wanted:
+            self._wanted = None
+            self.button.label, self.progress.visible = COMPUTE, False
+
+    def _show(self, wanted: object, record: MechanismRecord, found: Workspace | None, made: tuple[Layer, ...]) -> None:
+        fresh = wanted is self._wanted
+        self._end(wanted)
+        if not fresh:
             return
         self.clear()
+        if not made:
+            self._say(NOTHING if found is None else EMPTY)
+            return
         with self._folder:
-            for layer, node in zip(found, self.window.stage.layers(found), strict=True):
-                box = self.window.gui.add_checkbox(layer.label, initial_value=layer.kind != "section")
+            for layer, node in zip(made, self.window.stage.layers(made), strict=True):
+                short = re.split("[:,]", layer.label)[0]
+                box = self.window.gui.add_checkbox(short, initial_value=layer.kind != "section", hint=layer.label)
                 node.visible = bool(box.value)
                 box.on_update(lambda event, node=node: setattr(node, "visible", bool(event.target.value)))
                 self.boxes.append(box)
+            if found is not None and len(found.box.names) == IN_SPACE:
+                self._offer_section(record, found)
 
-    def clear(self) -> None:
-        """Forget the layers."""
-        for box in self.boxes:
-            box.remove()
-        self.boxes = []
+    def _offer_section(self, record: MechanismRecord, found: Workspace) -> None:
+        """A slider for the height of a section, and a box; only the last height that is asked for is cut."""
+        name = found.box.names[-1]
+        low, high = float(found.box.low[-1]), float(found.box.high[-1])
+        dial = Dial(name, low, high, False, record.unit, limits=True)
+        height = self.height = self.window.gui.add_slider(
+            f"section {name} [{record.unit}]", min=low, max=high, step=dial.step, initial_value=(low + high) / 2,
+            hint=f"a section of the workspace at this {name}, cut when it is moved",
+        )  # fmt: skip
+        box = self.window.gui.add_checkbox("this section", initial_value=False)
+        self.boxes.append(box)
+
+        def cut() -> None:
+            if height is self.height:  # else it is of layers that are gone
+                self._cut(record, found, float(height.value), shown=bool(box.value))
+
+        def moved(_: Any) -> None:
+            box.value = True
+            self.window.worker.ask("section", cut)
+
+        height.on_update(moved)
+        box.on_update(lambda _: self.window.worker.ask("section", cut))
+
+    def _cut(self, record: MechanismRecord, found: Workspace, value: float, *, shown: bool) -> None:
+        name = found.box.names[-1]
+        layer = section_layer(record, found.section(min(max(value, found.box.low[-1]), found.box.high[-1])))
+        self.window.stage.section(layer if shown else None)
+        self._say(layer.label if layer else f"nothing is reached at {name} = {value:g} {record.unit}")
+
+    def _say(self, text: str) -> None:
+        self.note.content = f'<small style="display:block;padding:0 8px">{html.escape(text)}</small>'
+        self.note.visible = True

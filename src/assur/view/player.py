@@ -1,4 +1,4 @@
-"""The folder of the trajectory: poses that are kept, a time bar, and what plays."""
+"""The folder of the trajectory: waypoints, a time bar, and what plays."""
 
 from __future__ import annotations
 
@@ -25,74 +25,105 @@ PERIOD = 8.0
 RATE = 25
 """Pictures a second at most."""
 
+PLAY, STOP = "play", "stop"
+
 
 class Player:
-    """Keeps poses, plans the way through them, and plays it."""
+    """Remembers poses, plans the way through them, and plays it: round and round, or as far as it can be gone."""
 
     def __init__(self, window: Window) -> None:
         self.window = window
         self.way: Trajectory | None = None
-        self.kept: list[FloatArray] = []
-        self._playing = threading.Event()
+        self.waypoints: list[FloatArray] = []
+        self._going = threading.Event()
         with window.gui.add_folder("Trajectory", expand_by_default=False):
-            self.buttons = window.gui.add_button_group("", ("keep pose", "forget", "play", "stop"))
+            hint = "A way through the poses that you keep; a small round where none is kept."
+            self.buttons = window.gui.add_button_group("poses", ("keep", "forget"), hint=hint)
+            self.button = window.gui.add_button(PLAY)
             self.time = window.gui.add_slider("time", min=0.0, max=1.0, step=0.001, initial_value=0.0, disabled=True)
             window.notes["trajectory"] = window.gui.add_html("", visible=False)
-        self.buttons.on_click(lambda event: self.command(str(event.target.value)))
+        self.buttons.on_click(lambda event: self.keep() if event.target.value == "keep" else self.forget())
+        self.button.on_click(lambda _: self.stop() if self._going.is_set() else self.play())
         self.time.on_update(self._scrubbed)
 
-    def command(self, name: str) -> None:
-        """What a button asks for: "keep pose", "forget", "play" (a round where no pose is kept), "stop"."""
-        if name == "keep pose":
-            self.kept.append(self.window.state.pose)
-            self.way = None
-        elif name == "forget":
-            self.forget()
-        elif name == "stop":
-            self.stop()
-        elif not self._playing.is_set():
-            self._playing.set()
-            self.window.worker.ask("trajectory", self._plan)
-            threading.Thread(target=self._run, daemon=True).start()
+    def keep(self) -> None:
+        """The pose that is shown is the last waypoint."""
+        self.stop()
+        self.waypoints.append(self.window.snapshot.pose)
+        self.way = None
+        self._show()
+
+    def forget(self) -> None:
+        """No waypoint and no way."""
+        self.stop()
+        self.waypoints, self.way = [], None
+        self._show()
+
+    def play(self) -> None:
+        """On from where the time bar stands, anew where the way ends there or is left."""
+        if self._going.is_set():
+            return
+        if self.way and not np.array_equal(self.way.at(float(self.time.value)), self.window.snapshot.values):
+            self.way = None  # something else moved it meanwhile
+        self._going = threading.Event()  # one for each run, so that a run that was stopped does not go on with the next
+        self._going.set()
+        self._show()
+        self.window.worker.ask("trajectory", self._plan)
+        threading.Thread(target=self._run, args=(self._going,), daemon=True).start()
 
     def stop(self) -> None:
         """Stand still."""
-        self._playing.clear()
+        self._going.clear()
+        self._show()
 
-    def forget(self) -> None:
-        """No pose and no way."""
-        self.stop()
-        self.kept, self.way = [], None
-        self.time.disabled = True
+    def _show(self) -> None:
+        self.button.label = STOP if self._going.is_set() else PLAY
+        self.time.disabled = self.way is None
 
     def _plan(self) -> None:
-        if self.way is None:
-            state = self.window.state
-            try:
-                self.way = through(state, self.kept) if self.kept else around(state)
-            except AssurError as error:
-                self.stop()
-                self.window.explain("trajectory", Reason("input", error.message))
-                return
-            except Exception:  # a bug: the worker shows it, and the next "play" begins anew
-                self.stop()
-                raise
-            self.time.disabled = False
-        self.window.explain("trajectory", self.way.reason)
+        if self.way is not None:
+            return
+        snapshot = self.window.snapshot
+        self.window.explain("trajectory", None)
+        try:
+            self.way = through(snapshot, self.waypoints) if self.waypoints else around(snapshot)
+        except AssurError as error:
+            self.stop()
+            self.window.explain("trajectory", Reason("input", error.message))
+            return
+        except Exception:  # a bug: the worker shows it, and the next "play" begins anew
+            self.stop()
+            raise
+        self.time.value = 0.0
+        self._show()
 
-    def _run(self) -> None:
+    def _run(self, going: threading.Event) -> None:
         begun: float | None = None
-        while self._playing.is_set():
+        while going.is_set():
             time.sleep(1 / RATE)
-            if self._playing.is_set() and self.way is not None:
-                begun = time.monotonic() - PERIOD * float(self.time.value) if begun is None else begun
-                share = (time.monotonic() - begun) / PERIOD % 1.0
-                self.window.worker.ask("time", partial(self._at, share))
+            way = self.way
+            if way is None or not going.is_set():
+                continue
+            if begun is None:
+                first = float(self.time.value) if self.time.value < way.end else 0.0
+                begun = time.monotonic() - PERIOD * first
+            share = (time.monotonic() - begun) / PERIOD
+            if way.reason is not None and share >= way.end:
+                self.window.worker.ask("time", partial(self._at, way.end))
+                self.stop()
+            else:
+                self.window.worker.ask("time", partial(self._at, share % 1.0))
 
     def _at(self, share: float) -> None:
-        if self.way is not None:
-            self.time.value = share
-            self.window.now(replace(self.window.state, values=self.way.at(share), reason=None), "time")
+        way = self.way
+        if way is None:
+            return
+        reached = min(share, way.end)
+        self.time.value = reached
+        self.window.now(replace(self.window.snapshot, values=way.at(reached), reason=None), "time")
+        if way.reason is not None and reached >= way.end:
+            where = f"stopped at {100 * way.end:.3g} % of the way: {way.reason}"
+            self.window.explain("trajectory", Reason(way.reason.kind, where))
 
     def _scrubbed(self, event: Any) -> None:
         if event.client is not None and self.way is not None:

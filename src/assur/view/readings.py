@@ -1,4 +1,4 @@
-"""Readings: the live numbers of a state, as rows of a name and a text."""
+"""Readings: the live numbers of a snapshot, as rows of a name and a text."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from assur.errors import AssurError
-from assur.kinematics.status import closed_form_of
+from assur.kinematics.postures import Postures
+from assur.kinematics.status import relative_factors
 from assur.model.pose import LENGTHS
 from assur.singularity.distance import distance
 from assur.singularity.verdict import verdict_at
 from assur.view import dials
-from assur.view.modes import Modes
-from assur.view.state import State
+from assur.view.snapshot import Snapshot
 
 DIGITS = 4
 
@@ -28,28 +28,27 @@ class Reading:
     about: str = ""
 
 
-def readings(state: State) -> tuple[Reading, ...]:
-    """Pose, inputs, residual, mode and condition of a state.
+def readings(snapshot: Snapshot) -> tuple[Reading, ...]:
+    """Pose, inputs, residual, mode and condition of a snapshot.
 
     >>> from assur.model.registry import load_record
-    >>> from assur.view.state import start
+    >>> from assur.view.snapshot import start
     >>> found = {item.name: item.text for item in readings(start(load_record("fivebar")))}
     >>> found["y"], found["working mode"], found["condition"]
     ('223.9241 mm', '-+', '1.107')
     """
-    record = state.record
+    record = snapshot.record
     rows = [
         Reading(dial.name, shown(dial, float(value)))
         for dial, value in (
-            *zip(dials.dials(record), dials.read(record, state.values), strict=True),
-            *zip(dials.inputs(record), state.inputs, strict=True),
+            *zip(dials.dials(record), dials.read(record, snapshot.values), strict=True),
+            *zip(dials.inputs(record), snapshot.inputs, strict=True),
         )
     ]
-    rows.append(Reading("residual", f"{state.residual:.1e} {record.unit}", "largest gap of the loops"))
-    rows += [
-        Reading(f"{kind} mode", text) for kind, text in zip(("working", "assembly"), state.modes, strict=True) if text
-    ]
-    verdict = verdict_at(record, state.values)
+    rows.append(Reading("residual", f"{snapshot.residual:.1e} {record.unit}", "largest gap of the loops"))
+    modes = zip(("working", "assembly"), snapshot.modes, strict=True)
+    rows += [Reading(f"{kind} mode", text) for kind, text in modes if text]
+    verdict = verdict_at(record, snapshot.values)
     condition = "infinite" if verdict.condition is None else f"{verdict.condition:.4g}"
     rows.append(Reading("condition", condition, "of the map from inputs to pose"))
     least = verdict.closest
@@ -60,35 +59,36 @@ def readings(state: State) -> tuple[Reading, ...]:
     return tuple(rows)
 
 
-def closest_factor(state: State, working: Modes) -> Reading | None:
+def closest_factor(snapshot: Snapshot, working: Postures) -> Reading | None:
     """The factor of the closed form that is closest to zero; None without closed form.
 
+    >>> from assur.kinematics.postures import postures
     >>> from assur.model.registry import load_record
-    >>> from assur.view.modes import modes
-    >>> from assur.view.state import start
+    >>> from assur.view.snapshot import start
     >>> here = start(load_record("fivebar"))
-    >>> closest_factor(here, modes(here, "inverse")).name
+    >>> closest_factor(here, postures(here.record, here.values, "inverse")).name
     'closest factor'
     """
-    here = working.current
-    if here is None or not here.factors:
+    form, here, found = snapshot.record.closed_form, working.current, working.answer.factors
+    if form is None or here is None or any(item.name not in found for item in form.factor_list):
         return None
-    factors = {item.name: item for item in closed_form_of(state.record).factor_list if item.kind != "other"}
-    name = min(factors, key=lambda item: abs(here.factors[item]))
-    return Reading("closest factor", f"{name} = {here.factors[name]:.3g}", f"0 where {factors[name].meaning}")
+    relative = {name: float(value[here.candidate]) for name, value in relative_factors(snapshot.record, found).items()}
+    factors = {item.name: item for item in form.factor_list if item.kind != "other"}
+    name = min(factors, key=lambda item: abs(relative[item]))
+    return Reading("closest factor", f"{name} = {relative[name]:.3g}", f"0 where {factors[name].meaning}")
 
 
-def clearance(state: State, working: Modes) -> Reading | None:
+def clearance(snapshot: Snapshot, working: Postures) -> Reading | None:
     """Distance to the nearest parallel singularity, the orientation held; None where it is not defined.
 
     Takes seconds: for when nothing moves.
     """
-    record = state.record
+    record = snapshot.record
     here = working.current
     if record.closed_form is None or here is None or not any(name in LENGTHS for name in record.platform.pose):
         return None
     try:
-        found = distance(record, state.pose, here.label or None)
+        found = distance(record, snapshot.pose, here.label or None)
     except AssurError:  # a mode by number: closed forms know it by signs alone
         return None
     value = float(found.value)

@@ -10,6 +10,7 @@ not asked (another version of viser) does not start.
 from __future__ import annotations
 
 import contextlib
+import errno
 import http
 import http.client
 import importlib
@@ -111,6 +112,10 @@ class Served:
             raise AssurError("the view's server does not ask its guard, so it was not started", hint=VERSION)
 
 
+HINTS = {
+    errno.EADDRINUSE: "choose another --port, or leave it out for a free one",
+    errno.EACCES: "choose a --port from 1024, or leave it out for a free one",
+}
 VERSION = "install the version of viser that assur names: pip install 'assur[view]'"
 
 
@@ -131,5 +136,9 @@ def _check_free(host: str, port: int) -> None:
         with socket.socket(family, socket.SOCK_STREAM) as probe:
             probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             probe.bind((host, port))
-    except (OSError, OverflowError) as error:
-        raise UsageError(f"nothing can listen on {host}, port {port}: {error}", hint="choose another --port") from None
+    except OverflowError:
+        raise UsageError(f"nothing can listen on port {port}; a port is a number up to 65535") from None
+    except OSError as error:
+        where = f"{host}, port {port}" if port else host
+        hint = HINTS.get(error.errno or 0, "give --host an address of this machine, or leave it out")
+        raise UsageError(f"nothing can listen on {where}: {error.strerror}", hint=hint) from None

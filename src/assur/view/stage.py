@@ -12,22 +12,28 @@ from numpy.typing import NDArray
 from assur.model.mechanism import MechanismRecord
 from assur.scene.layers import Layer
 from assur.view.drawing import Drawing, cloud, drawing, places
-from assur.view.link import Camera
+from assur.view.link import Viewpoint
 
 FloatArray = NDArray[np.float64]
 GHOST = (70, 95, 140)
-GHOSTS = 12
-"""Ghosts that are shown at most; the list of modes has all."""
+GHOSTS = 4
+"""Ghosts that are shown at most: more of them hide one another. The list of modes has all."""
 
 FAINT = 0.3
+SKY, GROUND, BRIGHT = (255, 255, 255), (170, 165, 160), 2.2
+"""Light from above and from below, and how much of it."""
+
 STEADY = (1.0, -1.25, 0.75)
 """The side from which the mechanism is seen first."""
 
 OPENING = math.radians(45.0)
 """Angle between the lower and the upper edge of the picture."""
 
-ROOM = 0.85
-"""Share of the smaller side of the picture that the mechanism takes at most when it is seen first."""
+ROOM, NARROW = 0.92, 0.8
+"""Share of a picture that the mechanism takes at most when it is seen first, and how wide that is for its height.
+
+Beside the panel a small window leaves that much.
+"""
 
 
 class Stage:
@@ -40,14 +46,21 @@ class Stage:
         self._ghosts: list[tuple[str, Any]] = []
         self._layers: list[Any] = []
         self._letters: list[Any] = []
+        self._section: Any = None
         self.scene.set_up_direction("+z")
-        self.scene.configure_default_lights(enabled=True, cast_shadow=True)
-        self.scene.add_light_hemisphere(
-            "/light", sky_color=(255, 255, 255), ground_color=(170, 165, 160), intensity=1.1
-        )
+        self._light()
         server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="medium")
         server.gui.main_panel.dock_right()  # beside the scene, not over it
         server.initial_camera.fov = OPENING
+
+    def _light(self) -> None:
+        """Lamps alone, neither surroundings nor shadows.
+
+        Those are most of the work of a first picture without a graphics card, and nothing is seen until they are done.
+        """
+        self.scene.configure_environment_map(hdri=None)
+        self.scene.configure_default_lights(enabled=True, cast_shadow=False)
+        self.scene.add_light_hemisphere("/light", sky_color=SKY, ground_color=GROUND, intensity=BRIGHT)
 
     @property
     def scale(self) -> float:
@@ -64,7 +77,7 @@ class Stage:
                 self._frames[link] = self.scene.add_frame(f"/now/{link}", show_axes=False)
             for k, solid in enumerate(found.solids):
                 self.scene.add_mesh_simple(
-                    f"/now/{solid.link}/solid{k}", solid.vertices, solid.faces, color=solid.colour, side="double"
+                    f"/now/{solid.link}/solid{k}", solid.vertices, solid.faces, color=solid.colour
                 )
             for k, letter in enumerate(found.letters):
                 node = self.scene.add_label(
@@ -91,24 +104,40 @@ class Stage:
             if self.drawing is None or not len(shown):
                 return
             stand = places(record, shown, self.drawing.scale)
-            for k, solid in enumerate(self.drawing.solids):
-                if solid.link == record.base:
+            for link in record.links:
+                found = self._whole(link)
+                if link == record.base or found is None:
                     continue
-                turn, origin = stand[solid.link]
+                turn, origin = stand[link]
                 node = self.scene.add_batched_meshes_simple(
-                    f"/ghosts/solid{k}", solid.vertices, solid.faces, batched_wxyzs=turn, batched_positions=origin,
-                    batched_colors=GHOST, opacity=FAINT, lod="off", cast_shadow=False, receive_shadow=False,
-                    visible=visible,
+                    f"/ghosts/{link}", *found, batched_wxyzs=turn, batched_positions=origin, batched_colors=GHOST,
+                    opacity=FAINT, lod="off", cast_shadow=False, receive_shadow=False, visible=visible,
                 )  # fmt: skip
                 node.on_click(lambda event: self.clicked(int(event.instance_index or 0)))
-                self._ghosts.append((solid.link, node))
+                self._ghosts.append((link, node))
+
+    def _whole(self, link: str) -> tuple[FloatArray, NDArray[np.int64]] | None:
+        """Vertices and faces of all that is drawn of a link, whatever its colours; None where nothing is."""
+        solids = [item for item in self.drawing.solids if item.link == link] if self.drawing else []
+        if not solids:
+            return None
+        starts = np.cumsum([0, *(len(item.vertices) for item in solids[:-1])])
+        faces = [item.faces + start for item, start in zip(solids, starts, strict=True)]
+        return np.concatenate([item.vertices for item in solids]), np.concatenate(faces)
 
     def layers(self, found: Sequence[Layer]) -> list[Any]:
         """Surfaces and lines; their nodes, in the same order, none of which is visible yet."""
+        self.section(None)
         for node in self._layers:
             node.remove()
-        self._layers = [self._layer(k, layer) for k, layer in enumerate(found)]
+        self._layers = [self._layer(str(k), layer) for k, layer in enumerate(found)]
         return self._layers
+
+    def section(self, layer: Layer | None) -> None:
+        """The outline of a section, in the place of the last one; or none."""
+        if self._section is not None:
+            self._section.remove()
+        self._section = None if layer is None else self._layer("section", layer, visible=True)
 
     def show_letters(self, visible: bool) -> None:
         """Letters, or none."""
@@ -120,39 +149,40 @@ class Stage:
         for _, node in self._ghosts:
             node.visible = visible
 
-    def first_camera(self, record: MechanismRecord, values: FloatArray) -> Camera:
+    def first_viewpoint(self, record: MechanismRecord, values: FloatArray) -> Viewpoint:
         """Where the reader stands first, in the view's own unit: all of the mechanism at (n,) is in the picture."""
         if self.drawing is None:
-            return Camera((3.0, -3.0, 2.0), (0.0, 0.0, 0.0))
+            return Viewpoint((3.0, -3.0, 2.0), (0.0, 0.0, 0.0))
         return framed(cloud(self.drawing, record, values))
 
-    def look(self, camera: Camera) -> None:
-        """From a camera in the view's unit, for those who come and those who are there."""
+    def look(self, viewpoint: Viewpoint) -> None:
+        """From a viewpoint in the view's unit, for those who come and those who are there."""
         for target in (self.server.initial_camera, *(client.camera for client in self.server.get_clients().values())):
-            target.position, target.look_at = camera.position, camera.look_at
+            target.position, target.look_at = viewpoint.position, viewpoint.look_at
 
-    def _layer(self, k: int, layer: Layer) -> Any:
+    def _layer(self, name: str, layer: Layer, *, visible: bool = False) -> Any:
         scale = self.scale
         colour = tuple(int(layer.colour[i : i + 2], 16) for i in (1, 3, 5))
         if layer.lines:
             points = scale * layer.vertices[layer.faces]
             return self.scene.add_line_segments(
-                f"/layers/{k}", points, colour, thickness=2.5, thickness_units="screen", visible=False
+                f"/layers/{name}", points, colour, thickness=2.5, thickness_units="screen", visible=visible
             )
         return self.scene.add_mesh_simple(
-            f"/layers/{k}", scale * layer.vertices, layer.faces, color=colour, opacity=layer.opacity, side="double",
-            cast_shadow=False, receive_shadow=False, visible=False,
+            f"/layers/{name}", scale * layer.vertices, layer.faces, color=colour, opacity=layer.opacity, side="double",
+            cast_shadow=False, receive_shadow=False, visible=visible,
         )  # fmt: skip
 
     def _clear(self) -> None:
         for node in (*(node for _, node in self._ghosts), *self._layers, *self._frames.values()):
             node.remove()
+        self.section(None)
         self._ghosts, self._layers, self._letters = [], [], []
         self._frames = {}
 
 
-def framed(points: FloatArray) -> Camera:
-    """The camera that sees points (n, 3) as large as there is room for in a square picture.
+def framed(points: FloatArray) -> Viewpoint:
+    """The viewpoint that sees points (n, 3) as large as there is room for in a picture that is `NARROW`.
 
     >>> seen = framed(np.array([[1.0, -1.0, 5.0], [1.0, 1.0, 5.0], [-1.0, 1.0, 5.0], [-1.0, -1.0, 5.0]]))
     >>> bool(np.max(np.abs(np.array(seen.look_at) - [0.0, 0.0, 5.0])) < 1e-12)
@@ -164,9 +194,9 @@ def framed(points: FloatArray) -> Camera:
     axes = np.array([right, np.cross(back, right), back])
     seen = points @ axes.T
     middle = (np.min(seen, axis=0) + np.max(seen, axis=0)) / 2
-    aside = np.max(np.abs(seen - middle)[:, :2], axis=1)
+    aside = np.max(np.abs(seen - middle)[:, :2] / [NARROW, 1.0], axis=1)
     distance = float(np.max((seen - middle)[:, 2] + aside / (ROOM * math.tan(OPENING / 2))))
-    return Camera(_three(middle @ axes + distance * back), _three(middle @ axes))
+    return Viewpoint(_three(middle @ axes + distance * back), _three(middle @ axes))
 
 
 def _three(values: FloatArray) -> tuple[float, float, float]:

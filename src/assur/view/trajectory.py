@@ -1,4 +1,4 @@
-"""Trajectories: a way through poses that were kept, or a round about the pose that is shown, followed in one mode."""
+"""Trajectories: a way through waypoints, or a round about the pose that is shown, followed in one mode."""
 
 from __future__ import annotations
 
@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
+from assur.kinematics.paths.course import course
 from assur.kinematics.paths.following import follow
+from assur.kinematics.paths.path import Path
 from assur.model.pose import LENGTHS
 from assur.view import dials
 from assur.view.explain import Reason, explain
-from assur.view.state import TOLERANCE, State
+from assur.view.snapshot import TOLERANCE, Snapshot
 
 FloatArray = NDArray[np.float64]
 CORNERS = 24
@@ -31,24 +33,29 @@ class Trajectory:
     """Configurations in the order of time.
 
     Attributes:
-        shares: (N,) from 0 to 1, times. joints: (N, n) joint values.
-        reason: why it stops early; None where it does not.
+        shares: (N,) from 0 up, times as shares of the whole way that was wanted. joints: (N, n) joint values.
+        reason: why it stops before its end; None where it does not.
     """
 
     shares: FloatArray
     joints: FloatArray
     reason: Reason | None
 
+    @property
+    def end(self) -> float:
+        """The share at which it ends: 1 where nothing stops it."""
+        return 1.0 if self.reason is None else float(self.shares[-1])
+
     def at(self, share: float) -> FloatArray:
         """Joint values (n,) of the configuration that is nearest in time; an assembly, never something between two."""
         return np.asarray(self.joints[int(np.argmin(np.abs(self.shares - share)))])
 
 
-def through(state: State, poses: Sequence[FloatArray]) -> Trajectory:
-    """From the state that is shown straight from pose (m,) to pose, and back to the first.
+def through(snapshot: Snapshot, poses: Sequence[FloatArray]) -> Trajectory:
+    """From what is shown straight from pose (m,) to pose, and back to the first.
 
     >>> from assur.model.registry import load_record
-    >>> from assur.view.state import start
+    >>> from assur.view.snapshot import start
     >>> here = start(load_record("fivebar"))
     >>> found = through(here, [here.pose + [20.0, 0.0]])
     >>> found.reason, bool(np.max(np.abs(found.at(1.0) - here.values)) < 1e-6)
@@ -56,28 +63,38 @@ def through(state: State, poses: Sequence[FloatArray]) -> Trajectory:
     """
     if not poses:
         raise UsageError("a trajectory needs a pose to go to", hint="keep one, or play the round")
-    corners = np.array([*poses, state.pose])
-    path = follow(state.record, state.values, poses=corners, tolerance=TOLERANCE, largest_step=1.0 / (2 * len(corners)))
-    return Trajectory(path.shares / max(float(path.shares[-1]), 1e-300), path.joints, explain(path, corners[-1]))
+    corners = np.array([*poses, snapshot.pose])
+    step = 1.0 / (2 * len(corners))
+    path = follow(snapshot.record, snapshot.values, poses=corners, tolerance=TOLERANCE, largest_step=step)
+    return Trajectory(path.shares, path.joints, _reason(path, corners))
 
 
-def around(state: State) -> Trajectory:
+def _reason(path: Path, corners: FloatArray) -> Reason | None:
+    """Why a path through corners (K, m) stops: what is said of the corner that it is on its way to."""
+    if path.stopped is None:
+        return None
+    way = course(path.record, "poses", path.poses[0], corners)
+    ahead = int(np.searchsorted(way.shares, path.stopped.share, side="right"))
+    return explain(path, way.vertices[min(ahead, len(way.vertices) - 1)])
+
+
+def around(snapshot: Snapshot) -> Trajectory:
     """A round about a point beside the pose that is shown, in its first two lengths; to and fro where there is one.
 
     >>> from assur.model.registry import load_record
-    >>> from assur.view.state import start
+    >>> from assur.view.snapshot import start
     >>> around(start(load_record("fivebar"))).reason is None
     True
     """
-    found = dials.dials(state.record)
-    columns = [k for k, name in enumerate(state.record.platform.pose) if name in LENGTHS][:2] or [0]
+    found = dials.dials(snapshot.record)
+    columns = [k for k, name in enumerate(snapshot.record.platform.pose) if name in LENGTHS][:2] or [0]
     size = SHARE * min(found[k].high - found[k].low for k in columns)
     angles = np.linspace(0.0, 2 * np.pi, CORNERS + 1)[1:-1]
     for radius in size * 0.5 ** np.arange(TRIES):
-        poses = np.tile(state.pose, (len(angles), 1))
+        poses = np.tile(snapshot.pose, (len(angles), 1))
         for column, wave in zip(columns, (np.sin(angles), 1 - np.cos(angles)), strict=False):
             poses[:, column] += radius * wave
-        way = through(state, list(poses))
+        way = through(snapshot, list(poses))
         if way.reason is None:
             break
     return way

@@ -1,4 +1,4 @@
-"""The window: sliders, lists, numbers and buttons, and what each of them asks of the state."""
+"""The window: sliders, lists, numbers and buttons, and what each of them changes of what is shown."""
 
 from __future__ import annotations
 
@@ -11,24 +11,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import AssurError
+from assur.kinematics.modes import Problem
+from assur.kinematics.postures import Posture, Postures, postures
 from assur.model.mechanism import MechanismRecord
 from assur.view import dials, link
 from assur.view.explain import Reason
 from assur.view.keeping import Keeper
-from assur.view.modes import Choice, Modes, modes
 from assur.view.overlays import Overlays
 from assur.view.player import Player
 from assur.view.readings import Reading, clearance, closest_factor, readings, table
 from assur.view.server import Served
-from assur.view.stage import Stage
-from assur.view.state import State, start, with_dial, with_input, with_parameter, with_values
+from assur.view.snapshot import Snapshot, start, with_dial, with_input, with_parameter, with_values
+from assur.view.stage import GHOSTS, Stage
 from assur.view.undo import History
 from assur.view.worker import Worker
 
-Wish = Callable[[Any], Callable[[State], State]]
+Wish = Callable[[Any], Callable[[Snapshot], Snapshot]]
 """From the value of a control to the change that it asks for."""
 
 FloatArray = NDArray[np.float64]
+Change = Callable[[Snapshot, int, float], Snapshot]
+"""One input or coordinate, by its number, to a value."""
+
+NONE = "none of these"
+"""What the list of modes says where what is shown is no solution in general, as on the arc of a self-motion."""
+
+PROBLEMS: tuple[Problem, ...] = ("direct", "inverse")
 RED = "background:#c62828;color:#fff;padding:4px 8px;border-radius:4px;font-size:0.85em"
 SMALL = "<style>table.assur{font-size:0.8em;line-height:1.35;border-spacing:6px 0}</style>"
 
@@ -39,17 +47,17 @@ class Window:
     def __init__(self, record: MechanismRecord, served: Served) -> None:
         self.original, self.served, self.gui = record, served, served.viser.gui
         self.history = History(start(record))
-        self.found: dict[str, Modes] = {}
+        self.found: dict[Problem, Postures] = {}
         self.more: tuple[Reading, ...] = ()
         self.settled = 0
-        self.worker = Worker(self._idle, self._failed)
+        self.worker = Worker(self._idle, self.failed)
         self.stage = Stage(served.viser, self._ghost_clicked)
-        self.stage.build(record, self.state.values)
-        self.stage.look(self.stage.first_camera(record, self.state.values))
+        self.stage.build(record, self.snapshot.values)
+        self.stage.look(self.stage.first_viewpoint(record, self.snapshot.values))
         self.notes: dict[str, Any] = {}
         self.gui.set_panel_label(record.name)
-        self._inputs = self._sliders("Inputs", dials.inputs(record), self.state.inputs, with_input)
-        here = dials.read(record, self.state.values)
+        self._inputs = self._sliders("Inputs", dials.inputs(record), self.snapshot.inputs, with_input)
+        here = dials.read(record, self.snapshot.values)
         self._platform = self._sliders("Platform", dials.dials(record), here, with_dial)
         self._make_numbers()
         self._make_modes()
@@ -61,7 +69,7 @@ class Window:
         self.worker.start()
 
     @property
-    def state(self) -> State:
+    def snapshot(self) -> Snapshot:
         """What is shown."""
         return self.history.present
 
@@ -79,17 +87,21 @@ class Window:
         """Show what a link says; a person is told where it is none."""
 
         def task() -> None:
-            state, camera = link.restored(self.original, query)
-            self.now(state, "")
-            if camera is not None:
-                self.stage.look(camera.times(self.stage.scale))
+            snapshot, viewpoint = link.restored(self.original, query)
+            self.now(snapshot, "")
+            if viewpoint is not None:
+                self.stage.look(viewpoint.times(self.stage.scale))
 
         self.worker.ask("restore", task)
 
     # ---- what is made once
 
     def _sliders(
-        self, title: str, found: tuple[dials.Dial, ...], here: FloatArray, change: Callable[[State, int, float], State]
+        self,
+        title: str,
+        found: tuple[dials.Dial, ...],
+        here: FloatArray,
+        change: Change,
     ) -> list[Any]:
         handles = []
         with self.gui.add_folder(title):
@@ -106,7 +118,7 @@ class Window:
                 handles.append(handle)
         return handles
 
-    def _turn(self, k: int, dial: dials.Dial, change: Callable[[State, int, float], State]) -> Wish:
+    def _turn(self, k: int, dial: dials.Dial, change: Change) -> Wish:
         return lambda shown: partial(_turned, change, k, dial.inside(float(shown)))
 
     def on_person(self, handle: Any, label: str, wish: Wish) -> None:
@@ -115,7 +127,7 @@ class Window:
         def changed(event: Any) -> None:
             if event.client is not None:
                 change = wish(event.target.value)  # now: the worker may set the control before it comes to this
-                self.worker.ask(label, lambda: self.now(change(self.state), label))
+                self.worker.ask(label, lambda: self.now(change(self.snapshot), label))
 
         handle.on_update(changed)
 
@@ -125,9 +137,11 @@ class Window:
 
     def _make_modes(self) -> None:
         with self.gui.add_folder("Modes"):
-            self._lists = {
+            self._lists: dict[Problem, Any] = {
                 "direct": self.gui.add_dropdown(
-                    "assembly", ("...",), hint="poses at these inputs; ghosts in the scene"
+                    "assembly",
+                    ("...",),
+                    hint=f"poses at these inputs; {GHOSTS} at most are ghosts in the scene",
                 ),
                 "inverse": self.gui.add_dropdown("working", ("...",), hint="sets of inputs at this pose"),
             }
@@ -157,23 +171,23 @@ class Window:
 
     # ---- what the worker does
 
-    def now(self, state: State, label: str) -> None:
-        """Show another state; it is one step with the last where it is of the same thing."""
-        before = self.state
-        self.history = self.history.then(state, label)
+    def now(self, snapshot: Snapshot, label: str) -> None:
+        """Show another snapshot; it is one step with the last where it is of the same thing."""
+        before = self.snapshot
+        self.history = self.history.then(snapshot, label)
         self._after(before, label)
 
-    def _after(self, before: State, label: str) -> None:
+    def _after(self, before: Snapshot, label: str) -> None:
         self.settled = 0
         self.more = ()
-        if self.state.record is not before.record:
-            self.stage.build(self.state.record, self.state.values)
+        if self.snapshot.record is not before.record:
+            self.stage.build(self.snapshot.record, self.snapshot.values)
             self.player.forget()
             self.overlays.clear()
         self._show(label)
 
     def _step(self, name: str) -> None:
-        before = self.state
+        before = self.snapshot
         if name == "home":
             self.now(start(self.original), "")
             return
@@ -181,19 +195,24 @@ class Window:
         self._after(before, "")
 
     def _show(self, label: str = "") -> None:
-        """Everything that follows from the state at once."""
-        state = self.state
-        self.stage.move(state.record, state.values)
+        """Everything that follows at once from what is shown."""
+        snapshot = self.snapshot
+        self.stage.move(snapshot.record, snapshot.values)
         with self.served.viser.atomic():
-            for handle, dial, value in zip(self._inputs, dials.inputs(self.original), state.inputs, strict=True):
-                _set(handle, dial, float(value))
-            here = dials.read(state.record, state.values)
-            for handle, dial, value in zip(self._platform, dials.dials(self.original), here, strict=True):
-                _set(handle, dial, float(value))
+            self._set("Inputs", self._inputs, dials.inputs(self.original), snapshot.inputs)
+            here = dials.read(snapshot.record, snapshot.values)
+            self._set("Platform", self._platform, dials.dials(self.original), here)
             for name, handle in self._parameters.items():
-                handle.value = state.record.parameters[name].value
-            self._numbers.content = SMALL + table((*readings(state), *self.more))
-            self.explain(label, state.reason)
+                if not self.worker.waits(f"dimension {name}"):
+                    handle.value = snapshot.record.parameters[name].value
+            self._numbers.content = SMALL + table((*readings(snapshot), *self.more))
+            self.explain(label, snapshot.reason)
+
+    def _set(self, title: str, handles: list[Any], found: tuple[dials.Dial, ...], values: FloatArray) -> None:
+        """Sliders to values (k,); one that a person has moved on meanwhile stays where that is."""
+        for handle, dial, value in zip(handles, found, values, strict=True):
+            if not self.worker.waits(f"{title} {dial.name}"):
+                _set(handle, dial, float(value))
 
     def explain(self, label: str, reason: Reason | None) -> None:
         """In red below the control that a label names, why it stopped; nowhere else."""
@@ -208,52 +227,54 @@ class Window:
         """What takes longer, when nothing moves: other modes first, then the distance to the nearest singularity."""
         if self.settled == 0:
             self.history = self.history.alone()
-            self.found = {"direct": modes(self.state, "direct"), "inverse": modes(self.state, "inverse")}
+            here = self.snapshot
+            self.found = {problem: postures(here.record, here.values, problem) for problem in PROBLEMS}
             self._show_modes()
-            factor = closest_factor(self.state, self.found["inverse"])
+            factor = closest_factor(self.snapshot, self.found["inverse"])
             self.more = (factor,) if factor else ()
             self.keeper.refresh()
         elif self.settled == 1:
-            found = clearance(self.state, self.found["inverse"])
+            found = clearance(self.snapshot, self.found["inverse"])
             self.more = (*self.more, found) if found else self.more
         self.settled += 1
-        self._numbers.content = SMALL + table((*readings(self.state), *self.more))
+        self._numbers.content = SMALL + table((*readings(self.snapshot), *self.more))
         return self.settled < 2
 
     def _show_modes(self) -> None:
         others = self.found["direct"].others
-        self.stage.ghosts(self.state.record, [item.values for item in others], visible=self._ghosts_shown.value)
+        self.stage.ghosts(self.snapshot.record, [item.values for item in others], visible=self._ghosts_shown.value)
         for problem, handle in self._lists.items():
             found = self.found[problem]
-            names = tuple(_name(item) for item in found.choices) or ("none",)
-            handle.options = names
-            handle.value = _name(found.current) if found.current else names[0]
-        said = self.found["direct"]
+            names = tuple(_name(item) for item in found.listed)
+            handle.options = names if found.current else (NONE, *names)
+            handle.value = _name(found.current) if found.current else NONE
+        said = self.found["direct"].answer
         right = f"{'complete, ' if said.complete else ''}{said.right}"
         self._right.content = f'<small style="display:block;padding:0 8px">assembly modes: {html.escape(right)}</small>'
 
-    def _chosen(self, problem: str, name: str) -> Callable[[State], State]:
-        choices = self.found[problem].choices if problem in self.found else ()
+    def _chosen(self, problem: Problem, name: str) -> Callable[[Snapshot], Snapshot]:
+        choices = self.found[problem].listed if problem in self.found else ()
         wanted = next((item for item in choices if _name(item) == name), None)
-        return lambda state: state if wanted is None else with_values(state, wanted.values)
+        return lambda snapshot: snapshot if wanted is None else with_values(snapshot, wanted.values)
 
     def _ghost_clicked(self, index: int) -> None:
         others = self.found["direct"].others if self.found else ()
         if index < len(others):
-            self.worker.ask("ghost", lambda: self.now(with_values(self.state, others[index].values), ""))
+            self.worker.ask("ghost", lambda: self.now(with_values(self.snapshot, others[index].values), ""))
 
-    def _failed(self, error: Exception) -> None:
+    def failed(self, error: Exception) -> None:
+        """Tell everybody what went wrong."""
         text = error.message if isinstance(error, AssurError) else f"a bug in assur: {type(error).__name__}: {error}"
         for client in self.served.viser.get_clients().values():
             client.add_notification("That did not work", text, color="red")
 
 
-def _turned(change: Callable[[State, int, float], State], k: int, value: float, state: State) -> State:
-    return change(state, k, value)
+def _turned(change: Change, k: int, value: float, snapshot: Snapshot) -> Snapshot:
+    return change(snapshot, k, value)
 
 
-def _resized(name: str, value: float) -> Callable[[State], State]:
-    return lambda state: with_parameter(state, name, float(value))
+def _resized(name: str, value: float) -> Callable[[Snapshot], Snapshot]:
+    return lambda snapshot: with_parameter(snapshot, name, float(value))
 
 
 def _set(handle: Any, dial: dials.Dial, value: float) -> None:
@@ -263,10 +284,11 @@ def _set(handle: Any, dial: dials.Dial, value: float) -> None:
         handle.min = shown
     if shown > handle.max:
         handle.max = shown
-    handle.value = shown
+    if abs(handle.value - shown) > dial.step / 1000:  # the rounding of a step is nothing to tell a browser of
+        handle.value = shown
 
 
-def _name(item: Choice) -> str:
+def _name(item: Posture) -> str:
     return item.label or "the one"
 
 

@@ -46,6 +46,11 @@ class Worker:
             self._waiting[kind] = task
             self._changed.notify()
 
+    def waits(self, kind: str) -> bool:
+        """Whether a wish of that kind waits."""
+        with self._changed:
+            return kind in self._waiting
+
     @property
     def busy(self) -> bool:
         """Whether a wish waits or is being done."""

@@ -64,8 +64,9 @@ def factor_fields(record: MechanismRecord, mode: str, slice_: Slice | None = Non
 def sample(field: Field, grid: UniformGrid) -> NDArray[np.float32]:
     """A field at every node of a grid, block by block; where it is not finite the pose is not allowed."""
     values = np.empty(grid.shape, dtype=np.float32)
-    for part, columns in grid.blocks():
-        values[part] = field(columns)
+    with np.errstate(over="ignore"):  # a pose so far away is not allowed either
+        for part, columns in grid.blocks():
+            values[part] = field(columns)
     allowed = np.isfinite(values)
     return values if bool(np.all(allowed)) else np.where(allowed, values, np.float32(-1.0))
 

@@ -22,8 +22,9 @@ from assur.errors import UsageError
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import mode_signs, sign_names
 from assur.kinematics.parasitic import all_coordinates
-from assur.kinematics.paths.continuation import Continuation, Followed, continued
+from assur.kinematics.paths.continuation import continued
 from assur.kinematics.paths.ending import Mode
+from assur.kinematics.paths.followed_grid import Continuation, Followed
 from assur.kinematics.paths.following import follow
 from assur.kinematics.paths.neighbours import working_signs
 from assur.kinematics.position import inverse
@@ -67,6 +68,10 @@ class FollowedField:
         """The field (N,) at points (N, d); where the mode does not reach that at the nearest node, continued."""
         found = self.over.at(points)
         return np.where(found.reached, self.of(found), self._at_nodes[tuple(self.over.nodes(points).T)])
+
+    def known(self, points: FloatArray) -> FloatArray:
+        """The field (N,) at points (N, d); NaN where the mode does not reach that."""
+        return np.asarray(self.of(self.over.at(points)))
 
     @cached_property
     def _at_nodes(self) -> FloatArray:

@@ -1,11 +1,13 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import assur
 from assur.kinematics.border import inputs_of
-from assur.kinematics.certified.domain import pose_box, reaches
+from assur.kinematics.certified.domain import Reach, _by_both, pose_box, reaches
 from assur.model.joint_graph import frames
 from assur.model.pose import is_angle
 from assur.model.registry import names
@@ -45,6 +47,43 @@ def test_limbs_that_need_not_close_stay_in_their_regions(name):
             away = away - np.outer(away @ region.axis, region.axis)
         inside.append(np.linalg.norm(away, axis=1) <= region.radius)
     assert any(np.all(rows) for rows in inside)  # that of the limb by which the tree reaches the platform
+
+
+def test_a_slider_that_is_parallel_to_fifteen_digits_only_bounds_nothing():
+    """It may go as far as it likes, and far enough out the smallest angle matters."""
+    record = assur.load("three_rrc")
+    inputs = inputs_of(record, record.home_values)
+    assert pose_box(record, inputs) is not None
+    sliders = [joint for joint in record.joints.values() if "length" in joint.type.kinds]
+    nearly = {}
+    for joint in sliders:
+        axes = joint.axes.copy()
+        large, small = np.argsort(-np.abs(axes[0]))[:2]
+        axes[0, small] += 1e-15 * axes[0, large]
+        nearly[joint.name] = replace(joint, axes=axes)
+    tilted = replace(record, joints={**record.joints, **nearly})
+    assert pose_box(tilted, inputs) is None
+    assert not [region for region in reaches(tilted, inputs) if region.axis is not None]
+
+
+def test_two_cylinders_that_are_not_parallel_bound_what_lies_in_both():
+    rng = np.random.default_rng(4)
+    for _ in range(20):
+        axes = [axis / np.linalg.norm(axis) for axis in rng.standard_normal((2, 3))]
+        one, other = (Reach(100 * rng.standard_normal(3), 50.0 + 200 * rng.random(), axis) for axis in axes)
+        points = rng.uniform(-2000, 2000, (40_000, 3))
+        away = [points - item.centre for item in (one, other)]
+        inside = [
+            np.linalg.norm(part - np.outer(part @ item.axis, item.axis), axis=1) <= item.radius
+            for part, item in zip(away, (one, other), strict=True)
+        ]
+        both = points[inside[0] & inside[1]]
+        for coordinate in range(3):
+            bounds = _by_both(coordinate, one, other)
+            if bounds is not None and len(both):
+                assert np.all(np.abs(both[:, coordinate] - bounds[0]) <= bounds[1])
+    parallel = Reach(np.ones(3), 5.0, one.axis)
+    assert _by_both(0, one, parallel) is None
 
 
 def test_a_shorter_limb_makes_a_smaller_box():

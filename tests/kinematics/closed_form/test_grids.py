@@ -5,16 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-import assur
 from assur.errors import UsageError
 from assur.kinematics.closed_form.grids import Grid, grid_over
 
 COUNTS = (7, 5, 11)
-
-
-@pytest.fixture
-def zeng():
-    return assur.load("zeng2019")
 
 
 @pytest.mark.parametrize("part", [slice(0, 385), slice(0, 1), slice(10, 12), slice(9, 300), slice(384, 385)])

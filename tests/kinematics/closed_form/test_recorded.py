@@ -13,11 +13,6 @@ from assur.kinematics.modes import all_modes, mode_signs
 from assur.model.registry import with_parameters
 
 
-@pytest.fixture
-def zeng():
-    return assur.load("zeng2019")
-
-
 def test_one_recording_serves_every_mode_and_all_dimensions(zeng):
     longer = with_parameters(zeng, l2=zeng.parameters["l2"].value * 1.1)
     poses = np.array([np.random.default_rng(1).uniform(*zeng.box[name], 300) for name in zeng.platform.pose])

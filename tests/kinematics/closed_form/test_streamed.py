@@ -28,11 +28,6 @@ class StoppedError(Exception):
     """Stands for Ctrl-C."""
 
 
-@pytest.fixture
-def zeng():
-    return assur.load("zeng2019")
-
-
 def everything(zeng, counts=COUNTS):
     """The same grid in memory, by numpy's own meshgrid."""
     axes = [np.linspace(*zeng.box[name], count) for name, count in zip(zeng.platform.pose, counts, strict=True)]

@@ -8,47 +8,18 @@ import tracemalloc
 import numpy as np
 import pytest
 
-import assur
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep, inverse_all_sweep
 from assur.kinematics.closed_form.sweep import WANT, inverse_sweep
 
-COUNT = 4999  # odd, and no multiple of any block
-WITH_BRANCHES = [name for name in assur.names() if callable(assur.load(name).closed_form.direct)]
-"""Mechanisms whose direct problem is told by branches of signs, not by a polynomial or a search."""
-
-
-@pytest.fixture(params=WITH_BRANCHES)
-def mechanism(request):
-    return assur.load(request.param)
-
 
 @pytest.fixture
-def zeng():
-    return assur.load("zeng2019")
+def jobs(poses_of, inputs_of):
+    """A function: every sweep of a mechanism by its name."""
+    return lambda mechanism: _jobs(mechanism, poses_of(mechanism), inputs_of(mechanism))
 
 
-def poses_of(mechanism, count=COUNT):
-    """Random poses (m, N) in the mechanism's box, or about its home pose."""
-    rng = np.random.default_rng(5)
-    limits = [mechanism.box[name] for name in mechanism.platform.pose]
-    return np.array([rng.uniform(low, high, count) for low, high in limits])
-
-
-def inputs_of(mechanism, count=COUNT):
-    """Inputs (n, N): those of poses that exist, and every third with a first input far from them."""
-    poses = poses_of(mechanism, 6 * count)
-    found = inverse_sweep(mechanism, poses)
-    real = found["inputs"][:, found["exists"]]
-    assert real.shape[1] > 50
-    rng = np.random.default_rng(6)
-    picked = real[:, rng.integers(real.shape[1], size=count)]
-    picked[0, ::3] = rng.normal(real[0].mean(), 6 * real[0].std(), size=len(picked[0, ::3]))
-    return picked
-
-
-def jobs(mechanism):
-    poses, inputs = poses_of(mechanism), inputs_of(mechanism)
+def _jobs(mechanism, poses, inputs):
     return {
         "one": lambda **options: list(inverse_sweep(mechanism, poses, **options).values()),
         "distinct": lambda **options: _flat(inverse_all_sweep(mechanism, poses, **options)),
@@ -70,13 +41,13 @@ def _digest(arrays):
 
 
 @pytest.mark.parametrize("job", ["one", "distinct", "expanded", "direct"])
-def test_bits_do_not_depend_on_the_block(mechanism, job):
+def test_bits_do_not_depend_on_the_block(mechanism, job, jobs, count):
     work = jobs(mechanism)[job]
-    digests = {block: _digest(work(block=block)) for block in (7, 1000, 4096, COUNT, 10 * COUNT)}
+    digests = {block: _digest(work(block=block)) for block in (7, 1000, 4096, count, 10 * count)}
     assert len(set(digests.values())) == 1, digests
 
 
-def test_agrees_with_one_mode_at_a_time_of_the_solution_set(mechanism):
+def test_agrees_with_one_mode_at_a_time_of_the_solution_set(mechanism, poses_of):
     poses = poses_of(mechanism)
     found = mechanism.inverse(poses.T, mechanism.modes.default_working)
     swept = inverse_sweep(mechanism, poses, block=512)
@@ -89,7 +60,7 @@ def test_agrees_with_one_mode_at_a_time_of_the_solution_set(mechanism):
     np.testing.assert_array_equal(swept["factors"][:, real], expected)
 
 
-def test_determinants_are_those_of_the_velocity_map(mechanism):
+def test_determinants_are_those_of_the_velocity_map(mechanism, poses_of):
     poses = poses_of(mechanism)
     swept = inverse_sweep(mechanism, poses)
     real = swept["exists"]
@@ -99,7 +70,7 @@ def test_determinants_are_those_of_the_velocity_map(mechanism):
         np.testing.assert_allclose(swept[name][real], np.linalg.det(matrix), rtol=1e-9, atol=1e-12 * size)
 
 
-def test_determinants_are_the_products_of_their_factors(zeng):
+def test_determinants_are_the_products_of_their_factors(zeng, poses_of):
     poses = poses_of(zeng)
     swept = inverse_sweep(zeng, poses, "+---+")
     named = dict(zip([item.name for item in zeng.closed_form.factor_list], swept["factors"], strict=True))
@@ -133,7 +104,7 @@ def test_no_poses_at_all(mechanism):
 
 
 @pytest.mark.parametrize("want", WANT)
-def test_only_what_is_wanted(zeng, want):
+def test_only_what_is_wanted(zeng, want, poses_of):
     poses = poses_of(zeng)
     alone = inverse_sweep(zeng, poses, want=(want,))
     assert list(alone) == [want]
@@ -141,14 +112,14 @@ def test_only_what_is_wanted(zeng, want):
 
 
 @pytest.mark.parametrize("job", ["one", "distinct", "expanded", "direct"])
-def test_progress_is_told_after_every_block(zeng, job):
+def test_progress_is_told_after_every_block(zeng, job, jobs, count):
     calls = []
     jobs(zeng)[job](block=2000, progress=lambda done, total: calls.append((done, total)))
-    assert calls == [(2000, COUNT), (4000, COUNT), (COUNT, COUNT)]
+    assert calls == [(2000, count), (4000, count), (count, count)]
 
 
 @pytest.mark.parametrize("job", ["one", "distinct", "expanded", "direct"])
-def test_memory_is_the_answer_and_a_block(zeng, job):
+def test_memory_is_the_answer_and_a_block(zeng, job, jobs, count):
     work, block = jobs(zeng)[job], 250
     work(block=block)  # whatever is kept from call to call
     tracemalloc.start()
@@ -158,16 +129,16 @@ def test_memory_is_the_answer_and_a_block(zeng, job):
     size = sum(array.nbytes for array in answer)
     branches = 8 if job == "direct" else 4
     assert peak - size < 80 * branches * 8 * block  # fewer than 80 temporaries of a block
-    assert 80 * branches * 8 * block < COUNT * 8 * 20 * branches  # which is far less than 80 of all poses
+    assert 80 * branches * 8 * block < count * 8 * 20 * branches  # which is far less than 80 of all poses
 
 
 @pytest.mark.parametrize("block", [0, -1])
-def test_refuses_an_empty_block(zeng, block):
+def test_refuses_an_empty_block(zeng, block, poses_of):
     with pytest.raises(UsageError, match="block"):
         inverse_sweep(zeng, poses_of(zeng), block=block)
 
 
-def test_refuses_wrong_names_and_components(zeng):
+def test_refuses_wrong_names_and_components(zeng, poses_of):
     poses = poses_of(zeng, 10)
     with pytest.raises(UnknownNameError, match="det_jp"):
         inverse_sweep(zeng, poses, want=("determinant",))
@@ -182,14 +153,14 @@ def test_refuses_wrong_names_and_components(zeng):
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
-def test_refuses_what_is_not_finite(zeng, bad):
+def test_refuses_what_is_not_finite(zeng, bad, poses_of):
     poses = poses_of(zeng, 10)
     poses[1, 7] = bad
     with pytest.raises(UsageError, match="finite"):
         all_modes_sweep(zeng, "inverse", poses, block=4)
 
 
-def test_condition_index_is_that_of_the_velocity_map_by_svd(mechanism):
+def test_condition_index_is_that_of_the_velocity_map_by_svd(mechanism, poses_of):
     poses = poses_of(mechanism)
     swept = inverse_sweep(mechanism, poses, want=("exists", "condition_index", "smallest", "det_jp", "det_jq"))
     sizes = [np.abs(swept[name]) for name in ("det_jp", "det_jq")]
@@ -202,6 +173,6 @@ def test_condition_index_is_that_of_the_velocity_map_by_svd(mechanism):
 
 
 @pytest.mark.parametrize("threads", [1, 2, 3])
-def test_bits_do_not_depend_on_threads(zeng, threads):
+def test_bits_do_not_depend_on_threads(zeng, threads, jobs, count):
     for job, work in jobs(zeng).items():
-        assert _digest(work(block=999, threads=threads)) == _digest(work(block=COUNT)), job
+        assert _digest(work(block=999, threads=threads)) == _digest(work(block=count)), job

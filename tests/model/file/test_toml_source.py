@@ -102,6 +102,25 @@ def test_what_is_not_toml_is_refused_with_its_line(text: str, line: int, row: st
 
 
 @pytest.mark.parametrize(
+    ("text", "lines"),
+    [
+        ("unit = mm\nx = 1\nangle = deg\n[t]\ny = on # [", [1, 3, 5]),
+        ("unit mm\nangle = 3 4", [1, 2]),
+        ("a = [1, 2\nb = mm", [2]),
+        ("a = { b = 1, c = [1,\n2}\nd = mm", [2]),
+        ('a = "x\nb = mm', [1]),
+        ("[links\nground = mm", [1]),
+        ("\n".join(f"a{k} = mm" for k in range(50)), list(range(1, 21))),
+    ],
+)
+def test_what_does_not_follow_from_one_error_is_told_with_it(text: str, lines: list[int]) -> None:
+    """A value in a line of its own is left out; after anything that may reach into other lines reading stops."""
+    with pytest.raises(MechanismFileError) as caught:
+        read_toml(text, "f.toml")
+    assert [problem.line for problem in caught.value.problems] == lines
+
+
+@pytest.mark.parametrize(
     ("text", "found"),
     [
         ("a = " + "[" * 5000 + "]" * 5000, "brackets nested too deeply"),

@@ -1,11 +1,11 @@
 """Storing: what is moved, streamed or judged is what stood there, from any place to any other, and nothing else."""
 
+import numba
 import numpy as np
 import pytest
 
-numba = pytest.importorskip("numba")
-from assur.numerics.recording.loops import empty_rows  # noqa: E402
-from assur.numerics.recording.storing import GROUP, judged, moved, streamed  # noqa: E402
+from assur.numerics.recording.loops import empty_rows
+from assur.numerics.recording.storing import GROUP, judged, moved, streamed
 
 
 @numba.njit

@@ -36,6 +36,12 @@ def test_roots_and_zero():
     assert term_mathml(X - X) == "<mn>0</mn>"
 
 
+def test_a_minus_stands_close_to_what_it_negates():
+    """After an equals sign a browser would take it for a difference's."""
+    assert equation("<mi>y</mi>", term_mathml(-X)).count('<mo lspace="0" rspace="0">−</mo>') == 1
+    assert term_mathml(COS - X).count("<mo>−</mo>") == 1
+
+
 def test_a_matrix_has_its_rows():
     rows = ElementTree.fromstring(matrix_mathml([[X, X], [X, COS], [X, X]]))
     assert [len(row) for row in rows.iter("mtr")] == [2, 2, 2]

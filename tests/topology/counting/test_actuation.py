@@ -2,39 +2,18 @@
 
 from __future__ import annotations
 
+from functools import partial
 from itertools import combinations
 
 import numpy as np
 import pytest
 
 from assur.topology.counting.actuation import actuation, locked_freedoms
-from assur.topology.linkages.edges import Edge, closure, column_names, input_columns
+from assur.topology.linkages.edges import closure, column_names, input_columns
+from twist_chains import X, Y, Z, ball, slide, turn, turns
+from twist_chains import chain as named_chain
 
-X, Y, Z = np.eye(3)
-
-
-def turn(axis, point):
-    return np.array([*axis, *np.cross(point, axis)])
-
-
-def slide(axis):
-    return np.array([0.0, 0.0, 0.0, *axis])
-
-
-def ball(point):
-    return [turn(axis, point) for axis in (X, Y, Z)]
-
-
-def chain(name, start, end, joints, actuated=()):
-    links = [start, *(f"{name}{i}" for i in range(1, len(joints))), end]
-    return [
-        Edge(f"{name}{i + 1}", *links[i : i + 2], np.stack(item, axis=-1)[None], (), (0,) if i in actuated else ())
-        for i, item in enumerate(joints)
-    ]
-
-
-def turns(rng, axis, count):
-    return [[turn(axis, rng.normal(size=3))] for _ in range(count)]
+chain = partial(named_chain, letter="")
 
 
 def zeng(rng, inputs):

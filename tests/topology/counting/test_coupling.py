@@ -1,9 +1,8 @@
-"""The coupling degree: printed and tabulated values, a second route by Eq. (4) itself, orders, and Assur chains."""
+"""The coupling degree: printed and tabulated values, orders, and Assur chains."""
 
 from __future__ import annotations
 
 import dataclasses
-from itertools import permutations
 
 import numpy as np
 import pytest
@@ -13,170 +12,29 @@ from assur.kinematics.structure import linkage
 from assur.model.registry import load_record
 from assur.topology.counting.coupling import coupling, coupling_of
 from assur.topology.counting.mobility import InternalFreedom, mobility
-from assur.topology.linkages.edges import Edge
 from assur.topology.linkages.twists import generic_edges
-
-X, Y, Z = np.eye(3)
-AROUND = [np.array([np.cos(a), np.sin(a), 0.0]) for a in (0.0, 2.1, 4.2)]
-
-
-def turn(axis, point):
-    return np.array([*axis, *np.cross(point, axis)])
-
-
-def slide(axis):
-    return np.array([0.0, 0.0, 0.0, *axis])
-
-
-def turns(rng, axis, count):
-    """R joints with parallel axes at random places, one edge each."""
-    return [[turn(axis, rng.normal(size=3))] for _ in range(count)]
-
-
-def ball(point):
-    return [turn(axis, point) for axis in (X, Y, Z)]
-
-
-def across(rng, axis):
-    found = np.cross(axis, rng.normal(size=3))
-    return found / np.linalg.norm(found)
-
-
-def chain(name, start, end, joints, actuated=(0,)):
-    """Edges in series between two links; `joints` are lists of twists, the first component of each is actuated."""
-    links = [start, *(f"{name}{i}" for i in range(1, len(joints))), end]
-    return [
-        Edge(
-            f"{name}J{i + 1}",
-            links[i],
-            links[i + 1],
-            np.stack(twists, axis=-1)[None],
-            inputs=(0,) if i in actuated else (),
-        )
-        for i, twists in enumerate(joints)
-    ]
-
-
-def limbs(joints, actuated=0):
-    """Limbs between base and platform."""
-    return [edge for i, item in enumerate(joints) for edge in chain(f"L{i + 1}", "base", "p", item, (actuated,))]
-
-
-# ---- mechanisms, at a random configuration each --------------------------------------------------------------
-
-
-def zeng(rng):
-    """The mechanism of the paper, parallelograms as one joint each."""
-    first = chain("A", "base", "m", [[slide(Y)], *turns(rng, X, 2)])
-    second = chain("B", "base", "m", [[slide(Y)], *turns(rng, X, 2)])
-    outer = chain("C", "m", "p", turns(rng, Y, 2), ())
-    other = chain("D", "base", "p", [[slide(Y)], [slide(across(rng, X))], [slide(across(rng, Y))]])
-    return first + second + outer + other
-
-
-def zeng_with_one_five_dof_limb(rng):
-    loop = [turn(X, rng.normal(size=3)), slide(Y), slide(Z)]
-    (inner,) = chain("A", "base", "m", [loop])
-    rest = [edge for edge in zeng(rng) if edge.name[0] in "CD"]
-    return [dataclasses.replace(inner, inputs=(1, 2)), *rest]
-
-
-def delta_4r(rng):
-    return limbs([[*turns(rng, u, 2), [slide(rng.normal(size=3))], *turns(rng, u, 1)] for u in AROUND])
-
-
-def parallelogram_4s(rng, short):
-    rod = rng.normal(size=3)
-    point = rng.normal(size=3)
-    return [slide(across(rng, rod)), slide(across(rng, rod)), turn(short, point), turn(rod, point)]
-
-
-def delta_4s(rng):
-    return limbs([[*turns(rng, u, 1), parallelogram_4s(rng, u)] for u in AROUND])
-
-
-def linear_delta_4s(rng):
-    return limbs([[[slide(Z)], parallelogram_4s(rng, u)] for u in AROUND])
-
-
-def orthoglide(rng):
-    return limbs([[[slide(u)], *turns(rng, u, 1), [slide(rng.normal(size=3))], *turns(rng, u, 1)] for u in (X, Y, Z)])
-
-
-def upu(rng):
-    found = []
-    for u in AROUND:
-        leg = np.array(rng.normal(size=3))
-        low = rng.normal(size=3)
-        w = np.cross(u, leg)
-        found.append([[slide(leg)], [turn(u, low), turn(w, low)], [turn(w, low + leg), turn(u, low + leg)]])
-    return limbs(found)
-
-
-def tripteron(rng):
-    return limbs([[[slide(u)], *turns(rng, u, 3)] for u in (X, Y, Z)])
-
-
-def crr(rng):
-    return limbs([[[slide(u), turn(u, rng.normal(size=3))], *turns(rng, u, 2)] for u in AROUND])
-
-
-def rrc(rng):
-    return limbs([[*turns(rng, u, 2), [turn(u, rng.normal(size=3)), slide(u)]] for u in AROUND])
-
-
-def planar_rrr(rng):
-    return limbs([turns(rng, Z, 3) for _ in range(3)])
-
-
-def planar_rpr(rng):
-    return limbs([[*turns(rng, Z, 1), [slide(across(rng, Z))], *turns(rng, Z, 1)] for _ in range(3)], actuated=1)
-
-
-def five_bar(rng):
-    return chain("A", "base", "p", turns(rng, Z, 3)) + chain("B", "base", "p", turns(rng, Z, 2))
-
-
-def rps(rng):
-    found = []
-    for u in AROUND:
-        leg = across(rng, u)
-        low = rng.normal(size=3)
-        found.append([[turn(u, low)], [slide(leg)], ball(low + leg)])
-    return limbs(found, actuated=1)
-
-
-def ups_limb(rng, low_ball=False):
-    low, high = rng.normal(size=3), rng.normal(size=3)
-    u = rng.normal(size=3)
-    first = ball(low) if low_ball else [turn(u, low), turn(across(rng, u), low)]
-    return [first, [slide(high - low)], ball(high)]
-
-
-def gough(rng):
-    return limbs([ups_limb(rng) for _ in range(6)], actuated=1)
-
-
-def gough_sps(rng):
-    return limbs([ups_limb(rng, low_ball=True) for _ in range(6)], actuated=1)
-
-
-def tricept(rng):
-    limb = chain("L4", "base", "p", [[turn(X, Z), turn(Y, Z)], [slide(Z)]], ())
-    return limbs([ups_limb(rng) for _ in range(3)], actuated=1) + limb
-
-
-def h4(rng):
-    def arm(name, end, u):
-        return chain(name, "base", end, [*turns(rng, u, 1), parallelogram_4s(rng, u)])
-
-    arms = arm("A", "bar1", X) + arm("B", "bar1", Y) + arm("C", "bar2", X) + arm("D", "bar2", Y)
-    return [
-        *arms,
-        *chain("E", "bar1", "p", turns(rng, Z, 1), ()),
-        *chain("F", "bar2", "p", turns(rng, Z, 1), ()),
-    ]
-
+from coupled_mechanisms import (
+    crr,
+    delta_4r,
+    delta_4s,
+    driven,
+    five_bar,
+    gough,
+    gough_sps,
+    h4,
+    linear_delta_4s,
+    orthoglide,
+    planar_rpr,
+    planar_rrr,
+    rps,
+    rrc,
+    tricept,
+    tripteron,
+    upu,
+    zeng,
+    zeng_with_one_five_dof_limb,
+)
+from twist_chains import X, Z, slide, turn, turns
 
 # ---- printed and tabulated values ----------------------------------------------------------------------------
 
@@ -236,80 +94,6 @@ def test_collapsing_the_inner_loop_hides_the_coupling():
     assert found.coupling_degree == 0
 
 
-# ---- the second route: Eq. (4) with motion spaces, over all permutations of limbs ------------------------------
-
-
-def space(matrix):
-    left, singular, _ = np.linalg.svd(matrix)
-    return left[:, : int(np.sum(singular > 1e-9))]
-
-
-def common(first, second):
-    """Orthonormal basis of what two spaces share: the complement of the sum of their complements."""
-    complements = [np.eye(6) - basis @ basis.T for basis in (first, second)]
-    left, singular, _ = np.linalg.svd(np.hstack(complements))
-    return left[:, int(np.sum(singular > 1e-9)) :]
-
-
-def by_equation_4(edges):
-    """The totals Σ|Δ| of all permutations of limbs, ξ = dim{(∩ M_bi) ∪ M_b(j+1)}."""
-    parts = {}
-    for edge in edges:
-        parts.setdefault(edge.name[:2], []).append(edge)
-    data = [
-        (
-            space(np.hstack([edge.twists[0] for edge in part])),
-            sum(edge.freedoms for edge in part),
-            sum(len(edge.inputs) for edge in part),
-        )
-        for part in parts.values()
-    ]
-    totals = set()
-    for order in permutations(data):
-        meet, freedoms, inputs = order[0]
-        total = 0
-        for index, (motion, more, driven) in enumerate(order[1:]):
-            xi = space(np.hstack([meet, motion])).shape[1]
-            delta = more + (freedoms if index == 0 else 0) - driven - (inputs if index == 0 else 0) - xi
-            total += abs(delta)
-            meet = common(meet, motion)
-        totals.add(total)
-    return totals
-
-
-PARALLEL = [delta_4r, orthoglide, delta_4s, upu, tripteron, crr, rrc, planar_rrr, planar_rpr, rps, gough, tricept]
-
-
-@pytest.mark.parametrize("build", PARALLEL, ids=[build.__name__ for build in PARALLEL])
-def test_equation_4_gives_the_same_coupling_degree(build):
-    edges = build(np.random.default_rng(5))
-    assert 2 * coupling(edges).coupling_degree == min(by_equation_4(edges))
-
-
-def random_limb(rng):
-    """A limb with one input whose motions are planar, Schoenflies, five-dimensional or all."""
-    kind = rng.integers(4)
-    if kind == 0:
-        return turns(rng, Z, 3)
-    if kind == 1:
-        return [*turns(rng, Z, 3), [slide(rng.normal(size=3))]]
-    if kind == 2:
-        return [*turns(rng, Z, 3), *turns(rng, X, 2)]
-    return [*turns(rng, Z, 3), *turns(rng, X, 3)] if rng.integers(2) else ups_limb(rng)
-
-
-@pytest.mark.parametrize("seed", range(12))
-def test_equation_4_gives_the_same_on_random_limbs(seed):
-    rng = np.random.default_rng(seed)
-    edges = limbs([random_limb(rng) for _ in range(4)])
-    freedoms = mobility(edges, "base", "p").dof
-    spare = [edge.name for edge in edges if edge.freedoms == 1 and not edge.inputs]
-    driven = set(spare[: max(freedoms - 4, 0)])
-    edges = [dataclasses.replace(edge, inputs=(0,)) if edge.name in driven else edge for edge in edges]
-    found = coupling(edges)
-    assert sum(abs(loop.delta) for loop in found.loops) == min(by_equation_4(edges))
-
-
 # ---- orders -------------------------------------------------------------------------------------------------
 
 
@@ -323,7 +107,6 @@ def test_another_order_halves_the_coupling_degree():
     as_named = coupling_of(edges, [names(edges, "L1", "L2"), names(edges, "L3"), names(edges, "L4")])
     assert ([loop.delta for loop in as_named.loops], as_named.coupling_degree) == ([4, -1, -3], 4)
     assert coupling(edges).coupling_degree == 2
-    assert by_equation_4(edges) == {4, 8}
 
 
 def test_separate_inner_loops_first_double_the_coupling_degree():
@@ -366,7 +149,7 @@ def test_an_order_that_is_none(order, error, text):
 
 def test_two_five_bars_in_series_are_two_chains():
     rng = np.random.default_rng(4)
-    more = chain("C", "p", "q", turns(rng, Z, 3)) + chain("D", "p", "q", turns(rng, Z, 2))
+    more = driven("C", "p", "q", turns(rng, Z, 3)) + driven("D", "p", "q", turns(rng, Z, 2))
     found = coupling(five_bar(rng) + more)
     assert [(item.loops, item.coupling_degree) for item in found.assur_chains] == [((0,), 0), ((1,), 0)]
     assert found.coupling_degree == 0
@@ -375,7 +158,7 @@ def test_two_five_bars_in_series_are_two_chains():
 def test_the_chain_with_the_largest_coupling_degree_counts():
     """A five-bar (0) whose coupler carries a planar 3-RRR (1)."""
     rng = np.random.default_rng(4)
-    more = [edge for n in "CDE" for edge in chain(n, "p", "q", turns(rng, Z, 3))]
+    more = [edge for n in "CDE" for edge in driven(n, "p", "q", turns(rng, Z, 3))]
     found = coupling(five_bar(rng) + more)
     assert [(item.loops, item.coupling_degree) for item in found.assur_chains] == [((0,), 0), ((1, 2), 1)]
     assert found.coupling_degree == 1
@@ -384,8 +167,8 @@ def test_the_chain_with_the_largest_coupling_degree_counts():
 def test_an_assur_chain_stands_on_the_one_before_it():
     """A six-bar linkage: a four-bar driven by its crank, and two more bars on its coupler and the base."""
     rng = np.random.default_rng(4)
-    four_bar = chain("A", "base", "coupler", turns(rng, Z, 2)) + chain("B", "base", "coupler", turns(rng, Z, 2), ())
-    edges = four_bar + chain("C", "base", "coupler", turns(rng, Z, 3), ())
+    four_bar = driven("A", "base", "coupler", turns(rng, Z, 2)) + driven("B", "base", "coupler", turns(rng, Z, 2), ())
+    edges = four_bar + driven("C", "base", "coupler", turns(rng, Z, 3), ())
     found = coupling(edges)
     assert [item.coupling_degree for item in found.assur_chains] == [0, 0]
     assert [loop.edges for loop in found.loops] == [("AJ1", "AJ2", "BJ2", "BJ1"), ("CJ1", "CJ2", "CJ3")]
@@ -393,20 +176,20 @@ def test_an_assur_chain_stands_on_the_one_before_it():
 
 def test_an_arm_in_no_loop_takes_no_part():
     rng = np.random.default_rng(4)
-    arm = chain("Z", "p", "tip", turns(rng, X, 2), (0, 1))
-    foot = chain("Y", "ground", "base", [[slide(X)]])
+    arm = driven("Z", "p", "tip", turns(rng, X, 2), (0, 1))
+    foot = driven("Y", "ground", "base", [[slide(X)]])
     found = coupling(foot + five_bar(rng) + arm)
     assert found == coupling(five_bar(np.random.default_rng(4)))
 
 
 def test_a_serial_chain_has_no_loops():
-    found = coupling(chain("A", "base", "p", turns(np.random.default_rng(0), Z, 3)))
+    found = coupling(driven("A", "base", "p", turns(np.random.default_rng(0), Z, 3)))
     assert (found.loops, found.assur_chains, found.coupling_degree) == ((), (), 0)
 
 
 def test_a_single_loop_with_all_inputs_is_not_coupled():
     rng = np.random.default_rng(4)
-    ring = chain("A", "base", "base", [[turn(rng.normal(size=3), rng.normal(size=3))] for _ in range(8)], (0, 1))
+    ring = driven("A", "base", "base", [[turn(rng.normal(size=3), rng.normal(size=3))] for _ in range(8)], (0, 1))
     found = coupling(ring)
     assert [(loop.xi, loop.delta, len(loop.edges)) for loop in found.loops] == [(6, 0, 8)]
     assert found.coupling_degree == 0
@@ -415,7 +198,7 @@ def test_a_single_loop_with_all_inputs_is_not_coupled():
 @pytest.mark.parametrize(("inputs", "remainder"), [((), 2), ((0,), 0), ((0, 1), -2)])
 def test_too_few_or_too_many_inputs_have_no_coupling_degree(inputs, remainder):
     rng = np.random.default_rng(4)
-    edges = chain("A", "base", "p", turns(rng, Z, 3), inputs) + chain("B", "base", "p", turns(rng, Z, 2), inputs)
+    edges = driven("A", "base", "p", turns(rng, Z, 3), inputs) + driven("B", "base", "p", turns(rng, Z, 2), inputs)
     found = coupling(edges)
     assert found.remainder == remainder
     assert found.coupling_degree == (None if remainder else 0)

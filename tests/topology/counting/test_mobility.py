@@ -10,33 +10,7 @@ from assur.kinematics.structure import linkage
 from assur.model.registry import load_record
 from assur.topology.counting.mobility import InternalFreedom, mobility, motions
 from assur.topology.linkages.edges import Edge, along, closure, rank
-
-X, Y, Z = np.eye(3)
-
-
-def turn(axis, point):
-    return np.array([*axis, *np.cross(point, axis)])
-
-
-def slide(axis):
-    return np.array([0.0, 0.0, 0.0, *axis])
-
-
-def ball(point):
-    return [turn(axis, point) for axis in (X, Y, Z)]
-
-
-def chain(name, start, end, joints, actuated=()):
-    """Edges in series; `joints` are lists of twists."""
-    links = [start, *(f"{name}{i}" for i in range(1, len(joints))), end]
-    return [
-        Edge(f"{name}J{i + 1}", *links[i : i + 2], np.stack(item, axis=-1)[None], (), (0,) if i in actuated else ())
-        for i, item in enumerate(joints)
-    ]
-
-
-def parallel_turns(rng, count, axis=Z):
-    return [[turn(axis, rng.normal(size=3))] for _ in range(count)]
+from twist_chains import X, Y, Z, ball, chain, slide, turn, turns
 
 
 def at_home(name):
@@ -74,7 +48,7 @@ def test_the_joint_graph_of_the_paper_at_home():
 def test_a_planar_five_bar():
     rng = np.random.default_rng(0)
     found = mobility(
-        chain("A", "base", "p", parallel_turns(rng, 3), (0,)) + chain("B", "base", "p", parallel_turns(rng, 2), (0,)),
+        chain("A", "base", "p", turns(rng, Z, 3), (0,)) + chain("B", "base", "p", turns(rng, Z, 2), (0,)),
         "base",
         "p",
     )
@@ -83,14 +57,14 @@ def test_a_planar_five_bar():
 
 
 def test_a_serial_chain_has_all_its_freedoms():
-    found = mobility(chain("A", "base", "p", parallel_turns(np.random.default_rng(0), 4), (0, 1, 2, 3)), "base", "p")
+    found = mobility(chain("A", "base", "p", turns(np.random.default_rng(0), Z, 4), (0, 1, 2, 3)), "base", "p")
     assert (found.dof, found.rank, found.loops, found.redundant_constraints) == (4, 0, 0, 0)
     assert (found.platform, found.internal_freedoms, found.redundant_inputs) == (3, 0, 1)
 
 
 def test_a_structure_does_not_move():
     rng = np.random.default_rng(0)
-    bars = [edge for name in "ABC" for edge in chain(name, "base", "p", parallel_turns(rng, 2))]
+    bars = [edge for name in "ABC" for edge in chain(name, "base", "p", turns(rng, Z, 2))]
     found = mobility(bars, "base", "p")
     assert (found.dof, found.platform, found.idle) == (0, 0, tuple(edge.name for edge in bars))
 
@@ -129,8 +103,8 @@ def test_a_loop_between_two_ball_joints_spins_as_a_whole():
     middle = rng.normal(size=3)
     rod = [
         *chain("A", "base", "m", [ball(low)]),
-        *chain("B", "m", "n", parallel_turns(rng, 2, middle)),
-        *chain("C", "m", "n", parallel_turns(rng, 2, middle)),
+        *chain("B", "m", "n", turns(rng, middle, 2)),
+        *chain("C", "m", "n", turns(rng, middle, 2)),
         *chain("D", "n", "p", [ball(high)]),
     ]
     found = mobility(rod + legs(rng, 6, lambda at: [turn(X, at), turn(Y, at)]), "base", "p")
@@ -140,8 +114,8 @@ def test_a_loop_between_two_ball_joints_spins_as_a_whole():
 def test_an_input_that_moves_with_the_platform_at_rest_is_not_internal():
     """A planar limb with one joint too many, with and without an input of its own."""
     rng = np.random.default_rng(2)
-    plain = [edge for name in "AB" for edge in chain(name, "base", "p", parallel_turns(rng, 3), (0,))]
-    spare = parallel_turns(rng, 4)
+    plain = [edge for name in "AB" for edge in chain(name, "base", "p", turns(rng, Z, 3), (0,))]
+    spare = turns(rng, Z, 4)
     driven = mobility(plain + chain("C", "base", "p", spare, (0, 1)), "base", "p")
     assert (driven.dof, driven.platform, driven.internal_freedoms, driven.redundant_inputs) == (4, 3, 0, 1)
     loose = mobility(plain + chain("C", "base", "p", spare), "base", "p")
@@ -151,7 +125,7 @@ def test_an_input_that_moves_with_the_platform_at_rest_is_not_internal():
 
 def test_every_part_of_a_mechanism_without_inputs_that_rests_the_platform_is_internal():
     rng = np.random.default_rng(2)
-    bars = chain("A", "base", "p", parallel_turns(rng, 5)) + chain("B", "base", "p", parallel_turns(rng, 3))
+    bars = chain("A", "base", "p", turns(rng, Z, 5)) + chain("B", "base", "p", turns(rng, Z, 3))
     found = mobility(bars, "base", "p")
     assert (found.dof, found.platform, found.internal_freedoms) == (5, 3, 2)
     assert found.internal == (InternalFreedom(("AJ1", "AJ2", "AJ3", "AJ4", "AJ5"), 2),)
@@ -177,7 +151,7 @@ def test_a_joint_that_planar_motion_leaves_at_rest():
     """A four-bar whose loop holds a joint about an axis in its plane, and a C where an R would do."""
     rng = np.random.default_rng(3)
     point = rng.normal(size=3)
-    joints = [*parallel_turns(rng, 3), [turn(X, point)], [slide(Z), turn(Z, rng.normal(size=3))]]
+    joints = [*turns(rng, Z, 3), [turn(X, point)], [slide(Z), turn(Z, rng.normal(size=3))]]
     links = chain("A", "base", "base", joints, (0,))
     found = mobility(links, "base", links[1].child)
     assert (found.dof, found.rank) == (1, 5)
@@ -190,12 +164,12 @@ def test_a_joint_that_planar_motion_leaves_at_rest():
 
 def test_links_that_hang_apart_are_refused():
     rng = np.random.default_rng(0)
-    edges = chain("A", "base", "p", parallel_turns(rng, 2)) + chain("B", "floor", "lamp", parallel_turns(rng, 1))
+    edges = chain("A", "base", "p", turns(rng, Z, 2)) + chain("B", "floor", "lamp", turns(rng, Z, 1))
     with pytest.raises(UsageError, match="no joints connect the links floor, lamp with the base 'base'"):
         mobility(edges, "base", "p")
 
 
 def test_unknown_links_are_refused():
-    edges = chain("A", "base", "p", parallel_turns(np.random.default_rng(0), 2))
+    edges = chain("A", "base", "p", turns(np.random.default_rng(0), Z, 2))
     with pytest.raises(UnknownNameError, match="unknown link 'platform'"):
         mobility(edges, "base", "platform")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from functools import partial
 
 import numpy as np
 import pytest
@@ -13,26 +14,11 @@ from assur.topology.counting.coupling import coupling
 from assur.topology.counting.mobility import mobility
 from assur.topology.counting.relaxation import Replacement, relaxation
 from assur.topology.joints import CYLINDRICAL, REVOLUTE, SPHERICAL, UNIVERSAL
-from assur.topology.linkages.edges import Edge
 from assur.topology.linkages.twists import generic_edges
+from twist_chains import X, Y, Z, slide, turn
+from twist_chains import chain as named_chain
 
-X, Y, Z = np.eye(3)
-
-
-def turn(axis, point):
-    return np.array([*axis, *np.cross(point, axis)])
-
-
-def slide(axis):
-    return np.array([0.0, 0.0, 0.0, *axis])
-
-
-def chain(name, start, end, joints, actuated=()):
-    links = [start, *(f"{name}{i}" for i in range(1, len(joints))), end]
-    return [
-        Edge(f"{name}{i + 1}", *links[i : i + 2], np.stack(item, axis=-1)[None], (), (0,) if i in actuated else ())
-        for i, item in enumerate(joints)
-    ]
+chain = partial(named_chain, letter="")
 
 
 def four_bar():

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from assur.topology.linkages.edges import (
-    Edge,
     along,
     at_generic,
     closure,
@@ -17,33 +16,7 @@ from assur.topology.linkages.edges import (
     null_basis,
     rank,
 )
-
-X, Y, Z = np.eye(3)
-
-
-def turn(axis, point):
-    return np.array([*axis, *np.cross(point, axis)])
-
-
-def slide(axis):
-    return np.array([0.0, 0.0, 0.0, *axis])
-
-
-def ball(point):
-    return [turn(axis, point) for axis in (X, Y, Z)]
-
-
-def chain(name, start, end, joints, actuated=()):
-    """Edges in series; `joints` are lists of twists."""
-    links = [start, *(f"{name}{i}" for i in range(1, len(joints))), end]
-    return [
-        Edge(f"{name}J{i + 1}", *links[i : i + 2], np.stack(item, axis=-1)[None], (), (0,) if i in actuated else ())
-        for i, item in enumerate(joints)
-    ]
-
-
-def parallel_turns(rng, count, axis=Z):
-    return [[turn(axis, rng.normal(size=3))] for _ in range(count)]
+from twist_chains import X, Y, Z, ball, chain, slide, turn, turns
 
 
 def turned(edge):
@@ -54,7 +27,7 @@ def turned(edge):
 @pytest.mark.parametrize("seed", range(5))
 def test_what_the_closure_leaves_moves_the_platform_the_same_along_every_limb(seed):
     rng = np.random.default_rng(seed)
-    limbs = [chain(name, "base", "p", [*parallel_turns(rng, 3), [slide(rng.normal(size=3))]]) for name in "ABC"]
+    limbs = [chain(name, "base", "p", [*turns(rng, Z, 3), [slide(rng.normal(size=3))]]) for name in "ABC"]
     edges = [edge for limb in limbs for edge in limb]
     free = null_basis(closure(edges))[0]
     assert free.shape[1] == 12 - 8
@@ -69,8 +42,8 @@ def test_what_the_closure_leaves_moves_the_platform_the_same_along_every_limb(se
 @pytest.mark.parametrize("seed", range(5))
 def test_order_and_sense_of_the_edges_do_not_matter(seed):
     rng = np.random.default_rng(seed)
-    edges = [edge for name in "ABC" for edge in chain(name, "base", "p", parallel_turns(rng, 3))]
-    edges += chain("D", "p", "q", parallel_turns(rng, 2, X)) + chain("E", "q", "base", parallel_turns(rng, 2, X))
+    edges = [edge for name in "ABC" for edge in chain(name, "base", "p", turns(rng, Z, 3))]
+    edges += chain("D", "p", "q", turns(rng, X, 2)) + chain("E", "q", "base", turns(rng, X, 2))
     free = null_basis(closure(edges))[0]
     order = rng.permutation(len(edges))
     shuffled = [turned(edges[i]) if rng.integers(2) else edges[i] for i in order]
@@ -86,7 +59,7 @@ def test_an_edge_that_closes_on_one_link_is_a_loop():
 
 def test_configurations_of_lower_rank_are_left_out_and_the_rest_sorted():
     rng = np.random.default_rng(0)
-    good = chain("A", "base", "base", parallel_turns(rng, 4))
+    good = chain("A", "base", "base", turns(rng, Z, 4))
     twists = [edge.twists[0] for edge in good]
     near = twists[0] + 1e-4 * rng.normal(size=(6, 1)) * [[0], [0], [0], [1], [1], [0]]
     edges = [
@@ -105,7 +78,7 @@ def test_configurations_of_lower_rank_are_left_out_and_the_rest_sorted():
 
 def test_best_conditioned_configuration_comes_first():
     rng = np.random.default_rng(0)
-    good = chain("A", "base", "base", parallel_turns(rng, 4))
+    good = chain("A", "base", "base", turns(rng, Z, 4))
     squeezed = np.diag([1, 1, 1, 1e-4, 1, 1])
     edges = [dataclasses.replace(e, twists=np.concatenate([squeezed @ e.twists, e.twists])) for e in good]
     kept = at_generic(edges)
@@ -115,7 +88,7 @@ def test_best_conditioned_configuration_comes_first():
 
 
 def test_edges_without_loops_keep_every_configuration():
-    edges = chain("A", "base", "p", parallel_turns(np.random.default_rng(0), 2))
+    edges = chain("A", "base", "p", turns(np.random.default_rng(0), Z, 2))
     assert at_generic(edges) == tuple(edges)
 
 

@@ -15,15 +15,15 @@ from assur.workspace.certified.boxes import Boxes, together
 LOW, HIGH = np.array([-1.1, 0.3, 2.7]), np.array([0.7, 5.1, 3.3])
 
 
-def halved(size, count, rng):
+def halved(size, count, rng, low=LOW, high=HIGH, kept=0.8):
     """About `count` boxes of any shape from one, some of which are taken out."""
-    boxes = Boxes(LOW[:size, None].copy(), HIGH[:size, None].copy())
+    boxes = Boxes(low[:size, None].copy(), high[:size, None].copy())
     while len(boxes) < count:
         chosen = rng.random(len(boxes)) < 0.5
         if chosen.any():
             axes = rng.integers(0, size, int(chosen.sum()))
             boxes = together([boxes[~chosen], boxes[chosen].halved(axes)])
-    return boxes[rng.random(len(boxes)) < 0.8]
+    return boxes[rng.random(len(boxes)) < kept]
 
 
 def overlap(boxes, i, j):
@@ -54,6 +54,34 @@ def test_faces_and_contacts_are_those_of_every_pair(size, seed):
     assert len(pairs) == len(faces_by_pairs(boxes))
     assert set(map(tuple, contacts(boxes).tolist())) == touching_by_pairs(boxes)
     assert len(contacts(boxes)) == len(touching_by_pairs(boxes))
+
+
+@pytest.mark.parametrize(
+    ("size", "closed"), [(1, (0,)), (2, (1,)), (2, (0, 1)), (3, (2,)), (3, (0, 2)), (3, (0, 1, 2))]
+)
+@pytest.mark.parametrize("seed", range(3))
+def test_where_coordinates_turn_boxes_meet_beyond_the_ends(size, closed, seed):
+    """Against every pair of boxes after every turn; the box is one on which no shift is rounded."""
+    boxes = halved(size, 60, np.random.default_rng(seed), np.zeros(3), np.array([1.0, 2.0, 4.0]), 1.0)
+    spans = [(0.0, [1.0, 2.0, 4.0][axis]) if axis in closed else None for axis in range(size)]
+    faces, touching = set(), set()
+    for shift in itertools.product(*([-1, 0, 1] if axis in closed else [0] for axis in range(size))):
+        offset = np.array([by * (span[1] if span else 0.0) for by, span in zip(shift, spans, strict=True)])[:, None]
+        there = together([boxes, Boxes(boxes.low + offset, boxes.high + offset)])
+        count = len(boxes)
+        for i, j in itertools.product(range(count), range(count, 2 * count)):
+            common = overlap(there, i, j)
+            if i == j - count or np.any(common < 0):
+                continue
+            touching.add((min(i, j - count), max(i, j - count)))
+            flat = np.flatnonzero(common == 0)
+            if len(flat) == 1:
+                first, second = (i, j - count) if there.high[flat[0], i] == there.low[flat[0], j] else (j - count, i)
+                faces.add((first, second, int(flat[0])))
+    pairs, axes = shared_faces(boxes, spans)
+    assert {(*pair, axis) for pair, axis in zip(pairs.tolist(), axes.tolist(), strict=True)} == faces
+    assert set(map(tuple, contacts(boxes, spans).tolist())) == touching
+    assert touching > touching_by_pairs(boxes)
 
 
 @pytest.mark.parametrize("size", [2, 3])

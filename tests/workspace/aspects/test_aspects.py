@@ -11,10 +11,12 @@ from scipy import ndimage
 from assur.errors import UsageError
 from assur.kinematics.position import inverse
 from assur.model.registry import load_record
-from assur.workspace.aspects import components as components_module
+from assur.workspace.aspects import neighbours as neighbours_module
 from assur.workspace.aspects import search as search_module
 from assur.workspace.aspects.adjacency import contacts
 from assur.workspace.aspects.aspects import aspects, aspects_of_all_modes
+from assur.workspace.aspects.components import components
+from assur.workspace.aspects.neighbours import neighbours
 from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.region import certified_workspace
 from assur.workspace.slices import slice_at
@@ -152,9 +154,9 @@ def test_a_coarse_size_finds_none_and_claims_nothing():
 def test_corners_counted_for_faces_are_noticed(monkeypatch):
     """Mutation: with contacts in place of faces squares that meet at a corner make one part."""
     squares = Boxes(np.array([[0.0, 1.0], [0.0, 1.0]]), np.array([[1.0, 2.0], [1.0, 2.0]]))
-    assert components_module.components(squares).tolist() == [0, 1]
-    monkeypatch.setattr(components_module, "shared_faces", lambda boxes: (contacts(boxes), None))
-    assert components_module.components(squares).tolist() == [0, 0]
+    assert components(neighbours(squares, squares[:0])).tolist() == [0, 1]
+    monkeypatch.setattr(neighbours_module, "shared_faces", lambda boxes, ends: (contacts(boxes, ends), None))
+    assert components(neighbours(squares, squares[:0])).tolist() == [0, 0]
 
 
 def test_signs_unlooked_at_would_be_noticed(monkeypatch):

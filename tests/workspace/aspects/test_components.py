@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from assur.workspace.aspects.components import components, links
+from assur.workspace.aspects import components as module
+from assur.workspace.aspects.neighbours import neighbours
 from assur.workspace.certified.boxes import Boxes
 
 
@@ -16,6 +17,14 @@ def row(*cells):
 
 def signs(*values):
     return np.array(values, dtype=np.int8).reshape(len(values), -1)
+
+
+def components(boxes):
+    return module.components(neighbours(boxes, boxes[:0]))
+
+
+def links(certain, signs, undecided, possible):
+    return module.links(neighbours(certain, undecided), signs, possible)
 
 
 def test_components_are_numbered_by_their_first_box():

@@ -70,3 +70,19 @@ def test_progress_ends_at_the_whole():
     search(frame_of("fivebar", "-+", FIVEBAR), {"x": 10.0, "y": 10.0}, lambda *step: steps.append(step))
     assert steps[-1][0] == steps[-1][1]
     assert all(a <= b for (a, _), (b, _) in itertools.pairwise(steps))
+
+
+def test_what_is_cut_is_judged_once_before_and_once_after_each_cut(monkeypatch):
+    frame = frame_of("planar_3rpr", box=PART)
+    monkeypatch.setattr(module, "ROUNDS", 1)
+    before, calls, own = search(frame, COARSE), [], module.judged
+
+    def counted(frame, boxes, shares):
+        calls.append(len(boxes))
+        return own(frame, boxes, shares)
+
+    monkeypatch.setattr(module, "judged", counted)
+    chosen = np.arange(len(before.undecided)) < 50
+    module._cut(before, chosen)
+    assert calls[:2] == [50, 100]
+    assert len(calls) == 4

@@ -9,7 +9,7 @@ from assur.kinematics.position import inverse
 from assur.model.registry import load_record
 from assur.workspace.aspects.signs import factor_signs
 from assur.workspace.certified.boxes import Boxes
-from assur.workspace.certified.criteria import criteria
+from assur.workspace.certified.criteria import Criteria, criteria
 from assur.workspace.certified.planes import Frame
 from assur.workspace.domain import box_of
 
@@ -42,3 +42,18 @@ def test_a_box_across_a_singularity_has_no_sign():
     above = Boxes(np.array([[-90.0], [250.0]]), np.array([[-80.0], [260.0]]))
     w = frame.criteria.names.index("w")
     assert (factor_signs(frame, across)[0, w], factor_signs(frame, above)[0, w]) == (0, 1)
+
+
+def test_slopes_are_asked_only_where_bounds_do_not_tell(monkeypatch):
+    record = load_record("zeng2019")
+    frame = Frame(criteria(record, factors=("parallel",)), box_of(record, None), (True, False, True))
+    boxes = Boxes(np.array([[-90.0, -90.0], [200.0, 250.0]]), np.array([[-80.0, -80.0], [220.0, 260.0]]))
+    asked, own = [], Criteria.sloped
+
+    def counted(criteria, box, middles):
+        asked.append(len(box[0].low))
+        return own(criteria, box, middles)
+
+    monkeypatch.setattr(Criteria, "sloped", counted)
+    signs = factor_signs(frame, boxes)
+    assert asked == [int(np.sum(np.any(signs == 0, axis=1)))] == [1]

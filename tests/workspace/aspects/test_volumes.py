@@ -6,6 +6,7 @@ import numpy as np
 
 from assur.kinematics.position import inverse
 from assur.model.registry import load_record
+from assur.workspace.aspects import volumes as module
 from assur.workspace.aspects.search import search
 from assur.workspace.aspects.volumes import volumes
 from assur.workspace.certified.criteria import criteria
@@ -42,3 +43,19 @@ def test_parts_that_may_be_one_share_the_upper_bound(monkeypatch):
     for k in range(len(bounds)):
         for other in np.flatnonzero(found.links.group == found.links.group[k]):
             assert bounds[k][1] >= bounds[k][0] + (bounds[other][0] if other != k else 0.0)
+
+
+def test_what_is_undecided_is_looked_at_once_for_all_aspects(monkeypatch):
+    record = load_record("zeng2019")
+    asked = criteria(record, factors=("parallel", "serial")).nonsingular
+    found = search(Frame(asked, box_of(record, None, asked.slice.free), asked.used), {"x": 4.0, "y": 1e9, "z": 4.0})
+    looked, own = [], module.judged
+
+    def counted(frame, boxes):
+        looked.append(len(boxes))
+        return own(frame, boxes)
+
+    monkeypatch.setattr(module, "judged", counted)
+    volumes(found)
+    by_group = sum(len(rows) for rows in found.links.reached)
+    assert sum(looked) == len(np.unique(np.concatenate(found.links.reached))) < by_group

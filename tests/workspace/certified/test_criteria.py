@@ -10,10 +10,15 @@ import pytest
 
 import assur
 from assur.errors import UnknownNameError, UsageError
+from assur.model.pose import is_angle
+from assur.numerics.intervals.functions import from_degrees
 from assur.numerics.intervals.interval import Interval, common
+from assur.numerics.recording import interval_program
 from assur.workspace.bounds import bounds
 from assur.workspace.certified import criteria as module
+from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.criteria import criteria
+from assur.workspace.certified.planes import Frame
 from assur.workspace.domain import box_of
 from assur.workspace.fields import factor_fields, margin_fields
 
@@ -84,6 +89,16 @@ def test_a_held_angle_is_enclosed_not_rounded():
         assert not np.any(common(held[name], free[name])[1])
 
 
+def test_a_held_angle_in_degrees_is_any_that_its_float_was_converted_from():
+    record, angle = assur.load("planar_3rrr"), float(np.radians(175.0))
+    point, free = [Interval.of(0.0), Interval.of(0.0)], criteria(record)
+    held = criteria(record, held={"phi": angle}).over(point)
+    wide, narrow = (free.over([*point, angles]) for angles in (from_degrees(angle), Interval.of(angle)))
+    for name, found in held.items():
+        assert found.low <= wide[name].low <= wide[name].high <= found.high
+    assert any(narrow[name].width < 0.9 * wide[name].width for name in held)
+
+
 def test_what_is_asked_for():
     asked = criteria(ZENG, factors=("parallel", "serial", "constraint"))
     assert asked.factors["parallel"] == ("u1_minus_u2", "w", "v", "sin_alpha_minus_beta")
@@ -116,3 +131,49 @@ def test_misuse():
         criteria(ZENG, held={"q": 1.0})
     with pytest.raises(UsageError):
         criteria(replace(ZENG, closed_form=None))
+
+
+KINDS = ("parallel", "serial", "constraint")
+
+
+def boxes_of(box, used, rng):
+    """Boxes (k, N) inside a box: large, small, flat, of points alone, and some that go on without an end."""
+    low, high = np.array(box.low)[used], np.array(box.high)[used]
+    count = 64
+    start = low[:, None] + rng.random((len(low), 5 * count)) * (high - low)[:, None]
+    share = np.repeat([0.3, 1e-3, 1e-12, 0.0, 0.0], count)
+    end = start + share * (high - low)[:, None] * rng.random(start.shape)
+    end[0, 3 * count :] += 1e-2  # flat but for one coordinate
+    end[:, 4 * count :] = start[:, 4 * count :]
+    return Boxes(start, end)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_machine_code_has_the_bits_of_numpy_for_every_mechanism(name, monkeypatch):
+    """Values and slopes, so that no proof depends on which of both was used."""
+    record, rng = assur.load(name), np.random.default_rng(7)
+    asked = criteria(record, factors=KINDS).nonsingular
+    frame = Frame(asked, box_of(record, None, asked.slice.free), asked.used)
+    boxes = boxes_of(frame.box, np.array(asked.used), rng)
+    given = frame.whole(boxes.intervals)
+    finite = rng.random(len(boxes)) > 0.1
+    endless = [
+        item if is_angle(axis) or not has else replace(item, low=np.where(finite, item.low, -np.inf))
+        for axis, has, item in zip(asked.slice.free, asked.used, given, strict=True)
+    ]
+    answers = []
+    for done in (interval_program._Done(work=interval_program.REPAID), interval_program._Done(there=False)):
+        monkeypatch.setattr(interval_program, "_DONE", done)
+        answers.append((asked.over(given), asked.over(endless), asked.sloped(given, frame.middles(boxes.middles))))
+    for one, two in zip(*answers, strict=True):
+        assert list(one) == list(two)
+        for key, number in one.items():
+            for first, second in zip(parts_of(number), parts_of(two[key]), strict=True):
+                for part in ("low", "high", "defined"):
+                    np.testing.assert_array_equal(*np.broadcast_arrays(getattr(first, part), getattr(second, part)))
+
+
+def parts_of(number):
+    if isinstance(number, Interval):
+        return [number]
+    return [number.centre, number.whole, *(slope for slope in number.slopes if slope is not None)]

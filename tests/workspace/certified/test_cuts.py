@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 from assur.numerics.intervals.interval import Interval
+from assur.numerics.intervals.sloped import SlopedNumbers, coordinate
+from assur.workspace.certified import cuts
 from assur.workspace.certified.cuts import share, shares
-from assur.workspace.certified.sloped import SlopedNumbers, coordinate
 
 RNG = np.random.default_rng(5)
 
@@ -78,3 +79,11 @@ def test_no_bound_where_a_slope_has_none():
     assert (low[0], high[0]) == (0.0, 1.0)
     low, high = shares(1 - x * 0, np.ones((1, 1)))
     assert 1 - 1e-14 < low[0] <= high[0] == 1.0
+
+
+def test_corners_are_gone_through_once_for_each_bound(monkeypatch):
+    calls, own = [], cuts._share
+    monkeypatch.setattr(cuts, "_share", lambda *given: calls.append(1) or own(*given))
+    x = coordinate(Interval.of([0.0], [1.0]), np.array([0.5]), 0, 1)
+    shares(x * x - 0.3, np.array([[0.5]]))
+    assert len(calls) == 2

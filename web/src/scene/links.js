@@ -17,37 +17,38 @@ export function linkGeometries(scene, model) {
 /** Plain and lit; its own colour dims all parts, as a dark page wants it. */
 const steel = () => new MeshStandardMaterial({ vertexColors: true, roughness: 0.45, metalness: 0 });
 
-/** What lies in the same place as the mechanism itself is behind it. */
-const BEHIND = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 };
-
-/** Translucent in one colour; only the side next to the reader is seen, because its depth is drawn first. */
-function ghostMaterials(colour) {
-  const depth = new MeshBasicMaterial({ colorWrite: false, ...BEHIND });
+/**
+ * Translucent in one colour; only the side next to the reader is seen, because its depth is drawn first. What lies in
+ * one place is drawn one behind the other: the mechanism itself, then its ghosts in their order.
+ */
+function ghostMaterials(colour, order) {
+  const behind = { polygonOffset: true, polygonOffsetFactor: order, polygonOffsetUnits: 4 * order };
+  const depth = new MeshBasicMaterial({ colorWrite: false, ...behind });
   const tint = new MeshLambertMaterial({
     color: colour,
     transparent: true,
     opacity: 0.3,
     depthWrite: false,
-    ...BEHIND,
+    ...behind,
   });
   return { depth, tint };
 }
 
 /**
- * A body of meshes, one for each link.
+ * A body of meshes, one for each link; a ghost in one colour, so many places behind.
  * @returns {{group: Group, place: (values: number[]) => void, tint: object}} tint: its material
  */
-export function body(model, geometries, { ghost = null } = {}) {
+export function body(model, geometries, { ghost = null, behind = 1 } = {}) {
   const group = new Group();
   const meshes = new Map();
-  const materials = ghost ? ghostMaterials(ghost) : null;
+  const materials = ghost ? ghostMaterials(ghost, behind) : null;
   const plain = ghost ? null : steel();
   for (const [link, geometry] of geometries) {
     if (ghost && link === model.base) continue;
     const mesh = new Mesh(geometry, ghost ? materials.tint : plain);
     mesh.matrixAutoUpdate = false;
     mesh.castShadow = mesh.receiveShadow = !ghost;
-    mesh.userData.link = model.links[link];
+    Object.assign(mesh.userData, { link: model.links[link], still: link === model.base });
     if (ghost) {
       mesh.renderOrder = 2;
       const first = new Mesh(geometry, materials.depth);

@@ -18,6 +18,10 @@ import {
   WebGLRenderer,
 } from "three";
 import { Camera } from "./camera.js";
+import { outline } from "./outline.js";
+
+/** Azimuth and elevation of the usual view, in degrees. */
+export const SPACE = [-52, 24];
 
 const LOOKS = {
   light: { top: "#ffffff", bottom: "#dfe6ee", grid: "rgba(60,80,100,.30)", shadow: 0.24, sky: 2.0, sun: 2.0 },
@@ -40,6 +44,8 @@ export class Stage {
     this.root = new Group(); // the mechanism in its own unit, scaled so that it is about 1 large
     this.scene.add(this.root);
     this.before = []; // called before each picture
+    this.objects = []; // the mechanism, its ghosts and layers: what a view can be fitted to
+    this.kept = new Set(); // what is to stay in the picture: the mechanism, and what somebody switched on
     this.view = new Camera(this.canvas, () => this.invalidate(), calm);
     this.light();
     this.setDark(dark);
@@ -61,21 +67,25 @@ export class Stage {
     this.scene.add(this.sky, this.sun, this.sun.target, this.fill, this.rim);
   }
 
+  /** Puts an object into the mechanism's own space. */
+  add(object) {
+    this.root.add(object);
+    this.objects.push(object);
+  }
+
   /** Scales what is drawn, lays the floor under it, and has camera and sun see all of it. @param {number} extent */
   frame(group, extent) {
     this.scale = 1 / extent;
     this.root.scale.setScalar(this.scale);
-    this.root.updateMatrixWorld(true);
-    const seen = new Box3();
-    const points = [];
-    group.traverse((mesh) => {
-      if (!mesh.isMesh) return;
-      mesh.geometry.computeBoundingBox();
-      const corners = cornersOf(mesh.geometry.boundingBox).map((corner) => corner.applyMatrix4(mesh.matrixWorld));
-      points.push(...corners);
-      seen.expandByObject(mesh, true);
-    });
-    this.view.about(points.map((point) => seen.clampPoint(point, point)));
+    this.kept.add(group);
+    const points = outline(group);
+    const { centre, radius } = this.shine(points);
+    this.floor(centre, radius, Math.min(...points.map((point) => point.z)) - 0.012);
+  }
+
+  /** Turns the sun to points, so that all of them have shadows. @returns {{centre: Vector3, radius: number}} */
+  shine(points) {
+    const seen = new Box3().setFromPoints(points);
     const centre = seen.getCenter(new Vector3());
     const radius = seen.getSize(new Vector3()).length() / 2;
     this.sun.position.copy(centre).add(new Vector3(-0.55, -0.75, 1.5).multiplyScalar(2.2 * radius));
@@ -90,7 +100,41 @@ export class Stage {
       far: 9 * radius,
     });
     this.sun.shadow.camera.updateProjectionMatrix();
-    this.floor(centre, radius, seen.min.z - 0.012);
+    this.renderer.shadowMap.needsUpdate = true;
+    return { centre, radius };
+  }
+
+  /** Looks at everything that is shown, from an azimuth and an elevation in degrees. */
+  look([azimuth, elevation] = SPACE) {
+    this.view.look(this.outlines(this.objects), azimuth, elevation);
+  }
+
+  /** The same from the side from which it is seen now. */
+  fit() {
+    this.look(this.view.numbers());
+  }
+
+  outlines(objects, moving = false) {
+    return [...objects].filter((object) => object.visible).flatMap((object) => outline(object, moving));
+  }
+
+  /** Objects that somebody switched on, or off: they stay in the picture from now on, or need no longer. */
+  keep(objects, on) {
+    for (const object of objects) on ? this.kept.add(object) : this.kept.delete(object);
+    this.stirred();
+  }
+
+  /** Goes after what has left the picture; a reader's own view is left alone as long as it shows anything that moves. */
+  follow() {
+    this.view.advance();
+    if (!this.left || this.view.held) return;
+    this.left = false;
+    const points = this.outlines(this.kept);
+    const whole = this.view.seen(points) === points.length;
+    if (this.view.given) Object.assign(this.view, { given: false, hand: !whole });
+    if (this.view.hand ? this.view.seen(this.outlines(this.kept, true)) > 0 : whole) return;
+    this.shine(points);
+    this.view.glide(points);
   }
 
   floor(centre, radius, level) {
@@ -107,17 +151,17 @@ export class Stage {
   }
 
   setDark(dark) {
-    this.look = dark ? LOOKS.dark : LOOKS.light;
-    this.scene.background = gradient(this.look);
-    this.sky.intensity = this.look.sky;
-    this.sun.intensity = this.look.sun;
+    this.colours = dark ? LOOKS.dark : LOOKS.light;
+    this.scene.background = gradient(this.colours);
+    this.sky.intensity = this.colours.sky;
+    this.sun.intensity = this.colours.sun;
     if (this.lines) this.paintFloor();
     this.invalidate();
   }
 
   paintFloor() {
-    this.shade.material.opacity = this.look.shadow;
-    this.lines.material.map = grid(this.look.grid, this.slow ? 2 : 8);
+    this.shade.material.opacity = this.colours.shadow;
+    this.lines.material.map = grid(this.colours.grid, this.slow ? 2 : 8);
     this.lines.material.needsUpdate = true;
   }
 
@@ -127,12 +171,18 @@ export class Stage {
     this.renderer.setPixelRatio(Math.min(this.slow ? 1 : 2, window.devicePixelRatio || 1));
     this.renderer.setSize(width, height, false);
     this.view.resize(width, height);
-    this.invalidate();
+    this.stirred();
   }
 
   /** Asks for a picture in which something has moved. */
   moved() {
     this.renderer.shadowMap.needsUpdate = true;
+    this.stirred();
+  }
+
+  /** Asks for a picture before which it is looked whether anything has left it. */
+  stirred() {
+    this.left = true;
     this.invalidate();
   }
 
@@ -158,8 +208,6 @@ export class Stage {
   }
 }
 
-const cornersOf = ({ min, max }) =>
-  [0, 1, 2, 3, 4, 5, 6, 7].map((k) => new Vector3(k & 1 ? max.x : min.x, k & 2 ? max.y : min.y, k & 4 ? max.z : min.z));
 
 /** Whether there is no graphics card, and pictures must be cheap. */
 function drawnByProcessor(context) {

@@ -83,6 +83,6 @@ export function closureRows(model, placed, twists) {
 export function scaledPoseRates(model, placed, twists) {
   const names = rateNames(model.pose);
   return poseRates(model, placed, twists).map((row, k) =>
-    Float64Array.from(row, (value, column) => (value * model.scale[column]) / (isLength(names[k]) ? model.length : 1)),
+    row.map((value, column) => (value * model.scale[column]) / (isLength(names[k]) ? model.length : 1)),
   );
 }

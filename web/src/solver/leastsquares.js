@@ -79,10 +79,26 @@ export function nullSpace(matrix, n, tolerance = 1e-9) {
     [work[rank], work[rank + pivot]] = [work[rank + pivot], work[rank]];
     reflect(work, rank, n);
   }
-  return Array.from({ length: n - rank }, (_, k) => Float64Array.from({ length: n }, (_, i) => work[m + i][rank + k]));
+  return transposed(work.slice(m), n).slice(rank);
 }
 
-const unit = (n, i) => Float64Array.from({ length: n }, (_, k) => (k === i ? 1 : 0));
+/** The i-th unit vector of n numbers. */
+function unit(n, i) {
+  const found = new Float64Array(n);
+  found[i] = 1;
+  return found;
+}
+
+/** The n columns of a matrix. @param {ArrayLike<number>[]} matrix @returns {Float64Array[]} */
+function transposed(matrix, n) {
+  const columns = [];
+  for (let j = 0; j < n; j++) {
+    const column = new Float64Array(matrix.length);
+    for (let i = 0; i < matrix.length; i++) column[i] = matrix[i][j];
+    columns.push(column);
+  }
+  return columns;
+}
 
 /** Length of a row from its k-th number on. */
 function tail(row, k) {
@@ -98,8 +114,8 @@ function tail(row, k) {
  */
 export function singular(matrix) {
   const n = matrix[0].length;
-  const columns = Array.from({ length: n }, (_, j) => Float64Array.from(matrix, (row) => row[j]));
-  const right = Array.from({ length: n }, (_, j) => Float64Array.from({ length: n }, (_, i) => (i === j ? 1 : 0)));
+  const columns = transposed(matrix, n);
+  const right = Array.from({ length: n }, (_, j) => unit(n, j));
   for (let sweep = 0; sweep < 40; sweep++) {
     let moved = false;
     for (let p = 0; p < n - 1; p++) for (let q = p + 1; q < n; q++) moved = rotated(columns, right, p, q) || moved;

@@ -10,21 +10,31 @@ import { gaps, largestGap } from "./closure.js";
 import { frames } from "./frames.js";
 import { closestApproach, nearAssembly } from "./newton.js";
 import { between, poseOf } from "./pose.js";
-import { measuresAt, passage } from "./rates.js";
+import { looseInput, looseJoint, measuresAt, passage } from "./rates.js";
 import { apply, cross, dot, fromVector, norm } from "./rotation.js";
 
-const LEAST_STEP = 1 / 8192;
+const LEAST_STEP = 1 / 8192; // of the way that is done
+const FIRST_STEP = 2 ** -24; // of the way: a start near a singularity is left in steps as small as its distance
 const NEAR = 0.08; // a step as small as the least one ends that near to a singularity
 const ALMOST = 1e-9;
 const FURTHEST = 0.3; // that a joint value goes in one step, in rad or of the model's length
 const AIM = 0.9; // share of that which the next step is meant to go
 const FLOOR = 1e-8; // a measure below this may be on either side of 0
+const NEAREST = 1e-4; // no step goes nearer to a singularity than that, where rounding would hide the way back
 
 /**
  * @typedef {{kind: "stroke"|"gap"|"singular"|"limit", text: string, joint: string, amount: number}} Reason
  * @typedef {{values: number[], status: "moved"|"stopped", reason: Reason|null, share: number,
- *   crossed: boolean}} Moved share: of the way; crossed: a parallel singularity may have been passed, as was asked for
+ *   crossed: boolean, turned: boolean}} Moved share: of the way; crossed: a parallel singularity may have been passed, as
+ * was asked for; turned: a serial one may have been, so that another working mode begins
  */
+
+/** The joint that a reason speaks of: of that name, or that an input drives; null where it names none. */
+export function blamed(model, reason) {
+  const index = model.inputs.find(({ name }) => name === reason?.joint)?.index;
+  const drives = ({ first, freedoms }) => index >= first && index < first + freedoms;
+  return model.joints.find((item) => item.name === reason?.joint) ?? model.joints.find(drives) ?? null;
+}
 
 /** Printed values of the inputs, lengths and rad. @returns {number[]} */
 export const inputsOf = (model, values) => model.inputs.map((item) => item.sign * values[item.index] + item.offset);
@@ -63,8 +73,10 @@ export function toPose(model, values, target, options = {}) {
 
 function followed(model, start, attempt, ask, { side, limits = true, through = false }) {
   const guard = limits ? limitsOf(model, start) : [];
-  const forbidden = regularKinds(model).filter((kind) => (kind === "parallel" ? !through : side === "pose"));
-  let [values, share, step, reason, crossed] = [start, 0, 1, null, false];
+  const borders = { parallel: !through, serial: side === "pose", passive: true };
+  const forbidden = regularKinds(model).filter((kind) => borders[kind]);
+  const serial = side === "inputs" && regularKinds(model).includes("serial");
+  let [values, share, step, reason, crossed, turned] = [start, 0, 1, null, false, false];
   let here = measuresAt(model, values);
   while (share < 1) {
     const next = Math.min(1, share + step);
@@ -76,22 +88,25 @@ function followed(model, start, attempt, ask, { side, limits = true, through = f
     const lost = there && forbidden.find((kind) => passed(here, there, kind));
     if (!there || lost) {
       reason = limit ? limit.reason : { passed: lost || null };
-      if (next - share <= LEAST_STEP) break;
-      step = (next - share) / 2;
+      const refused = next - share;
+      if (refused <= LEAST_STEP * Math.max(share, FIRST_STEP)) break;
+      step = refused / (share > 0 ? 2 : 4);
     } else {
       crossed ||= through && passed(here, there, "parallel");
+      turned ||= serial && passed(here, there, "serial");
       [values, share, here] = [found, next, there];
       [step, reason] = [step * Math.min(2, (AIM * FURTHEST) / long), null];
     }
   }
   values = wrapped(model, values);
-  if (share >= 1) return { values, status: "moved", reason: null, share: 1, crossed };
+  if (share >= 1) return { values, status: "moved", reason: null, share: 1, crossed, turned };
   return {
     values,
     status: "stopped",
     reason: reason.kind ? reason : why(model, values, here, reason.passed, ask, side),
     share,
     crossed,
+    turned,
   };
 }
 
@@ -105,38 +120,39 @@ function regularKinds(model) {
     const home = measuresAt(model, model.home);
     regular.set(
       model,
-      ["parallel", "serial"].filter((kind) => home[kind] > FLOOR),
+      ["parallel", "serial", "passive"].filter((kind) => home[kind] > FLOOR),
     );
   }
   return regular.get(model);
 }
 const regular = new WeakMap();
 
-/** Whether a singularity may lie between two assemblies, or at the second one. */
-const passed = (here, there, kind) => there[kind] < FLOOR || !passage(here, there, kind).kept;
+/** Whether a singularity may lie between two assemblies, or at the second one, or too near to it. */
+const passed = (here, there, kind) =>
+  there[kind] < FLOOR ||
+  (there[kind] < NEAREST && there[kind] <= here[kind]) ||
+  (kind !== "passive" && !passage(here, there, kind).kept);
 
 /** Why no small step succeeds. @returns {Reason} */
 function why(model, values, measured, crossed, ask, side) {
   const parallel = crossed === "parallel" || (side === "inputs" && measured.parallel < NEAR);
-  if (parallel && side === "pose") return singular("parallel", "", 0, model);
+  const held = "parallel singularity: the inputs no longer hold the platform";
+  if (parallel && side === "pose") return { kind: "singular", text: held, joint: "", amount: 0 };
   const closest = ask(values);
   const { amount, joint } = largestGap(model, gaps(model, frames(model, closest), closest));
-  if (parallel || amount < ALMOST * model.length)
-    return singular(parallel ? "parallel" : "serial", joint, amount, model);
-  const text = `out of reach: the loop of ${joint} would stay open by ${said(amount)} ${model.unit}`;
-  return { kind: "gap", text, joint, amount };
-}
-
-function singular(kind, joint, amount, model) {
-  const missing =
-    amount > ALMOST * model.length
-      ? ` (beyond it the loop of ${joint} stays open by ${said(amount)} ${model.unit})`
-      : "";
-  const text =
-    kind === "parallel"
-      ? `parallel singularity: the inputs no longer hold the platform${missing}`
-      : `serial singularity: a leg cannot follow in this working mode${missing}`;
-  return { kind: "singular", text, joint, amount };
+  const open = amount > ALMOST * model.length ? `open by ${said(amount)} ${model.unit}` : "";
+  if (parallel) {
+    const text = open ? `${held} (beyond it the loop of ${joint} stays ${open})` : held;
+    return { kind: "singular", text, joint: open ? joint : "", amount };
+  }
+  if (open) return { kind: "gap", text: `out of reach: the loop of ${joint} would stay ${open}`, joint, amount };
+  if (measured.passive < measured.serial) {
+    const { name } = looseJoint(model, values);
+    return { kind: "singular", text: `the leg of ${name} is stretched or folded and cannot go on`, joint: name, amount };
+  }
+  const { name } = model.inputs[looseInput(measured)];
+  const text = `serial singularity: the leg of ${name} cannot follow in this working mode`;
+  return { kind: "singular", text, joint: name, amount };
 }
 
 /** A number as a person reads it, three figures. @param {number} value */
@@ -152,7 +168,7 @@ function limitsOf(model, start) {
     ]) {
       if (!Number.isFinite(end)) continue;
       const text = kind === "stroke" ? `stroke of ${name} ends here` : `limit of joint ${name}`;
-      const slack = Math.max(0, -margin(start)) + 1e-9 * model.length;
+      const slack = Math.max(-margin(start), 1e-9 * model.length);
       found.push({ margin, slack, reason: { kind, text, joint: name, amount: end } });
     }
   };

@@ -17,7 +17,7 @@ const largest = (rows) => rows.reduce((most, value) => Math.max(most, Math.abs(v
  */
 function stepped(model, values, held, system, damping) {
   const free = values.map((_, k) => k).filter((k) => !held.includes(k));
-  const matrix = system.matrix.map((row) => Float64Array.from(free, (k) => row[k]));
+  const matrix = held.length ? system.matrix.map((row) => free.map((k) => row[k])) : system.matrix;
   const [step] = leastSquares(matrix, [system.rows.map((value) => -value)], damping);
   const moved = values.slice();
   free.forEach((k, i) => (moved[k] += step[i] * model.scale[k]));

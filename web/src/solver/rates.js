@@ -13,25 +13,35 @@ const BEND = 4; // a way of tangents bends away from its chord by at most so man
 const SHARES = [0.5, 0.25, 0.75, 0.125, 0.875]; // of a step, where its chord is looked at
 const STEPS = [1e-4, 1e-6, 1e-8]; // of the model's length
 
-/**
- * All motions at an assembly: an orthonormal basis of the pairs (rates of the pose, rates of the inputs) that its
- * loops allow, lengths in units of the model's length. Nothing is solved, so it is exact at singularities too.
- * @typedef {{pose: number[][], inputs: number[][]}} Motions rows of r numbers: one for each rate of the pose; each input
- * @returns {Motions}
- */
-export function motionsAt(model, values) {
+/** A basis of all motions at an assembly, scaled rates of the joint values, and the pair that belongs to each of them. */
+function pairsAt(model, values) {
   const placed = frames(model, values);
   const twists = screws(model, placed, values);
   const free = nullSpace(closureRows(model, placed, twists), model.count);
   const rows = scaledPoseRates(model, placed, twists);
-  for (const { index, sign } of model.inputs)
-    rows.push(Float64Array.from({ length: model.count }, (_, k) => (k === index ? sign : 0)));
+  for (const { index, sign } of model.inputs) rows.push(model.scale.map((_, k) => (k === index ? sign : 0)));
   const pairs = free.map((motion) => rows.map((row) => row.reduce((sum, value, k) => sum + value * motion[k], 0)));
-  if (!pairs.length) return { pose: [], inputs: [] };
+  return { free, rows, pairs };
+}
+
+/**
+ * All motions at an assembly: an orthonormal basis of the pairs (rates of the pose, rates of the inputs) that its
+ * loops allow, lengths in units of the model's length. Nothing is solved, so it is exact at singularities too.
+ * @typedef {{pose: number[][], inputs: number[][], passive: number}} Motions rows of r numbers: one for each rate of the
+ * pose; each input; and how much of its least pair a motion has: none where a leg moves between input and platform alone
+ * @returns {Motions}
+ */
+export function motionsAt(model, values) {
+  const { rows, pairs } = pairsAt(model, values);
+  if (!pairs.length) return { pose: [], inputs: [], passive: 0 };
   const { values: sizes, right } = singular(pairs);
   const basis = right.filter((_, k) => sizes[k] > RANK * Math.max(1, sizes[0]));
   const turned = rows.map((_, k) => basis.map((pair) => pair[k]));
-  return { pose: turned.slice(0, -model.inputs.length), inputs: turned.slice(-model.inputs.length) };
+  return {
+    pose: turned.slice(0, -model.inputs.length),
+    inputs: turned.slice(-model.inputs.length),
+    passive: basis.length ? sizes[basis.length - 1] : 0,
+  };
 }
 
 /**
@@ -65,6 +75,25 @@ const sizes = (rows) => singular(rows).values.map((value) => (value > ZERO ? val
 export function measuresAt(model, values) {
   const motions = motionsAt(model, values);
   return { ...motions, ...measures(motions) };
+}
+
+/** The input that moves most where the platform moves least: at a serial singularity its leg is stretched or folded. */
+export function looseInput({ pose, inputs }) {
+  if (!pose.length) return 0;
+  const still = singular(pose).right.at(-1);
+  const amounts = inputs.map((row) => Math.abs(row.reduce((sum, value, k) => sum + value * still[k], 0)));
+  return amounts.indexOf(Math.max(...amounts));
+}
+
+/** The joint that moves most where input and platform move least: it is in the leg that is stretched or folded. */
+export function looseJoint(model, values) {
+  const { free, pairs } = pairsAt(model, values);
+  if (!pairs.length) return model.joints[0];
+  const { values: sizes, left } = singular(pairs);
+  const least = sizes.findLastIndex((size) => size > RANK * Math.max(1, sizes[0]));
+  const moved = model.scale.map((_, k) => Math.abs(free.reduce((sum, motion, i) => sum + motion[k] * left[least][i], 0)));
+  const index = moved.indexOf(Math.max(...moved));
+  return model.joints.find(({ first, freedoms }) => index >= first && index < first + freedoms);
 }
 
 /**

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from assur.kinematics.soundness.check import METRES
 from assur.model.mechanism import Input, Joint, MechanismRecord
 from assur.scene.bodies import Body, bodies, corners, fused
-from assur.scene.parts import Part
+from assur.scene.part import Part
 from assur.scene.shapes import Ball, Bar, Box, Cylinder, Shape, Slab
 from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC, REVOLUTE, UNIVERSAL
 

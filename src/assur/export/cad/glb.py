@@ -21,7 +21,8 @@ from assur.numerics import rotations
 from assur.scene.bodies import home_skeleton
 from assur.scene.companion import companion
 from assur.scene.mesh import rgb
-from assur.scene.parts import Part, parts
+from assur.scene.part import Part
+from assur.scene.parts import parts
 
 FloatArray = NDArray[np.float64]
 FLOAT, UNSIGNED = 5126, 5125

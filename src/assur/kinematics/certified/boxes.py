@@ -15,6 +15,7 @@ from assur.kinematics.certified.domain import HALF_TURN, pose_box
 from assur.kinematics.certified.given import inputs_meant
 from assur.kinematics.certified.legs import Legs
 from assur.kinematics.certified.proofs import sizes
+from assur.kinematics.certified.recorded_legs import RecordedLegs
 from assur.kinematics.certified.result import CertifiedSolutions, Doubt, ProvedSolution
 from assur.kinematics.modes import mode_text
 from assur.kinematics.status import closed_form_of
@@ -52,7 +53,9 @@ def direct_by_boxes(
     legs = Legs(record, inputs)
     count = len(legs.modes)
     start = Interval.of(np.tile(bounds[0], (count, 1)), np.tile(bounds[1], (count, 1)))
-    answer = zeros(legs, start, np.arange(count), sizes(record), smallest=smallest, most=most, total=TOTAL)
+    answer = zeros(
+        RecordedLegs(legs), start, np.arange(count), sizes(record), smallest=smallest, most=most, total=TOTAL
+    )
     floats = position.direct(record, inputs)
     poses, twice = _within_a_turn(names, answer)
     solutions = tuple(

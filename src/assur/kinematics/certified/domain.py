@@ -3,6 +3,9 @@
 Along a limb without a free slider the platform's point stays in a ball about the limb's base joint, of the sum of the
 lengths on the way. Along a limb whose turning joints are all parallel to its sliders it stays in a cylinder. Balls and
 cylinders together bound every coordinate, or there is no box.
+
+Nothing limits how far a free slider goes, so that axes which are parallel to so many digits bound nothing: parallel is
+decided exactly, of the floats that the axes are. Rounding of lengths is covered by what every radius has to spare.
 """
 
 from __future__ import annotations
@@ -10,6 +13,8 @@ from __future__ import annotations
 import heapq
 from collections.abc import Iterable
 from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,10 +24,12 @@ from assur.model.pose import LENGTHS, has_quaternion, is_angle
 from assur.topology.joints import HELICAL, PRISMATIC
 
 FloatArray = NDArray[np.float64]
-PARALLEL = 1e-12
-"""Sine below which two written axes are parallel; the bounds are widened by it."""
 SPARE = 1e-9
-"""Part of a radius that is added to it, for rounding and for axes that are parallel to so many digits only."""
+"""Part of a radius that is added to it for rounding."""
+SKEW = 1e-15
+"""By how much a row that is computed may lean along the axis that it should be across."""
+DEPENDENT = 1e-3
+"""Directions of two regions of which a singular value is below this do not bound the space together."""
 HALF_TURN = 3.1415926535897936
 """The float above pi."""
 BEGINNING = -2.9
@@ -60,7 +67,7 @@ def pose_box(record: MechanismRecord, inputs: FloatArray) -> tuple[FloatArray, F
                 (-HALF_TURN / 2, HALF_TURN / 2) if name == "theta" else (BEGINNING, BEGINNING + 2 * HALF_TURN)
             )
             continue
-        bounds = _along(np.eye(3)[LENGTHS.index(name)], regions)
+        bounds = _along(LENGTHS.index(name), regions)
         if bounds is None:
             return None
         low[k], high[k] = bounds
@@ -91,7 +98,15 @@ def _usable(joint: Joint, axis: FloatArray | None, known: dict[str, float]) -> b
 
 
 def _parallel(a: FloatArray, b: FloatArray) -> bool:
-    return bool(np.linalg.norm(np.cross(a, b)) <= PARALLEL * np.linalg.norm(a) * np.linalg.norm(b))
+    """Whether two axes (3,) are parallel, exactly.
+
+    >>> _parallel(np.array([0.6, 0.8, 0.0]), np.array([-1.2, -1.6, 0.0]))
+    True
+    >>> _parallel(np.array([0.6, 0.8, 0.0]), np.array([0.6, np.nextafter(0.8, 1.0), 0.0]))
+    False
+    """
+    first, second = ([Fraction(value) for value in axis.tolist()] for axis in (a, b))
+    return all(first[i] * second[j] == first[j] * second[i] for i, j in combinations(range(3), 2))
 
 
 def _from(
@@ -145,33 +160,49 @@ def _other(joint: Joint, link: str) -> str:
     return joint.child if link == joint.parent else joint.parent
 
 
-def _along(direction: FloatArray, regions: tuple[Reach, ...]) -> tuple[float, float] | None:
-    """Bounds of the platform's point along a direction (3,), or None.
+def _along(coordinate: int, regions: tuple[Reach, ...]) -> tuple[float, float] | None:
+    """Bounds of a coordinate of the platform's point, or None.
 
-    A direction is a sum of such along which one ball, or two cylinders, bound the point. That the sum is right to 15
-    digits only moves the bound by less than what every radius has to spare.
+    A ball bounds it, a cylinder whose axis has exactly no part along it, and two cylinders that are not parallel.
     """
-    low, high = -np.inf, np.inf
-    for count, one in enumerate(regions):
-        for other in regions[count:]:
-            rows = np.concatenate([_across(one), _across(other)])
-            centres = np.concatenate([_across(item) @ item.centre for item in (one, other)])
-            radii = np.repeat([one.radius, other.radius], [len(_across(one)), len(_across(other))])
-            weights = np.linalg.lstsq(rows.T, direction, rcond=1e-6)[0]
-            if np.linalg.norm(rows.T @ weights - direction) > PARALLEL:
-                continue
-            middle, spread = float(weights @ centres), _size(weights, radii, len(_across(one)))
-            spread += SPARE * (spread + abs(middle) + float(np.abs(weights) @ np.abs(centres)))
-            low, high = max(low, middle - spread), min(high, middle + spread)
-    return (low, high) if np.isfinite(low) and np.isfinite(high) else None
+    found = [
+        (float(item.centre[coordinate]), item.radius)
+        for item in regions
+        if item.axis is None or item.axis[coordinate] == 0.0
+    ]
+    found += [pair for one, other in combinations(regions, 2) if (pair := _by_both(coordinate, one, other))]
+    if not found:
+        return None
+    spare = [spread + SPARE * (spread + abs(middle)) for middle, spread in found]
+    low = max(middle - spread for (middle, _), spread in zip(found, spare, strict=True))
+    high = min(middle + spread for (middle, _), spread in zip(found, spare, strict=True))
+    return low, high
+
+
+def _by_both(coordinate: int, one: Reach, other: Reach) -> tuple[float, float] | None:
+    """Middle and spread of a coordinate of a point in two regions, or None where they do not bound the space together.
+
+    The coordinate is a weighted sum of places along the rows, along which each region is bounded, and of a rest that
+    rounding leaves. The rows span the space, so that the point is not farther than their places allow, and the rest
+    times that distance is added.
+    """
+    rows = np.concatenate([_across(one), _across(other)])
+    smallest = float(np.linalg.svd(rows, compute_uv=False)[2])
+    if smallest < DEPENDENT:
+        return None
+    direction = np.eye(3)[coordinate]
+    weights = np.linalg.lstsq(rows.T, direction, rcond=None)[0]
+    places = np.concatenate([_across(item) @ item.centre for item in (one, other)])
+    farthest = (float(np.linalg.norm(places)) + one.radius + other.radius) / smallest
+    rest = float(np.linalg.norm(rows.T @ weights - direction) + SKEW * np.sum(np.abs(weights)))
+    spread = _size(weights, np.array([one.radius, other.radius]), len(_across(one)))
+    return float(weights @ places), spread + rest * farthest + SPARE * float(np.abs(weights) @ np.abs(places))
 
 
 def _size(weights: FloatArray, radii: FloatArray, first: int) -> float:
-    """How far a weighted sum of coordinates reaches, those of each region being in a ball of its radius."""
-    return sum(
-        float(np.linalg.norm(part) * size[0])
-        for part, size in ((weights[:first], radii[:first]), (weights[first:], radii[first:]))
-    )
+    """How far a weighted sum of places reaches, the `first` ones being in a ball of the first radius."""
+    parts = (weights[:first], weights[first:])
+    return sum(float(np.linalg.norm(part) * radius) for part, radius in zip(parts, radii, strict=True))
 
 
 def _across(region: Reach) -> FloatArray:

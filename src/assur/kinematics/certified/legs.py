@@ -53,19 +53,28 @@ class Legs:
 
     def __call__(self, ns: Any, numbers: tuple[Any, ...], labels: IntArray) -> tuple[Sequence[Any], Sequence[Any]]:
         """Equations and inequalities at poses of any number type, (N,) per coordinate, angles in rad."""
-        form, names = closed_form_of(self.record), sign_names(self.record, "inverse")
+        names = sign_names(self.record, "inverse")
         sign = SimpleNamespace(**{name: self.modes[labels, k] for k, name in enumerate(names)})
-        branch = form.inverse(ns, self._parameters, pose_numbers(self.record, numbers), sign)
-        zero: list[Any] = []
-        positive = [branch.margins[item.name] for item in form.inverse_margins if item.zero == "merge"]
-        for found, wanted in zip(branch.inputs, self._given, strict=True):
-            if isinstance(wanted, tuple):  # an angle: the sine of the difference is zero, its cosine is positive
-                zero.append(found[1] * wanted[0] - found[0] * wanted[1])
-                positive.append(found[0] * wanted[0] + found[1] * wanted[1])
-            else:
-                zero.append(found - wanted)
-        return zero, positive
+        pose = pose_numbers(self.record, numbers)
+        return conditions_of(self.record, ns, self._parameters, pose, sign, self._given)
 
     def equations(self, labels: IntArray) -> Equations:
         """The equations alone, of poses whose labels (N,) are known."""
         return lambda ns, numbers: self(ns, numbers, labels)[0]
+
+
+def conditions_of(
+    record: MechanismRecord, ns: Any, p: Any, pose: tuple[Any, ...], sign: Any, given: Sequence[Any]
+) -> tuple[list[Any], list[Any]]:
+    """What is zero and what is not negative at a kernel's pose with given inputs, numbers of any type."""
+    form = closed_form_of(record)
+    branch = form.inverse(ns, p, pose, sign)
+    zero: list[Any] = []
+    positive = [branch.margins[item.name] for item in form.inverse_margins if item.zero == "merge"]
+    for found, wanted in zip(branch.inputs, given, strict=True):
+        if isinstance(wanted, tuple):  # an angle: the sine of the difference is zero, its cosine is positive
+            zero.append(found[1] * wanted[0] - found[0] * wanted[1])
+            positive.append(found[0] * wanted[0] + found[1] * wanted[1])
+        else:
+            zero.append(found - wanted)
+    return zero, positive

@@ -74,21 +74,32 @@ class RowsFile:
 
 
 def make_files(files: Mapping[str, Path], shapes: Mapping[str, tuple[int, ...]]) -> None:
-    """Files of the answer, of the right size and still empty; refused where they are there or do not fit."""
+    """Files of the answer, of the right size and still empty; refused where they are there or do not fit.
+
+    Where they cannot be made nothing is left.
+    """
     folder = next(iter(files.values())).parent if files else Path()
     there = [str(path) for path in files.values() if path.exists()]
     if there:
         raise UsageError(
             f"{', '.join(there)}: already there, without a note of what it is", hint="choose another folder"
         )
-    folder.mkdir(parents=True, exist_ok=True)
     kinds = {name: np.dtype(KINDS.get(name, float)) for name in files}
     needed = sum(int(np.prod([float(n) for n in shapes[name]])) * kinds[name].itemsize for name in files)
-    free = shutil.disk_usage(folder).free
+    free = shutil.disk_usage(next(place for place in (folder, *folder.absolute().parents) if place.is_dir())).free
     if needed > free:
         raise UsageError(
             f"{folder}: the answer takes {needed / 1e9:.1f} GB and {free / 1e9:.1f} GB are free",
-            hint="keep less of it, take fewer places, or use reduce_grid, which keeps a total only",
+            hint="keep less of it, or take fewer places",
         )
-    for name, path in files.items():
-        np.lib.format.open_memmap(path, mode="w+", dtype=kinds[name], shape=shapes[name])
+    new = [place for place in (folder, *folder.absolute().parents) if not place.exists()]
+    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        for name, path in files.items():
+            np.lib.format.open_memmap(path, mode="w+", dtype=kinds[name], shape=shapes[name])
+    except OSError:
+        for path in files.values():
+            path.unlink(missing_ok=True)
+        for place in new:
+            place.rmdir()
+        raise

@@ -8,193 +8,19 @@ that hangs together with the start.
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import distance_transform_edt
 
 from assur.kinematics.paths.ending import Mode, blocks
+from assur.kinematics.paths.followed_grid import Continuation, Ends
 from assur.kinematics.paths.neighbours import Steps
-from assur.kinematics.paths.platform_held import platform_held
-from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.intp]
-NEAR = 1.6
-"""Points further than this from every reached node, in grid steps along an axis, are not tried."""
-
-SAME = 1e-9
-"""A point within this share of a step of a node is that node."""
-
-KEPT = 40
-"""Answers that are remembered, for several questions about the same points."""
-
-
-@dataclass(frozen=True, eq=False)
-class Followed:
-    """Configurations at points: joint values (N, n), NaN where a point was not reached."""
-
-    record: MechanismRecord
-    joints: FloatArray
-
-    @cached_property
-    def reached(self) -> BoolArray:
-        """Which points (N,) were reached."""
-        return np.asarray(np.isfinite(self.joints[:, 0]))
-
-    @cached_property
-    def measures(self) -> tuple[FloatArray, FloatArray]:
-        """The measures `serial` and `output` (N,) of `PlatformHeld` there; of NaN both are NaN."""
-        found = np.full((2, len(self.joints)), np.nan)
-        for rows in blocks(np.flatnonzero(self.reached)):
-            held = platform_held(self.record, self.joints[rows])
-            found[:, rows] = held.serial, held.output
-        return found[0], found[1]
-
-
-@dataclass(frozen=True, eq=False)
-class Ends:
-    """Ways (E,) from reached nodes to neighbours that are not reached, and where the mode ends on each.
-
-    Attributes:
-        tails, heads: (E, d) the nodes at both ends of a way.
-        share: (E,) of the way at which the mode ends.
-        joints: (E, n) joint values a little before.
-        place: (nodes.., 2 d) which way leads from a node up along every axis and then down; -1 where none does.
-    """
-
-    tails: IntArray
-    heads: IntArray
-    share: FloatArray
-    joints: FloatArray
-    place: IntArray
-
-    @cached_property
-    def longest(self) -> IntArray:
-        """Of the ways to each head that one (H,) on which the mode ends nearest to it."""
-        order = np.argsort(-self.share, kind="stable")
-        _, first = np.unique(self.heads[order], axis=0, return_index=True)
-        return np.asarray(order[first])
-
-
-@dataclass(frozen=True, eq=False)
-class Continuation:
-    """A working mode followed over a grid.
-
-    Attributes:
-        mode: the mechanism, the signs that name the mode, and the poses of points.
-        axes: the nodes' coordinates along each of d axes, evenly spaced.
-        joints: (nodes.., n) joint values at the nodes, NaN where a node is not reached.
-        serial: (nodes..) the measure of the serial side (`PlatformHeld.serial`) at reached nodes.
-        ends: the ways to a neighbour on which the mode ends.
-    """
-
-    mode: Mode
-    axes: tuple[FloatArray, ...]
-    joints: FloatArray
-    serial: FloatArray
-    ends: Ends
-    _known: dict[bytes, Followed] = field(default_factory=dict, repr=False)
-
-    @property
-    def record(self) -> MechanismRecord:
-        """The mechanism."""
-        return self.mode.record
-
-    @cached_property
-    def reached(self) -> BoolArray:
-        """Which nodes (nodes..) are reached."""
-        return np.asarray(np.isfinite(self.joints[..., 0]))
-
-    @cached_property
-    def _nearest(self) -> IntArray:
-        """Index (d, nodes..) of the nearest reached node."""
-        return _nearest_in(self.reached)
-
-    @cached_property
-    def at_nodes(self) -> Followed:
-        """Configurations at the nodes that are reached."""
-        return Followed(self.record, self.joints[self.reached])
-
-    @cached_property
-    def at_ends(self) -> Followed:
-        """Configurations at the ends."""
-        return Followed(self.record, self.ends.joints)
-
-    def _index(self, points: FloatArray) -> FloatArray:
-        """Points (N, d) in steps of the grid from its first node."""
-        low, step = (
-            np.array(values) for values in zip(*((axis[0], axis[1] - axis[0]) for axis in self.axes), strict=True)
-        )
-        return np.asarray((points - low) / step)
-
-    def at(self, points: FloatArray) -> Followed:
-        """Configurations at points (N, d), each one step away from the nearest node that is reached."""
-        key = hashlib.blake2b(np.ascontiguousarray(points).tobytes()).digest()
-        if key not in self._known:
-            while len(self._known) >= KEPT:
-                self._known.pop(next(iter(self._known)))
-            self._known[key] = self._at(points)
-        return self._known[key]
-
-    def nodes(self, points: FloatArray) -> IntArray:
-        """The node (N, d) next to each point (N, d)."""
-        return self._node(self._index(points))
-
-    def _node(self, index: FloatArray) -> IntArray:
-        return np.asarray(np.clip(np.rint(index), 0, np.subtract(self.reached.shape, 1)).astype(np.intp))
-
-    def _at(self, points: FloatArray) -> Followed:
-        joints = np.full((len(points), len(self.record.coordinates)), np.nan)
-        if not np.any(self.reached):
-            return Followed(self.record, joints)
-        index = self._index(points)
-        node = self._node(index)
-        nearest = self._nearest[(slice(None), *node.T)].T  # (N, d)
-        at_node = np.max(np.abs(index - node), axis=1) <= SAME
-        joints[at_node] = self.joints[tuple(node[at_node].T)]
-        near = np.flatnonzero(~at_node & (np.max(np.abs(index - nearest), axis=1) <= NEAR))
-        for rows in blocks(near):
-            start = nearest[rows]
-            found, good = self.mode.stepped(self.joints[tuple(start.T)], _points(self, start), points[rows])
-            joints[rows[good]] = found[good]
-        return Followed(self.record, joints)
-
-    def border(self, inside: FloatArray, outside: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Where the mode ends on ways from reached points (N, d) to others: the share (N,), and joint values (N, n).
-
-        On the grid's own edges it is known; an edge of two steps ends on one of its halves.
-        """
-        middle = 0.5 * (inside + outside)
-        far = np.sum(np.abs(self._index(outside) - self._index(inside)), axis=1)
-        double = np.abs(far - 2.0) <= SAME
-        later = double.copy()
-        later[double] = self.at(middle[double]).reached
-        first = np.where(later[:, None], middle, inside)
-        last = np.where((double & ~later)[:, None], middle, outside)
-        share, joints = self._border(first, last)
-        return np.where(double, 0.5 * (share + later), share), joints
-
-    def _border(self, inside: FloatArray, outside: FloatArray) -> tuple[FloatArray, FloatArray]:
-        start, way = self._index(inside), self._index(outside) - self._index(inside)
-        node, along = np.rint(start).astype(np.intp), np.rint(way).astype(np.intp)
-        single = np.sum(np.abs(along), axis=1) == 1
-        single &= np.all(np.abs(start - node) <= SAME, axis=1) & np.all(np.abs(way - along) <= SAME, axis=1)
-        single &= np.all((node >= 0) & (node < self.reached.shape), axis=1)
-        which = np.argmax(np.abs(along), axis=1)
-        which += len(self.axes) * (along[np.arange(len(along)), which] < 0)
-        place = np.full(len(inside), -1)
-        place[single] = self.ends.place[(*node[single].T, which[single])]
-        known, rows = place >= 0, np.flatnonzero(place < 0)
-        share, joints = np.empty(len(inside)), np.empty((len(inside), self.joints.shape[-1]))
-        share[known], joints[known] = self.ends.share[place[known]], self.ends.joints[place[known]]
-        share[rows], joints[rows] = self.mode.ends(self.at(inside[rows]).joints, inside[rows], outside[rows])
-        return share, joints
 
 
 def continued(
@@ -251,11 +77,6 @@ def continued(
     return replace(found, ends=_ends(found))
 
 
-def _nearest_in(there: BoolArray) -> IntArray:
-    """Index (d, nodes..) of the nearest node that is there."""
-    return np.asarray(distance_transform_edt(~there, return_distances=False, return_indices=True))
-
-
 def _spread(found: Continuation, front: IntArray) -> IntArray:
     """Step from the nodes (N, d) of a front to their neighbours, each from one of them; what is new (M, d)."""
     new = [front[:0]]
@@ -264,7 +85,7 @@ def _spread(found: Continuation, front: IntArray) -> IntArray:
         found.serial[tuple(rows.T)] = steps.held.serial
         tails, heads, _ = _edges(found, rows)
         heads, first = np.unique(heads, axis=0, return_index=True)
-        new.append(_taken(found, heads, *steps.of(tails[first]).to(found.mode.poses(_points(found, heads)))))
+        new.append(_taken(found, heads, *steps.of(tails[first]).to(found.mode.poses(found.points(heads)))))
     return np.concatenate(new)
 
 
@@ -284,7 +105,7 @@ def _across_the_rim(found: Continuation) -> IntArray:
     new = [heads[:0]]
     for rows in blocks(np.arange(len(heads))):
         steps = _steps(found, reached[tails[first[rows]]])
-        new.append(_taken(found, heads[rows], *steps.in_parts(found.mode.poses(_points(found, heads[rows])))))
+        new.append(_taken(found, heads[rows], *steps.in_parts(found.mode.poses(found.points(heads[rows])))))
     return np.concatenate(new)
 
 
@@ -293,14 +114,14 @@ def _ends(found: Continuation) -> Ends:
     reached = np.argwhere(np.isfinite(found.joints[..., 0]))
     tails, heads, ways = _edges(found, reached)
     nodes = reached[tails]
-    share, joints = found.mode.ends(found.joints[tuple(nodes.T)], _points(found, nodes), _points(found, heads))
+    share, joints = found.mode.ends(found.joints[tuple(nodes.T)], found.points(nodes), found.points(heads))
     place = found.ends.place.copy()
     place[(*nodes.T, ways)] = np.arange(len(nodes))
     return Ends(nodes, heads, share, joints, place)
 
 
 def _steps(found: Continuation, nodes: IntArray) -> Steps:
-    return found.mode.steps(found.joints[tuple(nodes.T)], _points(found, nodes))
+    return found.mode.steps(found.joints[tuple(nodes.T)], found.points(nodes))
 
 
 def _edges(found: Continuation, front: IntArray) -> tuple[IntArray, IntArray, IntArray]:
@@ -311,7 +132,3 @@ def _edges(found: Continuation, front: IntArray) -> tuple[IntArray, IntArray, In
     inside = np.all((heads >= 0) & (heads < found.joints.shape[:-1]), axis=1)
     inside[inside] = np.isnan(found.joints[(*heads[inside].T, 0)])
     return tails[inside], heads[inside], which[inside]
-
-
-def _points(found: Continuation, nodes: IntArray) -> FloatArray:
-    return np.stack([axis[nodes[:, k]] for k, axis in enumerate(found.axes)], axis=1)

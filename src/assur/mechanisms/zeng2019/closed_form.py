@@ -182,6 +182,29 @@ def constraints(ns, p, core, inputs):
     return {"B1C1": (lengths[0], p.l2), "B2C2": (lengths[1], p.l2), "B3C3": (lengths[2], p.l6)}
 
 
+SOURCES = {
+    "x": "(10)", "y": "(10)", "z": "(10)", "yA1": "(21)", "yA2": "(21)", "yA3": "(21)",
+    "u1": "(24)", "u2": "(24)", "u3": "(24)",
+}  # fmt: skip
+DIRECT_MARGINS = (
+    Margin("B", "l2", "B1B2 less C1C2: zero where B1C1 and B2C2 stay parallel", unit=1, zero="degenerate", latex="B"),
+    Margin("w2", "l2*l2", "B1 and B2 are too far apart for links 9, 10 and 11 to meet",
+           unit=2, signs=("e1",), latex=r"l_2^2-B^2/4"),
+    Margin("v2", "l6*l6", "D1 and slider 3 are too far apart along Y for parallelogram 1",
+           unit=2, signs=("e2",), latex="H_2"),
+    Margin("centres", "4*(b-d)*(b-d)+l6*l6", "squared distance of D1 and D3 in the XZ plane",
+           unit=2, zero="degenerate", latex=r"4(b-d)^2+t^2"),
+    Margin("meeting", "4*l4*l4*(l6*l6 + 4*(b-d)*(b-d))",
+           "the circles of link 12 about D1 and of parallelogram 2 about D3 do not meet",
+           unit=4, signs=("e3",), latex=r"J_1^2+J_2^2-J_3^2"),
+)  # fmt: skip
+INVERSE_MARGINS = (
+    Margin("n_alpha", "1", "x is out of reach of link 12", unit=0, signs=("s_alpha",), latex=r"1-\cos^2\alpha"),
+    Margin("n_beta", "1", "x is out of reach of parallelogram 2", unit=0, signs=("s_beta",), latex=r"1-\cos^2\beta"),
+    Margin("M12", "l2*l2", "C1 and C2 are too high or too low for links 9 and 10",
+           unit=2, signs=("u1", "u2"), latex="M_1"),
+    Margin("M3", "l6*l6", "C3 is too high or too low for parallelogram 1", unit=2, signs=("u3",), latex="M_3"),
+)  # fmt: skip
 CLOSED_FORM = ClosedForm(
     complete_for="reduced",
     reduced_because="a parallelogram that has crossed over to an antiparallelogram is left out, as in the paper",
@@ -193,17 +216,7 @@ CLOSED_FORM = ClosedForm(
     as_printed=as_printed,
     quantities=quantities,
     constraints=constraints,
-    sources={
-        "x": "(10)",
-        "y": "(10)",
-        "z": "(10)",
-        "yA1": "(21)",
-        "yA2": "(21)",
-        "yA3": "(21)",
-        "u1": "(24)",
-        "u2": "(24)",
-        "u3": "(24)",
-    },
+    sources=SOURCES,
     signs={
         "s_alpha": Sign("sin_alpha", "1"),
         "s_beta": Sign("sin_beta", "1"),
@@ -214,58 +227,8 @@ CLOSED_FORM = ClosedForm(
         "e2": Sign("v", "l6"),
         "e3": Sign("sin_beta_minus_alpha", "1"),
     },
-    direct_margins=(
-        Margin(
-            "B", "l2", "B1B2 less C1C2: zero where B1C1 and B2C2 stay parallel", unit=1, zero="degenerate", latex="B"
-        ),
-        Margin(
-            "w2",
-            "l2*l2",
-            "B1 and B2 are too far apart for links 9, 10 and 11 to meet",
-            unit=2,
-            signs=("e1",),
-            latex=r"l_2^2-B^2/4",
-        ),
-        Margin(
-            "v2",
-            "l6*l6",
-            "D1 and slider 3 are too far apart along Y for parallelogram 1",
-            unit=2,
-            signs=("e2",),
-            latex="H_2",
-        ),
-        Margin(
-            "centres",
-            "4*(b-d)*(b-d)+l6*l6",
-            "squared distance of D1 and D3 in the XZ plane",
-            unit=2,
-            zero="degenerate",
-            latex=r"4(b-d)^2+t^2",
-        ),
-        Margin(
-            "meeting",
-            "4*l4*l4*(l6*l6 + 4*(b-d)*(b-d))",
-            "the circles of link 12 about D1 and of parallelogram 2 about D3 do not meet",
-            unit=4,
-            signs=("e3",),
-            latex=r"J_1^2+J_2^2-J_3^2",
-        ),
-    ),
-    inverse_margins=(
-        Margin("n_alpha", "1", "x is out of reach of link 12", unit=0, signs=("s_alpha",), latex=r"1-\cos^2\alpha"),
-        Margin(
-            "n_beta", "1", "x is out of reach of parallelogram 2", unit=0, signs=("s_beta",), latex=r"1-\cos^2\beta"
-        ),
-        Margin(
-            "M12",
-            "l2*l2",
-            "C1 and C2 are too high or too low for links 9 and 10",
-            unit=2,
-            signs=("u1", "u2"),
-            latex="M_1",
-        ),
-        Margin("M3", "l6*l6", "C3 is too high or too low for parallelogram 1", unit=2, signs=("u3",), latex="M_3"),
-    ),
+    direct_margins=DIRECT_MARGINS,
+    inverse_margins=INVERSE_MARGINS,
     factor_list=(
         Factor(
             "u1_minus_u2",

@@ -46,6 +46,17 @@ def build(description: Description, overrides: Mapping[str, float], faults: Faul
     Errors:
         MechanismFileError: every fault of the description, those already noted among them.
     """
+    record = built(description, overrides, faults)
+    faults.raise_any()
+    return record
+
+
+def built(description: Description, overrides: Mapping[str, float], faults: Faults) -> MechanismRecord:
+    """The same, its faults noted and not raised: what they leave unknown is empty, NaN or missing in the record.
+
+    Errors:
+        MechanismFileError: the description is too large to be looked at.
+    """
     file, cut = description.entry, description.cut
     _check_size(file, faults)
     _check_required(file, cut, faults)
@@ -83,9 +94,7 @@ def build(description: Description, overrides: Mapping[str, float], faults: Faul
         description=description,
         overrides=dict(overrides),
     )
-    if not faults.problems:
-        check_graph(record, tables, faults)
-    faults.raise_any()
+    check_graph(record, tables, faults)
     return record
 
 

@@ -15,10 +15,11 @@ _ONCE = "allowed: each joint in one chain, once"
 
 def check_chains(record: MechanismRecord, tables: Tables, faults: Faults) -> None:
     """Note what is wrong with the chains of a record whose graph is right."""
+    begun = len(faults.problems)
     for name, place in tables.chains.items():
         if is_first(place.instance):
             _check_chain(record, record.chains[name], place.path, faults)
-    if record.chains and not faults.problems:
+    if record.chains and len(faults.problems) == begun:
         _check_shares(record, tables, faults)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
-from assur.errors import MechanismFileError, Problem
+from assur.errors import MechanismFileError, Problem, cut
 from assur.model.file.toml_source import KeyPath, TomlSource
 
 _SHOWN = 24
@@ -23,9 +23,12 @@ class Faults:
         self.source = source
         self.problems: list[Problem] = []
         self.more = 0
+        self._places: set[KeyPath] = set()
 
     def add(self, path: KeyPath, found: str, allowed: str, hint: str = "") -> None:
         """Note what was found at a place and what is allowed there."""
+        in_limb = path[:1] == ("limbs",)
+        self._places.add(path[2:] if in_limb else path)
         if len(self.problems) >= MOST:
             self.more += 1
             return
@@ -42,12 +45,27 @@ class Faults:
         hint = nearest(name, choices) if told else ""
         self.add(path, f"unknown {kind} '{cut(name)}'", f"there is: {listed(choices) if told else ''}", hint)
 
+    def spares(self, *places: KeyPath) -> bool:
+        """Whether no fault so far lies at one of these places, in it or above it; `limbs.<limb>` is left out of paths.
+
+        >>> faults = Faults("my.toml", TomlSource({}, {}))
+        >>> faults.add(("limbs", "leg", "joints", "A"), "a word", "allowed: a table")
+        >>> faults.spares(("links",), ("platform", "link")), faults.spares(("joints",))
+        (True, False)
+        """
+        both = ((path, place) for path in self._places for place in places)
+        return not any(all(a == b for a, b in zip(path, place, strict=False)) for path, place in both)
+
     def raise_any(self) -> None:
         """Raise `MechanismFileError` with every problem in the order of the file, if there is one."""
         if self.problems:
-            rest = [Problem(self.file, None, "", f"{self.more} more faults", "correct the others first")]
-            ordered = sorted(self.problems, key=lambda problem: problem.line or 0)
-            raise MechanismFileError([*ordered, *(rest if self.more else [])])
+            raise MechanismFileError(self.told())
+
+    def told(self) -> tuple[Problem, ...]:
+        """Every problem in the order of the file, and at the end how many more there are."""
+        rest = [Problem(self.file, None, "", f"{self.more} more faults", "correct the others first")]
+        ordered = sorted(self.problems, key=lambda problem: problem.line or 0)
+        return (*ordered, *(rest if self.more else []))
 
 
 def path_text(path: KeyPath) -> str:
@@ -64,15 +82,6 @@ def path_text(path: KeyPath) -> str:
             plain = part.replace("_", "a").replace("-", "a").isalnum() and part.isascii()
             text += ("." if text else "") + (cut(part) if plain else f'"{cut(part)}"')
     return text
-
-
-def cut(text: str, length: int = 60) -> str:
-    """A text for a message, cut where it is very long.
-
-    >>> cut("a long name", 9)
-    'a long...'
-    """
-    return text if len(text) <= length else text[: length - 3] + "..."
 
 
 def listed(names: Iterable[str]) -> str:

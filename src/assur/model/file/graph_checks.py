@@ -21,20 +21,33 @@ _CORNERS = {
     "P(2US)": ("universal", "spherical", "spherical", "universal"),
 }
 """Types of the four joints in turn, from one end of the first rod to that of the second."""
+_GEOMETRY = (("parameters",), ("joints",), ("generalised",), ("unit",), ("angle",))
+"""Where a fault leaves sizes and directions unknown."""
 _EQUAL = 1e-9
 _SMALLEST = 1e-9
 
 
 def check_graph(record: MechanismRecord, tables: Tables, faults: Faults) -> None:
-    """Note what is wrong with the graph of a record whose names and numbers are right."""
-    _check_connected(record, tables, faults)
-    _check_size(record, faults)
-    for name, placed in tables.generalised.items():
-        if is_first(placed.instance):
-            _check_parallelogram(record, record.generalised[name], placed.path, faults)
-    if faults.problems:
+    """Note what is wrong with the graph of a record, as far as what it is made of is right."""
+    begun = len(faults.problems)
+    if not _is_known(record, tables, faults):
         return
-    check_chains(record, tables, faults)
+    _check_connected(record, tables, faults)
+    if faults.spares(*_GEOMETRY):
+        _check_size(record, faults)
+        for name, placed in tables.generalised.items():
+            if is_first(placed.instance):
+                _check_parallelogram(record, record.generalised[name], placed.path, faults)
+    if len(faults.problems) == begun and faults.spares(("generalised",), ("chains",), ("chain",)):
+        check_chains(record, tables, faults)
+
+
+def _is_known(record: MechanismRecord, tables: Tables, faults: Faults) -> bool:
+    """Whether every link and joint of the graph is there, so that no fault follows from one that is told already."""
+    whole = len(record.joints) == len(tables.joints) and not (tables.broken.keys() & {"links", "joints"})
+    apart = all(joint.parent != joint.child for joint in record.joints.values())
+    named = {record.base, record.platform.link} <= record.links.keys()
+    return bool(record.joints) and whole and apart and named and faults.spares(("links",), ("repeat",))
 
 
 def _check_connected(record: MechanismRecord, tables: Tables, faults: Faults) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from assur.errors import MechanismFileError, Problem, UsageError
-from assur.model.file.build import build
+from assur.model.file.build import built
 from assur.model.file.description import Description
 from assur.model.file.faults import Faults
 from assur.model.file.form import check_form
@@ -58,6 +58,18 @@ def read_text(text: str, path: Path) -> MechanismRecord:
         >>> len(record.joints), record.joint("R3").name, record.parameters["l2"].value
         (17, 'D1', 280.0)
     """
+    record, faults = examined(text, path)
+    faults.raise_any()
+    return record
+
+
+def examined(text: str, path: Path) -> tuple[MechanismRecord, Faults]:
+    """The record of a text with the faults that it has; where there are some, parts of the record are unknown.
+
+    Errors:
+        MechanismFileError: faults that leave nothing to look at further, as text that is not TOML.
+        UsageError: as `read_text`.
+    """
     source = read_toml(text, str(path))
     if is_topology(source.data):
         raise UsageError(f"{path} is a topology without dimensions", hint=f"assur topology {path}")
@@ -66,4 +78,4 @@ def read_text(text: str, path: Path) -> MechanismRecord:
     if entry is None:
         faults.raise_any()
         raise MechanismFileError([Problem(str(path), None, "", "a broken document", "allowed: the form of a file")])
-    return build(Description(path, source, entry, cut), {}, faults)
+    return built(Description(path, source, entry, cut), {}, faults), faults

@@ -18,6 +18,12 @@ MAX_ITEMS = 5_000
 """Limits far beyond any mechanism, so that no text takes long or exhausts the stack."""
 
 _PLACE = re.compile(r"\s*\(at (?:line (\d+), column \d+|end of document)\)$")
+MAX_SYNTAX = 20
+"""Syntax errors that are told at once."""
+_ALONE = ("Invalid value", "Expected newline or end of document after a statement", "Expected '=' after a key")
+"""Errors that concern the line in which they are found, and no other."""
+_STATEMENT = re.compile(r"\s*[\w.\"'-]+\s*=?[^\[\]{}\"']*(?:#.*)?")
+"""A line that opens nothing which another one closes."""
 _DECIMAL_COMMA = re.compile(r"=\s*[\[{]?[^#\"']*\d,\d")
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 _STRING = re.compile(
@@ -63,7 +69,8 @@ def read_toml(text: str, file: str) -> TomlSource:
         file: its name, for error messages.
 
     Errors:
-        MechanismFileError: it is not TOML. The TOML reader stops at the first fault, so this is one problem.
+        MechanismFileError: it is not TOML. The TOML reader stops at the first fault; where that is a value in a line
+            of its own, it goes on without that line.
 
     Example:
         >>> source = read_toml("unit = 'mm'\n[links]\nbase = {}", "my.toml")
@@ -80,7 +87,7 @@ def read_toml(text: str, file: str) -> TomlSource:
         _check_size(data, file)
         return TomlSource(data, _Lines(text.replace("\r\n", "\n")).lines())
     except tomllib.TOMLDecodeError as error:
-        raise _syntax(file, text, str(error)) from None
+        raise MechanismFileError(_all_syntax(file, text, str(error))) from None
     except RecursionError:
         raise _fault(file, None, *_TOO_DEEP) from None
     except ValueError as error:  # an integer of thousands of digits
@@ -108,11 +115,35 @@ def _fault(file: str, line: int | None, found: str, allowed: str, hint: str = ""
     return MechanismFileError([Problem(file, line, "", found, allowed, hint)])
 
 
-def _syntax(file: str, text: str, message: str) -> MechanismFileError:
-    """A TOML syntax error in our words."""
-    rows = text.splitlines() or [""]
+def _all_syntax(file: str, text: str, message: str) -> list[Problem]:
+    """The syntax error, and those behind it that do not follow from it."""
+    rows, found = text.splitlines() or [""], list[Problem]()
+    while True:
+        line = _line_of(rows, message)
+        found.append(_syntax(file, rows, message))
+        if len(found) >= MAX_SYNTAX or not (message.startswith(_ALONE) and _STATEMENT.fullmatch(rows[line - 1])):
+            return found
+        rows[line - 1] = ""
+        try:
+            tomllib.loads("\n".join(rows))
+        except tomllib.TOMLDecodeError as error:
+            message = str(error)
+        except (ValueError, RecursionError):
+            return found
+        else:
+            return found
+        if _line_of(rows, message) <= line:
+            return found
+
+
+def _line_of(rows: list[str], message: str) -> int:
     place = _PLACE.search(message)
-    line = min(int(place[1]) if place and place[1] else len(rows), len(rows))
+    return min(int(place[1]) if place and place[1] else len(rows), len(rows))
+
+
+def _syntax(file: str, rows: list[str], message: str) -> Problem:
+    """A TOML syntax error in our words."""
+    line = _line_of(rows, message)
     row = rows[line - 1].strip()
     reason = _PLACE.sub("", message)
     found = f"not TOML: {reason[0].lower()}{reason[1:]}" + (f" in `{row[:80]}`" if row else "")
@@ -121,7 +152,7 @@ def _syntax(file: str, text: str, message: str) -> MechanismFileError:
         hint = "write decimals with a point: 0.5, not 0,5"
     elif any(word in reason for word in ("overwrite", "twice", "Duplicate", "mutate")):
         hint = "each name may be given once"
-    return _fault(file, line, found, "a document in TOML 1.0", hint)
+    return Problem(file, line, "", found, "a document in TOML 1.0", hint)
 
 
 class _Lines:

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from assur.numerics.intervals import rates
 from assur.numerics.number_types import Floats
 
 
@@ -22,7 +23,7 @@ class Operation:
     """One entry: an operation on earlier entries, a number, or a place where one is given.
 
     `name` is one of "varying" and "uniform" (given: one per element, or one for all), "number", "+", "-", "*", "/",
-    "negative", "magnitude", "root", ">=", ">", "and", "not".
+    "negative", "magnitude", "root", ">=", ">", "and", "not"; of intervals alone "sign rate" and "root rate".
     """
 
     name: str
@@ -103,8 +104,10 @@ MEANING: Mapping[str, Callable[..., Any]] = {
     ">": operator.gt,
     "and": operator.and_,
     "not": np.logical_not,
+    "sign rate": rates.sign_rate,
+    "root rate": rates.root_rate,
 }
-"""What the operations mean over every number type; the root is that of its namespace."""
+"""What the operations mean over every number type, rates over intervals; the root is that of its namespace."""
 
 LOGICAL = frozenset({">=", ">", "and", "not"})
 """Operations whose result is true or false."""

@@ -1,58 +1,62 @@
-r"""The little LaTeX of mechanism files and closed forms, such as `y_{A_1}` or `l_2^2-B^2/4`, as MathML.
+r"""The little LaTeX of mechanism files, closed forms and pages, such as `y_{A_1}` or `l_2^2-B^2/4`, as MathML.
 
-Letters, digits, operators, brackets, `_`, `^`, groups, Greek letters, functions, words in `\text{}` or `\mathrm{}`,
-`\mathbf{}`, `\sqrt{}`, `\frac{}{}` and matrices between `\begin{bmatrix}` and `\end{bmatrix}`.
-What is not understood is shown as it stands.
+Letters, digits, operators, brackets, `_`, `^`, groups, Greek letters, functions, words in `\text{}`, `\mathrm{}` or
+`\operatorname{}`, `\mathbf{}`, `\sqrt{}`, `\frac{}{}` and `\frac12`, `\binom{}{}`, `\phantom{}`, `\tag{}`, accents, and
+tables between `\begin{bmatrix}` and `\end{bmatrix}`. What is not understood is shown as it stands, as an error.
 """
 
 from __future__ import annotations
 
 import re
 from html import escape
-from string import ascii_lowercase, ascii_uppercase
 
-GREEK = {
-    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η", "theta": "θ",
-    "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ",
-    "tau": "τ", "phi": "φ", "varphi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Gamma": "Γ", "Delta": "Δ",
-    "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ", "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω",
-}  # fmt: skip
-FUNCTIONS = ("sin", "cos", "tan", "cot", "arccos", "arcsin", "arctan", "det", "dim", "sgn")
-OPERATORS = {
-    "angle": "∠", "cdot": "·", "pm": "±", "parallel": "∥", "perp": "⊥", "times": "×", "cup": "∪", "cap": "∩",
-    "Diamond": "◇", "partial": "∂",
-}  # fmt: skip
-LIMITS = {"sum": "<mo>∑</mo>", "bigcup": "<mo>⋃</mo>", "bigcap": "<mo>⋂</mo>", "min": "<mi>min</mi>"}
-"""What carries its limits under and over it."""
+from assur.report.formulas.symbols import (
+    ACCENTS,
+    BOLD,
+    BRACKETS,
+    CLOSE,
+    FRACTIONS,
+    FUNCTIONS,
+    GREEK,
+    JOINING,
+    LIMITS,
+    OPERATORS,
+    SIGNS,
+    SPACES,
+    TABLES,
+)
 
-BRACKETS = "()[]{}|"
-SIGNS = {"-": "−", "'": "′"}
-SPACES = {r"\,": "0.17em", r"\;": "0.28em", r"\ ": "0.33em", r"\quad": "1em"}
 _TOKEN = re.compile(
-    r"\\(?:text|mathrm)\{(?:\\.|[^{}\\])*\}|\\(?:begin|end)\{\w+\}|\\[A-Za-z]+|\\[{}_\\,; ]|\d+(?:\.\d+)?|\s+|.",
+    r"\\(?:text|mathrm|operatorname|tag)\{(?:\\.|[^{}\\])*\}|\\(?:begin|end)\{\w+\}|\\[A-Za-z]+|\\[{}_\\,; $%&#]"
+    r"|\d+(?:\.\d+)?|\s+|.",
     re.DOTALL,
 )
-_WORDS = re.compile(r"\\(?:text|mathrm)\{(.*)\}", re.DOTALL)
-ROW = r"\\"
-BOLD = {ord(letter): 0x1D400 + k for k, letter in enumerate(ascii_uppercase + ascii_lowercase)}
-"""Letters to their bold ones."""
+_SIZES = re.compile(r"\\(?:left|right|[bB]igg?[lr]?)(?![A-Za-z])\.?")
+"""What only tells the brackets after them how large to be; a full stop is no bracket."""
 
-SIZES = (r"\left", r"\right")
-"""What only tells the brackets after them how large to be."""
+_WORDS = re.compile(r"\\(text|mathrm|operatorname|tag)\{(.*)\}", re.DOTALL)
+_ORDINARY = re.compile(r"</(?:mi|mn|msub|msup|msubsup|mfrac|msqrt|mover|mrow)>$|[)\]}]</mo>$")
+_JOINING = re.compile(rf">(?:[{re.escape(JOINING)}]|&[lg]t;)</mo>$")
+_FUNCTION = re.compile(rf"(?:<m(?:sub|sup|subsup|under)>)?<mi>(?:{'|'.join([*FUNCTIONS, 'min', 'max'])})</mi>")
+ROW = r"\\"
+APPLY = '<mo>\u2061</mo><mspace width="0.14em"/>'
+THIN = '<mspace width="0.17em"/>'
+
+
+class _UnreadableError(ValueError):
+    """An argument or an end is missing, or one stands where none can."""
 
 
 def latex_mathml(source: str) -> str:
-    """MathML of a piece of LaTeX, without the outer <math>.
+    r"""MathML of a piece of LaTeX, without the outer <math>; what is not understood is inside <merror>.
 
-    >>> latex_mathml(r"y_{A_1}")
-    '<msub><mi>y</mi><msub><mi>A</mi><mn>1</mn></msub></msub>'
+    >>> latex_mathml(r"y_{A_1}"), latex_mathml(r"\frac12")
+    ('<msub><mi>y</mi><msub><mi>A</mi><mn>1</mn></msub></msub>', '<mfrac><mn>1</mn><mn>2</mn></mfrac>')
     """
-    tokens = [token for token in _TOKEN.findall(source) if not token.isspace() and token not in SIZES]
     try:
-        content, rest = _sequence(tokens, closing="")
-    except IndexError:  # an argument is missing
-        return f"<mtext>{escape(source)}</mtext>"
-    return content if not rest else f"<mtext>{escape(source)}</mtext>"
+        return _Reader(source).sequence()
+    except _UnreadableError:
+        return _as_it_stands(source)
 
 
 def name_mathml(name: str) -> str:
@@ -63,7 +67,7 @@ def name_mathml(name: str) -> str:
     """
     head, _, tail = name.partition("_")
     if head in FUNCTIONS and tail:
-        return f'<mrow><mi>{head}</mi><mo>\u2061</mo><mspace width="0.14em"/>{_argument(tail)}</mrow>'
+        return f"<mrow><mi>{head}</mi>{APPLY}{_argument(tail)}</mrow>"
     letters = head.rstrip("0123456789")
     digits = head[len(letters) :]
     below = (f"<mn>{digits}</mn>" if digits else "") + (name_mathml(tail) if tail else "")
@@ -73,61 +77,127 @@ def name_mathml(name: str) -> str:
     return f"<msub>{base}{below if not (digits and tail) else f'<mrow>{below}</mrow>'}</msub>"
 
 
+def bracket(symbol: str) -> str:
+    """A bracket that neither grows nor takes space."""
+    return f'<mo stretchy="false" lspace="0" rspace="0">{symbol}</mo>'
+
+
+def close(sign: str) -> str:
+    """A sign without space about it, as that of what is negative."""
+    return f'<mo lspace="0" rspace="0">{sign}</mo>'
+
+
 def _argument(name: str) -> str:
     parts = name.split("_minus_")
     inner = "<mo>−</mo>".join(name_mathml(part) for part in parts)
     return inner if len(parts) == 1 else f"{bracket('(')}{inner}{bracket(')')}"
 
 
-def _sequence(tokens: list[str], closing: str) -> tuple[str, list[str]]:
-    """Everything up to a closing token, and what is left after it."""
-    parts: list[str] = []
-    while tokens and tokens[0] != closing:
-        parts.append("")
-        parts[-1], tokens = _scripted(tokens)
-    if closing:
-        tokens = tokens[1:]
-    return "".join(parts), tokens
+class _Reader:
+    """Reads tokens one by one; what is left is a stack with the next one on top."""
+
+    def __init__(self, source: str) -> None:
+        found = _TOKEN.findall(_SIZES.sub("", source))
+        self.left: list[str] = [token for token in found if not token.isspace()][::-1]
+
+    @property
+    def next(self) -> str:
+        """The token that comes next, "" at the end."""
+        return self.left[-1] if self.left else ""
+
+    def take(self) -> str:
+        """The next token, which must be there."""
+        if not self.left:
+            raise _UnreadableError
+        return self.left.pop()
+
+    def sequence(self, *closing: str) -> str:
+        """Everything up to one of the closing tokens, which stays; without any, up to the end."""
+        parts: list[str] = []
+        while self.left and self.next not in closing:
+            parts.append(_spaced(self.scripted(), parts[-1] if parts else ""))
+        return "".join(parts)
+
+    def scripted(self) -> str:
+        """One item with its sub- and superscript."""
+        base = "<mrow></mrow>" if self.next in ("_", "^") else self.item(self.take())
+        scripts: dict[str, str] = {}
+        while self.next in ("_", "^") and self.next not in scripts:
+            mark = self.take()
+            scripts[mark] = self.argument()
+        below, above = scripts.get("_", ""), scripts.get("^", "")
+        function = base.removeprefix("<mi>").removesuffix("</mi>") in FUNCTIONS
+        under, over = ("munder", "mover") if base in LIMITS.values() else ("msub", "msup")
+        if below and above:
+            tag = "munderover" if under == "munder" else "msubsup"
+            base = f"<{tag}>{base}{below}{above}</{tag}>"
+        elif below or above:
+            tag = under if below else over
+            base = f"<{tag}>{base}{below or above}</{tag}>"
+        return base + APPLY if function and self.left and self.next not in ("(", ")", "}", "&", ROW) else base
+
+    def argument(self) -> str:
+        """What a command or a script takes: a group or one sign, of a number its first digit, as in TeX."""
+        token = self.take()
+        if token[0].isdigit() and len(token) > 1:
+            self.left += _TOKEN.findall(token[1:])[::-1]
+            token = token[0]
+        return self.item(token)
+
+    def item(self, token: str) -> str:
+        """What a token begins."""
+        if token == "{":
+            return _row(self.group("}"))
+        if token.startswith(r"\begin"):
+            return self.table(token.removeprefix(r"\begin{").removesuffix("}"))
+        if token == "}" or token.startswith(r"\end"):
+            raise _UnreadableError
+        if token == r"\sqrt":
+            return f"<msqrt>{self.argument()}</msqrt>"
+        if token == r"\mathbf":
+            return _bold(self.argument())
+        if token == r"\phantom":
+            return f"<mphantom>{self.argument()}</mphantom>"
+        if token in FRACTIONS:
+            return f"<mfrac>{self.argument()}{self.argument()}</mfrac>"
+        if token == r"\binom":
+            over = f'<mfrac linethickness="0">{self.argument()}{self.argument()}</mfrac>'
+            return f"<mrow><mo>(</mo>{over}<mo>)</mo></mrow>"
+        if token in ACCENTS:
+            return f'<mover accent="true">{self.argument()}<mo stretchy="false">{ACCENTS[token]}</mo></mover>'
+        return _symbol(token)
+
+    def group(self, closing: str) -> str:
+        """What stands before a closing token, which must come."""
+        inner = self.sequence(closing)
+        self.take()
+        return inner
+
+    def table(self, name: str) -> str:
+        """The rows of a table up to its end."""
+        if name not in TABLES:
+            raise _UnreadableError
+        end, rows = rf"\end{{{name}}}", [[""]]
+        while True:
+            rows[-1][-1] = self.sequence("&", ROW, end)
+            found = self.take()
+            if found == end:
+                break
+            if found == ROW:
+                rows.append([])
+            rows[-1].append("")
+        cells = "".join("<mtr>" + "".join(f"<mtd>{cell}</mtd>" for cell in row) + "</mtr>" for row in rows if any(row))
+        opening, closing = (f"<mo>{sign}</mo>" if sign else "" for sign in TABLES[name])
+        class_ = "matrix" if name == "bmatrix" else "table" if name == "matrix" else name
+        return f'<mrow class="{class_}">{opening}<mtable>{cells}</mtable>{closing}</mrow>'
 
 
-def _scripted(tokens: list[str]) -> tuple[str, list[str]]:
-    """One item with its sub- and superscript."""
-    base, rest = ("<mrow></mrow>", tokens) if tokens[0] in "_^" else _item(tokens)
-    scripts: dict[str, str] = {}
-    while rest and rest[0] in "_^" and rest[0] not in scripts:
-        mark = rest[0]
-        scripts[mark], rest = _item(rest[1:])
-    below, above = scripts.get("_", ""), scripts.get("^", "")
-    function = base.removeprefix("<mi>").removesuffix("</mi>") in FUNCTIONS
-    under, over = ("munder", "mover") if base in LIMITS.values() else ("msub", "msup")
-    if below and above:
-        tag = "munderover" if under == "munder" else "msubsup"
-        base = f"<{tag}>{base}{below}{above}</{tag}>"
-    elif below or above:
-        tag = under if below else over
-        base = f"<{tag}>{base}{below or above}</{tag}>"
-    argument = function and bool(rest) and rest[0] != "("
-    return (f'{base}<mo>\u2061</mo><mspace width="0.14em"/>' if argument else base), rest
-
-
-def _item(tokens: list[str]) -> tuple[str, list[str]]:
-    token, rest = tokens[0], tokens[1:]
-    if token == "{":
-        inner, rest = _sequence(rest, "}")
-        return _row(inner), rest
-    if token == r"\begin{bmatrix}":
-        return _matrix(rest)
-    if token == r"\sqrt":
-        inner, rest = _item(rest)
-        return f"<msqrt>{inner}</msqrt>", rest
-    if token == r"\mathbf":
-        inner, rest = _item(rest)
-        return _bold(inner), rest
-    if token == r"\frac":
-        above, rest = _item(rest)
-        below, rest = _item(rest)
-        return f"<mfrac>{above}{below}</mfrac>", rest
-    return _symbol(token), rest
+def _spaced(markup: str, before: str) -> str:
+    """A sign close to what it belongs to, a thin space before a function, none about a slash."""
+    sign = markup.removeprefix("<mo>").removesuffix("</mo>")
+    if sign == "/" or (sign in CLOSE and (not before or _JOINING.search(before))):
+        return close(sign)
+    return THIN + markup if _FUNCTION.match(markup) and _ORDINARY.search(before) else markup
 
 
 def _bold(mathml: str) -> str:
@@ -139,48 +209,36 @@ def _bold(mathml: str) -> str:
     return re.sub(r"<mi>([A-Za-z])</mi>", lambda found: f"<mi>{found[1].translate(BOLD)}</mi>", mathml)
 
 
-def _matrix(tokens: list[str]) -> tuple[str, list[str]]:
-    """The rows of a matrix up to its end, and what is left after it."""
-    rows = [[""]]
-    while tokens[0] != r"\end{bmatrix}":
-        if tokens[0] == ROW:
-            rows.append([""])
-            tokens = tokens[1:]
-        elif tokens[0] == "&":
-            rows[-1].append("")
-            tokens = tokens[1:]
-        else:
-            part, tokens = _scripted(tokens)
-            rows[-1][-1] += part
-    cells = "".join("<mtr>" + "".join(f"<mtd>{cell}</mtd>" for cell in row) + "</mtr>" for row in rows)
-    return f'<mrow class="matrix"><mtable>{cells}</mtable></mrow>', tokens[1:]
-
-
 def _symbol(token: str) -> str:
     if said := _WORDS.fullmatch(token):
-        words = re.sub(r"\\(.)", r"\1", said[1])
-        return f"<mtext>{escape(words)}</mtext>"
+        words = escape(re.sub(r"\\(.)", r"\1", said[2]))
+        return f'<mspace width="2em"/><mtext>({words})</mtext>' if said[1] == "tag" else f"<mtext>{words}</mtext>"
     if token in SPACES:
         return f'<mspace width="{SPACES[token]}"/>'
-    word = token.lstrip("\\")
-    if token[0] == "\\":
-        if word in BRACKETS and word:
-            return bracket(word)
-        if word in LIMITS:
-            return LIMITS[word]
-        if word in GREEK or word in FUNCTIONS:
-            return f"<mi>{GREEK.get(word, word)}</mi>"
-        return f"<mo>{OPERATORS[word]}</mo>" if word in OPERATORS else f"<mtext>{escape(token)}</mtext>"
-    if token[0].isdigit():
-        return f"<mn>{token}</mn>"
     if token in BRACKETS:
         return bracket(token)
+    if token[0] == "\\":
+        return _command(token)
+    if token[0].isdigit():
+        return f"<mn>{token}</mn>"
     return f"<mi>{escape(token)}</mi>" if token.isalpha() else f"<mo>{SIGNS.get(token, escape(token))}</mo>"
 
 
-def bracket(symbol: str) -> str:
-    """A bracket that neither grows nor takes space."""
-    return f'<mo stretchy="false" lspace="0" rspace="0">{symbol}</mo>'
+def _command(token: str) -> str:
+    word = token[1:]
+    if word in ("{", "}"):
+        return bracket(word)
+    if word in ("$", "%", "&", "#", "_"):
+        return f"<mi>{escape(word)}</mi>"
+    if word in LIMITS:
+        return LIMITS[word]
+    if word in GREEK or word in FUNCTIONS:
+        return f"<mi>{GREEK.get(word, word)}</mi>"
+    return f"<mo>{OPERATORS[word]}</mo>" if word in OPERATORS else _as_it_stands(token)
+
+
+def _as_it_stands(source: str) -> str:
+    return f"<merror><mtext>{escape(source)}</mtext></merror>"
 
 
 def _row(inner: str) -> str:

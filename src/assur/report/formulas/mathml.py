@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 from html import escape
 
-from assur.report.formulas.latex import bracket
+from assur.report.formulas.latex import bracket, close
 from assur.report.formulas.normal import Power, Product, summands
 from assur.report.formulas.trace import Letter, Traced
 
@@ -53,8 +53,10 @@ def term_mathml(term: Traced) -> str:
     """MathML of a recorded formula."""
     parts = []
     for place, item in enumerate(summands(term)):
-        if item.coefficient < 0 or place:
+        if place:
             parts.append("<mo>−</mo>" if item.coefficient < 0 else "<mo>+</mo>")
+        elif item.coefficient < 0:
+            parts.append(close("−"))
         parts.append(_product(item))
     return "".join(parts) or "<mn>0</mn>"
 

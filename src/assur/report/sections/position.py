@@ -12,10 +12,11 @@ from assur.kinematics.status import Status
 from assur.model.closed_form import Eliminant, Margin, PolynomialSystem, SelfMotion
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
-from assur.report.formulas.latex import GREEK, latex_mathml, name_mathml
+from assur.report.formulas.latex import latex_mathml, name_mathml
 from assur.report.formulas.mathml import equation, inline, letter_mathml, term_mathml
 from assur.report.formulas.normal import text
 from assur.report.formulas.reading import Line
+from assur.report.formulas.symbols import GREEK
 from assur.report.numbers import Style, count, input_angles, pose_angles, pose_words, short, shown_unit
 from assur.report.sections.polynomial import polynomial, polynomial_words, system_words
 from assur.report.sections.printed import solutions_beside

@@ -9,7 +9,7 @@ from assur.audit.documents import computed_text
 from assur.audit.rows import Row
 from assur.audit.tables import Table as Printed
 from assur.report.findings import Findings
-from assur.report.formulas.latex import GREEK
+from assur.report.formulas.symbols import GREEK
 from assur.report.numbers import minus
 from assur.results.kinds import Table
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from assur.model.mechanism import GeneralisedJoint
 from assur.synthesis.drafting.limb import BASE_LINK, PLATFORM_LINK, point_text
 from assur.synthesis.drafting.linear import ORIGIN
-from assur.synthesis.drafting.tables import Dimension, DraftGroup, DraftJoint, DraftLink, Template
+from assur.synthesis.drafting.tables import Dimension, DraftJoint, DraftLink, Template
 from assur.synthesis.drafting.templates import Draft
 
 
@@ -155,7 +156,7 @@ def _parts(item: DraftJoint, width: int) -> Iterator[str]:
         yield f'pitch = "{item.pitch}",'
 
 
-def _group(top: str, group: DraftGroup) -> list[str]:
+def _group(top: str, group: GeneralisedJoint) -> list[str]:
     return [
         f"[{top}.generalised.{group.name}]",
         f'kind = "{group.kind}"',

@@ -10,6 +10,7 @@ import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from assur.model.mechanism import GeneralisedJoint
 from assur.synthesis.drafting.layout import (
     SPREAD,
     WIDTH,
@@ -23,7 +24,7 @@ from assur.synthesis.drafting.layout import (
     stations,
 )
 from assur.synthesis.drafting.linear import ORIGIN, Linear, Point, along, dimension, minus, plus
-from assur.synthesis.drafting.tables import Dimension, DraftGroup, DraftJoint, DraftLink
+from assur.synthesis.drafting.tables import Dimension, DraftJoint, DraftLink
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram, flattened
 from assur.topology.directions import NAMED, Vector
 from assur.topology.joints import HELICAL, PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL, JointType
@@ -60,7 +61,7 @@ class Drawing:
     dimensions: dict[str, list[Dimension]] = field(default_factory=dict)
     links: list[DraftLink] = field(default_factory=list)
     joints: list[DraftJoint] = field(default_factory=list)
-    groups: list[DraftGroup] = field(default_factory=list)
+    groups: list[GeneralisedJoint] = field(default_factory=list)
     origins: dict[str, Point] = field(default_factory=dict)
     labels: dict[str, Ends] = field(default_factory=dict)
 
@@ -203,7 +204,7 @@ class Drawing:
             self._add(corners[corner], at_near, (parent, rod_name), plus(ends.near, shift), axes[at_near])
             other = {0: 1, 3: 2}[corner]
             self._add(corners[other], at_far, (rod_name, child), plus(ends.far, shift), axes[at_far][::-1])
-        self.groups.append(DraftGroup(letter, f"P({element.kind})", tuple(corners), parent, child))
+        self.groups.append(GeneralisedJoint(letter, f"P({element.kind})", tuple(corners), parent, child))
 
     def _loop(self, loop: InnerLoop, parent: str, child: str, row: Row, place: int, count: int) -> None:
         """The branches side by side, apart in a direction that their first axis does not have."""

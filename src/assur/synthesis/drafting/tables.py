@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from assur.model.mechanism import GeneralisedJoint
 from assur.synthesis.drafting.linear import Point
 from assur.topology.joints import JointType
 
@@ -39,17 +40,6 @@ class DraftJoint:
     axes: tuple[str, ...] = ()
     pitch: str = ""
     meaning: str = ""
-
-
-@dataclass(frozen=True)
-class DraftGroup:
-    """A parallelogram between two links."""
-
-    name: str
-    kind: str
-    joints: tuple[str, ...]
-    parent: str
-    child: str
 
 
 @dataclass(frozen=True)
@@ -90,7 +80,7 @@ class Template:
     dimensions: tuple[Dimension, ...]
     links: tuple[DraftLink, ...]
     joints: tuple[DraftJoint, ...]
-    groups: tuple[DraftGroup, ...]
+    groups: tuple[GeneralisedJoint, ...]
     chain: DraftChain | None
     order: tuple[str, ...]
     knee: Knee | None = None

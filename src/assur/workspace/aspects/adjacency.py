@@ -3,7 +3,8 @@
 The boxes come from halving one box, so that their faces lie on the same floats where they meet, and no two share an
 inner point. On each plane with faces the rectangles of both sides are cut into strips; in a strip they follow one
 another in order, and a binary search finds those that overlap. Nothing is rounded: coordinates are compared, and
-counted, but not computed with.
+counted, but not computed with. Where a coordinate turns, what begins at the beginning of the turn is there again at
+its end.
 """
 
 from __future__ import annotations
@@ -11,58 +12,71 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.workspace.aspects.turning import Ends
 from assur.workspace.certified.boxes import Boxes
 
 IntArray = NDArray[np.int64]
 
 
-def shared_faces(boxes: Boxes) -> tuple[IntArray, IntArray]:
+def shared_faces(boxes: Boxes, ends: Ends = ()) -> tuple[IntArray, IntArray]:
     """Pairs (n, 2) of boxes that share a part of a face with an area of its own, and the axis (n,) across it.
 
     The first box of a pair is below the face, the second above it. In a plane faces are edges with a length, on a line
-    they are points.
+    they are points. The `ends` of a turn are one face.
 
     >>> boxes = Boxes(np.array([[0.0, 1.0, 1.0], [0.0, 0.0, 1.0]]), np.array([[1.0, 2.0, 2.0], [1.0, 1.0, 2.0]]))
     >>> [item.tolist() for item in shared_faces(boxes)]  # the first and the last have only a corner in common
     [[[0, 1], [1, 2]], [0, 1]]
     """
-    return _meeting(boxes, 0)
+    return _meeting(boxes, 0, ends)
 
 
-def contacts(boxes: Boxes) -> IntArray:
+def contacts(boxes: Boxes, ends: Ends = ()) -> IntArray:
     """Pairs (n, 2) of boxes that have at least one point in common, each pair once, the lower number first.
 
     >>> boxes = Boxes(np.array([[0.0, 1.0, 1.0], [0.0, 0.0, 1.0]]), np.array([[1.0, 2.0, 2.0], [1.0, 1.0, 2.0]]))
     >>> contacts(boxes).tolist()
     [[0, 1], [0, 2], [1, 2]]
     """
-    pairs, _ = _meeting(boxes, 1)
+    pairs, _ = _meeting(boxes, 1, ends)
     return _unique(np.sort(pairs, axis=1), len(boxes))
 
 
-def _meeting(boxes: Boxes, wider: int) -> tuple[IntArray, IntArray]:
+def _meeting(boxes: Boxes, wider: int, ends: Ends = ()) -> tuple[IntArray, IntArray]:
     """Pairs across each axis; the faces of the first boxes are `wider` by that many half steps of the coordinates."""
-    low, high = _ranks(boxes)
+    low, high, number = _ranks(boxes, ends)
     found, axes = [np.zeros((0, 2), dtype=np.int64)], [np.zeros(0, dtype=np.int64)]
-    every = np.arange(len(boxes))
     for axis in range(len(low)):
         rest = [k for k in range(len(low)) if k != axis]
         below, above = np.isin(high[axis], low[axis]), np.isin(low[axis], high[axis])
-        first = high[axis][below], low[rest][:, below] - wider, high[rest][:, below] + wider, every[below]
-        second = low[axis][above], low[rest][:, above], high[rest][:, above], every[above]
+        first = high[axis][below], low[rest][:, below] - wider, high[rest][:, below] + wider, number[below]
+        second = low[axis][above], low[rest][:, above], high[rest][:, above], number[above]
         pairs = _unique(_overlapping(first, second), len(boxes))
+        pairs = pairs[pairs[:, 0] != pairs[:, 1]]  # a box all around meets itself
         found.append(pairs)
         axes.append(np.full(len(pairs), axis, dtype=np.int64))
     return np.concatenate(found), np.concatenate(axes)
 
 
-def _ranks(boxes: Boxes) -> tuple[IntArray, IntArray]:
-    """Low and high (k, N) as numbers of the distinct coordinates along each axis, times two to leave room between."""
+def _ranks(boxes: Boxes, ends: Ends) -> tuple[IntArray, IntArray, IntArray]:
+    """Low and high (k, M) as numbers of the distinct coordinates along each axis, and the number (M,) of each box.
+
+    They are times two to leave room between. What begins where a turn does is there twice.
+    """
     low, high = np.empty(boxes.low.shape, dtype=np.int64), np.empty(boxes.low.shape, dtype=np.int64)
+    number = np.arange(len(boxes))
+    spans: list[tuple[int, int]] = []
     for axis, (first, last) in enumerate(zip(boxes.low, boxes.high, strict=True)):
-        edges = np.unique(np.concatenate([first, last]))
+        turn = ends[axis] if ends else None
+        edges = np.unique(np.concatenate([first, last, turn or ()]))
         low[axis], high[axis] = 2 * np.searchsorted(edges, first), 2 * np.searchsorted(edges, last)
-    return low, high
+        spans += [(axis, 2 * (len(edges) - 1))] if turn else []
+    for axis, span in spans:
+        again = np.flatnonzero(low[axis] == 0)
+        low, high, number = (np.concatenate([part, part[..., again]], axis=-1) for part in (low, high, number))
+        for part in (low, high):
+            part[axis, -len(again) or len(number) :] += span
+    return low, high, number
 
 
 Rectangles = tuple[IntArray, IntArray, IntArray, IntArray]

@@ -23,6 +23,7 @@ from assur.numerics.intervals.interval import Interval, as_interval
 from assur.workspace.aspects.path import AspectPath, path_between
 from assur.workspace.aspects.places import Place, place, point_of
 from assur.workspace.aspects.search import Search, search
+from assur.workspace.aspects.turning import ends_of, turned
 from assur.workspace.aspects.volumes import Pair, volumes
 from assur.workspace.bounds import Stroke
 from assur.workspace.certified.boxes import Boxes
@@ -70,6 +71,7 @@ class Aspects:
         naming: factors of which the signs make up a label: all parallel ones, and serial ones that take both signs.
         aspects: the largest first.
         names: coordinates of the boxes; nothing depends on the others.
+        turning: those of them that are looked at over a whole turn, so that they have no ends.
         finest: extents at which undecided boxes were no longer cut, by coordinate.
         search: the boxes and how they are linked; `order` gives the place in `aspects` of each component.
         stopped: why it ended early; "" where it did not.
@@ -85,6 +87,7 @@ class Aspects:
     naming: tuple[str, ...]
     aspects: tuple[Aspect, ...]
     names: tuple[str, ...]
+    turning: tuple[str, ...]
     finest: Mapping[str, float]
     search: Search = field(repr=False)
     order: tuple[int, ...] = field(repr=False)
@@ -166,6 +169,7 @@ class Aspects:
             ],
             "told_apart": self.told_apart,
             "paved": list(self.names),
+            "turning": list(self.turning),
             "finest": dict(self.finest),
             "undecided": len(self.search.undecided),
             "stopped": self.stopped,
@@ -198,7 +202,7 @@ def aspects(
 
     Returns:
         The frozen result. What is listed is proved to be there; undecided boxes may hold further, small ones. An
-        angle is not closed to a circle: -180 and 180 deg are ends of the box.
+        angle whose interval is a whole turn has no ends: aspects go on from 180 to -180 deg.
 
     Errors:
         UsageError: no closed form; a box, stroke or size that is none.
@@ -217,8 +221,11 @@ def aspects(
     domain = box_of(record, box, poses.free)
     asked = criteria(record, mode, strokes, held, KINDS).nonsingular
     used = asked.used if any(asked.used) else (True, *asked.used[1:])
-    extents = _extents(record, domain, finest, PARTS[sum(used) - 1])
-    found = search(Frame(asked, domain, used), extents, progress)
+    names = tuple(name for name, has in zip(domain.names, used, strict=True) if has)
+    looked_at = turned(domain, names)
+    extents = _extents(record, looked_at, finest, PARTS[sum(used) - 1])
+    frame = Frame(asked, looked_at, used)
+    found = search(frame, extents, progress)
     length = as_interval(1.0)
     for has, low, high in zip(used, domain.low, domain.high, strict=True):
         length = length if has else length * (Interval.of(high) - low)
@@ -248,7 +255,8 @@ def aspects(
             )
             for k in order
         ),
-        names=tuple(name for name, has in zip(domain.names, used, strict=True) if has),
+        names=names,
+        turning=tuple(name for name, pair in zip(names, ends_of(frame), strict=True) if pair is not None),
         finest=extents,
         search=found,
         order=tuple(np.argsort(order).tolist()),

@@ -18,7 +18,9 @@ from scipy.sparse.csgraph import dijkstra
 from assur.workspace.aspects.adjacency import shared_faces
 from assur.workspace.aspects.places import Place, place
 from assur.workspace.aspects.search import Search
+from assur.workspace.aspects.turning import Ends, ends_of, moved, turns
 from assur.workspace.certified.boxes import Boxes, together
+from assur.workspace.certified.planes import judged
 from assur.workspace.domain import Box
 
 FloatArray = NDArray[np.float64]
@@ -43,7 +45,8 @@ class AspectPath:
         why: in words, where they are not connected.
         start, end: where the two poses are.
         coordinates: of the points, those that vary.
-        points: (n, free) vertices of the path; empty where there is none.
+        points: (n, free) vertices of the path; empty where there is none. An angle that goes beyond the end of its turn
+            goes on: the last vertex is then the pose asked for after whole turns, rounded.
         names: coordinates of the boxes; nothing depends on the others.
         boxes: n - 1 boxes; the piece from vertex k to k + 1 lies in box k, in which every pose is proved.
     """
@@ -80,11 +83,26 @@ def path_between(
     if status != "connected":
         return AspectPath(status, why, start, end, box.names, np.zeros((0, len(box.names))), names, state.certain[:0])
     chain = _chain(state, start.box, end.box)
-    corners = _pulled(state.certain[chain], start.points[-1], end.points[-1], _extent(box, state.frame.used))
-    points = np.concatenate([start.points[:-1], corners, end.points[:-1][::-1]])
-    boxes = together([start.boxes, state.certain[chain], end.boxes[::-1]])
+    ends = ends_of(state.frame)
+    count = turns(state.certain[chain], ends)
+    passed = _shifted(state.certain[chain], count, ends)
+    final = count[:, -1:]
+    arrival = _shifted(end.boxes[::-1], final, ends)
+    if count.any() and not judged(state.frame, together([passed, arrival]), shares=False).inside.all():
+        why = "rounding leaves a box undecided where the angle goes on beyond its end"
+        return AspectPath("undecided", why, start, end, box.names, np.zeros((0, len(box.names))), names, passed[:0])
+    finish = moved(end.points[::-1].T, final, ends).T
+    corners = _pulled(passed, start.points[-1], finish[0], _extent(box, state.frame.used))
+    points = np.concatenate([start.points[:-1], corners, finish[1:]])
+    boxes = together([start.boxes, passed, arrival])
     whole = _whole(points, state.frame.used, first, last, _extent(box, state.frame.used))
     return AspectPath("connected", "", start, end, box.names, whole, names, boxes)
+
+
+def _shifted(boxes: Boxes, count: NDArray[np.int64], ends: Ends) -> Boxes:
+    """Boxes after so many turns (k, 1) or (k, N), rounded."""
+    count = np.broadcast_to(count, boxes.low.shape)
+    return Boxes(moved(boxes.low, count, ends), moved(boxes.high, count, ends))
 
 
 def _verdict(state: Search, start: Place, end: Place) -> tuple[Verdict, str]:
@@ -117,9 +135,13 @@ def _chain(state: Search, first: int, last: int) -> IntArray:
     """Numbers of the fewest boxes from one to another, each of which shares a face with the next."""
     own = np.flatnonzero(state.links.component == state.links.component[first])
     boxes = state.certain[own]
-    pairs, _ = shared_faces(boxes)
+    ends = ends_of(state.frame)
+    pairs, _ = shared_faces(boxes, ends)
     middles = boxes.middles / _extent(state.frame.box, state.frame.used)[:, None]
-    lengths = 1.0 + np.sqrt(np.sum((middles[:, pairs[:, 0]] - middles[:, pairs[:, 1]]) ** 2, axis=0))
+    apart = middles[:, pairs[:, 0]] - middles[:, pairs[:, 1]]
+    turning = [pair is not None for pair in ends]
+    apart[turning] -= np.round(apart[turning])
+    lengths = 1.0 + np.sqrt(np.sum(apart**2, axis=0))
     graph = coo_array((lengths, (pairs[:, 0], pairs[:, 1])), shape=(len(own), len(own))).tocsr()
     start, end = np.searchsorted(own, [first, last])
     _, before = dijkstra(graph, directed=False, indices=np.array([start]), return_predecessors=True)
@@ -158,6 +180,6 @@ def _whole(
     done = np.concatenate([[0.0], np.cumsum(steps)])
     share = done / done[-1] if done[-1] > 0 else np.linspace(0.0, 1.0, len(points))
     whole = first + share[:, None] * (last - first)
-    whole[:, list(used)] = points
     whole[0], whole[-1] = first, last
+    whole[:, list(used)] = points
     return whole

@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.workspace.aspects.components import Links, links
+from assur.workspace.aspects.neighbours import Neighbours, neighbours
 from assur.workspace.aspects.signs import Signs, factor_signs
+from assur.workspace.aspects.turning import ends_of
 from assur.workspace.certified.boxes import Boxes, together
 from assur.workspace.certified.paving import Progress, Stopped, pave
 from assur.workspace.certified.planes import Frame, judged
@@ -38,21 +40,31 @@ class Search:
 
     Attributes:
         frame: the question, over the coordinates that are cut.
-        certain: boxes in which every pose is reached and no factor is zero, with its `signs` (N, f).
-        undecided: the others, of which some poses may be so, with the signs `possible` (M, f) there, or 0.
+        signs: (N, f) of the factors in certain boxes.
+        possible: (M, f) of the factors in undecided boxes, where such a pose has that one for certain, else 0.
         outside: boxes in which no pose is reached.
-        links: how the boxes are connected.
+        met: which of the first two meet.
+        links: how they are connected.
         stopped: why it ended early; "" where it did not.
     """
 
     frame: Frame
-    certain: Boxes
     signs: Signs
-    undecided: Boxes
     possible: Signs
     outside: Boxes
+    met: Neighbours
     links: Links
     stopped: Stopped = ""
+
+    @property
+    def certain(self) -> Boxes:
+        """Boxes in which every pose is reached and no factor is zero."""
+        return self.met.certain
+
+    @property
+    def undecided(self) -> Boxes:
+        """Boxes of which some poses may be so."""
+        return self.met.undecided
 
     @property
     def open(self) -> float:
@@ -72,12 +84,11 @@ def search(frame: Frame, finest: Mapping[str, float], progress: Progress | None 
         progress: called with (steps done, steps in all).
     """
     paving = pave(frame.criteria, frame.box, finest=finest, progress=_part(progress))
-    certain, undecided = paving.inside, paving.boundary
-    signs, possible = factor_signs(frame, certain), factor_signs(frame, undecided)
-    found = links(certain, signs, undecided, possible)
-    state = Search(frame, certain, signs, undecided, possible, paving.outside, found, paving.stopped)
+    signs, possible = factor_signs(frame, paving.inside), factor_signs(frame, paving.boundary)
+    met = neighbours(paving.inside, paving.boundary, ends_of(frame))
+    state = Search(frame, signs, possible, paving.outside, met, links(met, signs, possible), paving.stopped)
     least = np.array([finest[name] for name in paving.names]) / DEEPER
-    room = int(MORE * len(undecided)) + SPARE
+    room = int(MORE * len(state.undecided)) + SPARE
     try:
         for k in range(ROUNDS):
             if progress is not None:
@@ -115,27 +126,20 @@ def _cut(state: Search, chosen: BoolArray) -> Search:
     """The state with chosen boxes halved once along each coordinate, and what follows from it."""
     frame, parts = state.frame, state.undecided[chosen]
     inside, outside, axes = [], [state.outside], len(parts.low)
+    known = judged(frame, parts, shares=False)
     for _ in range(axes):
-        known = judged(frame, parts, shares=False)
         parts = parts.halved(known.axis)
         known = judged(frame, parts, shares=False)
         inside.append(parts[known.inside])
         outside.append(parts[known.outside])
-        parts = parts[~known.inside & ~known.outside]
+        left = ~known.inside & ~known.outside
+        parts, known = parts[left], known[left]
     fresh = together(inside)
-    certain, undecided = together([state.certain, fresh]), together([state.undecided[~chosen], parts])
     signs = np.concatenate([state.signs, factor_signs(frame, fresh)])
     possible = np.concatenate([state.possible[~chosen], factor_signs(frame, parts)])
-    found = links(certain, signs, undecided, possible)
-    return replace(
-        state,
-        certain=certain,
-        signs=signs,
-        undecided=undecided,
-        possible=possible,
-        outside=together(outside),
-        links=found,
-    )
+    met = state.met.cut(chosen, fresh, parts)
+    found = links(met, signs, possible)
+    return replace(state, signs=signs, possible=possible, outside=together(outside), met=met, links=found)
 
 
 def _part(progress: Progress | None) -> Progress | None:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.numerics.intervals import rounding
 from assur.numerics.intervals.interval import Interval
+from assur.numerics.intervals.sloped import ranged
 from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.planes import BLOCK, Frame
-from assur.workspace.certified.sloped import ranged
 
 Signs = NDArray[np.int8]
 
@@ -34,13 +36,23 @@ def factor_signs(frame: Frame, boxes: Boxes) -> Signs:
 
 
 def _block(frame: Frame, boxes: Boxes) -> Signs:
-    middles = boxes.middles
-    reach = rounding.up_sum(np.maximum(boxes.high - middles, middles - boxes.low))
-    offsets = [Interval(-row, row, np.ones(len(boxes), dtype=bool)) for row in reach]
-    plain = frame.criteria.over(frame.whole(boxes.intervals))
-    found = frame.criteria.sloped(frame.whole(boxes.intervals), frame.middles(middles))
-    signs = np.zeros((len(boxes), len(frame.criteria.names)), dtype=np.int8)
-    for k, name in enumerate(frame.criteria.names):
-        for value in (plain[name], ranged(found[name], offsets)):
-            signs[:, k] = np.where(value.positive, 1, np.where(value.negative, -1, signs[:, k]))
+    names = frame.criteria.names
+    signs = np.zeros((len(boxes), len(names)), dtype=np.int8)
+    _tell(signs, frame.criteria.over(frame.whole(boxes.intervals)), names)
+    rest = np.flatnonzero(np.any(signs == 0, axis=1))
+    if len(rest):  # slopes tell more
+        boxes, told = boxes[rest], signs[rest]
+        middles = boxes.middles
+        reach = rounding.up_sum(np.maximum(boxes.high - middles, middles - boxes.low))
+        offsets = [Interval(-row, row, np.ones(len(boxes), dtype=bool)) for row in reach]
+        found = frame.criteria.sloped(frame.whole(boxes.intervals), frame.middles(middles))
+        _tell(told, {name: ranged(found[name], offsets) for name in names}, names)
+        signs[rest] = told
     return signs
+
+
+def _tell(signs: Signs, found: Mapping[str, Interval], names: Sequence[str]) -> None:
+    """Write down the signs (N, f) that intervals (N,) have."""
+    for k, name in enumerate(names):
+        value = found[name]
+        signs[:, k] = np.where(value.positive, 1, np.where(value.negative, -1, signs[:, k]))

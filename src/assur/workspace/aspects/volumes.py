@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +12,9 @@ from assur.numerics.intervals import rounding
 from assur.numerics.intervals.interval import as_interval
 from assur.workspace.aspects.search import Search
 from assur.workspace.aspects.signs import Signs
+from assur.workspace.aspects.turning import ends_of, once
 from assur.workspace.certified import cuts
-from assur.workspace.certified.boxes import Boxes
-from assur.workspace.certified.planes import BLOCK, Frame, judged
+from assur.workspace.certified.planes import BLOCK, judged
 
 FloatArray = NDArray[np.float64]
 Pair = tuple[float, float]
@@ -26,40 +26,61 @@ def volumes(state: Search) -> list[Pair]:
     The lower one counts the component's boxes. The upper one adds the components that are not told apart from it, and
     of undecided boxes the part where margins are not negative and factors have the aspect's signs.
     """
-    found, sizes = state.links, state.certain.sizes
+    found, most = state.links, state.certain.sizes.high
+    least = once(state.certain, ends_of(state.frame)).sizes.low
     rows = [np.flatnonzero(found.component == k) for k in range(len(found.group))]
-    own = [(math.fsum(sizes.low[row]), math.fsum(sizes.high[row])) for row in rows]
-    most = [_most_of(state, group, [pair[1] for pair in own]) for group in range(len(found.reached))]
-    return [
-        (max(float(rounding.down(low)), 0.0), most[group]) for (low, _), group in zip(own, found.group, strict=True)
-    ]
+    low = [max(float(rounding.down(math.fsum(least[row]))), 0.0) for row in rows]
+    own = [float(rounding.up(math.fsum(most[row]))) for row in rows]
+    open_ = _open(state)
+    high: list[float] = []
+    for group, boxes in enumerate(found.reached):
+        members = np.flatnonzero(found.group == group)
+        added = math.fsum(open_.most(boxes, found.signs[members[0]]))
+        total = math.fsum([*(own[int(k)] for k in members), float(rounding.up(added))])
+        high.append(float(rounding.up(total)))
+    return [(value, high[group]) for value, group in zip(low, found.group, strict=True)]
 
 
-def _most_of(state: Search, group: int, sizes: Sequence[float]) -> float:
-    """Upper bound of the volume of a group: its components, of at most these sizes, and what undecided boxes add."""
-    members = np.flatnonzero(state.links.group == group)
-    boxes = state.undecided[state.links.reached[group]]
-    signs = state.links.signs[members[0]]
-    parts = [_most(state.frame, boxes[k : k + BLOCK], signs) for k in range(0, len(boxes), BLOCK)]
-    added = math.fsum(value for part in parts for value in part)
-    total = math.fsum([*(float(rounding.up(sizes[int(k)])) for k in members), float(rounding.up(added))])
-    return float(rounding.up(total))
+@dataclass(frozen=True, eq=False)
+class _Open:
+    """What undecided boxes may hold.
+
+    Attributes:
+        reached: (M,) upper bounds of the volume of what is reached in each.
+        room: (M,) upper bounds of the volume of the boxes of which `shares` speak.
+        shares: (2, f, M) upper bounds of the share in which each factor is positive, and negative.
+    """
+
+    reached: FloatArray
+    room: FloatArray
+    shares: FloatArray
+
+    def most(self, boxes: NDArray[np.int64], signs: Signs) -> FloatArray:
+        """Upper bounds (n,) of the volume, in some boxes, of what is reached with given signs (f,) of the factors."""
+        sides = np.where(signs > 0, 0, 1)
+        share = np.min(self.shares[sides, np.arange(len(signs))][:, boxes], axis=0, initial=1.0)
+        return np.minimum(self.reached[boxes], rounding.up(share * self.room[boxes]))
 
 
-def _most(frame: Frame, boxes: Boxes, signs: Signs) -> FloatArray:
-    """Upper bounds (N,) of the volume, in each box, of what is reached with given signs (f,) of the factors."""
-    return np.minimum(judged(frame, boxes).most, _signed(frame, boxes, signs))
-
-
-def _signed(frame: Frame, boxes: Boxes, signs: Signs) -> FloatArray:
-    """The same for the signs alone, from the values of the factors in the middle and their slopes."""
-    middles = boxes.middles
-    reach = rounding.up_sum(np.maximum(boxes.high - middles, middles - boxes.low))
-    found = frame.criteria.sloped(frame.whole(boxes.intervals), frame.middles(middles))
-    share = np.ones(len(boxes))
-    for name, sign in zip(frame.criteria.names, signs, strict=True):
-        share = np.minimum(share, cuts.shares(found[name] if sign > 0 else -found[name], reach)[1])
-    size = as_interval(share)
-    for row in reach:  # shares are those of the box of half extents `reach`
-        size = size * as_interval(2 * row)
-    return size.high
+def _open(state: Search) -> _Open:
+    """Each undecided box that an aspect may reach is looked at once, for all signs."""
+    count, names = len(state.undecided), state.frame.criteria.names
+    found = _Open(np.zeros(count), np.zeros(count), np.ones((2, len(names), count)))
+    rows = np.unique(np.concatenate([np.zeros(0, dtype=np.int64), *state.links.reached]))
+    for k in range(0, len(rows), BLOCK):
+        row = rows[k : k + BLOCK]
+        boxes = state.undecided[row]
+        found.reached[row] = judged(state.frame, boxes).most
+        middles = boxes.middles
+        reach = rounding.up_sum(np.maximum(boxes.high - middles, middles - boxes.low))
+        size = as_interval(np.ones(len(boxes)))
+        for extent in reach:  # shares are those of the box of half extents `reach`
+            size = size * as_interval(2 * extent)
+        found.room[row] = size.high
+        values = state.frame.criteria.sloped(state.frame.whole(boxes.intervals), state.frame.middles(middles))
+        for j, name in enumerate(names):
+            open_ = np.flatnonzero(state.possible[row, j] == 0)  # of the others only boxes with that sign are asked for
+            if len(open_):
+                least, most = cuts.shares(values[name].of(open_, len(boxes)), reach[:, open_])
+                found.shares[:, j, row[open_]] = most, rounding.up(1.0 - least)
+    return found

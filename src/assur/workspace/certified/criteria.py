@@ -21,10 +21,12 @@ from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, QUATERNION, has_quaternion, is_angle
 from assur.numerics.intervals.functions import cosine_sine, from_degrees
 from assur.numerics.intervals.interval import Interval, as_interval
+from assur.numerics.intervals.sloped import Sloped, coordinate, turn
+from assur.numerics.recording.interval_program import IntervalProgram
+from assur.numerics.recording.interval_tapes import SlopedProgram, folded, sloped_program
 from assur.numerics.recording.tape import Recorded, Recorder, Tape
 from assur.workspace.bounds import Stroke, bounds
-from assur.workspace.certified.programs import folded, with_radicands
-from assur.workspace.certified.sloped import ClampedIntervals, Sloped, SlopedNumbers, coordinate, turn
+from assur.workspace.certified.programs import with_radicands
 from assur.workspace.slices import Slice, quaternion_of, slice_at
 
 FloatArray = NDArray[np.float64]
@@ -66,18 +68,23 @@ class Criteria:
         a margin below zero all over a box proves that none of it is reached, and margins and radicands that are
         nowhere negative and everywhere defined prove that all of it is.
         """
-        found = self.tape.evaluate(components(self.tape, self.slice, box), self.uniform, ClampedIntervals())
-        return {name: as_interval(value) for name, value in found.items()}
+        return self._program(components(self.tape, self.slice, box), self.uniform)
 
     def sloped(self, box: Sequence[Interval], middles: Sequence[FloatArray | None]) -> dict[str, Sloped]:
         """Every output over boxes (N,) with its slopes; no slopes by coordinates whose middle is None."""
         varying = _sloped_components(self.tape, self.slice, box, middles)
-        found = self.tape.evaluate(varying, self.uniform, SlopedNumbers())
-        nothing = (None,) * sum(middle is not None for middle in middles)
-        return {
-            name: value if isinstance(value, Sloped) else Sloped(as_interval(value), as_interval(value), nothing)
-            for name, value in found.items()
-        }
+        shape = tuple(middle is not None for middle in middles)
+        if shape not in self._sloped_programs:
+            self._sloped_programs[shape] = sloped_program(self.tape, varying, sum(shape))
+        return self._sloped_programs[shape](varying, self.uniform)
+
+    @cached_property
+    def _program(self) -> IntervalProgram:
+        return IntervalProgram(self.tape, clamped=True)
+
+    @cached_property
+    def _sloped_programs(self) -> dict[tuple[bool, ...], SlopedProgram]:
+        return {}
 
     @property
     def names(self) -> tuple[str, ...]:

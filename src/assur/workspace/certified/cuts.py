@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.numerics.intervals import rounding
-from assur.workspace.certified.sloped import Sloped
+from assur.numerics.intervals.sloped import Sloped
 
 FloatArray = NDArray[np.float64]
 
@@ -45,24 +45,25 @@ def shares(number: Sloped, reach: FloatArray) -> tuple[FloatArray, FloatArray]:
     for k, part in itertools.product(range(len(own)), range(len(parts))):
         up = parts[part][k]
         below[k, part], above[k, part] = (least[k], most[k]) if up else (-most[k], -least[k])
-    low = _mean(np.where(known, number.centre.low, 0.0), below)[0]
-    high = _mean(np.where(known, number.centre.high, 0.0), above)[1]
+    low = _mean(np.where(known, number.centre.low, 0.0), below, upper=False)
+    high = _mean(np.where(known, number.centre.high, 0.0), above, upper=True)
     return np.where(known, low, 0.0), np.where(known, high, 1.0)
 
 
-def _mean(start: FloatArray, rises: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Bounds (N,) of the mean over parts (p) of the share above zero of start + rises . t, with t in [0, 1]^k.
+def _mean(start: FloatArray, rises: FloatArray, *, upper: bool) -> FloatArray:
+    """A bound (N,) of the mean over parts (p) of the share above zero of start + rises . t, with t in [0, 1]^k.
 
     Args:
         start: (N,) value at the corner that all parts share.
         rises: (k, p, N) the rounded rises; what was lost by that is added here.
+        upper: which bound.
     """
     lost = np.sum(np.abs(rises), axis=0) * 4 * UNIT + 1e-290
     middle = start + np.sum(rises, axis=0) / 2
     lost += np.abs(middle) * 8 * UNIT + np.abs(start) * 8 * UNIT
-    low, high = share(middle - lost, rises / 2)[0], share(middle + lost, rises / 2)[1]
-    size = low.shape[0] * 2 * UNIT
-    return np.clip(np.mean(low, axis=0) - size, 0.0, 1.0), np.clip(np.mean(high, axis=0) + size, 0.0, 1.0)
+    found = _bound(middle + lost if upper else middle - lost, rises / 2, upper=upper)
+    size = found.shape[0] * 2 * UNIT
+    return np.asarray(np.clip(np.mean(found, axis=0) + (size if upper else -size), 0.0, 1.0))
 
 
 def share(height: FloatArray, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -81,16 +82,27 @@ def share(height: FloatArray, slopes: FloatArray) -> tuple[FloatArray, FloatArra
     >>> low.round(6), high.round(6)
     (array([0.5, 1. ]), array([0.5, 1. ]))
     """
+    return _bound(height, slopes, upper=False), _bound(height, slopes, upper=True)
+
+
+def _bound(height: FloatArray, slopes: FloatArray, *, upper: bool) -> FloatArray:
+    """One of both bounds: the corners are gone through once."""
     rise = np.abs(slopes)
     size = len(rise)
     least = np.maximum(FLATTEST[size - 1] * np.sum(rise, axis=0), 1e-90)
     steep = np.maximum(rise, least)
     moved = np.sum(steep - rise, axis=0) * (1 + 1e-12)
-    low = _share(rounding.down_sum(height - moved), steep)[0]
-    return low, _share(rounding.up_sum(height + moved), steep)[1]
+    height = rounding.up_sum(height + moved) if upper else rounding.down_sum(height - moved)
+    found, wrong = _share(height, steep)
+    whole = np.sum(steep, axis=0)
+    far = whole * (1 + 16 * UNIT)
+    above, below = (whole, far) if upper else (far, whole)
+    inner = np.clip(found + (wrong if upper else -wrong), 0.0, 1.0)
+    return np.where(height >= above, 1.0, np.where(height <= -below, 0.0, inner))
 
 
 def _share(height: FloatArray, rise: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The share, rounded, and by how much it may be wrong."""
     size = len(rise)
     total: FloatArray = np.zeros(height.shape)
     with np.errstate(all="ignore"):  # what overflows is left out below
@@ -106,8 +118,4 @@ def _share(height: FloatArray, rise: FloatArray) -> tuple[FloatArray, FloatArray
         wrong = 256 * UNIT * whole**size / product + 16 * UNIT
         found = total / (product * 2.0**size)
     known = np.isfinite(wrong) & np.isfinite(found)
-    found, wrong = np.where(known, found, 0.5), np.where(known, wrong, 1.0)
-    far = whole * (1 + 16 * UNIT)
-    low = np.where(height >= far, 1.0, np.where(height <= -whole, 0.0, np.clip(found - wrong, 0.0, 1.0)))
-    high = np.where(height <= -far, 0.0, np.where(height >= whole, 1.0, np.clip(found + wrong, 0.0, 1.0)))
-    return low, high
+    return np.where(known, found, 0.5), np.where(known, wrong, 1.0)

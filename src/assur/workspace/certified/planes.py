@@ -16,10 +16,11 @@ from numpy.typing import NDArray
 
 from assur.numerics.intervals import rounding
 from assur.numerics.intervals.interval import Interval, as_interval
+from assur.numerics.intervals.shapes import broadcast
+from assur.numerics.intervals.sloped import Sloped, ranged
 from assur.workspace.certified import cuts
 from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.criteria import Criteria
-from assur.workspace.certified.sloped import Sloped, ranged
 from assur.workspace.domain import Box
 
 FloatArray = NDArray[np.float64]
@@ -127,7 +128,7 @@ def _closer(frame: Frame, boxes: Boxes, shares: bool) -> Judged:
     reach = rounding.up_sum(np.maximum(boxes.high - middles, middles - boxes.low))
     offsets = [Interval(-row, row, np.ones(count, dtype=bool)) for row in reach]
     found = criteria.sloped(frame.whole(boxes.intervals), frame.middles(middles))
-    ranges = {name: _over(ranged(number, offsets), count) for name, number in found.items()}
+    ranges = {name: broadcast(ranged(number, offsets), (count,)) for name, number in found.items()}
     inside = np.ones(count, dtype=bool)
     outside, changes = np.zeros(count, dtype=bool), np.zeros((len(reach), count))
     missing, most = np.zeros(count), np.ones(count)
@@ -139,11 +140,12 @@ def _closer(frame: Frame, boxes: Boxes, shares: bool) -> Judged:
         changes += np.where(certain, 0.0, _relative(errors + bend * np.abs(rises)))
         if name in criteria.margins:
             outside |= ranges[name].high < 0
-        if shares and not certain.all():
-            low, high = cuts.shares(found[name], reach)
-            missing += np.where(certain, 0.0, np.where(ranges[name].defined, 1.0 - low, 1.0)) * (1 + 1e-14)
+        rows = np.flatnonzero(~certain)
+        if shares and len(rows):
+            low, high = cuts.shares(found[name].of(rows, count), reach[:, rows])
+            missing[rows] += np.where(ranges[name].defined[rows], 1.0 - low, 1.0) * (1 + 1e-14)
             if name in criteria.margins:
-                most = np.minimum(most, high)
+                most[rows] = np.minimum(most[rows], high)
     certain, negligible = _regular(criteria, found, ranges, count)
     for name in criteria.regular:
         rises, errors = _rises(found[name], reach)
@@ -165,15 +167,6 @@ def _cube(boxes: Boxes, reach: FloatArray) -> FloatArray:
     for own, far in zip(boxes.intervals, reach, strict=True):
         ratio = ratio * (as_interval(2 * far) / (as_interval(own.high) - own.low))
     return ratio.high * (1 + 1e-14)
-
-
-def _over(number: Interval, count: int) -> Interval:
-    """The interval with an entry for each of so many boxes."""
-    return Interval(
-        np.broadcast_to(number.low, (count,)),
-        np.broadcast_to(number.high, (count,)),
-        np.broadcast_to(number.defined, (count,)),
-    )
 
 
 def _regular(

@@ -6,7 +6,8 @@ where the radicand reaches zero, and its bounds are about half as wide as those 
 Neumaier, Interval slopes for rational functions and associated centered forms, SIAM J. Numer. Anal. 22, 1985).
 
 Where an operation has no value (a divisor that is zero) nothing is said of the result there; `whole.defined` tells.
-A root is that of max(x, 0) everywhere.
+A root is that of max(x, 0) everywhere. The enclosures may also be recorded numbers that stand for them: so a kernel is
+read once, and what is left to do are operations on intervals.
 """
 
 from __future__ import annotations
@@ -20,6 +21,9 @@ from numpy.typing import NDArray
 
 from assur.numerics.intervals.functions import cosine_sine
 from assur.numerics.intervals.interval import Interval, as_interval, common
+from assur.numerics.intervals.rates import clamped_root, root_rate, sign_rate
+from assur.numerics.intervals.shapes import broadcast
+from assur.numerics.recording.tape import Recorded
 
 FloatArray = NDArray[np.float64]
 Slopes: TypeAlias = "tuple[Interval | None, ...]"
@@ -48,14 +52,17 @@ class Sloped:
     # an array on the left must leave the operator to the sloped number on the right
     __array_ufunc__ = None
 
+    def of(self, rows: NDArray[np.intp], count: int) -> Sloped:
+        """The same over some of so many boxes."""
+        centre, whole = (broadcast(part, (count,))[rows] for part in (self.centre, self.whole))
+        return Sloped(centre, whole, _each(lambda slope: broadcast(slope, (count,))[rows], self.slopes))
+
     def __neg__(self) -> Sloped:
         return Sloped(-self.centre, -self.whole, _each(lambda s: -s, self.slopes))
 
     def __abs__(self) -> Sloped:
         """Slopes of the magnitude are between -1 and 1, and one of both where the sign is certain."""
-        low = np.where(self.whole.low >= 0, 1.0, -1.0)
-        high = np.where(self.whole.high <= 0, -1.0, 1.0)
-        rate = Interval(np.minimum(low, high), np.maximum(low, high), np.ones(low.shape, dtype=bool))
+        rate = _applied("sign rate", sign_rate, self.whole)
         return Sloped(abs(self.centre), abs(self.whole), _each(lambda s: s * rate, self.slopes))
 
     def __add__(self, other: Sloped | Constant) -> Sloped:
@@ -71,7 +78,8 @@ class Sloped:
         """With f g - f(c) g(c) = (f - f(c)) g(c) + f (g - g(c)); of a square (f - f(c)) (f + f(c))."""
         if other is self:
             total = self.whole + self.centre
-            return Sloped(self.centre.square(), self.whole.square(), _each(lambda s: s * total, self.slopes))
+            slopes = _each(lambda s: s * total, self.slopes)
+            return Sloped(self.centre * self.centre, self.whole * self.whole, slopes)
         if not isinstance(other, Sloped):
             return Sloped(self.centre * other, self.whole * other, _each(lambda s: s * other, self.slopes))
         slopes = _both(lambda s: s * other.centre, lambda s: self.whole * s, self.slopes, other.slopes)
@@ -101,8 +109,8 @@ class Sloped:
 
     def sqrt(self) -> Sloped:
         """Root of max(x, 0), without a word about negative radicands."""
-        centre, whole = clamped_root(self.centre), clamped_root(self.whole)
-        rate = _root_rate(self.whole, self.centre)
+        centre, whole = (_applied("root", clamped_root, number) for number in (self.centre, self.whole))
+        rate = _applied("root rate", root_rate, self.whole, self.centre)
         return Sloped(centre, whole, _each(lambda s: s * rate, self.slopes))
 
 
@@ -112,19 +120,6 @@ class SlopedNumbers:
     def sqrt(self, radicand: Sloped | Constant, /) -> Sloped | Interval:
         """Root of max(radicand, 0)."""
         return radicand.sqrt() if isinstance(radicand, Sloped) else clamped_root(as_interval(radicand))
-
-
-class ClampedIntervals:
-    """Namespace for a kernel over intervals; a root of a negative number is zero, and counts as defined.
-
-    >>> root = ClampedIntervals().sqrt(Interval.of(-1.0, 4.0))
-    >>> float(root.low), bool(root.contains(2.0)), bool(root.defined)
-    (0.0, True, True)
-    """
-
-    def sqrt(self, radicand: Constant, /) -> Interval:
-        """Root of max(radicand, 0)."""
-        return clamped_root(as_interval(radicand))
 
 
 def coordinate(whole: Interval, centre: FloatArray, index: int, size: int) -> Sloped:
@@ -142,32 +137,10 @@ def turn(whole: Interval, centre: FloatArray, index: int, size: int, share: floa
     )
 
 
-def clamped_root(radicand: Interval) -> Interval:
-    """Bounds of the root of max(x, 0), as defined as the radicand is."""
-    root = radicand.sqrt()
-    return Interval(root.low, root.high, radicand.defined)
-
-
-def _root_rate(whole: Interval, centre: Interval) -> Interval:
-    """Enclosure of (r(u) - r(v)) / (u - v) for u in `whole`, v in `centre` and r the root of max(x, 0).
-
-    With both above zero it is 1 / (r(u) + r(v)). With one below it is r / (r^2 + depth) of the other one, which lies
-    between zero and 1 / r; nothing bounds it where both may be zero.
-    """
-    root, root_at = clamped_root(whole), clamped_root(centre)
-    above = 1.0 / (root + root_at)  # no upper bound where both may be zero
-    least, most = np.maximum(above.low, 0.0), above.high
-    # u below zero, v above: root(v) / (v - u) is at most 1 / root(v), which is the bound above, and at least this
-    finite = np.isfinite(whole.low) & np.isfinite(centre.high)
-    start, end = np.where(finite, whole.low, 0.0), np.where(finite, centre.high, 1.0)
-    slanted = (as_interval(root_at.low) / (as_interval(np.maximum(end, start)) - start)).low
-    slanted = np.where(finite, slanted, 0.0)
-    below = np.minimum(whole.low, centre.low) < 0
-    least = np.where(below, np.minimum(least, np.where(slanted > 0, slanted, 0.0)), least)
-    # v below zero, u above: root(u) / (u + depth) is at most 1 / (2 root(depth))
-    most = np.where(centre.high < 0, (0.5 / clamped_root(-centre)).high, most)
-    least = np.where(centre.low < 0, 0.0, least)
-    return Interval(least, np.maximum(least, most), whole.defined & centre.defined)
+def _applied(name: str, function: Callable[..., Any], *numbers: Any) -> Any:
+    """A function of intervals, or the operation of that name on recorded ones."""
+    first = numbers[0]
+    return first.recorder.apply(name, *numbers) if isinstance(first, Recorded) else function(*numbers)
 
 
 def _alone(slope: Interval, index: int, size: int) -> Slopes:

@@ -9,10 +9,10 @@ import assur
 from assur.errors import UsageError
 from assur.kinematics.closure import characteristic_length
 from assur.kinematics.paths.locked import general_ranks
-from assur.view import state
+from assur.view import snapshot
 from assur.view.dials import dials, read
 from assur.view.dials import inputs as input_dials
-from assur.view.state import start, to_inputs, to_poses, with_dial, with_input, with_parameter, with_values
+from assur.view.snapshot import start, to_inputs, to_poses, with_dial, with_input, with_parameter, with_values
 
 WITH_SIGNS = ("fivebar", "zeng2019", "delta_4s", "tripteron", "three_upu", "orthoglide")
 
@@ -67,7 +67,8 @@ def test_where_it_cannot_go_on_it_stops_at_the_border_and_says_why(bar):
     assert stopped.residual < 1e-9
     missing = np.hypot(400.0, 70.0) - 294.0
     assert str(stopped.reason) == (
-        f"serial singularity: A1, B1, P are collinear; A2, B2, P are collinear; leg1 is {missing:.3g} mm too short"
+        "serial singularity: A1, B1, P are collinear; A2, B2, P are collinear; "
+        f"leg1 is {missing:.3g} mm too short, leg2 is {missing:.3g} mm too short"
     )
 
 
@@ -115,7 +116,7 @@ def test_a_dimension_at_which_the_branch_ends_keeps_the_pose_instead():
 def test_what_is_known_of_a_branch_is_kept_along_it_and_not_beyond(bar, monkeypatch):
     asked = []
     known = general_ranks(bar.record, bar.values)
-    monkeypatch.setattr(state, "general_ranks", lambda *given: asked.append(given) or known)
+    monkeypatch.setattr(snapshot, "general_ranks", lambda *given: asked.append(given) or known)
     moved = with_dial(with_input(bar, 0, 2.0), 0, 5.0)
     assert len(asked) == 1
     with_input(with_values(moved, moved.values), 0, 2.0)

@@ -9,7 +9,8 @@ import pytest
 
 from assur.numerics.intervals import rounding
 from assur.numerics.intervals.interval import Interval
-from assur.workspace.certified.sloped import ClampedIntervals, Sloped, SlopedNumbers, coordinate, ranged, turn
+from assur.numerics.intervals.rates import ClampedIntervals
+from assur.numerics.intervals.sloped import Sloped, SlopedNumbers, coordinate, ranged, turn
 
 RNG = np.random.default_rng(11)
 COUNT = 400

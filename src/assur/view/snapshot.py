@@ -1,7 +1,7 @@
-"""What is shown: one configuration, and how a change of an input, a coordinate or a dimension moves it.
+"""Snapshots: what is shown, one configuration, and how a change of an input, a coordinate or a dimension moves it.
 
-Every change keeps the mode: it is followed (`assur.kinematics.paths.following`), and where it cannot go on the state
-stops there and says why. Nothing here knows of a window.
+Every change keeps the mode: it is followed (`assur.kinematics.paths.following`), and where it cannot go on it stops
+there and says why. Nothing here knows of a window.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ HELD: dict[Prescribed, str] = {"inputs": "with the inputs held", "poses": "with 
 
 
 @dataclass(frozen=True, eq=False)
-class State:
+class Snapshot:
     """What is shown.
 
     Attributes:
@@ -72,17 +72,17 @@ class State:
         return mode_names(self.record, self.values)
 
 
-def start(record: MechanismRecord) -> State:
+def start(record: MechanismRecord) -> Snapshot:
     """The assembled home.
 
     >>> from assur.model.registry import load_record
     >>> start(load_record("fivebar")).pose.round(0) + 0.0
     array([  0., 224.])
     """
-    return State(record, np.array(home_values(record)))
+    return Snapshot(record, np.array(home_values(record)))
 
 
-def with_input(state: State, index: int, value: float) -> State:
+def with_input(snapshot: Snapshot, index: int, value: float) -> Snapshot:
     """One input moved to a printed value, in lengths or rad, the others held, the mode kept.
 
     >>> from assur.model.registry import load_record
@@ -90,51 +90,48 @@ def with_input(state: State, index: int, value: float) -> State:
     >>> float(moved.inputs[0].round(9)), moved.reason is None
     (2.0, True)
     """
-    wanted = state.inputs
+    wanted = snapshot.inputs
     wanted[index] = value
-    return to_inputs(state, wanted)
+    return to_inputs(snapshot, wanted)
 
 
-def with_dial(state: State, index: int, value: float) -> State:
+def with_dial(snapshot: Snapshot, index: int, value: float) -> Snapshot:
     """One of `assur.view.dials.dials` of the platform moved to a value, in lengths or rad, the mode kept.
 
     >>> from assur.model.registry import load_record
     >>> moved = with_dial(start(load_record("fivebar")), 1, 400.0)
-    >>> str(moved.reason)
-    'serial singularity: A1, B1, P are collinear; A2, B2, P are collinear; leg1 is 112 mm too short'
+    >>> str(moved.reason).split("; ")[::2]
+    ['serial singularity: A1, B1, P are collinear', 'leg1 is 112 mm too short, leg2 is 112 mm too short']
     """
-    item = dials(state.record)[index]
-    wanted = {
-        name: float(here) for name, here in zip(_names(state.record), read(state.record, state.values), strict=True)
-    }
-    return to_poses(state, pose_with(state.record, {**wanted, item.name: value}))
+    record = snapshot.record
+    names = [item.name for item in dials(record)]
+    wanted = dict(zip(names, read(record, snapshot.values).tolist(), strict=True))
+    return to_poses(snapshot, pose_with(record, {**wanted, names[index]: value}))
 
 
-def to_inputs(state: State, inputs: ArrayLike) -> State:
+def to_inputs(snapshot: Snapshot, inputs: ArrayLike) -> Snapshot:
     """Straight to printed inputs (k,)."""
-    return _followed(state, "inputs", np.asarray(inputs, dtype=float), "given")
+    return _followed(snapshot, "inputs", np.asarray(inputs, dtype=float), "given")
 
 
-def to_poses(state: State, pose: ArrayLike) -> State:
+def to_poses(snapshot: Snapshot, pose: ArrayLike) -> Snapshot:
     """Straight to a pose (m,)."""
-    return _followed(state, "poses", np.asarray(pose, dtype=float), "short")
+    return _followed(snapshot, "poses", np.asarray(pose, dtype=float), "short")
 
 
-def with_values(state: State, values: ArrayLike) -> State:
+def with_values(snapshot: Snapshot, values: ArrayLike) -> Snapshot:
     """Another assembly (n,), as of another mode. Errors: UsageError where its loops are open."""
-    given = np.asarray(values, dtype=float)
-    if given.shape != state.values.shape or not np.all(np.isfinite(given)):
-        raise UsageError(f"{state.record.name} has {len(state.values)} joint values, each a finite number")
-    gap = float(closure_error(state.record, given))
-    if gap > OPEN * characteristic_length(state.record):
-        raise UsageError(
-            f"{state.record.name}: these joint values are no assembly, a gap of {gap:.3g} {state.record.unit} remains"
-        )
-    found = assemble(state.record, given, near=True)
-    return State(state.record, found.values if bool(found.closed) else given)
+    record, given = snapshot.record, np.asarray(values, dtype=float)
+    if given.shape != snapshot.values.shape or not np.all(np.isfinite(given)):
+        raise UsageError(f"{record.name} has {len(snapshot.values)} joint values, each a finite number")
+    gap = float(closure_error(record, given))
+    if gap > OPEN * characteristic_length(record):
+        raise UsageError(f"{record.name}: these joint values are no assembly, a gap of {gap:.3g} {record.unit} remains")
+    found = assemble(record, given, near=True)
+    return Snapshot(record, found.values if bool(found.closed) else given)
 
 
-def with_parameter(state: State, name: str, value: float) -> State:
+def with_parameter(snapshot: Snapshot, name: str, value: float) -> Snapshot:
     """Another dimension, in the unit of the file: with the inputs held as far as both modes are kept, else the pose.
 
     Where neither can be, nothing changes, and the reason says at which dimension a mode ends.
@@ -146,40 +143,36 @@ def with_parameter(state: State, name: str, value: float) -> State:
     >>> print(with_parameter(longer, "l1", -1.0).reason)
     parameter 'l1' of fivebar (cranks) cannot be -1; allowed: a positive number in mm
     """
-    ranks = _ranks(state)
+    ranks = _ranks(snapshot)
     ends = []
     for held in HELD:
         try:
-            found = resized(state.record, state.values, name, value, held, ranks)
+            found = resized(snapshot.record, snapshot.values, name, value, held, ranks)
         except AssurError as error:
-            return replace(state, reason=Reason("dimension", error.message))
+            return replace(snapshot, reason=Reason("dimension", error.message))
         if not found.why:
-            return State(found.record, found.values)
+            return Snapshot(found.record, found.values)
         ends.append(f"{HELD[held]} it ends at {found.reached:.4g} ({found.why})")
-    return replace(state, reason=Reason("dimension", f"{name} = {value:g} leaves the mode: {', '.join(ends)}"))
+    return replace(snapshot, reason=Reason("dimension", f"{name} = {value:g} leaves the mode: {', '.join(ends)}"))
 
 
-def _followed(state: State, prescribed: Prescribed, wanted: FloatArray, turns: Turns) -> State:
-    record = state.record
-    here = state.inputs if prescribed == "inputs" else state.pose
+def _followed(snapshot: Snapshot, prescribed: Prescribed, wanted: FloatArray, turns: Turns) -> Snapshot:
+    record = snapshot.record
+    here = snapshot.inputs if prescribed == "inputs" else snapshot.pose
     if np.max(np.abs(wanted - here)) <= CLOSED * characteristic_length(record):
-        return replace(state, reason=None)
-    ranks = _ranks(state)
+        return replace(snapshot, reason=None)
+    ranks = _ranks(snapshot)
     inputs, poses = (wanted if prescribed == kind else None for kind in ("inputs", "poses"))
     try:
         path = follow(
-            record, state.values, inputs=inputs, poses=poses, turns=turns, tolerance=TOLERANCE, largest_step=1.0,
+            record, snapshot.values, inputs=inputs, poses=poses, turns=turns, tolerance=TOLERANCE, largest_step=1.0,
             ranks=ranks,
         )  # fmt: skip
     except AssurError as error:
-        return replace(state, reason=Reason("input", error.message))
-    return State(record, path.joints[-1], explain(path, wanted), ranks)
+        return replace(snapshot, reason=Reason("input", error.message))
+    return Snapshot(record, path.joints[-1], explain(path, wanted), ranks)
 
 
-def _ranks(state: State) -> dict[str, int]:
+def _ranks(snapshot: Snapshot) -> dict[str, int]:
     """Ranks in general; a change that is followed keeps them, so that they are found once on a branch."""
-    return general_ranks(state.record, state.values) if state.ranks is None else state.ranks
-
-
-def _names(record: MechanismRecord) -> tuple[str, ...]:
-    return tuple(item.name for item in dials(record))
+    return general_ranks(snapshot.record, snapshot.values) if snapshot.ranks is None else snapshot.ranks

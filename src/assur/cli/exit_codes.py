@@ -1,0 +1,40 @@
+"""Exit codes: one rule for every command, whatever it is that it proves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+FINE = 0
+FAILS = 1
+"""A claim of ours fails; of `collisions`: links meet."""
+BAD_FILE = 3
+NO = 4
+"""The answer to what was asked is no, and that is proved: no solution, a box that is not all reached, no path."""
+UNDECIDED = 5
+"""Neither yes nor no is proved."""
+STOPPED = 6
+"""A path stops before its end."""
+BUG = 70
+BROKEN_PIPE = 141
+"""What a shell says of a program whose reader went away."""
+
+
+def of_status(status: str) -> int:
+    """The code of a `Status` by name: there is a solution, singular or not, or there is none, or that is undecided.
+
+    >>> of_status("parallel"), of_status("unreachable"), of_status("undecided")
+    (0, 4, 5)
+    """
+    return {"unreachable": NO, "undecided": UNDECIDED}.get(status, FINE)
+
+
+def of_answers(answers: Iterable[str]) -> int:
+    """The code of a question that is answered part by part: 4 where any part is "no", 0 where all are "yes", else 5.
+
+    >>> of_answers(["yes", "yes"]), of_answers(["open", "no"]), of_answers(["yes", "open"])
+    (0, 4, 5)
+    """
+    found = set(answers)
+    if "no" in found:
+        return NO
+    return FINE if found <= {"yes"} else UNDECIDED

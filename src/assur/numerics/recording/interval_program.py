@@ -1,0 +1,167 @@
+"""Tapes over intervals by machine code, a few elements at a time: the bits of NumPy without its passes.
+
+For one product of intervals NumPy goes over its arrays some twenty times. Here one interpreter for all tapes, in
+machine code, keeps a few elements of every entry in the processor's cache. Loading it takes a while, so it is not
+loaded before as much work was done without it.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.numerics.intervals import rounding
+from assur.numerics.intervals.interval import Interval, as_interval
+from assur.numerics.intervals.rates import ClampedIntervals
+from assur.numerics.number_types import Intervals
+from assur.numerics.recording.tape import Tape
+
+Engine = Literal["auto", "numpy", "compiled"]
+
+STEPS = ("varying", "store", "+", "-", "*", "/", "negative", "magnitude", "root", "sign rate", "root rate")
+"""What a program is made of: numbers fetched, answers stored, operations."""
+
+GIVEN = ("varying", "uniform", "number")
+
+AT_ONCE = 64
+"""Elements that are worked on at a time."""
+SMALL = 400
+"""So many elements cost what a call of NumPy's functions costs anyway."""
+REPAID = 10_000_000
+"""Elements times operations after which the code is loaded: by NumPy they take about a second."""
+
+
+@dataclass(frozen=True, eq=False)
+class IntervalProgram:
+    """A tape to be evaluated over intervals.
+
+    Attributes:
+        tape: without comparisons; of each operation an argument is no written number.
+        clamped: whether the root of max(x, 0) counts as defined where x is negative.
+
+    >>> from assur.numerics.recording.tape import Recorder
+    >>> recorder = Recorder()
+    >>> x, p = recorder.varying("x"), recorder.uniform("p")
+    >>> program = IntervalProgram(recorder.tape({"y": x * x - p}))
+    >>> found = program([Interval.of([-1.0, 2.0], [1.0, 3.0])], [Interval.of(1.0)])["y"]
+    >>> found.contains([-0.5, 5.0]), found.contains([-1.1, 9.0])
+    (array([ True,  True]), array([False, False]))
+    """
+
+    tape: Tape
+    clamped: bool = False
+
+    def __call__(
+        self, varying: Sequence[Interval], uniform: Sequence[Interval], engine: Engine = "auto"
+    ) -> dict[str, Interval]:
+        """Outputs (N,) by name at intervals that vary, (N,) or (), and uniform ones, ().
+
+        The bits do not depend on the engine, but for the sign of a zero. By NumPy an output that depends on () alone
+        is (), by machine code only where nothing is (N,).
+        """
+        shape = np.broadcast_shapes(*(item.low.shape for item in varying))
+        if engine == "compiled" or (engine == "auto" and repaid(len(self.tape.operations), math.prod(shape))):
+            return self._by_code(varying, uniform, shape)
+        found = self.tape.evaluate(varying, uniform, ClampedIntervals() if self.clamped else Intervals())
+        return {name: as_interval(value) for name, value in found.items()}
+
+    def _by_code(
+        self, varying: Sequence[Interval], uniform: Sequence[Interval], shape: tuple[int, ...]
+    ) -> dict[str, Interval]:
+        from assur.numerics.recording.interval_code import run  # numba takes long to start
+
+        rounding.check_nearest()
+        plan, count = self._plan, math.prod(shape)
+        same = [*uniform, *(as_interval(number) for number in plan.numbers)]
+        exact = np.array([item.low is item.high for item in (*varying, *same)], dtype=bool)
+        given, work, answer = _rows(len(varying), count), _rows(plan.places, AT_ONCE), _rows(len(plan.rows), count)
+        for rows, items in ((given, varying), (work, same)):
+            for k, item in enumerate(items):
+                rows[0][k], rows[1][k], rows[2][k] = item.low, item.high, item.defined
+        run(plan.steps, (*given, exact), answer, work, self.clamped)
+        stored = {k: Interval(*(part[row].reshape(shape) for part in answer)) for k, row in plan.rows.items()}
+        return {name: stored[k] for name, k in self.tape.outputs.items()}
+
+    @cached_property
+    def _plan(self) -> _Plan:
+        return _planned(self.tape)
+
+
+@dataclass(frozen=True, eq=False)
+class _Plan:
+    """A tape as numbers.
+
+    Attributes:
+        steps: (S, 5) place in `STEPS`, place of the result, those of the arguments, and of a product the row of its
+            second factor among what is given, or -1.
+        places: how many results are kept at a time; in the first ones is what does not vary, uniform numbers first.
+        rows: entry -> row of the answer.
+        numbers: the written ones.
+    """
+
+    steps: NDArray[np.int64]
+    places: int
+    rows: dict[int, int]
+    numbers: list[float]
+
+
+def _planned(tape: Tape) -> _Plan:
+    """Steps in the order of the tape; a place is used again once nothing needs what is there."""
+    operations = tape.operations
+    rows = {k: row for row, k in enumerate(dict.fromkeys(tape.outputs.values()))}
+    last = {argument: k for k, item in enumerate(operations) for argument in item.arguments}
+    varying, *same = ([k for k, item in enumerate(operations) if item.name == kind] for kind in GIVEN)
+    fixed = [k for part in same for k in part]
+    given = {k: row for row, k in enumerate([*varying, *fixed])}
+    place = {k: at for at, k in enumerate(fixed)}
+    steps: list[tuple[int, ...]] = []
+    free: list[int] = []
+    places = len(fixed)
+    for k, item in enumerate(operations):
+        arguments = item.arguments
+        if item.name == "*" and operations[arguments[0]].name == "number":
+            arguments = arguments[::-1]  # as NumPy does it
+        if k not in place:
+            place[k], places = (free.pop(), places) if free else (places, places + 1)
+            one, two = (place[arguments[0]], place[arguments[-1]]) if arguments else (given[k], 0)
+            factor = given.get(arguments[-1], -1) if item.name == "*" else -1
+            steps.append((STEPS.index(item.name), place[k], one, two, factor))
+        if k in rows:
+            steps.append((STEPS.index("store"), rows[k], place[k], 0, -1))
+        free += [place[entry] for entry in {k, *arguments} if last.get(entry, k) == k and place[entry] >= len(fixed)]
+    written = [operations[k].number for k in same[1]]
+    return _Plan(np.array(steps, dtype=np.int64).reshape(-1, 5), places, rows, written)
+
+
+def _rows(height: int, count: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
+    """Room for lower and upper bounds and for definedness, (height, count) each."""
+    shape = height, count
+    return np.empty(shape), np.empty(shape), np.empty(shape, dtype=bool)
+
+
+@dataclass
+class _Done:
+    """Work done so far that machine code could have done."""
+
+    work: int = 0
+    there: bool = field(default_factory=lambda: importlib.util.find_spec("numba") is not None)
+
+
+_DONE = _Done()
+
+
+def repaid(operations: int, count: int) -> bool:
+    """Whether machine code is to be used for so many operations on so many elements.
+
+    It is loaded once as much was done without it as loading takes: so it never takes more than twice the time.
+    """
+    if _DONE.work < REPAID:
+        _DONE.work += operations * max(count, SMALL)
+    return _DONE.there and _DONE.work >= REPAID

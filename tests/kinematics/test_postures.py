@@ -1,0 +1,74 @@
+"""Postures: one of them is the configuration itself, and each is an assembly at the same inputs or the same pose."""
+
+import numpy as np
+import pytest
+
+import assur
+from assur.kinematics import postures as module
+from assur.kinematics.border import inputs_of
+from assur.kinematics.closure import assemble, characteristic_length, closure_error
+from assur.kinematics.pose import pose_of
+from assur.kinematics.postures import postures, unwound
+from assur.topology.joints import SPHERICAL
+
+QUICK = sorted(set(assur.names()) - {"gough_stewart", "three_rrrp4r"})
+
+
+def _away(record):
+    """An assembly a little beside home."""
+    home = np.array(record.home_values)
+    size = np.where([item.kind == "length" for item in record.coordinates], characteristic_length(record), 1.0)
+    found = assemble(record, home + 0.003 * size * np.sin(1.0 + np.arange(len(home))), near=True)
+    assert bool(found.closed)
+    return found.values
+
+
+@pytest.mark.parametrize("problem", ["direct", "inverse"])
+@pytest.mark.parametrize("name", QUICK)
+def test_one_is_the_configuration_itself_and_all_are_assemblies(name, problem):
+    record = assur.load(name)
+    here = _away(record)
+    found = postures(record, here, problem)
+    assert np.array_equal(found.current.values, here)
+    assert len(found.others) == len(found.listed) - 1
+    size = characteristic_length(record)
+    same = inputs_of if problem == "direct" else pose_of
+    for item in found.listed:
+        assert closure_error(record, item.values) < 1e-8 * size
+        change = same(record, item.values) - same(record, here)
+        assert np.max(np.abs((change + np.pi) % (2 * np.pi) - np.pi)) < 1e-6 * max(size, 1.0)
+        assert str(found.answer.labels[item.candidate]) == item.label
+
+
+@pytest.mark.parametrize("name", ["zeng2019", "delta_4s", "fivebar"])
+def test_of_every_other_posture_that_one_is_the_current(name):
+    record = assur.load(name)
+    for item in postures(record, record.home_values, "inverse").others:
+        there = postures(record, item.values, "inverse")
+        assert there.current.label == item.label
+
+
+def test_of_several_that_are_near_the_nearest_is_the_current(monkeypatch):
+    record = assur.load("fivebar")
+    known = {item.label: item.values for item in postures(record, record.home_values, "inverse").listed}
+    monkeypatch.setattr(module, "SAME", 100.0)
+    assert {label: postures(record, row, "inverse").current.label for label, row in known.items()} == {
+        label: label for label in known
+    }
+
+
+def test_a_configuration_that_no_solution_is_is_none_of_them(monkeypatch):
+    record = assur.load("fivebar")
+    monkeypatch.setattr(module, "SAME", -1.0)
+    found = postures(record, record.home_values, "direct")
+    assert found.current is None
+    assert [item.label for item in found.others] == ["+", "-"]
+
+
+def test_whole_turns_are_taken_off_angles_but_not_off_rotation_vectors():
+    record = assur.load("gough_stewart")
+    home = np.array(record.home_values)
+    spherical = [record.joints[item.joint].type is SPHERICAL for item in record.coordinates]
+    lengths = [item.kind == "length" for item in record.coordinates]
+    moved = unwound(record, home + 4 * np.pi, home)
+    assert np.array_equal(np.abs(moved - home) > 1, np.array(spherical) | np.array(lengths))

@@ -1,0 +1,13 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { MECHANISMS } from "./numbers.js";
+import { walked } from "./walks.js";
+
+const MOVES = 60;
+
+for (const { name, model } of MECHANISMS)
+  test(`${name}: no stop is a trap, and every reason is true`, () => {
+    const { faults, stops } = walked(model, { moves: MOVES, seed: 6 });
+    assert.deepEqual(faults, []);
+    assert.ok(Object.keys(stops).length > 0);
+  });
