@@ -93,3 +93,11 @@ def browser():
         found = tool.chromium.launch(executable_path=chromium(), args=flags)
         yield found
         found.close()
+
+
+@pytest.fixture
+def by_numpy(monkeypatch):
+    """Intervals are computed by NumPy alone: what a test changes there is what is computed with."""
+    from assur.numerics.recording import interval_program
+
+    monkeypatch.setattr(interval_program, "_DONE", interval_program._Done(there=False))

@@ -21,7 +21,7 @@ TESTS = Path(__file__).parent
 ROOT = TESTS.parent
 MUTATIONS = tomllib.loads((TESTS / "mutations.toml").read_text(encoding="utf-8"))["mutation"]
 NAMES = [item["name"] for item in MUTATIONS]
-PLACES = ("numerics/intervals", "certificates", "verifier", "workspace/certified", "solver")
+PLACES = ("numerics/intervals", "kinematics/certified", "certificates", "verifier", "workspace/certified", "solver")
 FAILED = 1
 """Exit code of pytest, and of node, where tests ran and failed; others say that none ran."""
 

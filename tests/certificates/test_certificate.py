@@ -176,6 +176,7 @@ def thin_boxes():
             yield {"x": (float(x), math.nextafter(float(x), math.inf)), "y": (0.0, 1.0), "z": (z - 1e-12, z)}
 
 
+@pytest.mark.usefixtures("by_numpy")
 def test_a_prover_without_rounding_is_caught(monkeypatch):
     record = load_record("zeng2019")
     asked = [{"box": box, "most": 1} for box in thin_boxes()]
@@ -185,6 +186,7 @@ def test_a_prover_without_rounding_is_caught(monkeypatch):
     assert sum(refused(record, **item) for item in asked) >= 3
 
 
+@pytest.mark.usefixtures("by_numpy")
 def test_a_prover_that_rounds_inwards_is_caught(monkeypatch):
     for one, two in (("down", "up"), ("down_sum", "up_sum")):
         honest = getattr(rounding, one), getattr(rounding, two)
@@ -193,6 +195,7 @@ def test_a_prover_that_rounds_inwards_is_caught(monkeypatch):
     assert sum(refused(load_record("zeng2019"), box=box, most=1) for box in thin_boxes()) >= 3
 
 
+@pytest.mark.usefixtures("by_numpy")
 @pytest.mark.parametrize("name", ["__mul__", "__sub__", "__add__", "square"])
 def test_a_prover_with_a_flipped_sign_is_caught(monkeypatch, name):
     honest = getattr(Interval, name)
@@ -226,6 +229,7 @@ def test_roots_of_negative_numbers_taken_for_numbers_are_caught(monkeypatch):
     assert refused(load_record("zeng2019"), most=300)
 
 
+@pytest.mark.usefixtures("by_numpy")
 def test_an_operation_without_value_taken_for_defined_is_caught(monkeypatch):
     """Division by an interval with zero in it that leaves bounds as if there were none."""
     honest = interval.Interval.__truediv__

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from assur.certificates.summary import claim_lines, rounded, shares, statement_lines
+from assur.certificates.summary import PARTS, claim_lines, rounded, shares, statement_lines
 from assur.model.registry import load_record
 
 
@@ -66,6 +66,8 @@ def test_a_path_has_both_ends_and_its_pieces(made_of):
     count = len(document["statement"]["boxes"])
     assert lines[3:5] == [f"path: {count} straight pieces, each in a box", "held: phi = 17.1887339 deg"]
     assert "all of the path is reached: yes" in lines
+    parts = document["claims"]["leaves"]["regular"]
+    assert lines[-2:] == [f"parts: {parts} in {count} boxes; of these", f"  {parts} {PARTS['regular']}"]
 
 
 def test_bounds_are_rounded_outwards():

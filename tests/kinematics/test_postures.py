@@ -8,10 +8,21 @@ from assur.kinematics import postures as module
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import assemble, characteristic_length, closure_error
 from assur.kinematics.pose import pose_of
+from assur.kinematics.position import direct
 from assur.kinematics.postures import postures, unwound
 from assur.topology.joints import SPHERICAL
 
 QUICK = sorted(set(assur.names()) - {"gough_stewart", "three_rrrp4r"})
+
+
+class _Answer:
+    """An answer with other joint values (K, n)."""
+
+    def __init__(self, answer, joints):
+        self.answer, self.joints = answer, joints
+
+    def __getattr__(self, name):
+        return getattr(self.answer, name)
 
 
 def _away(record):
@@ -63,6 +74,44 @@ def test_a_configuration_that_no_solution_is_is_none_of_them(monkeypatch):
     found = postures(record, record.home_values, "direct")
     assert found.current is None
     assert [item.label for item in found.others] == ["+", "-"]
+
+
+@pytest.mark.parametrize("problem", ["direct", "inverse"])
+@pytest.mark.parametrize("name", ["fivebar", "zeng2019", "delta_4s"])
+def test_what_is_given_stays_where_the_answer_has_few_digits(monkeypatch, name, problem):
+    """As near a singularity, where inputs to ten digits are a pose to five, and the other way about."""
+    record = assur.load(name)
+    size, solve = characteristic_length(record), getattr(module, problem)
+
+    def rough(*asked):
+        found = solve(*asked)
+        off = 1e-7 * np.sin(1.0 + np.arange(found.joints.shape[-1]))
+        off[list(record.input_indices) if problem == "direct" else []] = 0.0
+        return _Answer(found, found.joints + off * size)
+
+    monkeypatch.setattr(module, problem, rough)
+    given = inputs_of if problem == "direct" else pose_of
+    for item in postures(record, record.home_values, problem).listed:
+        assert closure_error(record, item.values) < 1e-11 * size
+        assert given(record, item.values) == pytest.approx(given(record, record.home_values), abs=1e-11 * size)
+
+
+def test_a_solution_whose_loops_do_not_close_is_not_listed(monkeypatch):
+    """A slide that is ten times as far out as any leg is long."""
+    record = assur.load("zeng2019")
+    known = postures(record, record.home_values, "direct")
+
+    def wrong(*asked):
+        found = direct(*asked)
+        joints = found.joints.copy()
+        joints[known.listed[1].candidate, record.input_indices[0]] = 10.0 * characteristic_length(record)
+        return _Answer(found, joints)
+
+    monkeypatch.setattr(module, "direct", wrong)
+    found = postures(record, known.listed[2].values, "direct")
+    kept = [known.listed[k].label for k in (0, 2, 3)]
+    assert [item.label for item in found.listed] == kept
+    assert (found.current.label, [item.label for item in found.others]) == (kept[1], [kept[0], kept[2]])
 
 
 def test_whole_turns_are_taken_off_angles_but_not_off_rotation_vectors():

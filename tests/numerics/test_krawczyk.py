@@ -77,8 +77,8 @@ def test_narrow_boxes_hold_the_zero_exactly():
     assert squares_enclosed()
 
 
+@pytest.mark.usefixtures("by_numpy")
 def test_rounding_that_is_off_is_noticed(monkeypatch):
-    monkeypatch.setattr(interval_program, "_DONE", interval_program._Done(there=False))
     for name in ("down", "up", "down_sum", "up_sum"):
         monkeypatch.setattr(rounding, name, lambda result: np.asarray(result, dtype=float))
     assert not squares_enclosed()

@@ -90,6 +90,16 @@ def test_a_home_that_no_solution_is_stands_first_under_its_own_name(monkeypatch)
     assert found[0]["values"] == record.home_values.tolist()
 
 
+def test_a_home_that_no_solution_is_has_its_own_status(monkeypatch):
+    """Where the inputs do not hold the platform, as at another working mode at home's pose."""
+    record = load("zeng2019")
+    loose = next(item for item in found_of("zeng2019")["working"] if item["status"] == "self_motion")
+    monkeypatch.setattr("assur.kinematics.postures.SAME", -1.0)
+    monkeypatch.setattr(page, "home_values", lambda _: np.array(loose["values"]))
+    first = page.branches(record)["assembly"][0]
+    assert (first["label"], first["status"], first["values"]) == ("home", "self_motion", loose["values"])
+
+
 def test_modes_are_rows_of_signs():
     found = modes(load("zeng2019"))
     assert len(found["working"]["all"]) == 2 ** len(found["working"]["names"]) == 32

@@ -217,7 +217,31 @@ def test_a_number_that_is_typed_is_kept_inside_its_slider_and_what_is_none_goes_
     box.press("Enter")
     page.tab.wait_for_function("(x) => window.assur.state().pose[0] < x - 1", arg=float(before))
     assert low <= page.call("state")["pose"][0] < high
+    said = page.tab.locator(".slider", has=box).locator(".why")
+    assert (said.text_content() or "").startswith("\N{MINUS SIGN}100000 is beyond this slider: ")
     page.open()
+
+
+def test_a_decimal_comma_is_a_point(shown):
+    page = shown("zeng2019")
+    page.open()
+    box = page.tab.get_by_label("x in mm", exact=True)
+    box.fill("")
+    box.press_sequentially("-12,5")
+    box.press("Enter")
+    assert page.call("state")["pose"][0] == pytest.approx(-12.5, abs=1e-9)
+    page.open()
+
+
+def test_the_closest_factor_is_told_as_a_share_of_its_scale(shown):
+    page = shown("zeng2019")
+    page.open()
+    factor = page.call("state")["factor"]
+    name = page.tab.locator(".numbers").get_by_text("closest factor", exact=True)
+    text = name.locator("xpath=following-sibling::dd[1]").text_content() or ""
+    shown_as = float(text.split()[-1].replace("\N{MINUS SIGN}", "-"))
+    scale = {item["name"]: item["scale"] for item in page.scene["factors"]}[factor["name"]]
+    assert shown_as == pytest.approx(factor["value"] / scale, rel=5e-3)
 
 
 def test_a_factor_is_named_as_a_person_writes_it(shown):

@@ -1,13 +1,17 @@
 """What legs miss, against plain geometry of each leg alone."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import assur
 from assur.kinematics.closure import assemble
+from assur.kinematics.paths.following import follow
 from assur.kinematics.pose import pose_of
 from assur.numerics import rotations
-from assur.view.explain import listed
+from assur.view import missing
+from assur.view.explain import explain, listed
 from assur.view.missing import Miss, _sense, misses
 
 
@@ -79,6 +83,41 @@ def test_where_every_leg_reaches_none_misses(name):
     away = assemble(record, home + 0.01 * np.sin(np.arange(len(home))), near=True)
     assert bool(away.closed)
     assert misses(record, home, pose_of(record, away.values)) == ()
+
+
+def _never_closed(near):
+    """`assemble` that says "not closed" of the steps, or of the first assembly."""
+
+    def found(record, start, **options):
+        there = assemble(record, start, **options)
+        return replace(there, closed=np.array(False)) if options.get("near", False) is near else there
+
+    return found
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("STEPS", 2), ("assemble", _never_closed(near=False)), ("assemble", _never_closed(near=True))],
+    ids=["too few steps", "the start is not closed", "no step is taken"],
+)
+def test_where_the_least_is_not_found_no_amount_is_said(monkeypatch, name, value):
+    record, pose = assur.load("fivebar"), np.array([0.0, 300.0])
+    path = follow(record, record.home_values, poses=pose)
+    monkeypatch.setattr(missing, name, value)
+    assert misses(record, record.home_values, pose) == ()
+    assert str(explain(path, pose)) == f"serial singularity: {path.stopped.meaning}"
+
+
+def test_where_no_foot_can_be_moved_the_push_is_the_least(monkeypatch):
+    """A step that promises nothing is the last, whatever the assembly after it would have given by rounding."""
+
+    def nearer(record, start, **options):
+        there = assemble(record, start, **options)
+        return replace(there, values=there.values * 0.999) if options.get("near") else there
+
+    monkeypatch.setattr(missing, "assemble", nearer)
+    monkeypatch.setattr(missing, "null_space", lambda matrix, **_: np.zeros((matrix.shape[1], 0)))
+    assert len(_told(assur.load("fivebar"), [0.0, 300.0])) == 2
 
 
 @pytest.mark.parametrize(

@@ -30,6 +30,7 @@ class Slider {
       step: 10 ** -Math.min(2, this.places),
       "aria-label": `${name} in ${unit}`,
       inputmode: "decimal",
+      onbeforeinput: pointed,
       onchange: () => this.typed(),
     });
     this.why = el("p", { class: "why", id: `${id}-why` });
@@ -81,10 +82,16 @@ class Slider {
     this.ask(step * (count > 0 ? Math.floor(at + 1e-6) : Math.ceil(at - 1e-6)) + step * count);
   }
 
-  /** A number that was typed; what is none goes back. */
+  /** A number that was typed; what is none goes back, and what lies beyond the ends is said to. */
   typed() {
-    if (Number.isFinite(this.number.valueAsNumber)) this.ask(this.number.valueAsNumber);
-    else this.show(this.value);
+    const wanted = this.number.valueAsNumber;
+    if (!Number.isFinite(wanted)) return this.show(this.value);
+    const [low, high] = this.ends;
+    const beyond = this.wound(wanted) < low || this.wound(wanted) > high;
+    this.ask(wanted);
+    if (!beyond) return;
+    const where = this.stroke ? "the stroke" : "this slider";
+    this.stop(`${minus(figures(wanted))} is beyond ${where}: ${this.why.textContent || "its end was taken"}`);
   }
 
   /** Shows a value; its ends go as far as it needs, and back to those of the range when a mode is chosen. */
@@ -114,6 +121,13 @@ function rangeOf(name, { scene, model }) {
   const index = model.pose.indexOf(name);
   if (index >= 0) return scene.poseRange[index];
   return name === "theta" ? [-Math.PI / 2, Math.PI / 2] : [-Math.PI, Math.PI];
+}
+
+/** A decimal comma is typed as a point: browsers that know the point alone would leave it out, 90,5 would be 905. */
+function pointed(event) {
+  if (event.data !== ",") return;
+  event.preventDefault();
+  document.execCommand("insertText", false, ".");
 }
 
 const replaced = (values, k, value) => values.map((other, j) => (j === k ? value : other));

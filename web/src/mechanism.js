@@ -189,7 +189,12 @@ export class Mechanism {
     } else
       this.note({
         status: "stopped",
-        reason: { kind: "gap", text: `${item.label} does not reach this pose`, joint: "", amount: 0 },
+        reason: {
+          kind: "gap",
+          text: `${item.label} was not found here: the straight way from home’s pose ends before this one`,
+          joint: "",
+          amount: 0,
+        },
       });
     this.changed("mode");
     return this.state();

@@ -15,7 +15,7 @@ export const NUMBERS = {
     "smallest singular value of Jp, of orthonormal relations Jp v = Jq q'; 0 at a parallel singularity",
   ],
   serial: ["serial measure", "smallest singular value of Jq; 0 at a serial singularity"],
-  distance: ["to singularity", "to first order, the platform's orientation held"],
+  distance: ["to singularity, about", "to first order, the platform's orientation held: far from it, a rough guess"],
   factor: ["closest factor", "the factor of the closed form that is nearest to zero, as a share of its own scale"],
   residual: ["residual", "largest gap of the loops"],
 };
@@ -41,7 +41,7 @@ export function readout(mechanism) {
     rows.residual.textContent = `${figures(state.residual, 2)} ${scene.unit}`;
     if (rows.factor)
       rows.factor.replaceChildren(
-        ...(state.factor ? [spelt(state.factor.name), ` ${figures(state.factor.value, 3)}`] : ["–"]),
+        ...(state.factor ? [spelt(state.factor.name), ` ${figures(state.factor.relative, 3)}`] : ["–"]),
       );
     clearTimeout(timer);
     timer = setTimeout(() => {
@@ -50,7 +50,7 @@ export function readout(mechanism) {
         ? "–"
         : amount > scene.extent
           ? `> ${figures(scene.extent, 2)} ${scene.unit}`
-          : `≈ ${figures(amount, 3)} ${scene.unit}, ${kind}`;
+          : `${figures(amount, 2)} ${scene.unit}, ${kind}`;
     }, REST);
   };
   mechanism.listen(show);

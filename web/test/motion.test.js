@@ -5,7 +5,7 @@ import { frames, modelOf } from "../src/solver/frames.js";
 import { singular } from "../src/solver/leastsquares.js";
 import { inputsOf, toInputs, toPose } from "../src/solver/motion.js";
 import { poseOf } from "../src/solver/pose.js";
-import { distanceToSingular, measuresAt } from "../src/solver/rates.js";
+import { distanceToSingular, looseJoint, measuresAt } from "../src/solver/rates.js";
 import { fromVector } from "../src/solver/rotation.js";
 import { MECHANISMS, apart, mechanism } from "./numbers.js";
 
@@ -251,4 +251,122 @@ test("a whole turn of a crank is a way, though it ends where it began", () => {
   const change = values.map((value, k) => (value - five.scene.home[k]) / (2 * Math.PI));
   assert.ok(apart(change, [1, 0, -1, 0, 0]) < 1e-6, String(change)); // the rod turns back on its crank
   assert.match(turned(mechanism("planar_3rrr")).reason.text, /^parallel/);
+});
+
+// A table that two slides drive, and a leg of two rods that nobody drives. It folds where the table's point is as far
+// from its foot as one rod is longer than the other: 0.6, and the point may not come nearer.
+const [LONG, SHORT] = [1, 0.4];
+const FOLD = LONG - SHORT;
+const joint = { at: [0, 0, 0], childAt: [0, 0, 0], turn: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], pitch: 0, freedoms: 1 };
+const slide = { ...joint, type: "P" };
+const hinge = { ...joint, type: "R", axes: [[0, 0, 1]] };
+
+/** @param {string[]} slides X alone, or X and Y */
+function table(home, slides = ["X", "Y"]) {
+  const carried = slides.length > 1;
+  const joints = [
+    { ...slide, name: "X", axes: [[1, 0, 0]], parent: "base", child: carried ? "cart" : "table" },
+    ...(carried ? [{ ...slide, name: "Y", axes: [[0, 1, 0]], parent: "cart", child: "table" }] : []),
+    { ...hinge, name: "foot", parent: "base", child: "rod" },
+    { ...hinge, name: "knee", parent: "rod", child: "arm", at: [LONG, 0, 0] },
+    { ...hinge, name: "hip", parent: "arm", child: "table", at: [SHORT, 0, 0] },
+  ].map((item, first) => ({ ...item, first }));
+  const cut = joints.length - 1;
+  return modelOf({
+    graph: {
+      links: ["base", ...joints.map(({ child }) => child).slice(0, cut)],
+      base: "base",
+      joints,
+      tree: joints.slice(0, cut).map((_, k) => ({ joint: k, forward: true })),
+      cut: [cut],
+    },
+    coordinates: joints.map(({ type }) => ({ kind: type === "P" ? "length" : "angle" })),
+    inputs: slides.map((name, index) => ({ name, index, sign: 1, offset: 0, kind: "length", stroke: null })),
+    home,
+    platform: { link: "table", point: [0, 0, 0], pose: slides.map((name) => name.toLowerCase()) },
+    characteristicLength: 1,
+    unit: "m",
+  });
+}
+
+/** Joint values where the table's point is at (x, y), the knee bent by a positive or negative angle. */
+function stood(x, y, sense = 1) {
+  const cosine = (x * x + y * y - LONG ** 2 - SHORT ** 2) / (2 * LONG * SHORT);
+  const knee = sense * Math.acos(Math.max(-1, cosine));
+  const foot = Math.atan2(y, x) - Math.atan2(SHORT * Math.sin(knee), LONG + SHORT * Math.cos(knee));
+  return [x, y, foot, knee, -foot - knee];
+}
+
+test("a leg that nobody drives is not led through its fold, however long the step", () => {
+  const model = table(stood(0.3, 1));
+  assert.ok(residual(model, model.home) < 1e-12);
+  for (const [half, beyond] of [
+    [0.02, 1e-5],
+    [0.1, 1e-4],
+    [0.15, 1e-3],
+    [0.15, 5e-3],
+  ]) {
+    const [start, end] = [stood(-half, FOLD - beyond), [half, FOLD - beyond]];
+    assert.ok(residual(model, start) < 1e-12);
+    for (const move of [toInputs, toPose]) {
+      const there = move(model, start, end);
+      assert.equal(there.status, "stopped", `${half} ${beyond}`);
+      const [x, y] = pose(model, there.values);
+      assert.ok(x < 0 && Math.hypot(x, y) > FOLD - 1e-9, `${x} ${y}`);
+      assert.equal(move(model, there.values, [-half, FOLD - beyond]).status, "moved");
+      const outside = move(model, start, [-half, FOLD + 4 * beyond]);
+      const along = move(model, outside.values, [half, FOLD + 4 * beyond]); // this way stays outside
+      assert.equal(along.status, "moved");
+      assert.ok(apart(along.values, stood(half, FOLD + 4 * beyond)) < 1e-6); // and the knee bent as it was
+    }
+  }
+});
+
+test("at the fold of such a leg its measure is 0, and rises evenly to both sides of it", () => {
+  const model = table(stood(0.3, 1));
+  const passive = (knee) => {
+    const far = Math.sqrt(LONG ** 2 + SHORT ** 2 + 2 * LONG * SHORT * Math.cos(knee));
+    return measuresAt(model, stood(0, far, Math.sign(Math.PI - knee))).passive;
+  };
+  const folded = measuresAt(model, stood(0, FOLD));
+  assert.ok(folded.passive < 1e-7, String(folded.passive));
+  const slope = passive(Math.PI + 1e-2) / 1e-2;
+  for (const bent of [1e-3, -1e-3, 1e-5, -1e-5])
+    assert.ok(Math.abs(passive(Math.PI + bent) / Math.abs(bent) - slope) < 1e-2 * slope, String(bent));
+});
+
+test("the joint of a leg that is folded is named, also where nothing else can move", () => {
+  const knees = ["foot", "knee", "hip"];
+  for (const far of [FOLD + 1e-4, FOLD]) {
+    const [x, ...others] = stood(far, 0);
+    assert.ok(knees.includes(looseJoint(table(stood(0.3, 1)), [x, ...others]).name));
+    const along = table([0.9, ...stood(0.9, 0).slice(2)], ["X"]);
+    assert.ok(knees.includes(looseJoint(along, [x, ...others.slice(1)]).name), String(far));
+  }
+});
+
+test("an input outside its stroke that stands still stops no motion, and repeated pushes do not creep on", () => {
+  const { scene } = mechanism("three_crr");
+  const free = modelOf(scene);
+  const [first, ...others] = inputsOf(free, scene.home);
+  const ended = (high) =>
+    modelOf({ ...scene, inputs: scene.inputs.map((item, k) => (k === 0 ? { ...item, stroke: [null, high] } : item)) });
+  for (const outside of [1e-6, 1e-3, 0.02]) {
+    const model = ended(first - outside * free.length);
+    let values = scene.home;
+    const [x, y, z] = pose(free, values);
+    for (let k = 1; k <= 40; k++) {
+      const there = toPose(model, values, [x, y + 0.05 * free.length * Math.sin(k), z]); // the first input stands still
+      assert.equal(there.reason, null, `${outside} ${k}`);
+      values = there.values;
+    }
+    assert.ok(Math.abs(inputsOf(model, values)[0] - first) < 1e-10 * free.length);
+    const on = toInputs(model, values, [first + 0.01 * free.length, ...others]);
+    assert.equal(on.reason.kind, "stroke");
+  }
+  const end = first + 0.01 * free.length;
+  const model = ended(end);
+  let values = scene.home;
+  for (let k = 0; k < 20; k++) values = toInputs(model, values, [end + 0.01 * free.length, ...others]).values;
+  assert.ok(Math.abs(inputsOf(model, values)[0] - end) < 2e-9 * free.length);
 });

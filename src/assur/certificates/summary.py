@@ -43,7 +43,7 @@ def statement_lines(document: Mapping[str, Any], record: MechanismRecord | None 
 
 
 def claim_lines(document: Mapping[str, Any], record: MechanismRecord | None = None) -> list[str]:
-    """What the certificate claims, and how much of the box is proved to be what."""
+    """What the certificate claims, and what is proved of how many parts."""
     claims = document["claims"]
     factors = ", ".join(name for name, _ in document["program"]["factors"]) or "none"
     lines = []
@@ -61,17 +61,19 @@ def claim_lines(document: Mapping[str, Any], record: MechanismRecord | None = No
 
 
 def _part_lines(document: Mapping[str, Any]) -> list[str]:
-    """Into how many parts the proof cuts the box, and how many, and how much of it, is proved to be what."""
+    """Into how many parts the proof cuts the box or the boxes of a path, and how many are proved to be what.
+
+    Of a box it is told how much of it, too; boxes of a path overlap, so that shares of them say nothing.
+    """
     counts, share = document["claims"]["leaves"], shares(document["proof"])
-    parts = sum(counts.values())
-    where = "boxes of the path" if document["kind"] == "path" else "box"
-    told = [f"{counts[name]} ({_percent(share[name])}) {PARTS[name]}" for name in PARTS if counts[name]]
-    head = f"parts: {parts}, which cover the {where} without overlap; of these"
-    return [head, *(f"  {text}" for text in told)]
+    parts, of_path = sum(counts.values()), document["kind"] == "path"
+    where = f" in {len(document['statement']['boxes'])} boxes" if of_path else ", which cover the box without overlap"
+    told = [f"{counts[n]}{'' if of_path else f' ({_percent(share[n])})'} {PARTS[n]}" for n in PARTS if counts[n]]
+    return [f"parts: {parts}{where}; of these", *(f"  {text}" for text in told)]
 
 
 def shares(proof: str) -> dict[str, float]:
-    """Which share of the boxes of a proof is regular, inside, outside and open: every halving halves.
+    """Which share of a proof is regular, inside, outside and open: boxes weigh alike, every halving halves.
 
     >>> shares("0r1bi")
     {'regular': 0.5, 'inside': 0.25, 'outside': 0.0, 'open': 0.25}

@@ -15,12 +15,11 @@ from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, chain_colours, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, Entry, always
 from assur.figures.style import GREY, TEXT
-from assur.model.mechanism import MechanismRecord
 from assur.scene.camera import oblique
 from assur.scene.hull import hull
+from assur.scene.letters import lettered
 from assur.scene.rails import rails
 from assur.scene.skeleton import Skeleton
-from assur.topology.joints import PRISMATIC
 
 FloatArray = NDArray[np.float64]
 
@@ -66,23 +65,6 @@ def _draw(context: Context) -> Drawing:
     _name_lengths(view, skeleton, letters)
     letters.place()
     return Drawing(page.figure, _data(skeleton, context))
-
-
-def lettered(skeleton: Skeleton) -> dict[str, FloatArray]:
-    """Letters of a drawing: the lettered points, and the joints whose place has no letter yet."""
-    record = skeleton.record
-    found = {name: skeleton.points[name] for name in record.points}
-    for name, joint in record.joints.items():
-        if joint.type is PRISMATIC or _one_of_many(record, name):
-            continue
-        if all(np.linalg.norm(skeleton.points[name] - at) > 1e-9 for at in found.values()):
-            found[name] = skeleton.points[name]
-    return found
-
-
-def _one_of_many(record: MechanismRecord, name: str) -> bool:
-    """Whether a joint is one of several about a lettered point, as B3a and B3b about B3."""
-    return name[:-1] in record.points
 
 
 def _name_lengths(view: View, skeleton: Skeleton, letters: Letters) -> None:

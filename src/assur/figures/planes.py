@@ -12,13 +12,13 @@ from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
 from assur.figures.context import Context
 from assur.figures.dimensions import Arc, arcs, draw_arcs, draw_frame, formula_text
 from assur.figures.letters import letter
-from assur.figures.model import lettered
 from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, chain_colours, draw_bodies
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import GREY, INK, PAGE, TEXT
 from assur.scene.camera import AXES, Camera, plane
 from assur.scene.companion import Measure
+from assur.scene.letters import lettered
 from assur.scene.skeleton import Skeleton
 
 FloatArray = NDArray[np.float64]

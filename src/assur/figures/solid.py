@@ -15,12 +15,12 @@ from assur.figures.canvas import Canvas, View, fitted
 from assur.figures.context import Context
 from assur.figures.letters import letter
 from assur.figures.lines import LineWork, line_work
-from assur.figures.model import lettered
 from assur.figures.placing import Letters
 from assur.figures.raster import SAMPLES, Buffers, filled, lit
 from assur.figures.spec import Drawing, Entry, always
 from assur.figures.style import BLUE, DOTS_PER_INCH, INK, PAPER, SMALL
 from assur.scene.camera import Camera, orthographic
+from assur.scene.letters import lettered
 from assur.scene.mesh import Mesh
 from assur.scene.parts import model, unit
 from assur.scene.skeleton import Skeleton

@@ -30,13 +30,13 @@ class Posture:
         values: (n,) joint values with loops closed to the last digits, each angle within half a turn of the
             configuration's.
         status: of the solution.
-        candidate: its place among the candidates of the answer.
+        candidate: its place among the candidates of the answer; None where it is none of them.
     """
 
     label: str
     values: FloatArray
     status: Status
-    candidate: int
+    candidate: int | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +44,7 @@ class Postures:
     """The postures of one problem at a configuration.
 
     Attributes:
-        listed: all of them, in the order of the answer.
+        listed: all of them, in the order of the answer, but for those whose loops do not close.
         place: which of them the configuration itself is, with its joint values as they are; None where it is none (an
             arc of a self-motion, a crossed parallelogram).
         answer: the solutions, with the right by which they are all.
@@ -78,10 +78,8 @@ def postures(record: MechanismRecord, values: FloatArray, problem: Problem) -> P
     >>> [item.label for item in found.listed], found.current.label, found.answer.complete
     (['+', '-'], '+', True)
     """
-    if problem == "direct":
-        answer = direct(record, inputs_of(record, values))
-    else:
-        answer = inverse(record, pose_of(record, values))
+    held, pose = (record.input_indices, None) if problem == "direct" else ((), pose_of(record, values))
+    answer = direct(record, inputs_of(record, values)) if pose is None else inverse(record, pose)
     rows = np.flatnonzero(answer.exists)
     if not len(rows):
         return Postures((), None, answer)
@@ -89,17 +87,18 @@ def postures(record: MechanismRecord, values: FloatArray, problem: Problem) -> P
     away = np.linalg.norm(places(record, joints) - places(record, values[None]), axis=1)
     nearest = int(np.argmin(away))
     place = nearest if away[nearest] <= SAME else None
-    closed = assemble(record, joints, held=record.input_indices, near=True).values
+    found = assemble(record, joints, held=held, poses=pose, near=True)
+    kept = [k for k, closed in enumerate(found.closed) if closed or k == place]
     listed = [
         Posture(
-            str(answer.labels[row]),
-            values if k == place else unwound(record, closed[k], values),
-            Status(int(answer.status[row])),
-            int(row),
+            str(answer.labels[rows[k]]),
+            values if k == place else unwound(record, found.values[k], values),
+            Status(int(answer.status[rows[k]])),
+            int(rows[k]),
         )
-        for k, row in enumerate(rows)
+        for k in kept
     ]
-    return Postures(tuple(listed), place, answer)
+    return Postures(tuple(listed), None if place is None else kept.index(place), answer)
 
 
 def unwound(record: MechanismRecord, values: FloatArray, near: FloatArray) -> FloatArray:

@@ -11,6 +11,7 @@ from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem, all_modes, mode_signs, sign_names
 from assur.kinematics.paths.following import mode_names
 from assur.kinematics.postures import Posture, postures, unwound
+from assur.kinematics.rates.finite_motion import classify_at
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
 
@@ -21,9 +22,9 @@ def branches(record: MechanismRecord) -> dict[str, list[dict[str, Any]]]:
     """Assembly modes at home's inputs and working modes at home's pose: label, joint values and status of each.
 
     Home itself stands first in both, with its joint values as they are; it is called "home" where no solution is it
-    (an arc of a self-motion, a crossed parallelogram). Every other working mode has "assembly" too: the assembly modes
-    at its own inputs, itself first; it is alone there where the inputs do not hold the platform. Angles are those
-    nearest to home's.
+    (an arc of a self-motion, a crossed parallelogram), and has its own status. Every other working mode has "assembly"
+    too: the assembly modes at its own inputs, itself first; it is alone there where the inputs do not hold the
+    platform. Angles are those nearest to home's.
 
     >>> from assur.model.registry import load_record
     >>> found = branches(load_record("fivebar"))
@@ -63,9 +64,10 @@ def _assembly(record: MechanismRecord, home: FloatArray, item: Posture) -> list[
 
 
 def _listed(record: MechanismRecord, values: FloatArray, problem: Problem, name: str) -> list[Posture]:
-    """Postures at an assembly (n,), itself first; it has the given name where none is it."""
+    """Postures at an assembly (n,), itself first; where none is it, it has the given name and its own status."""
     found = postures(record, values, problem)
-    return [found.current or Posture(name, values, Status.regular, -1), *found.others]
+    own = found.current or Posture(name, values, Status(int(classify_at(record, values))), None)
+    return [own, *found.others]
 
 
 def _plain(item: Posture) -> dict[str, Any]:

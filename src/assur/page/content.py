@@ -21,8 +21,9 @@ from assur.page.quantised import quantised
 from assur.page.ranges import input_ranges, pose_ranges
 from assur.scene.companion import companion
 from assur.scene.layers import Layer
+from assur.scene.letters import letters
 from assur.scene.parts import parts
-from assur.scene.skeleton import skeleton
+from assur.scene.skeleton import Skeleton, skeleton
 
 VERSION = 1
 """Of the form of the scene; a page and its program belong together."""
@@ -72,7 +73,7 @@ def content(record: MechanismRecord, layers: Sequence[Layer]) -> dict[str, Any]:
         "branches": branches(record),
         "modes": modes(record),
         "parts": _parts(parts(body, drawn), body.size),
-        "letters": _letters(record),
+        "letters": _letters(body),
         "layers": [_layer(item) for item in layers],
         "kernel": kernel.kernel(record),
         "kernelParameters": kernel.parameters(record),
@@ -135,8 +136,8 @@ def _rounded(value: Any, size: float) -> Any:
     return (np.round(array, places) + 0.0).tolist()
 
 
-def _letters(record: MechanismRecord) -> list[dict[str, Any]]:
-    return [{"name": name, "link": item.link, "at": item.at.tolist()} for name, item in record.points.items()]
+def _letters(body: Skeleton) -> list[dict[str, Any]]:
+    return [{"name": item.name, "link": item.link, "at": item.at.tolist()} for item in letters(body)]
 
 
 def _factors(record: MechanismRecord) -> list[dict[str, Any]]:

@@ -3,26 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.figures.model import lettered
 from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import rotations
 from assur.scene.companion import companion
+from assur.scene.letters import Letter, letters
 from assur.scene.mesh import Mesh, joined, rgb
 from assur.scene.parts import parts
-from assur.scene.skeleton import Skeleton, skeleton
+from assur.scene.skeleton import skeleton
 
 FloatArray = NDArray[np.float64]
 FULL = 2.0
 """Longest side of a mechanism in the view's own unit."""
-
-CLOSE = 0.03
-"""Points that are nearer than this share of the mechanism get one letter."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,15 +31,6 @@ class Solid:
     vertices: FloatArray
     faces: NDArray[np.int64]
     colour: tuple[int, int, int]
-
-
-@dataclass(frozen=True, eq=False)
-class Letter:
-    """A letter at a point (3,) of a link's frame."""
-
-    name: str
-    link: str
-    at: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +67,8 @@ def drawing(record: MechanismRecord, values: FloatArray) -> Drawing:
         Solid(link, f"{link} {colour[1:]}", *_indexed(joined(meshes), scale), _bytes(colour))
         for (link, colour), meshes in grouped.items()
     ]
-    return Drawing(tuple(solids), _letters(record, shape, scale), scale)
+    named = tuple(replace(item, at=item.at * scale) for item in letters(shape))
+    return Drawing(tuple(solids), named, scale)
 
 
 def places(record: MechanismRecord, values: FloatArray, scale: float) -> Mapping[str, tuple[FloatArray, FloatArray]]:
@@ -119,21 +108,6 @@ def _indexed(mesh: Mesh, scale: float) -> tuple[FloatArray, NDArray[np.int64]]:
     key = np.column_stack([np.round(corners / (1e-7 * FULL)), patch]).astype(np.int64)
     _, first, places = np.unique(key, axis=0, return_index=True, return_inverse=True)
     return corners[first], places.reshape(-1, 3)
-
-
-def _letters(record: MechanismRecord, shape: Skeleton, scale: float) -> tuple[Letter, ...]:
-    """The letters of the figure of the kinematic model, one where several stand in one place, each on its link."""
-    found: dict[str, FloatArray] = {}
-    for name, here in lettered(shape).items():
-        if all(np.linalg.norm(here - other) > CLOSE * shape.size for other in found.values()):
-            found[name] = here
-    return tuple(Letter(name, *_of_link(record, name, scale)) for name in found)
-
-
-def _of_link(record: MechanismRecord, name: str, scale: float) -> tuple[str, FloatArray]:
-    if name in record.points:
-        return record.points[name].link, record.points[name].at * scale
-    return record.joints[name].parent, record.joints[name].at * scale
 
 
 def _bytes(colour: str) -> tuple[int, int, int]:

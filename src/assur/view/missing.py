@@ -32,7 +32,7 @@ SLIGHT = 1e-3
 STRAIGHT = 0.7
 """Cosine from which on a push counts as one along the leg."""
 
-STEPS, FEW = 60, 20
+STEPS, FEW = 120, 20
 """Steps at most, and those after which a pose that has not been reached is taken for one that cannot be."""
 
 DAMPING, LEAST = 1.0, 1e-9
@@ -58,7 +58,8 @@ def misses(record: MechanismRecord, start: FloatArray, pose: FloatArray) -> tupl
     """Legs that do not reach the platform at a pose (m,), the worst first; equal ones in the order of the file.
 
     Where the platform's orientation is said to be constant it is held; coordinates that the pose does not name are
-    those at which the legs together miss least. Limits are not asked.
+    those at which the legs together miss least. Limits are not asked. () where every leg reaches, and where the least
+    was not found: there is no number then.
 
     Args:
         record: the mechanism.
@@ -76,6 +77,8 @@ def misses(record: MechanismRecord, start: FloatArray, pose: FloatArray) -> tupl
         return ()
     pushed = _on_feet(record)
     values = _stretched(record, start, pose)
+    if values is None:
+        return ()
     rotation, origin = frames(pushed, values)[record.platform.link]
     at_platform = rotation @ record.platform.point + origin
     found: dict[str, Miss] = {}
@@ -182,8 +185,11 @@ def _on_feet(record: MechanismRecord) -> MechanismRecord:
     return replace(record, platform=platform, joints=joints, links=links, coordinates=tuple(coordinates))
 
 
-def _stretched(record: MechanismRecord, start: FloatArray, pose: FloatArray) -> FloatArray:
+def _stretched(record: MechanismRecord, start: FloatArray, pose: FloatArray) -> FloatArray | None:
     """Joint values with the loops closed, the platform at a pose (m,) and the feet pushed as little as can be.
+
+    None where the loops do not close, and where `STEPS` do not get there: small steps that heavy damping makes small
+    are no proof of it.
 
     Gauss-Newton steps along what the loops and the pose leave free, closed again after each; damped as H. B. Nielsen
     does (Damping parameter in Marquardt's method, IMM-REP-1999-05, 1999), but every leg by as much as it is pushed,
@@ -193,26 +199,31 @@ def _stretched(record: MechanismRecord, start: FloatArray, pose: FloatArray) -> 
     size = characteristic_length(record)
     scale = np.array([size if item.kind == "length" else 1.0 for item in pushed.coordinates])
     feet, legs, damping, harder = np.arange(len(start), len(scale)), _legs(pushed), DAMPING, 2.0
-    here = assemble(pushed, np.concatenate([start, np.zeros(len(feet))]), poses=wanted).values
+    first = assemble(pushed, np.concatenate([start, np.zeros(len(feet))]), poses=wanted)
+    if not bool(first.closed):
+        return None
+    here = first.values
     for _ in range(STEPS):
         push = here[feet] / size
         error = float(push @ push)
+        if error <= CLOSED**2:
+            return here
         free = null_space(closing_system(pushed, here[None], wanted[None])[1][0] * scale / size, rcond=RANK_GAP)
         turned = free[feet]
         pushes = np.bincount(legs[feet], push**2, minlength=int(np.max(legs)) + 1) ** 0.5
         curved = free.T @ (np.maximum(pushes[legs], LEAST)[:, None] * free)
         step = np.linalg.solve(turned.T @ turned + damping * curved, -turned.T @ push)
+        promised = error - float(np.sum((push + turned @ step) ** 2))
+        if promised <= GAIN * error:
+            return here if damping <= DAMPING else None
         there = assemble(pushed, here + scale * (free @ step), poses=wanted, near=True)
         gain = error - float(np.sum((there.values[feet] / size) ** 2))
-        promised = error - float(np.sum((push + turned @ step) ** 2))
         if bool(there.closed) and gain > 0.0:
             here, harder = there.values, 2.0
             damping *= max(1 / 3, 1.0 - (2.0 * gain / promised - 1.0) ** 3)
         else:
             damping, harder = damping * harder, 2.0 * harder
-        if promised <= GAIN * error or error <= CLOSED**2:
-            break
-    return here
+    return None
 
 
 @lru_cache(maxsize=16)

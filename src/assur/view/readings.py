@@ -95,8 +95,10 @@ def clearance(snapshot: Snapshot, working: Postures) -> Reading | None:
     if math.isnan(value):
         return None
     if math.isinf(value):
-        return Reading("distance to singularity", f"more than {found.reach:.4g} {record.unit}", "none was seen nearer")
-    return Reading("distance to singularity", f"{value:.4g} {record.unit}", f"there {found.factor} = 0")
+        return Reading(
+            "to a parallel singularity", f"more than {found.reach:.4g} {record.unit}", "none was seen nearer"
+        )
+    return Reading("to a parallel singularity", f"{value:.4g} {record.unit}", f"there {found.factor} = 0")
 
 
 def shown(dial: dials.Dial, value: float) -> str:

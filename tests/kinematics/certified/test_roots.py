@@ -5,6 +5,7 @@ import pytest
 
 import assur
 from assur.kinematics.certified.certify import certified_direct
+from assur.kinematics.certified.matching import BOTH
 
 
 def legs_of(record, pose):
@@ -21,6 +22,7 @@ def test_a_half_turn_of_the_platform_is_no_exception():
     assert len(found) == int(np.sum(floats.exists))
     turned = [np.abs(np.abs(item.pose.middle[2]) - np.pi) < 1e-9 for item in found]
     assert sum(turned) == 1
+    assert {item.how for item in found} == {BOTH}  # the roots alone hold the poses, not only as many
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -57,6 +57,25 @@ def test_rows_are_written_by_parts(tmp_path):
     np.testing.assert_array_equal(np.load(files["exists"]), truths.reshape(3, 4))
 
 
+@pytest.mark.parametrize("foreign", [False, True])
+def test_what_cannot_be_made_is_told_and_nothing_is_left(tmp_path, monkeypatch, foreign):
+    """Also where somebody else writes into a new folder meanwhile; that alone stays."""
+    files = {name: tmp_path / "new" / "deep" / f"{name}.npy" for name in ("inputs", "exists")}
+    make = np.lib.format.open_memmap
+
+    def second_fails(path, **options):
+        if path == files["exists"]:
+            if foreign:
+                (tmp_path / "new" / "other").write_text("")
+            raise OSError("no room")
+        return make(path, **options)
+
+    monkeypatch.setattr(np.lib.format, "open_memmap", second_fails)
+    with pytest.raises(OSError, match="no room"):
+        make_files(files, {"inputs": (2, 3), "exists": (3,)})
+    assert [item.name for item in tmp_path.rglob("*")] == (["new", "other"] if foreign else [])
+
+
 def test_a_question_is_plain_json(tmp_path):
     State(tmp_path / "s", QUESTION).save(1, None)
     assert json.loads((tmp_path / "s").read_text())["question"]["counts"] == [3, 4]

@@ -34,6 +34,11 @@ def test_the_rate_of_a_root_is_no_bound_where_both_may_be_zero():
     assert np.isinf(root_rate(Interval.of(-1.0, 1.0), Interval.of(0.0)).high)
 
 
+def test_the_rate_of_a_magnitude_is_as_defined_as_its_argument():
+    odd = Interval(np.array([-1.0, 1.0]), np.array([4.0, 4.0]), np.array([True, False]))
+    assert sign_rate(odd).defined.tolist() == [True, False]
+
+
 def test_a_root_below_zero_counts_as_defined_where_its_radicand_is():
     odd = Interval(np.array([-1.0, -1.0]), np.array([4.0, 4.0]), np.array([True, False]))
     assert ClampedIntervals().sqrt(odd).defined.tolist() == [True, False]

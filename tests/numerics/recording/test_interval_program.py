@@ -8,7 +8,7 @@ import pytest
 from assur.errors import UsageError
 from assur.numerics.intervals import rounding
 from assur.numerics.intervals.interval import Interval, as_interval
-from assur.numerics.recording import interval_program
+from assur.numerics.recording import interval_code, interval_program
 from assur.numerics.recording.interval_program import AT_ONCE, IntervalProgram
 from assur.numerics.recording.tape import Recorder
 
@@ -26,11 +26,12 @@ def every_pair():
 
 def assert_same(found, expected, count):
     for part in ("low", "high"):
-        one, two = (np.broadcast_to(getattr(item, part), (count,)) for item in (found, expected))
+        one, two = (getattr(item, part) for item in (found, expected))
+        assert one.shape == two.shape == (count,)
         bits = [np.ascontiguousarray(item).view(np.int64) for item in (one, two)]
         np.testing.assert_array_equal(bits[0][one != 0], bits[1][one != 0])
         assert np.all((one != 0) | (two == 0))
-    np.testing.assert_array_equal(found.defined, np.broadcast_to(expected.defined, (count,)))
+    np.testing.assert_array_equal(found.defined, expected.defined)
 
 
 def both(program, varying, uniform=()):
@@ -83,7 +84,8 @@ def test_what_is_not_defined_stays_so():
     x, y = every_pair()
     odd = Interval(x.low, x.high, np.arange(len(x.low)) % 3 > 0)
     found = both(program_of(*OPERATIONS), (odd, y))
-    assert not np.any(found["+"].defined & ~odd.defined)
+    for name, answer in found.items():
+        assert not np.any(answer.defined & ~odd.defined), name
 
 
 @pytest.mark.parametrize("count", [1, AT_ONCE - 1, AT_ONCE, AT_ONCE + 1, 1000])
@@ -118,6 +120,12 @@ def test_an_output_may_be_what_is_given_and_two_may_be_one():
     assert (found["p"].high.tolist(), found["2"].low.tolist()) == ([1.0, 1.0], [2.0, 2.0])
 
 
+@pytest.mark.parametrize("engine", ["compiled", "numpy"])
+def test_where_nothing_given_is_an_array_nothing_found_is(engine):
+    found = program_of("+", "number")([Interval.of(1.0), Interval.of(2.0)], [], engine)
+    assert {item.shape for item in found.values()} == {()}
+
+
 def test_a_processor_that_rounds_otherwise_is_refused(monkeypatch):
     def refuse():
         raise UsageError("not to nearest")
@@ -125,6 +133,7 @@ def test_a_processor_that_rounds_otherwise_is_refused(monkeypatch):
     x, y = every_pair()
     program = program_of("+")
     monkeypatch.setattr(rounding, "check_nearest", refuse)
+    monkeypatch.setattr(interval_code, "run", lambda *_: pytest.fail("computed all the same"))
     with pytest.raises(UsageError, match="nearest"):
         program([x, y], [], "compiled")
 

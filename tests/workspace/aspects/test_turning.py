@@ -11,6 +11,7 @@ from mpmath import mp
 from assur.certificates.paths import path_certificate
 from assur.kinematics.position import inverse
 from assur.model.registry import load_record, names
+from assur.numerics.intervals.functions import from_degrees
 from assur.workspace.aspects.aspects import aspects
 from assur.workspace.aspects.checking import check_path, covered
 from assur.workspace.aspects.turning import moved, once, turned, turns
@@ -34,7 +35,17 @@ def test_the_ends_of_a_whole_turn_meet_and_nothing_counts_twice(low):
     assert Fraction(-1, 10**14) < Fraction(float(whole.high[0, 0])) - Fraction(box.low[0]) - TWO_PI <= 0
 
 
-@pytest.mark.parametrize("high", [np.pi - 1e-6, np.pi + 1e-6, 10.0])
+@pytest.mark.parametrize("degrees", [-180.0, -720.0, -213.7, 0.0, 90.0])
+@pytest.mark.parametrize("wide", [False, True])
+def test_a_turn_in_degrees_is_meant_however_its_ends_are_rounded(degrees, wide):
+    low, high = np.radians(degrees), np.radians(degrees + 360)
+    if wide:
+        low, high = from_degrees(low).low, from_degrees(high).high
+    found = turned(Box(("phi",), (float(low),), (float(high),)), ["phi"])
+    assert Fraction(found.high[0]) - Fraction(found.low[0]) >= TWO_PI
+
+
+@pytest.mark.parametrize("high", [np.pi - 1e-6, np.pi + 1e-6, np.pi - 5e-13, np.pi + 5e-13, np.pi - 2e-14, 10.0])
 def test_other_intervals_are_left_as_they_are(high):
     box = Box(("x", "phi"), (-np.pi, -np.pi), (np.pi, high))
     assert turned(box, box.names) == box

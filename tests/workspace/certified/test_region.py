@@ -87,6 +87,7 @@ def test_the_paper_s_four_sections_hold_the_quadrature():
         assert (item.coordinate, item.unit) == ("z", "mm^2")
 
 
+@pytest.mark.usefixtures("by_numpy")
 @pytest.mark.parametrize("mutation", ["rounding", "outward", "share"])
 def test_wrong_bounds_are_noticed(monkeypatch, mutation):
     """Bounds that are shrunk, and shares that are turned round, fail the tests above."""

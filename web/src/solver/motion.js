@@ -17,6 +17,7 @@ const LEAST_STEP = 1 / 8192; // of the way that is done
 const FIRST_STEP = 2 ** -24; // of the way: a start near a singularity is left in steps as small as its distance
 const NEAR = 0.08; // a step as small as the least one ends that near to a singularity
 const ALMOST = 1e-9;
+const NOISE = 1e-12; // of the model's length: more than Newton's steps move a joint that stands still
 const FURTHEST = 0.3; // that a joint value goes in one step, in rad or of the model's length
 const AIM = 0.9; // share of that which the next step is meant to go
 const FLOOR = 1e-8; // a measure below this may be on either side of 0
@@ -76,7 +77,7 @@ function followed(model, start, attempt, ask, { side, limits = true, through = f
   const borders = { parallel: !through, serial: side === "pose", passive: true };
   const forbidden = regularKinds(model).filter((kind) => borders[kind]);
   const serial = side === "inputs" && regularKinds(model).includes("serial");
-  let [values, share, step, reason, crossed, turned] = [start, 0, 1, null, false, false];
+  let [values, share, step, reason, crossed, turned] = [wrapped(model, start), 0, 1, null, false, false];
   let here = measuresAt(model, values);
   while (share < 1) {
     const next = Math.min(1, share + step);
@@ -94,11 +95,11 @@ function followed(model, start, attempt, ask, { side, limits = true, through = f
     } else {
       crossed ||= through && passed(here, there, "parallel");
       turned ||= serial && passed(here, there, "serial");
-      [values, share, here] = [found, next, there];
+      [values, share] = [wrapped(model, found), next];
+      here = values === found ? there : measuresAt(model, values);
       [step, reason] = [step * Math.min(2, (AIM * FURTHEST) / long), null];
     }
   }
-  values = wrapped(model, values);
   if (share >= 1) return { values, status: "moved", reason: null, share: 1, crossed, turned };
   return {
     values,
@@ -131,7 +132,7 @@ const regular = new WeakMap();
 const passed = (here, there, kind) =>
   there[kind] < FLOOR ||
   (there[kind] < NEAREST && there[kind] <= here[kind]) ||
-  (kind !== "passive" && !passage(here, there, kind).kept);
+  !passage(here, there, kind).kept;
 
 /** Why no small step succeeds. @returns {Reason} */
 function why(model, values, measured, crossed, ask, side) {
@@ -168,7 +169,7 @@ function limitsOf(model, start) {
     ]) {
       if (!Number.isFinite(end)) continue;
       const text = kind === "stroke" ? `stroke of ${name} ends here` : `limit of joint ${name}`;
-      const slack = Math.max(-margin(start), 1e-9 * model.length);
+      const slack = Math.max(NOISE * model.length - margin(start), ALMOST * model.length);
       found.push({ margin, slack, reason: { kind, text, joint: name, amount: end } });
     }
   };
@@ -198,13 +199,15 @@ function tilt(joint, values) {
   return Math.atan2(norm(cross(tilted, joint.coneAxis)), dot(tilted, joint.coneAxis));
 }
 
-/** Rotation vectors of ball joints kept well below a whole turn; the frames stay what they are. */
+/** Rotation vectors of ball joints kept well below a whole turn, where their rates have no bound; frames stay the same. */
 function wrapped(model, values) {
-  const result = values.slice();
+  let result = values;
   for (const { type, first } of model.joints) {
     if (type !== "S") continue;
-    const angle = Math.hypot(...result.slice(first, first + 3));
-    if (angle > 1.25 * Math.PI) for (let k = first; k < first + 3; k++) result[k] *= 1 - (2 * Math.PI) / angle;
+    const angle = Math.hypot(...values.slice(first, first + 3));
+    if (angle <= 1.25 * Math.PI) continue;
+    if (result === values) result = values.slice();
+    for (let k = first; k < first + 3; k++) result[k] *= 1 - (2 * Math.PI) / angle;
   }
   return result;
 }

@@ -11,6 +11,7 @@ export const ZERO = 1e-12;
 const RANK = 1e-8; // motions that move neither pose nor inputs by more stand still
 const BEND = 4; // a way of tangents bends away from its chord by at most so many squares of its length
 const SHARES = [0.5, 0.25, 0.75, 0.125, 0.875]; // of a step, where its chord is looked at
+const PARTS = 8; // of a step, in each of which its chord is looked at
 const STEPS = [1e-4, 1e-6, 1e-8]; // of the model's length
 
 /** A basis of all motions at an assembly, scaled rates of the joint values, and the pair that belongs to each of them. */
@@ -20,29 +21,48 @@ function pairsAt(model, values) {
   const free = nullSpace(closureRows(model, placed, twists), model.count);
   const rows = scaledPoseRates(model, placed, twists);
   for (const { index, sign } of model.inputs) rows.push(model.scale.map((_, k) => (k === index ? sign : 0)));
-  const pairs = free.map((motion) => rows.map((row) => row.reduce((sum, value, k) => sum + value * motion[k], 0)));
+  const pairs = free.map((motion) => rows.map((row) => sum(row, (value, k) => value * motion[k])));
   return { free, rows, pairs };
 }
+
+/** How many sizes of pairs are not 0. */
+const ranked = (sizes) => sizes.filter((size) => size > RANK * Math.max(1, sizes[0])).length;
+
+/** How many pairs the loops allow at home: one fewer is a singularity. */
+function pairsAtHome(model) {
+  if (!counts.has(model)) {
+    const { pairs } = pairsAt(model, model.home);
+    counts.set(model, pairs.length ? ranked(singular(pairs).values) : 0);
+  }
+  return counts.get(model);
+}
+const counts = new WeakMap();
 
 /**
  * All motions at an assembly: an orthonormal basis of the pairs (rates of the pose, rates of the inputs) that its
  * loops allow, lengths in units of the model's length. Nothing is solved, so it is exact at singularities too.
- * @typedef {{pose: number[][], inputs: number[][], passive: number}} Motions rows of r numbers: one for each rate of the
- * pose; each input; and how much of its least pair a motion has: none where a leg moves between input and platform alone
+ * @typedef {{pose: number[][], inputs: number[][], joints: number[][], pairs: number[][], passive: number}} Motions rows
+ * of r numbers: one for each rate of the pose; each input; each scaled rate of a joint value, for orthonormal motions of
+ * the joints; each number of the pairs that these have; and the least size of the latter, as many as at home: none where
+ * a leg moves between input and platform alone
  * @returns {Motions}
  */
 export function motionsAt(model, values) {
-  const { rows, pairs } = pairsAt(model, values);
-  if (!pairs.length) return { pose: [], inputs: [], passive: 0 };
-  const { values: sizes, right } = singular(pairs);
-  const basis = right.filter((_, k) => sizes[k] > RANK * Math.max(1, sizes[0]));
+  const { free, rows, pairs } = pairsAt(model, values);
+  if (!pairs.length) return { pose: [], inputs: [], joints: [], pairs: [], passive: 0 };
+  const { values: sizes, left, right } = singular(pairs);
+  const basis = right.slice(0, ranked(sizes));
   const turned = rows.map((_, k) => basis.map((pair) => pair[k]));
   return {
     pose: turned.slice(0, -model.inputs.length),
     inputs: turned.slice(-model.inputs.length),
-    passive: basis.length ? sizes[basis.length - 1] : 0,
+    joints: model.scale.map((_, k) => basis.map((_, j) => sum(free, (motion, i) => motion[k] * left[j][i]))),
+    pairs: turned.map((row) => row.map((value, j) => value * sizes[j])),
+    passive: sizes[pairsAtHome(model) - 1] ?? 0,
   };
 }
+
+const sum = (items, term) => items.reduce((total, item, k) => total + term(item, k), 0);
 
 /**
  * What the motions say of singularities. Where Jp v = Jq qdot, their singular values are those of Jp and Jq of
@@ -81,67 +101,67 @@ export function measuresAt(model, values) {
 export function looseInput({ pose, inputs }) {
   if (!pose.length) return 0;
   const still = singular(pose).right.at(-1);
-  const amounts = inputs.map((row) => Math.abs(row.reduce((sum, value, k) => sum + value * still[k], 0)));
+  const amounts = inputs.map((row) => Math.abs(sum(row, (value, k) => value * still[k])));
   return amounts.indexOf(Math.max(...amounts));
 }
 
 /** The joint that moves most where input and platform move least: it is in the leg that is stretched or folded. */
 export function looseJoint(model, values) {
-  const { free, pairs } = pairsAt(model, values);
+  const { free, rows, pairs } = pairsAt(model, values);
   if (!pairs.length) return model.joints[0];
-  const { values: sizes, left } = singular(pairs);
-  const least = sizes.findLastIndex((size) => size > RANK * Math.max(1, sizes[0]));
-  const moved = model.scale.map((_, k) => Math.abs(free.reduce((sum, motion, i) => sum + motion[k] * left[least][i], 0)));
+  const { right } = singular(rows.map((_, k) => pairs.map((pair) => pair[k]))); // unit vectors, also where a size is 0
+  const least = right[Math.max(0, pairsAtHome(model) - 1)] ?? right.at(-1);
+  const moved = model.scale.map((_, k) => Math.abs(sum(free, (motion, i) => motion[k] * least[i])));
   const index = moved.indexOf(Math.max(...moved));
   return model.joints.find(({ first, freedoms }) => index >= first && index < first + freedoms);
 }
+
+/** Rows whose least size a measure is, and those of the orthonormal motions that they belong to. */
+const ROWS = {
+  parallel: ({ pose, inputs }) => [inputs, [...pose, ...inputs]],
+  serial: ({ pose, inputs }) => [pose, [...pose, ...inputs]],
+  passive: ({ pairs, joints }) => [pairs, joints],
+};
 
 /**
  * Whether a measure keeps away from 0 between two assemblies, and its sign at the second one, positive at the first.
  *
  * Motions there are written over those here, so that they change as little as can be. Between, they lie on their chord
  * but for `BEND` squares of its length in the middle, less towards the ends; a singular value changes by no more than
- * its matrix.
+ * its matrix. Where that matrix is not square, as that of passive legs, no determinant tells the sides of 0 apart: there
+ * the chord, or each part of it, has to change by less than the measures at both its ends together.
  * @param {Measured} here @param {Measured} there
- * @param {"parallel"|"serial"} kind
+ * @param {"parallel"|"serial"|"passive"} kind
  * @returns {{kept: boolean, sense: number}} sense: 1 or -1, 0 where that is not to be said
  */
 export function passage(here, there, kind) {
-  const part = kind === "parallel" ? "inputs" : "pose";
-  const count = here[part][0]?.length ?? 0;
-  if (!count || there[part][0]?.length !== count) return { kept: false, sense: 0 };
-  const end = alignedTo(here, there);
-  const square = here[part].length === count;
-  const sign = (rows) => (square ? Math.sign(determinant(rows)) : 1);
-  const [first, last] = [here[kind] > 0 ? sign(here[part]) : 0, sign(end[part])]; // 0: both ways are free
-  const bend = BEND * end.away ** 2;
-  const clear = (t) => {
-    const middle = here[part].map((row, i) => row.map((value, k) => value + t * (end[part][i][k] - value)));
-    return sizes(middle).at(-1) > 4 * bend * t * (1 - t) && sign(middle) === last;
+  const [[rows, motions], [others, otherMotions]] = [here, there].map(ROWS[kind]);
+  const count = rows[0]?.length ?? 0;
+  if (!count || others[0]?.length !== count) return { kept: false, sense: 0 };
+  const { turn, away } = nearest(motions, otherMotions);
+  const end = others.map((row) => turn.map((column) => sum(row, (value, j) => value * column[j])));
+  const change = end.map((row, i) => row.map((value, k) => value - rows[i][k]));
+  const square = rows.length === count;
+  const sign = (matrix) => (square ? Math.sign(determinant(matrix)) : 1);
+  const [first, last] = [here[kind] > 0 ? sign(rows) : 0, sign(end)]; // 0: both ways are free
+  const bend = BEND * away ** 2;
+  const at = (t) => rows.map((row, i) => row.map((value, k) => value + t * change[i][k]));
+  const clear = (t) => sizes(at(t)).at(-1) > 4 * bend * t * (1 - t) && sign(at(t)) === last;
+  const most = sizes(change)[0];
+  const far = (parts) => {
+    const found = Array.from({ length: parts + 1 }, (_, k) => sizes(at(k / parts)).at(-1));
+    return found.every((value, k) => k === 0 || found[k - 1] + value > most / parts + 2 * bend);
   };
-  const far = here[kind] + there[kind] > end.away + 2 * bend;
-  return { kept: first * last >= 0 && (far || SHARES.every(clear)), sense: first * last };
+  const free = here[kind] + there[kind] > most + 2 * bend || (square ? SHARES.every(clear) : far(PARTS));
+  return { kept: first * last >= 0 && free, sense: first * last };
 }
 
-/** Motions in the basis nearest to another one (the orthogonal factor of their product), and how far they are. */
-function alignedTo(here, there) {
-  const rows = [...here.pose, ...here.inputs];
-  const others = [...there.pose, ...there.inputs];
-  const count = rows[0].length;
-  const product = Array.from({ length: count }, (_, i) =>
-    Array.from({ length: count }, (_, j) => rows.reduce((sum, row, k) => sum + row[i] * others[k][j], 0)),
-  );
+/** The turn that brings another basis nearest to one (the orthogonal factor of their product), and how far it stays. */
+function nearest(rows, others) {
+  const product = rows[0].map((_, i) => rows[0].map((_, j) => sum(rows, (row, k) => row[i] * others[k][j])));
   const { values, left, right } = singular(product);
-  const turn = Array.from({ length: count }, (_, j) =>
-    Array.from({ length: count }, (_, i) => values.reduce((sum, _, k) => sum + right[k][j] * left[k][i], 0)),
-  );
-  const turned = (part) =>
-    part.map((row) => turn.map((_, i) => row.reduce((sum, value, j) => sum + value * turn[j][i], 0)));
-  return {
-    pose: turned(there.pose),
-    inputs: turned(there.inputs),
-    away: Math.sqrt(2 * Math.max(0, 1 - values.at(-1))),
-  };
+  const turn = product.map((_, j) => product.map((_, i) => sum(right, (column, k) => column[i] * left[k][j])));
+  return { turn, away: Math.sqrt(2 * Math.max(0, 1 - values.at(-1))) };
 }
 
 /**

@@ -36,9 +36,11 @@ def allows(record: MechanismRecord, margin: Margin, value: Any) -> BoolArray:
     >>> from assur.model.registry import load_record
     >>> allows(load_record("zeng2019"), Margin("M", "l2*l2", "reach", unit=2), [1.0, 0.0, -1e-3])
     array([ True,  True, False])
+
+    A margin that is no number allows nothing.
     """
     if margin.zero == "degenerate":
-        return ~vanishes(record, margin, value)
+        return np.asarray(np.abs(value) > tolerance(record, margin))
     return np.asarray(np.asarray(value) >= -tolerance(record, margin))
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -93,13 +94,12 @@ def make_files(files: Mapping[str, Path], shapes: Mapping[str, tuple[int, ...]])
             hint="keep less of it, or take fewer places",
         )
     new = [place for place in (folder, *folder.absolute().parents) if not place.exists()]
-    folder.mkdir(parents=True, exist_ok=True)
     try:
+        folder.mkdir(parents=True, exist_ok=True)
         for name, path in files.items():
             np.lib.format.open_memmap(path, mode="w+", dtype=kinds[name], shape=shapes[name])
     except OSError:
-        for path in files.values():
-            path.unlink(missing_ok=True)
-        for place in new:
-            place.rmdir()
+        for remove in (*(path.unlink for path in files.values()), *(place.rmdir for place in new)):
+            with suppress(OSError):  # what was wrong is told, whatever cannot be removed
+                remove()
         raise

@@ -22,13 +22,15 @@ def clamped_root(radicand: Interval) -> Interval:
 def sign_rate(whole: Interval) -> Interval:
     """Bounds (...) of (|u| - |v|) / (u - v) for two numbers of an interval: one of -1 and 1 where the sign is certain.
 
+    As defined as the interval is.
+
     >>> rate = sign_rate(Interval.of([-2.0, 1.0], [3.0, 3.0]))
     >>> rate.low, rate.high
     (array([-1.,  1.]), array([1., 1.]))
     """
     low = np.where(whole.low >= 0, 1.0, -1.0)
     high = np.where(whole.high <= 0, -1.0, 1.0)
-    return Interval(np.minimum(low, high), np.maximum(low, high), np.ones(low.shape, dtype=bool))
+    return Interval(np.minimum(low, high), np.maximum(low, high), whole.defined)
 
 
 def root_rate(whole: Interval, centre: Interval) -> Interval:

@@ -2,7 +2,10 @@
 
 The formulas are those of `assur.numerics.intervals`, in the same order and with the same roundings: bounds agree to the
 last bit (but for the sign of a zero). No flag lets the compiler change floats. Imported where it is used only: it needs
-numba, and its machine code is kept on disk.
+numba. Its machine code is kept on disk where that can be written.
+
+Numba takes what it kept for the same as long as this file is: so every number that the code depends on is written here,
+and importing it fails where another file has come to say something else.
 """
 
 from __future__ import annotations
@@ -12,14 +15,28 @@ from typing import Any
 
 from numba import njit
 
-from assur.numerics.intervals.rounding import GREATEST, LEAST, SHARE, SHARE_OF_SUM
-from assur.numerics.recording.interval_program import STEPS
+from assur.numerics.intervals import rounding
+from assur.numerics.recording import interval_program
 
+SHARE = 2.0**-53 * (1 + 2.0**-52)
+SHARE_OF_SUM = 2.0**-52
+LEAST = 2.0**-960
+GREATEST = (2 - 2.0**-52) * 2.0**1023
+STEPS = ("varying", "store", "+", "-", "*", "/", "negative", "magnitude", "root", "sign rate", "root rate")
 _VARYING, _STORE, _PLUS, _MINUS, _TIMES, _OVER, _NEGATIVE, _MAGNITUDE, _ROOT, _SIGN_RATE, _ROOT_RATE = range(len(STEPS))
+
+_SAME = {rounding: ("SHARE", "SHARE_OF_SUM", "LEAST", "GREATEST"), interval_program: ("STEPS",)}
+for _place, _name in ((place, name) for place, names in _SAME.items() for name in names):
+    if globals()[_name] != getattr(_place, _name):
+        raise ImportError(f"{__name__}: {_name} is not that of {_place.__name__}; write the same in both")
 
 
 def _compiled(function: Any) -> Any:
-    return njit(cache=True, nogil=True, error_model="numpy")(function)
+    """Machine code of a function, kept on disk where a folder for it can be written."""
+    try:
+        return njit(cache=True, nogil=True, error_model="numpy")(function)
+    except RuntimeError:  # no folder can be written
+        return njit(nogil=True, error_model="numpy")(function)
 
 
 @_compiled
@@ -170,7 +187,7 @@ def run(steps: Any, given: Any, answer: Any, work: Any, clamped: bool) -> None:
                 for i in range(here):
                     sure = 1.0 if low[a, i] >= 0.0 else -1.0, -1.0 if high[a, i] <= 0.0 else 1.0
                     low[at, i], high[at, i] = min(sure[0], sure[1]), max(sure[0], sure[1])
-                    defined[at, i] = True
+                    defined[at, i] = defined[a, i]
             elif code == _ROOT_RATE:
                 for i in range(here):
                     least, most = _root_rate(low[a, i], high[a, i], low[b, i], high[b, i])

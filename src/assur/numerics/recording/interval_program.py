@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from assur.numerics.intervals import rounding
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.intervals.rates import ClampedIntervals
+from assur.numerics.intervals.shapes import broadcast
 from assur.numerics.number_types import Intervals
 from assur.numerics.recording.tape import Tape
 
@@ -63,14 +64,14 @@ class IntervalProgram:
     ) -> dict[str, Interval]:
         """Outputs (N,) by name at intervals that vary, (N,) or (), and uniform ones, ().
 
-        The bits do not depend on the engine, but for the sign of a zero. By NumPy an output that depends on () alone
-        is (), by machine code only where nothing is (N,).
+        The bits do not depend on the engine, but for the sign of a zero; nor do the shapes: all outputs are (N,), or
+        all () where nothing varying is (N,). They may be views that cannot be written.
         """
         shape = np.broadcast_shapes(*(item.low.shape for item in varying))
         if engine == "compiled" or (engine == "auto" and repaid(len(self.tape.operations), math.prod(shape))):
             return self._by_code(varying, uniform, shape)
         found = self.tape.evaluate(varying, uniform, ClampedIntervals() if self.clamped else Intervals())
-        return {name: as_interval(value) for name, value in found.items()}
+        return {name: broadcast(as_interval(value), shape) for name, value in found.items()}
 
     def _by_code(
         self, varying: Sequence[Interval], uniform: Sequence[Interval], shape: tuple[int, ...]

@@ -23,8 +23,8 @@ FloatArray = NDArray[np.float64]
 Ends = Sequence[tuple[float, float] | None]
 """Per coordinate of boxes the ends of a turn, which are one place; None where it has ends."""
 
-NEARLY = 1e-12
-"""Radians: a box that is a whole turn long but for so much means the whole turn."""
+NEARLY = 2e-15
+"""Share of the larger end, some roundings: a box that is a whole turn long but for so much means the whole turn."""
 
 
 def turned(box: Box, names: Sequence[str]) -> Box:
@@ -35,7 +35,7 @@ def turned(box: Box, names: Sequence[str]) -> Box:
     (True, True, 1.0)
     """
     high = [
-        _around(low) if name in names and is_angle(name) and abs(high - _around(low)) < NEARLY else high
+        _around(low) if name in names and is_angle(name) and _meant(low, high) else high
         for name, low, high in zip(box.names, box.low, box.high, strict=True)
     ]
     return replace(box, high=tuple(high))
@@ -94,6 +94,11 @@ def moved(values: FloatArray, count: NDArray[np.int64], ends: Ends) -> FloatArra
         start = np.where(ahead, high, np.where(behind, low, values[axis]))
         found[axis] = start + (count[axis] - ahead + behind) * (high - low)
     return found
+
+
+def _meant(low: float, high: float) -> bool:
+    """Whether the interval is a whole turn long but for roundings of its ends."""
+    return abs(high - _around(low)) < NEARLY * max(abs(low), abs(high))
 
 
 def _around(low: float) -> float:

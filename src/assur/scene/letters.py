@@ -1,0 +1,66 @@
+"""Letters: which points of a mechanism are named in its drawings, and where they stand on their links."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.model.mechanism import MechanismRecord
+from assur.scene.skeleton import Skeleton
+from assur.topology.joints import PRISMATIC
+
+FloatArray = NDArray[np.float64]
+CLOSE = 0.03
+"""In three dimensions, points that are nearer than this share of the mechanism get one letter."""
+
+
+@dataclass(frozen=True, eq=False)
+class Letter:
+    """A letter at a point (3,) of a link's frame, in the mechanism's unit."""
+
+    name: str
+    link: str
+    at: FloatArray
+
+
+def letters(skeleton: Skeleton) -> tuple[Letter, ...]:
+    """The letters of a mechanism, one where several stand in one place, each on its link.
+
+    >>> from assur.model.registry import load_record
+    >>> from assur.scene.companion import companion
+    >>> from assur.scene.skeleton import skeleton
+    >>> from assur.kinematics.home import home_values
+    >>> record = load_record("fivebar")
+    >>> [item.name for item in letters(skeleton(record, companion(record), home_values(record)))]
+    ['A1', 'B1', 'A2', 'B2', 'P']
+    """
+    found: dict[str, FloatArray] = {}
+    for name, here in lettered(skeleton).items():
+        if all(np.linalg.norm(here - other) > CLOSE * skeleton.size for other in found.values()):
+            found[name] = here
+    return tuple(Letter(name, *_of_link(skeleton.record, name)) for name in found)
+
+
+def _of_link(record: MechanismRecord, name: str) -> tuple[str, FloatArray]:
+    if name in record.points:
+        return record.points[name].link, record.points[name].at
+    return record.joints[name].parent, record.joints[name].at
+
+
+def lettered(skeleton: Skeleton) -> dict[str, FloatArray]:
+    """Letters of a drawing: the lettered points, and the joints whose place has no letter yet."""
+    record = skeleton.record
+    found = {name: skeleton.points[name] for name in record.points}
+    for name, joint in record.joints.items():
+        if joint.type is PRISMATIC or _one_of_many(record, name):
+            continue
+        if all(np.linalg.norm(skeleton.points[name] - at) > 1e-9 for at in found.values()):
+            found[name] = skeleton.points[name]
+    return found
+
+
+def _one_of_many(record: MechanismRecord, name: str) -> bool:
+    """Whether a joint is one of several about a lettered point, as B3a and B3b about B3."""
+    return name[:-1] in record.points
