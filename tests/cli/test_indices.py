@@ -108,7 +108,7 @@ def test_an_empty_workspace_says_so(assur_cli):
         ("fivebar --length -5", "--length: -5 is not a positive length"),
         ("fivebar --length long", "--length: 'long' is not a number"),
         ("fivebar --length isotropic", "no length makes its Jacobian more isotropic"),
-        ("fivebar --points 5", "count: 5 is not a whole number of at least 128"),
+        ("fivebar --points 5", "--points: 5 is not a whole number of at least 128"),
         ("fivebar --pose 1 2 3", "3 values, 2 wanted"),
         ("fivebar --mode +++", "mode"),
     ],

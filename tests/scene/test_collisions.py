@@ -11,6 +11,7 @@ from assur.model.joint_graph import frames
 from assur.scene.bodies import bodies, solid
 from assur.scene.collisions import collisions
 from assur.scene.sampled import sampled
+from assur.scene.sizes import thickness, with_thickness
 
 
 def test_no_pair_shares_a_joint_and_every_other_is_there(every):
@@ -48,11 +49,11 @@ def every_origin(placed):
 
 
 def test_what_lies_in_one_place_meets():
-    """Two cranks of a five-bar whose feet are one: they meet at home; as far apart as they are they do not."""
+    """Two cranks of a five-bar with their feet in one place, as thick as ever, meet; as far apart as they are not."""
     record = assur.load("fivebar")
     apart = {item.links: item for item in collisions(record, record.home_values[None]).pairs}
     assert apart["crank1", "crank2"].meeting == 0
-    close = assur.load("fivebar", g=3.0)
+    close = with_thickness(assur.load("fivebar", g=3.0), thickness(record))
     met = {item.links: item for item in collisions(close, sampled(close, 30)).pairs}
     assert met["crank1", "crank2"].meeting > 0
     assert met["crank1", "crank2"].clearance == 0.0

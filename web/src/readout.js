@@ -20,6 +20,9 @@ export const NUMBERS = {
   residual: ["residual", "largest gap of the loops"],
 };
 
+/** A factor as a share of its own scale. */
+const signed = ({ value, share }) => Math.sign(value) * share;
+
 /** @returns {{element: HTMLElement}} a list of numbers that follows the mechanism */
 export function readout(mechanism) {
   const { scene } = mechanism;
@@ -41,7 +44,7 @@ export function readout(mechanism) {
     rows.residual.textContent = `${figures(state.residual, 2)} ${scene.unit}`;
     if (rows.factor)
       rows.factor.replaceChildren(
-        ...(state.factor ? [spelt(state.factor.name), ` ${figures(state.factor.relative, 3)}`] : ["–"]),
+        ...(state.factor ? [spelt(state.factor.name), ` ${figures(signed(state.factor), 3)}`] : ["–"]),
       );
     clearTimeout(timer);
     timer = setTimeout(() => {
