@@ -118,6 +118,7 @@ def answers(tab, shares):
     return [tab.evaluate(MOVED, [k % sliders, share]) for k, share in enumerate(shares)]
 
 
+@pytest.mark.parametrize("address", NAMES[:1], indirect=True)
 def test_a_slider_is_answered_at_once(opened, rng):
     shares = rng.uniform(-0.1, 0.1, size=MOVES + 1).tolist()
     tab, _ = opened()

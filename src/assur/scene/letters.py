@@ -34,7 +34,7 @@ def letters(skeleton: Skeleton) -> tuple[Letter, ...]:
     >>> from assur.kinematics.home import home_values
     >>> record = load_record("fivebar")
     >>> [item.name for item in letters(skeleton(record, companion(record), home_values(record)))]
-    ['A1', 'B1', 'A2', 'B2', 'P']
+    ['A1', 'A2', 'B1', 'B2', 'P']
     """
     found: dict[str, FloatArray] = {}
     for name, here in lettered(skeleton).items():
