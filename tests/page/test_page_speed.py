@@ -24,9 +24,6 @@ FIRST, ANSWER = 3000.0, 100.0
 """Milliseconds from the address to the first picture, and of the page from a slider to the picture that answers it."""
 
 TRIES, MOVES = 3, 20
-USUALLY = 0.9
-"""Share of the moves that must be answered in time: one in ten may meet a collection of garbage, or a stop."""
-
 PATIENCE = 5
 """How many times as long as a limit the clock may show, on a machine that does other things too."""
 
@@ -125,6 +122,6 @@ def test_a_slider_is_answered_at_once(opened, rng):
     best = np.full(MOVES, np.inf)
     for _ in range(TRIES):
         best = np.minimum(best, answers(tab, shares)[1:])
-        if np.quantile(best, USUALLY) < ANSWER:
+        if max(best) < ANSWER:
             break
-    assert np.quantile(best, USUALLY) < ANSWER, np.sort(best)
+    assert max(best) < ANSWER, np.sort(best)
