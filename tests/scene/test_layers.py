@@ -6,12 +6,18 @@ import numpy as np
 import pytest
 
 from assur.mechanism import load
-from assur.scene.layers import FACES, layers, layers_of, region
+from assur.scene.layers import FACES, layers, layers_note, region
 
 
 @pytest.fixture(scope="module")
 def zeng():
-    return layers(load("zeng2019"))
+    return seen("zeng2019")
+
+
+def seen(name, *args, **options):
+    """The layers of a built-in mechanism."""
+    record = load(name)
+    return layers(record, region(record, *args, **options))
 
 
 def of_kind(found, kind):
@@ -52,32 +58,45 @@ def test_singular_surfaces_lie_where_their_factor_vanishes(zeng, place):
 
 
 def test_a_plane_mechanism_has_a_flat_one():
-    found = layers(load("fivebar"))
+    found = seen("fivebar")
     vertices = of_kind(found, "workspace")[0].vertices
     assert np.ptp(vertices[:, 2]) == 0
-    found = layers(load("planar_3rpr"))  # its angle is held as at home
+    found = seen("planar_3rpr")  # its angle is held as at home
     assert all(item.lines for item in of_kind(found, "singular"))
     assert of_kind(found, "singular")
 
 
 def test_a_pose_of_angles_has_none():
-    assert layers(load("three_rps")) == ()
+    assert seen("three_rps") == ()
 
 
 def test_no_layer_has_too_many_faces():
-    for item in layers(load("orthoglide"), resolution=48):
+    for item in seen("orthoglide", resolution=48):
         assert len(item.faces) <= FACES
 
 
 def test_progress_is_told():
-    seen = []
-    layers(load("zeng2019"), None, 12, lambda done, total: seen.append((done, total)))
-    assert seen[-1][0] == seen[-1][1]
+    told = []
+    region(load("zeng2019"), None, 12, lambda done, total: told.append((done, total)))
+    assert told[-1][0] == told[-1][1]
+
+
+def test_a_note_says_what_is_cut_by_the_box_and_why_there_is_nothing():
+    """The planar 3-RRR lies inside its box; a box from which half of it is left out is named."""
+    record = load("planar_3rrr")
+    assert layers_note(record, region(record, resolution=16)) == ""
+    smaller = replace(record, box=record.box | {"x": (-200.0, 0.0)})
+    note = layers_note(smaller, region(smaller, resolution=16))
+    assert note == "Seen inside the box of the file only, which cuts the workspace in x."
+    away = replace(record, box=record.box | {"x": (5000.0, 5100.0)})
+    assert layers_note(away, region(away, resolution=16)).startswith("Nothing of the file's box is reached")
+    unsaid = replace(record, box={})
+    assert layers_note(unsaid, region(unsaid)).startswith("The file gives no [workspace] box for x, y")
 
 
 def test_another_mode_has_other_singular_curves():
     """Poses of the five-bar are reached in every mode alike; where its elbows are decides what is singular."""
-    one, other = (layers(load("fivebar"), mode) for mode in ("-+", "++"))
+    one, other = (seen("fivebar", mode) for mode in ("-+", "++"))
     assert [found[0].label for found in (one, other)] == ["workspace of mode -+", "workspace of mode ++"]
     curves = [np.concatenate([item.vertices for item in of_kind(found, "singular")] or [[]]) for found in (one, other)]
     assert curves[0].shape != curves[1].shape or not np.allclose(*curves)
@@ -104,7 +123,7 @@ def test_a_singular_surface_that_was_followed_lies_on_it_and_has_no_teeth():
     record = replace(load("delta_4s"), closed_form=None)
     found = region(record, resolution=8)
     (locus,) = found.loci
-    (item,) = of_kind(layers_of(record, found), "singular")
+    (item,) = of_kind(layers(record, found), "singular")
     assert len(item.faces) > 1.5 * len(locus.faces)
     assert turning(item.vertices, item.faces) < 0.6 * turning(locus.vertices, locus.faces)
     values = np.abs(found.region.factors[locus.factor].known(item.vertices))

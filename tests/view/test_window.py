@@ -292,7 +292,7 @@ def test_layers_that_cannot_be_computed_say_why(window, monkeypatch):
     monkeypatch.setattr(overlays, "region", lambda *_, **__: None)
     window.overlays._pressed()
     _wait(lambda: window.overlays.note.visible)
-    assert "gives no box" in window.overlays.note.content
+    assert "gives no [workspace] box" in window.overlays.note.content
 
 
 def test_a_section_is_cut_at_the_height_that_is_asked_for():

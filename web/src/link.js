@@ -54,12 +54,17 @@ function cameraOf(text) {
   return sound && Math.hypot(...found.slice(3)) < FURTHEST ? found : null;
 }
 
-/** What of a hash makes sense; the rest is null, as is what it does not say. @param {string} hash @param {Known} known */
+/** What of a hash makes sense; the rest is null, as is what it does not say. `damaged`: part of it makes none. @param {string} hash @param {Known} known */
 export function readHash(hash, { count, branches, tabs, courses, layers }) {
   const given = new URLSearchParams(hash.replace(/^#/, ""));
-  const read = (name, call) => (given.has(name) ? call(given.get(name)) : null);
+  let damaged = false;
+  const read = (name, call) => {
+    const found = given.has(name) ? call(given.get(name)) : null;
+    damaged ||= given.has(name) && found === null;
+    return found;
+  };
   const flag = (text) => (["0", "1"].includes(text) ? text === "1" : null);
-  return {
+  const found = {
     branch: read("mode", (text) => whole(text, branches)),
     values: read("joints", (text) => unpacked(text, count)),
     camera: read("view", cameraOf),
@@ -70,15 +75,17 @@ export function readHash(hash, { count, branches, tabs, courses, layers }) {
       ...Object.fromEntries(FLAGS.map((name) => [name, read(name, flag)])),
     },
   };
+  return { ...found, damaged };
 }
 
 /**
  * Restores what the address says and keeps it up to date.
  * @param {Record<keyof Choices, {read: () => any, put: (value: any) => void}>} choices where each is read and put
  * @param {Omit<Known, "count"|"branches">} known
+ * @param {(text: string) => void} say a word where an address is damaged
  * @returns {() => string} the address now
  */
-export function linked(mechanism, stage, choices, known) {
+export function linked(mechanism, stage, choices, known, say) {
   const restore = () => {
     const found = readHash(location.hash, {
       ...known,
@@ -86,8 +93,9 @@ export function linked(mechanism, stage, choices, known) {
       branches: mechanism.assembly.length,
     });
     for (const [name, value] of Object.entries(found.choices)) if (value !== null) choices[name].put(value);
-    if (found.values) mechanism.restore(found.values, found.branch ?? 0);
+    const foreign = found.values && !mechanism.restore(found.values, found.branch ?? 0);
     if (found.camera) stage.view.set(found.camera);
+    if (found.damaged || foreign) say("this link is damaged, or another page's: only what is understood is shown");
   };
   const address = () => {
     const chosen = Object.fromEntries(Object.entries(choices).map(([name, { read }]) => [name, read()]));

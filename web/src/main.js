@@ -178,6 +178,7 @@ const address = linked(
     limits: boxOf(limitCheck),
   },
   { tabs: side.tabs, courses: player.courses.length, layers: layers.length },
+  say,
 );
 
 shortcuts({

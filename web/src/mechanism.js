@@ -6,7 +6,7 @@ import { inputsOf, toInputs, toPose } from "./solver/motion.js";
 import { closestApproach } from "./solver/newton.js";
 import { poseOf } from "./solver/pose.js";
 import { add, apply, nearestTurn, times } from "./solver/rotation.js";
-import { distanceToSingular, measuresAt } from "./solver/rates.js";
+import { measuresAt } from "./solver/rates.js";
 
 const SAME = 1e-4;
 const FREELY = { limits: false, through: true };
@@ -127,16 +127,18 @@ export class Mechanism {
   /**
    * Straight to joint values that are nearly an assembly, as a link knows them; nothing where they are not.
    * @param {number} hint the assembly mode that it says, to be tried first
+   * @returns {boolean} whether they are
    */
   restore(values, hint) {
     const closed = closestApproach(this.model, values, [], null);
-    if (!(residual(this.model, closed) < 1e-9 * this.model.length)) return;
+    if (!(residual(this.model, closed) < 1e-9 * this.model.length)) return false;
     this.values = closed;
     const { index, crossed } = this.workHere();
     this.here = index < 0 ? null : index;
     if (index < 0 || !this.settle(index, crossed, hint))
       this.working.some((_, k) => k !== index && this.settle(k, true, hint));
     this.jump(closed);
+    return true;
   }
 
   /** Straight to an assembly that is known. */
@@ -288,15 +290,8 @@ export class Mechanism {
         condition,
         smallest: parallel,
         serial,
-        get distance() {
-          return this.far().amount;
-        },
         factor: this.nearestFactor(),
       };
-      let far = null;
-      Object.defineProperty(this.known, "far", {
-        value: () => (far ??= distanceToSingular(this.model, this.known.values)),
-      });
     }
     return this.known;
   }

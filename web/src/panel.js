@@ -82,6 +82,9 @@ function facts(scene) {
   ].filter(Boolean);
 }
 
+/** A sentence below what it is about, if there is one. */
+const note = (text) => (text ? el("p", { class: "quiet" }, text) : "");
+
 const count = (list) => (list.length > 1 ? String(list.length) : "");
 
 /**
@@ -103,7 +106,7 @@ export function panel({ scene, sliders, player, modes, looks, layers }) {
     {
       name: "Show",
       content: [
-        section("Layers", "", ...(layers.length ? layers : [el("p", { class: "quiet" }, "This page has none.")])),
+        section("Layers", "", ...layers, note(scene.layersNote)),
         section("Drawing", "", ...looks.checks),
         section("View", "", looks.views),
       ],

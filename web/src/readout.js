@@ -1,8 +1,11 @@
 /** Live numbers: what the page can say of the present configuration. */
 
 import { el, figures, spelt } from "./dom.js";
+import { NearestSingular } from "./solver/distance.js";
 
-const REST = 120; // milliseconds without motion after which the distance is computed
+const REST = 120; // milliseconds without motion after which the distance is looked for
+const PORTION = 8; // milliseconds of that at a time, so that the page stays awake
+const PATIENCE = 3000; // and all together: what was found until then is said
 
 /** Each number: its name, and what it means. */
 export const NUMBERS = {
@@ -15,13 +18,23 @@ export const NUMBERS = {
     "smallest singular value of Jp, of orthonormal relations Jp v = Jq q'; 0 at a parallel singularity",
   ],
   serial: ["serial measure", "smallest singular value of Jq; 0 at a serial singularity"],
-  distance: ["to singularity, about", "to first order, the platform's orientation held: far from it, a rough guess"],
+  distance: [
+    "to a singularity",
+    "distance of the nearest singular pose that was found, the orientation held: along rays, then by Newton's steps; a nearer one may be missed",
+  ],
   factor: ["closest factor", "the factor of the closed form that is nearest to zero, as a share of its own scale"],
   residual: ["residual", "largest gap of the loops"],
 };
 
 /** A factor as a share of its own scale. */
 const signed = ({ value, share }) => Math.sign(value) * share;
+
+/** The distance of a singularity that was found, and of what kind. */
+function said({ amount, kind }, over, length, unit) {
+  if (Number.isNaN(amount)) return "–";
+  if (amount < Infinity) return `${figures(amount, 3)} ${unit}, ${kind}`;
+  return over ? `none seen within ${figures(length, 3)} ${unit}` : "none seen";
+}
 
 /** @returns {{element: HTMLElement}} a list of numbers that follows the mechanism */
 export function readout(mechanism) {
@@ -34,6 +47,15 @@ export function readout(mechanism) {
     list.append(el("div", { title }, el("dt", {}, name), rows[key]));
   }
   let timer = 0;
+  /** Looks for the nearest singularity in portions, until the mechanism moves. */
+  const look = (found, search, patience) => {
+    const start = performance.now();
+    let over = false;
+    while (!over && performance.now() - start < PORTION) over = search.next().done;
+    const left = patience - (performance.now() - start);
+    if (over || left < 0) rows.distance.textContent = said(found, over, mechanism.model.length, scene.unit);
+    else timer = setTimeout(() => look(found, search, left), 0);
+  };
   const show = () => {
     const state = mechanism.state();
     rows.condition.textContent = figures(state.condition, 3);
@@ -47,13 +69,10 @@ export function readout(mechanism) {
         ...(state.factor ? [spelt(state.factor.name), ` ${figures(signed(state.factor), 3)}`] : ["–"]),
       );
     clearTimeout(timer);
+    rows.distance.textContent = "…";
     timer = setTimeout(() => {
-      const { amount, kind } = mechanism.state().far();
-      rows.distance.textContent = Number.isNaN(amount)
-        ? "–"
-        : amount > scene.extent
-          ? `> ${figures(scene.extent, 2)} ${scene.unit}`
-          : `${figures(amount, 2)} ${scene.unit}, ${kind}`;
+      const found = new NearestSingular(mechanism.model, state.values);
+      look(found, found.search(), PATIENCE);
     }, REST);
   };
   mechanism.listen(show);

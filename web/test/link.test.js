@@ -23,7 +23,7 @@ test("an address brings back what it says", () => {
 
 test("an address of before there were choices says nothing of them", () => {
   const found = readHash(`#mode=1&joints=${packed([1, 2, 3, 4])}&view=-52,24,3.25,0,0,0.5`, KNOWN);
-  assert.deepEqual(found, { branch: 1, values: [1, 2, 3, 4], camera: [-52, 24, 3.25, 0, 0, 0.5], choices: NONE });
+  assert.deepEqual(found, { branch: 1, values: [1, 2, 3, 4], camera: [-52, 24, 3.25, 0, 0, 0.5], choices: NONE, damaged: false });
 });
 
 test("an address that makes no sense changes nothing", () => {
@@ -38,7 +38,11 @@ test("an address that makes no sense changes nothing", () => {
     "#layers=0,&course=1.5&tab=Show&ghosts=constructor&mode=1e0",
     "#layers=,&view=0,0,-1,0,0,0&%E0%A4%A&&&=",
   ])
-    assert.deepEqual(readHash(hash, KNOWN), { branch: null, values: null, camera: null, choices: NONE }, hash);
+    assert.deepEqual(
+      readHash(hash, KNOWN),
+      { branch: null, values: null, camera: null, choices: NONE, damaged: hash.length > 1 },
+      hash,
+    );
 });
 
 test("numbers of another mechanism are not taken", () => {

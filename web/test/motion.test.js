@@ -1,11 +1,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { residual } from "../src/solver/closure.js";
+import { nearestSingular } from "../src/solver/distance.js";
 import { frames, modelOf } from "../src/solver/frames.js";
 import { singular } from "../src/solver/leastsquares.js";
 import { inputsOf, toInputs, toPose } from "../src/solver/motion.js";
 import { poseOf } from "../src/solver/pose.js";
-import { distanceToSingular, looseJoint, measuresAt } from "../src/solver/rates.js";
+import { looseJoint, measuresAt } from "../src/solver/rates.js";
 import { fromVector } from "../src/solver/rotation.js";
 import { MECHANISMS, apart, mechanism } from "./numbers.js";
 
@@ -104,24 +105,6 @@ test("strokes stop, and what was outside may come back", () => {
   assert.equal(toInputs(model, outside, start).status, "moved");
 });
 
-test("the distance to a singularity, to first order, is about what is left", () => {
-  const { model, scene } = mechanism("zeng2019");
-  const home = pose(model, scene.home);
-  const left = pose(model, toPose(model, scene.home, [home[0], home[1], home[2] + 100]).values)[2] - home[2];
-  const { amount, kind } = distanceToSingular(model, scene.home);
-  assert.equal(kind, "serial");
-  assert.ok(amount < 1.3 * left && amount > 0.5 * left);
-});
-
-test("at the border the distance is almost nothing", () => {
-  const { model, scene } = mechanism("zeng2019");
-  const home = pose(model, scene.home);
-  const border = toPose(model, scene.home, [home[0], home[1], home[2] + 100]);
-  const { amount, kind } = distanceToSingular(model, border.values);
-  assert.equal(kind, "serial");
-  assert.ok(amount < 0.05, String(amount));
-});
-
 test("the cone of a ball joint stops a motion", () => {
   const { scene } = mechanism("gough_stewart");
   const ball = scene.graph.joints.find(({ type }) => type === "S");
@@ -215,10 +198,10 @@ test("numbers are true up to a parallel singularity and on it", () => {
   for (const away of [1, 0.01, 1e-4, 0]) {
     const there = toPose(model, start, [0, MEET + ROD - away], { through: true });
     assert.equal(there.status, "moved");
-    const { amount, kind } = distanceToSingular(model, there.values);
+    const { amount, kind } = nearestSingular(model, there.values);
     const { condition, parallel, serial } = measuresAt(model, there.values);
     assert.equal(kind, "parallel");
-    assert.ok(Math.abs(amount - away) <= 0.05 * away ** 2 + 1e-9, `${amount} ${away}`);
+    assert.ok(Math.abs(amount - away) <= 1e-3 * away, `${amount} ${away}`);
     assert.ok(serial > 0.2);
     assert.equal(parallel > 0, away > 0);
     const wanted = away ? fivebarCondition(pose(model, there.values), inputsOf(model, there.values)) : Infinity;

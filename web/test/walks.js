@@ -2,7 +2,7 @@
 
 import { residual } from "../src/solver/closure.js";
 import { frames } from "../src/solver/frames.js";
-import { inputsOf, toInputs, toPose } from "../src/solver/motion.js";
+import { LEAST_STEP, inputsOf, toInputs, toPose } from "../src/solver/motion.js";
 import { isLength, poseOf, poseOfShown, shownPose } from "../src/solver/pose.js";
 import { measuresAt } from "../src/solver/rates.js";
 
@@ -92,7 +92,8 @@ export function walked(model, { moves, seed }) {
     for (const wrong of untrue(model, at, there.reason)) fault(`${text}, but ${wrong}`);
     const back = side.move(model, at, start);
     found.moves++;
-    const onBound = ["stroke", "limit"].includes(back.reason?.kind); // the start stood on its end, as near as rounding lets it
+    // the start stood on an end, as near as rounding lets it: the least step before it is refused
+    const onBound = ["stroke", "limit"].includes(back.reason?.kind) && back.share >= 1 - 2 * LEAST_STEP;
     const exact = regular(model, values) && !onBound;
     if (exact && back.status !== "moved") fault(`no way back, stopped after ${back.share}: ${back.reason.text}`);
     else if (exact) {

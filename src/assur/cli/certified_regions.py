@@ -115,7 +115,7 @@ def _box(record: Mechanism, question: Question, text: str, shared: Shared) -> Ou
 
     example = f"{record.platform.pose[0]}=-20:20"
     box = dict(question.box)
-    for name, pair in assignments(text.split(","), "--prove", example).items():
+    for name, pair in assignments([text], "--prove", example).items():
         low, high = interval(pair, f"--prove {name}", example)
         _known(record, name)
         box[name] = (low * _factor(record, name), high * _factor(record, name))
@@ -180,7 +180,7 @@ def _largest(record: Mechanism, question: Question, asked: Asked, shape: ShapeNa
 
     example = "x=0,y=0,z=400"
     centre = {}
-    for name, text in assignments((asked.around or "").split(","), "--around", example).items():
+    for name, text in assignments([asked.around or ""], "--around", example).items():
         _known(record, name)
         centre[name] = number(text, f"--around {name}") * _factor(record, name)
     ratio = 1.0 if asked.ratio is None else number(asked.ratio, "--ratio")

@@ -153,15 +153,14 @@ def _shown(record: Mechanism, found: Collisions, data: dict[str, Any]) -> Iterab
     rows = [
         (
             " - ".join(item["links"]),
-            "meet" if item["meeting"] else f"{item['clearance']:.4g}",
-            f"{item['meeting']} of {found.poses}" if item["meeting"] else "",
+            f"meet at {item['meeting']} of {found.poses}" if item["meeting"] else f"{item['clearance']:.4g}",
             " - ".join(item["parts"]),
             point_text(style, names, item["pose"]),
         )
         for item in data["pairs"][:SHOWN]
     ]
     yield ""
-    columns = ("links", f"clearance ({record.unit})", "meet at", "nearest parts", f"there, {point_title(style, names)}")
+    columns = ("links", f"clearance ({record.unit})", "nearest parts", f"there, {point_title(style, names)}")
     styles = ["bold red" if item["meeting"] else "" for item in data["pairs"][:SHOWN]]
     yield table(columns, rows, left=("links", "nearest parts"), wrap=("links", "nearest parts"), styles=styles)
     if len(data["pairs"]) > SHOWN:

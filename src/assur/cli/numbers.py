@@ -9,6 +9,8 @@ from assur.errors import UsageError
 
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 COMMA = re.compile(r"[+-]?\d*,\d*", re.ASCII)
+NEXT = re.compile(r",(?=[^,=]*=)")
+"""Between two assignments; the comma of a number is none."""
 NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.IGNORECASE)
 LARGEST = 1e60
 """No dimension is larger; up to here the fourth power of a number is finite."""
@@ -52,9 +54,13 @@ def numbers(texts: Sequence[str], names: Sequence[str], what: str) -> list[float
 
 
 def assignments(texts: Iterable[str], option: str, example: str) -> dict[str, str]:
-    """{name: text} from NAME=VALUE texts; a name that comes twice is refused."""
+    """{name: text} from NAME=VALUE texts, each one or several with commas between; a name that comes twice is refused.
+
+    >>> assignments(["x=-20:0,y=-50:50", "z=400:420"], "--box", "x=-110:90")
+    {'x': '-20:0', 'y': '-50:50', 'z': '400:420'}
+    """
     found: dict[str, str] = {}
-    for text in texts:
+    for text in (part for several in texts for part in NEXT.split(several)):
         name, equals, value = (part.strip() for part in text.partition("="))
         if not (name and equals and value):
             raise UsageError(f"{option}: '{text.strip()}' is not NAME=VALUE", hint=f"for example {option} {example}")

@@ -37,7 +37,7 @@ WorkingMode = Annotated[
 
 Box = Annotated[
     tuple[str, ...],
-    Parameter(metavar="NAME=LOW:HIGH", help="Where to look along one coordinate; the file's box if left out."),
+    Parameter(metavar="NAME=LOW:HIGH,..", help="Where to look along coordinates; the file's box if left out."),
 ]
 
 Stroke = Annotated[
@@ -47,7 +47,7 @@ Stroke = Annotated[
 
 Held = Annotated[
     tuple[str, ...],
-    Parameter(metavar="NAME=VALUE", help="Hold one coordinate; of a pose with more than three, angles as at home."),
+    Parameter(metavar="NAME=VALUE,..", help="Hold coordinates; of a pose with more than three, angles as at home."),
 ]
 
 

@@ -71,6 +71,7 @@ def _inside(scene: dict[str, Any]) -> dict[str, Any]:
         "pose": scene["platform"]["pose"],
         "assembly_modes": len(scene["branches"]["assembly"]),
         "working_modes": len(scene["branches"]["working"]),
+        "layers_note": scene["layersNote"],
         "layers": {kind: kinds[kind] for kind in ("workspace", "singular", "section")},
         "factors": len(scene["factors"]),
         "facts": len(scene["facts"]),
@@ -79,11 +80,16 @@ def _inside(scene: dict[str, Any]) -> dict[str, Any]:
 
 
 def _lines(inside: dict[str, Any]) -> list[str]:
-    layers = inside["layers"]
+    from assur.cli.quantities import count
+
+    layers, sections = inside["layers"], count(inside["layers"]["section"], "section")
+    modes = [count(inside[f"{kind}_modes"], f"{kind} mode") for kind in ("assembly", "working")]
+    errata = "1 erratum" if inside["errata"] == 1 else f"{inside['errata']} errata"
     return [
-        f"{inside['links']} links, {inside['joints']} joints, {inside['loops']} loops",
+        f"{count(inside['links'], 'link')}, {count(inside['joints'], 'joint')}, {count(inside['loops'], 'loop')}",
         f"sliders: {', '.join(inside['inputs'])}; {', '.join(inside['pose'])}",
-        f"ghosts: {inside['assembly_modes']} assembly modes, {inside['working_modes']} working modes at home",
-        f"layers: {layers['workspace']} workspace, {layers['singular']} singular, {layers['section']} sections",
-        f"{inside['facts']} facts of the topology, {inside['errata']} errata of the source",
+        f"ghosts: {', '.join(modes)} at home",
+        f"layers: {layers['workspace']} workspace, {layers['singular']} singular, {sections}",
+        *([inside["layers_note"]] if inside["layers_note"] else []),
+        f"{count(inside['facts'], 'fact')} of the topology, {errata} of the source",
     ]

@@ -20,11 +20,11 @@ def sweep(
     along: Annotated[
         tuple[str, ...],
         Parameter(
-            metavar="NAME=LOW:HIGH:COUNT",
+            metavar="NAME=LOW:HIGH:COUNT,..",
             help="Places along one coordinate, both ends too; NAME=COUNT takes the file's box or stroke.",
         ),
     ],
-    at: Annotated[tuple[str, ...], Parameter(metavar="NAME=VALUE", help="Hold one coordinate.")] = (),
+    at: Annotated[tuple[str, ...], Parameter(metavar="NAME=VALUE,..", help="Hold coordinates.")] = (),
     problem: Annotated[
         Literal["inverse", "direct"], Parameter(help="The grid is one of poses (inverse) or of inputs (direct).")
     ] = "inverse",
@@ -44,8 +44,9 @@ def sweep(
     Any number of poses, 10^9 too: memory is that of a few blocks, and what the
     files will take is told before. After Ctrl-C (exit code 130) the same command
     goes on where it stopped; a folder of another grid is refused. --along and
-    --at are given once per coordinate, lengths and angles are in the mechanism's
-    units, in the files too. Where there is no solution the numbers are NaN.
+    --at are given once per coordinate, or with commas between; lengths and angles
+    are in the mechanism's units, in the files too. Where there is no solution the
+    numbers are NaN.
 
     To keep: inputs or poses, exists, status; of the inverse problem in one mode
     also det_jp, det_jq, factors, condition_index (1/cond of Jp^-1 Jq) and

@@ -32,7 +32,7 @@ DIGITS = 6
 """Significant digits, of the size of the mechanism, of what is only drawn."""
 
 
-def content(record: MechanismRecord, layers: Sequence[Layer]) -> dict[str, Any]:
+def content(record: MechanismRecord, layers: Sequence[Layer], layers_note: str = "") -> dict[str, Any]:
     """The scene at home, with layers as `assur.scene.layers` gives them; lengths in the unit, angles in rad.
 
     Everything that is computed from is there to its last bit; what is only drawn is rounded (`DIGITS`, and layers).
@@ -75,6 +75,7 @@ def content(record: MechanismRecord, layers: Sequence[Layer]) -> dict[str, Any]:
         "parts": _parts(parts(body, drawn), body.size),
         "letters": _letters(body),
         "layers": [_layer(item) for item in layers],
+        "layersNote": layers_note,
         "kernel": kernel.kernel(record),
         "kernelParameters": kernel.parameters(record),
         "factors": _factors(record),

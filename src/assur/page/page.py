@@ -14,7 +14,7 @@ import assur
 from assur.model.mechanism import MechanismRecord
 from assur.page.content import content
 from assur.results.json_text import json_text
-from assur.scene.layers import layers
+from assur.scene.layers import layers, layers_note, region
 
 Progress = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
@@ -46,7 +46,8 @@ def scene(
 
     Errors: UsageError or MechanismFileError where the mechanism has no home; UsageError for a resolution that is none.
     """
-    return content(record, layers(record, resolution=resolution, tick=progress))
+    found = region(record, resolution=resolution, tick=progress)
+    return content(record, layers(record, found), layers_note(record, found))
 
 
 def page_html(found: Mapping[str, Any]) -> str:

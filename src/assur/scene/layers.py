@@ -41,6 +41,9 @@ COARSE = 3000
 SLIVERS, TEETH = 0.7, 0.5
 """Share of its faces that are left when slivers are merged, and how far a rim may move, in cells."""
 
+CUT = 1e-6
+"""Of a side of the box: a workspace that comes so near to its end is cut there."""
+
 SOLID = "#4477aa"
 SECTION = "#225588"
 SINGULAR = ("#cc3311", "#ee7733", "#aa3377", "#bb9900", "#882255", "#999933")
@@ -70,31 +73,15 @@ class Layer:
         return bool(self.faces.shape[1] == 2)
 
 
-def layers(
-    record: MechanismRecord,
-    mode: str | None = None,
-    resolution: int | None = None,
-    tick: Callable[[int, int], None] | None = None,
-) -> tuple[Layer, ...]:
-    """Every layer of a working mode (the default one if None) in the file's box, with `FACES` faces each at most.
-
-    Empty where the pose has fewer than two lengths, or the file gives no box for them. Angles are held as at home.
-
-    >>> from assur.model.registry import load_record
-    >>> [(item.label, item.lines) for item in layers(load_record("fivebar"))][:1]
-    [('workspace of mode -+', False)]
-    """
-    found = region(record, mode, resolution, tick)
-    return () if found is None else layers_of(record, found)
-
-
 def region(
     record: MechanismRecord,
     mode: str | None = None,
     resolution: int | None = None,
     tick: Callable[[int, int], None] | None = None,
 ) -> Workspace | None:
-    """The workspace that the layers show; None where there is none that can be seen.
+    """The workspace of a mode (the default one if None) in the file's box; None where there is none that can be seen.
+
+    Angles are held as at home.
 
     >>> from assur.model.registry import load_record
     >>> region(load_record("three_rps")) is None  # its pose has one length
@@ -107,9 +94,38 @@ def region(
     return workspace(record, mode, resolution=cells, held=held, progress=tick)
 
 
-def layers_of(record: MechanismRecord, found: Workspace) -> tuple[Layer, ...]:
-    """The layers of a workspace, its sections among them."""
-    return tuple(_layers(record, found))
+def layers(record: MechanismRecord, found: Workspace | None) -> tuple[Layer, ...]:
+    """The layers of what `region` found, its sections among them, with `FACES` faces each at most.
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("fivebar")
+    >>> [(item.label, item.lines) for item in layers(record, region(record))][:1]
+    [('workspace of mode -+', False)]
+    """
+    return () if found is None else tuple(_layers(record, found))
+
+
+def layers_note(record: MechanismRecord, found: Workspace | None) -> str:
+    """A sentence on what the layers are of, or why there are none.
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("fivebar")
+    >>> layers_note(record, region(record, resolution=16))
+    'Seen inside the box of the file only, which cuts the workspace in x, y.'
+    >>> layers_note(load_record("three_rps"), None)
+    'The pose has fewer than two lengths: there is no workspace to be seen.'
+    """
+    if found is None:
+        lengths = [name for name in record.platform.pose if name in LENGTHS]
+        if len(lengths) < 2:
+            return "The pose has fewer than two lengths: there is no workspace to be seen."
+        return f"The file gives no [workspace] box for {', '.join(lengths)}: there is no workspace to be seen."
+    if not len(found.faces):
+        return "Nothing of the file's box is reached in this mode: see its [workspace] box."
+    low, high = np.asarray(found.box.low), np.asarray(found.box.high)
+    near = np.minimum(np.abs(found.vertices - low), np.abs(found.vertices - high)).min(axis=0)
+    cut = [name for name, away, side in zip(found.box.names, near, high - low, strict=True) if away < CUT * side]
+    return f"Seen inside the box of the file only, which cuts the workspace in {', '.join(cut)}." if cut else ""
 
 
 def section_layer(record: MechanismRecord, cut: Section) -> Layer | None:

@@ -12,7 +12,7 @@ import threading
 from typing import TYPE_CHECKING, Any
 
 from assur.model.mechanism import MechanismRecord
-from assur.scene.layers import Layer, layers_of, region, section_layer
+from assur.scene.layers import Layer, layers, layers_note, region, section_layer
 from assur.view.dials import Dial
 from assur.workspace.region import Workspace
 
@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from assur.view.window import Window
 
 COMPUTE, CANCEL = "compute workspace and singular surfaces", "cancel"
-NOTHING = "There is nothing to show: the pose has fewer than two lengths, or the file gives no box for them."
-EMPTY = "The workspace of this mode is empty in the box of the file."
 IN_SPACE = 3
 """Coordinates of a workspace that has sections with an area."""
 
@@ -34,7 +32,7 @@ class CancelledError(Exception):
 
 
 class Overlays:
-    """A button, a box for each layer that was found, and the height of a section."""
+    """A button, a box for each layer that was found, the height of a section, and a note on what is seen."""
 
     def __init__(self, window: Window) -> None:
         self.window = window
@@ -60,7 +58,7 @@ class Overlays:
         self.button.label, self.progress.value, self.progress.visible = CANCEL, 0.0, True
         try:
             found = region(snapshot.record, snapshot.modes[0] or None, tick=tick)
-            made = () if found is None else layers_of(snapshot.record, found)
+            made = layers(snapshot.record, found)
         except CancelledError:
             self._end(wanted)
         except Exception as error:  # this thread has nobody else who would hear of it
@@ -95,8 +93,8 @@ class Overlays:
         if not fresh:
             return
         self.clear()
+        self._say(layers_note(record, found))
         if not made:
-            self._say(NOTHING if found is None else EMPTY)
             return
         with self._folder:
             for layer, node in zip(made, self.window.stage.layers(made), strict=True):
@@ -139,4 +137,4 @@ class Overlays:
 
     def _say(self, text: str) -> None:
         self.note.content = f'<small style="display:block;padding:0 8px">{html.escape(text)}</small>'
-        self.note.visible = True
+        self.note.visible = bool(text)

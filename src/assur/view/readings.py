@@ -95,9 +95,8 @@ def clearance(snapshot: Snapshot, working: Postures) -> Reading | None:
     if math.isnan(value):
         return None
     if math.isinf(value):
-        return Reading(
-            "to a parallel singularity", f"more than {found.reach:.4g} {record.unit}", "none was seen nearer"
-        )
+        seen = f"none seen within {found.reach:.3g} {record.unit}"
+        return Reading("to a parallel singularity", seen, "along rays; what is proved, `assur workspace --prove` says")
     return Reading("to a parallel singularity", f"{value:.4g} {record.unit}", f"there {found.factor} = 0")
 
 

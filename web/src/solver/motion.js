@@ -13,7 +13,8 @@ import { between, poseOf } from "./pose.js";
 import { looseInput, looseJoint, measuresAt, passage } from "./rates.js";
 import { apply, cross, dot, fromVector, norm } from "./rotation.js";
 
-const LEAST_STEP = 1 / 8192; // of the way that is done
+/** Of the way that is done: no step is shorter, so a motion may stop that far before an end. */
+export const LEAST_STEP = 1 / 8192;
 const FIRST_STEP = 2 ** -24; // of the way: a start near a singularity is left in steps as small as its distance
 const NEAR = 0.08; // a step as small as the least one ends that near to a singularity
 const ALMOST = 1e-9;

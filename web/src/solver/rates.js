@@ -1,10 +1,8 @@
-/** First-order numbers: how inputs move the pose, how near that is to singular, and how far the singularity is. */
+/** First-order numbers: how inputs move the pose, and how near that is to singular. */
 
 import { closureRows, scaledPoseRates } from "./closure.js";
 import { frames, screws } from "./frames.js";
 import { determinant, nullSpace, singular } from "./leastsquares.js";
-import { nearAssembly } from "./newton.js";
-import { isLength, poseOf } from "./pose.js";
 
 /** A measure below this is 0: rounding alone leaves some 1e-14. */
 export const ZERO = 1e-12;
@@ -12,7 +10,6 @@ const RANK = 1e-8; // motions that move neither pose nor inputs by more stand st
 const BEND = 4; // a way of tangents bends away from its chord by at most so many squares of its length
 const SHARES = [0.5, 0.25, 0.75, 0.125, 0.875]; // of a step, where its chord is looked at
 const PARTS = 8; // of a step, in each of which its chord is looked at
-const STEPS = [1e-4, 1e-6, 1e-8]; // of the model's length
 
 /** A basis of all motions at an assembly, scaled rates of the joint values, and the pair that belongs to each of them. */
 function pairsAt(model, values) {
@@ -162,38 +159,4 @@ function nearest(rows, others) {
   const { values, left, right } = singular(product);
   const turn = product.map((_, j) => product.map((_, i) => sum(right, (column, k) => column[i] * left[k][j])));
   return { turn, away: Math.sqrt(2 * Math.max(0, 1 - values.at(-1))) };
-}
-
-/**
- * First-order distance to the nearest singularity, the orientation held: a measure over its steepest change along the
- * pose's lengths. The parallel one is taken with its sign, for it goes through zero; the serial one is squared, so that
- * it falls evenly to zero where two working modes meet and the reach ends.
- * @returns {{amount: number, kind: "parallel"|"serial"}} in length units; NaN where the pose has no lengths
- */
-export function distanceToSingular(model, values) {
-  const pose = poseOf(model, frames(model, values));
-  const found = measuresAt(model, values);
-  const { parallel, serial } = found;
-  const lengths = pose.map((_, k) => k).filter((k) => isLength(model.pose[k]));
-  if (!lengths.length) return { amount: NaN, kind: "parallel" };
-  if (parallel === 0 || serial === 0) return { amount: 0, kind: parallel === 0 ? "parallel" : "serial" };
-  const reached = (k, shift) => {
-    const wanted = pose.map((value, j) => (j === k ? value + shift : value));
-    const near = nearAssembly(model, values, [], wanted);
-    if (!near) return null;
-    const there = measuresAt(model, near);
-    return [there.parallel * (passage(found, there, "parallel").sense || 1), there.serial ** 2];
-  };
-  const here = [parallel, serial ** 2];
-  const slopes = [0, 0];
-  for (const k of lengths)
-    for (const step of STEPS.map((share) => share * model.length)) {
-      const [ahead, behind] = [reached(k, step), reached(k, -step)];
-      if (!ahead && !behind) continue; // nearer to a border than that
-      const span = ahead && behind ? 2 * step : step;
-      slopes.forEach((_, j) => (slopes[j] += (((ahead ?? here)[j] - (behind ?? here)[j]) / span) ** 2));
-      break;
-    }
-  const far = here.map((value, j) => (slopes[j] > 0 ? value / Math.sqrt(slopes[j]) : Infinity));
-  return far[0] <= far[1] ? { amount: far[0], kind: "parallel" } : { amount: far[1], kind: "serial" };
 }

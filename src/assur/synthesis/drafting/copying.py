@@ -93,6 +93,7 @@ def next_steps(path: Path) -> list[str]:
         "check": "every fault at once, each with its line",
         "show": "dimensions, joints, home, mobility",
         "figures": "what it looks like",
+        "page": "moved by sliders in a browser, from one file",
     }
     return [f"#     assur {f'{word} {path.name}':{width}}    {what}" for word, what in said.items()]
 
