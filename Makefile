@@ -20,7 +20,7 @@ demo: $(VENV)/installed ## set up, then the main job: the paper's mechanism, che
 	$(BIN)/assur demo
 
 test: $(VENV)/installed-$(if $(ALL),all,dev) ## set up, then every test; ALL=yes installs every extra for those that need one
-	OPENBLAS_NUM_THREADS=1 $(if $(ALL),ASSUR_EXTRAS=required )$(BIN)/python -m pytest -n 2 $(ARGS)
+	OPENBLAS_NUM_THREADS=1 $(if $(ALL),ASSUR_EXTRAS=required )$(BIN)/python -m pytest -n 2 --dist worksteal $(ARGS)
 
 mutations: $(VENV)/installed-dev ## put faults into a copy of the source, one by one: the test named for each notices it (needs Node)
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 -m mutation tests/test_mutations.py

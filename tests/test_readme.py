@@ -7,7 +7,7 @@ import re
 import shlex
 from pathlib import Path
 
-import assur
+from audits import audited
 
 README = Path(__file__).parents[1] / "README.md"
 OUTPUT = re.compile(r"<!-- output: (assur .*?) -->\n```text\n(.*?)```", re.S)
@@ -45,9 +45,7 @@ def test_there_is_output():
 
 
 def test_counts_are_those_of_the_audit():
-    from assur.audit.audit import audit
-
-    found = audit(assur.load("zeng2019"))
+    found = audited("zeng2019")
     text = " ".join(README.read_text(encoding="utf-8").split())
     assert f"of the {len(found.rows)} printed numbers, equations and statements" in text
     assert f"{found.wrong + found.missing} are wrong or missing" in text

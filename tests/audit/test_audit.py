@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from functools import lru_cache
 
 import pytest
 
@@ -13,13 +12,9 @@ from assur.audit.reference import reference_folder
 from assur.audit.rows import Audit, Erratum, Evidence, Row
 from assur.errors import UnknownNameError, UsageError
 from assur.results.json_text import json_text
+from audits import audited
 
 KEYS = ["source", "quantity", "printed", "computed", "verdict", "erratum", "tolerance", "off_by", "unit", "note"]
-
-
-@lru_cache(maxsize=8)
-def audited(name):
-    return audit(assur.load(name))
 
 
 @pytest.fixture(params=assur.names())

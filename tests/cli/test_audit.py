@@ -4,16 +4,15 @@ from dataclasses import replace
 
 import pytest
 
-import assur
-from assur.audit.audit import audit
 from assur.audit.documents import documents
+from audits import audited
 
 ROW = {"source", "quantity", "printed", "computed", "verdict", "erratum"}
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def found():
-    return audit(assur.load("zeng2019"))
+    return audited("zeng2019")
 
 
 @pytest.fixture

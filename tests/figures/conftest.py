@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache, lru_cache
+from functools import cache
 
 import pytest
 
@@ -21,7 +21,7 @@ def bare(name):
     return figures.Context(assur.load(name))
 
 
-@lru_cache(maxsize=8)
+@cache
 def shared(name):
     record = assur.load(name)
     return figures.Context(record, workspace(record, resolution=COARSE))

@@ -1,24 +1,16 @@
-"""The audit of a paper, run once, and its rows by address."""
+"""The audit of a paper and its rows by address."""
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import pytest
 
-import assur
-from assur.audit.audit import audit
-
-
-@lru_cache(maxsize=8)
-def _audit(name):
-    return audit(assur.load(name))
+from audits import audited
 
 
 @pytest.fixture
 def found(request):
     """The audit of the mechanism after which the test's folder is named."""
-    return _audit(request.path.parent.name)
+    return audited(request.path.parent.name)
 
 
 @pytest.fixture

@@ -228,7 +228,7 @@ def test_a_document_with_other_values_is_read_or_refused(text: str) -> None:
 
 
 @pytest.mark.slow
-@settings(max_examples=2500, deadline=None, database=None)
+@settings(max_examples=1200, deadline=None, database=None)
 @given(rebuilt() | mutated())
 def test_many_documents_with_other_values_are_read_or_refused(text: str) -> None:
     check(text)
