@@ -16,12 +16,14 @@ ROOT = Path(__file__).parents[1]
 LOADED = re.compile(r"<(?:script|img|link|iframe|source)\b[^>]*?(?:src|href)=\"([^\"]+)\"")
 FOLLOWED = re.compile(r"<a\b[^>]*?href=\"([^\"]+)\"")
 NAMED = re.compile(r"\bid=\"([^\"]+)\"")
+PHONE = {"width": 390, "height": 800}
 ELSEWHERE = re.compile(r"(?:[a-z]+:)?//")
 
 
+@pytest.mark.browser
 @pytest.mark.site
 @pytest.mark.slow
-def test_the_site_builds_and_is_whole(tmp_path):
+def test_the_site_builds_and_is_whole(tmp_path, browser):
     """One test, so that it is built once."""
     site = tmp_path / "site"
     command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-E", "-q", "-d", tmp_path / "trees", "docs", site]
@@ -36,6 +38,16 @@ def test_the_site_builds_and_is_whole(tmp_path):
     leads_somewhere(pages)
     shows_every_figure(pages[site / "gallery.html"])
     every_formula_is_typeset(pages)
+    fits_a_phone(browser, pages)
+
+
+def fits_a_phone(browser, pages):
+    """What is wider scrolls by itself, never the page."""
+    tab = browser.new_page(viewport=PHONE)
+    for path in pages:
+        tab.goto(path.as_uri())
+        assert tab.evaluate("document.documentElement.scrollWidth") <= PHONE["width"], path.name
+    tab.close()
 
 
 def loads_nothing_from_elsewhere(site, pages):
