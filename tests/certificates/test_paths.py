@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from assur.certificates import leaves
 from assur.certificates.paths import covering, path_certificate
 from assur.errors import UsageError
 from assur.kinematics.position import inverse
@@ -85,6 +86,22 @@ def test_leaves_are_counted_over_all_boxes(path_of):
     assert sum(made.claims["leaves"].values()) <= 41
     whole = path_certificate(record, found, twice)
     assert whole.claims["leaves"]["regular"] == 2 * path_certificate(record, found, path).claims["leaves"]["regular"]
+
+
+def test_ctrl_c_ends_it_at_once(path_of, monkeypatch):
+    """The one box of the path is halved many times; the interrupt is not of that box alone."""
+    record, found, path = path_of("path in one box")
+    twice = replace(path, points=path.points[[0, 1, 0]], boxes=path.boxes[np.array([0, 0])])
+    calls = []
+
+    def interrupted(*_):
+        calls.append(1)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(leaves.Leaves, "axes", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        path_certificate(record, found, twice)
+    assert len(calls) == 1
 
 
 def test_no_box_is_flat_and_every_piece_lies_in_its_own(path_of):

@@ -6,9 +6,13 @@ import shutil
 import pytest
 
 from assur.certificates.certificate import certificate
-from assur.certificates.recorded import differences, record_of
-from assur.errors import UnknownNameError
+from assur.certificates.recorded import at_hand, differences, with_dimensions
+from assur.errors import UnknownNameError, UsageError
 from assur.model.registry import load_record
+
+
+def record_of(document, name_or_path=None):
+    return with_dimensions(document, at_hand(document, name_or_path))
 
 
 def test_a_certificate_is_that_of_its_mechanism(case, made_of):
@@ -74,8 +78,29 @@ def test_constants_may_be_those_of_another_machine(made_of):
 def test_a_mechanism_that_is_not_here_is_told(made_of):
     document = json.loads(made_of("box").text)
     document["statement"]["mechanism"] = "zeng2020"
+    assert at_hand(document) is None
     with pytest.raises(UnknownNameError):
-        record_of(document)
+        at_hand(document, "zeng2020")
+
+
+@pytest.mark.parametrize(("name", "value"), [("l_2", 280.0), ("record", 1.0), ("l2", 0.0), ("l2", -1.0)])
+def test_dimensions_that_the_mechanism_cannot_have_are_an_error_and_never_a_mechanism_not_at_hand(made_of, name, value):
+    document = json.loads(made_of("box").text)
+    document["statement"]["parameters"] = {name: value.hex()}
+    record = at_hand(document)
+    assert record.name == "zeng2019"
+    with pytest.raises(UsageError):
+        with_dimensions(document, record)
+    other = load_record("fivebar")
+    assert with_dimensions(document, other) is other
+
+
+def test_a_mechanism_that_lost_its_closed_form_is_told(made_of, tmp_path):
+    shutil.copy(load_record("zeng2019").file, tmp_path)
+    document = json.loads(made_of("box").text)
+    found = differences(document, record_of(document, tmp_path / "mechanism.toml"))
+    assert found[0] == "files: closed_form.py not as they were"
+    assert "closed form" in found[1]
 
 
 def test_a_certificate_makes_nobody_run_the_files_that_it_names(made_of, tmp_path):
@@ -89,6 +114,5 @@ def test_a_certificate_makes_nobody_run_the_files_that_it_names(made_of, tmp_pat
     document = json.loads(made_of("box").text)
     for name in (str(tmp_path), str(tmp_path / "mechanism.toml"), 5, None, ["zeng2019"]):
         document["statement"]["mechanism"] = name
-        with pytest.raises(UnknownNameError):
-            record_of(document)
+        assert at_hand(document) is None
     assert not ran.exists()

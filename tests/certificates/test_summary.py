@@ -70,6 +70,16 @@ def test_a_path_has_both_ends_and_its_pieces(made_of):
     assert lines[-2:] == [f"parts: {parts} in {count} boxes; of these", f"  {parts} {PARTS['regular']}"]
 
 
+def test_any_number_of_coordinates_has_a_size():
+    """Those of a mechanism that is not here may be more than any of ours has."""
+    leaves = {"inside": 1, "regular": 0, "outside": 0, "open": 0}
+    for count, size in enumerate(("length", "area", "volume", "volume", "volume"), 1):
+        claims = {"leaves": leaves, "volume": [(1.0).hex()] * 2, "regular_volume": (0.0).hex()}
+        statement = {"coordinates": list("xyzuv"[:count])}
+        document = {"kind": "workspace", "claims": claims, "proof": "i", "program": {"factors": []}}
+        assert claim_lines({**document, "statement": statement})[0] == f"{size} reached: 1 .. 1"
+
+
 def test_bounds_are_rounded_outwards():
     assert rounded(1.000000049, 1.00000001) == "1 .. 1.0000001"
     assert rounded(-1.00000001, 0.0) == "-1.0000001 .. 0"

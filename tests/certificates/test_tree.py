@@ -91,7 +91,7 @@ def test_what_is_done_is_kept_after_ctrl_c(after, where):
         return called
 
     steps = stopping("progress", lambda *_: None)
-    tree = grow(SQUARE, stopping("judge", disc), stopping("axes", longest), limits(), steps)
+    tree = grow(SQUARE, stopping("judge", disc), stopping("axes", longest), limits(stoppable=True), steps)
     leaves, rest = walked(tree.text, (0.0, 0.0), (1.0, 3.0))
     assert rest == ""
     assert calls.count(where) == after + 1
@@ -99,6 +99,16 @@ def test_what_is_done_is_kept_after_ctrl_c(after, where):
     assert any(token == "b" for token, _, _ in leaves)
     for token, low, high in leaves:
         assert disc(Boxes(np.array(low)[:, None], np.array(high)[:, None]))[0] == token
+
+
+@pytest.mark.parametrize("where", ["judge", "axes", "progress"])
+def test_ctrl_c_is_raised_where_nothing_is_kept(where):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    given = {"judge": disc, "axes": longest, "progress": None, where: interrupted}
+    with pytest.raises(KeyboardInterrupt):
+        grow(SQUARE, given["judge"], given["axes"], limits(), given["progress"])
 
 
 def test_a_text_is_planted_again():

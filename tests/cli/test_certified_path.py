@@ -3,6 +3,7 @@ from __future__ import annotations
 import json
 import math
 
+import numpy as np
 import pytest
 
 from assur.certificates.paths import path_certificate
@@ -49,6 +50,25 @@ def test_angles_box_strokes_and_what_is_held_are_those_that_are_given(assur_cli,
     strokes = {name: tuple(map(float.fromhex, pair)) for name, pair in statement["strokes"].items()}
     assert strokes == {"rho1": (0.0, 11.0), "rho2": (1.0, 9.0)}
     assert assur_cli("verify", str(path)).code == 0
+
+
+@pytest.mark.parametrize("where", ["certificates.leaves.Leaves.axes", "workspace.aspects.search._between"])
+def test_ctrl_c_ends_it_and_writes_nothing(assur_cli, tmp_path, monkeypatch, where):
+    """While the path is proved, whose one box must be halved here, and while it is looked for."""
+    from assur.certificates import leaves
+
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    honest = leaves.Leaves.tokens
+    monkeypatch.setattr(
+        leaves.Leaves, "tokens", lambda self, boxes: honest(self, boxes) if len(boxes) > 1 else np.array(["b"])
+    )
+    monkeypatch.setattr(f"assur.{where}", interrupted)
+    path = tmp_path / "p.json"
+    run = assur_cli(*FIVEBAR, "-o", str(path), *WAY)
+    assert (run.code, run.out, run.err) == (130, "", "interrupted\n")
+    assert not path.exists()
 
 
 def test_a_smaller_size_has_more_boxes(assur_cli, tmp_path):

@@ -8,7 +8,8 @@ import pytest
 
 HERE = Path(__file__).parent
 FOURBAR = (HERE.parent / "model" / "fourbar.toml").read_text(encoding="utf-8").replace('["x", "y"]', '["x"]')
-FOURBAR = FOURBAR.replace(", y = [0, 120]", "")
+FOURBAR = FOURBAR.replace(", y = [0, 120]", "").replace('"60 deg + tilt"', "24").replace("C = -100", "C = 27")
+FOURBAR = FOURBAR.replace("B = -50", "B = 22").replace("D = 125", "D = 73")
 DELTA = (HERE.parent / "model" / "file" / "delta.toml").read_text(encoding="utf-8")
 
 
@@ -88,7 +89,7 @@ def test_a_fault_of_the_text_hides_none_of_the_joint_graph_that_does_not_follow_
         ("value = 100", "value = -300", ["parameters.g.value"]),
         ("crank = {}", "crank = 3", ["links.crank"]),
         ('base = "ground"', 'base = "grund"', ["base"]),
-        ("B = -50", "B = [1, 2]", ["home.B"]),
+        ("B = 22", "B = [1, 2]", ["home.B"]),
         ('child = "crank"', 'child = "ground"', ["joints.A.child"]),
         ('at = ["l2", 0, 0], child_at', 'at = ["l2", "lx", 0], child_at', ["joints.C.at[1]"]),
     ],
@@ -145,6 +146,23 @@ def test_a_note_is_no_fault(check) -> None:
         "    hint: is it mm that is meant?",
         "next: assur page m.toml",
     ]
+
+
+def test_a_home_of_another_assembly_is_noted(check) -> None:
+    found = check(FOURBAR.replace("C = 27", "C = 67"))
+    assert found.code == 0
+    assert "the file says 67 deg" in found.out
+    assert "    hint: is it the assembly that is meant?" in found.out.splitlines()
+
+
+@pytest.mark.parametrize("command", ["check", "show", "topology"])
+def test_a_file_named_without_its_ending_is_guessed(assur_cli, tmp_path, monkeypatch, command: str) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert "mine.toml" not in assur_cli(command, "mine").err
+    (tmp_path / "mine.toml").write_text(FOURBAR, encoding="utf-8")
+    assert assur_cli(command, "mine").err.splitlines()[-1] == "hint: did you mean mine.toml?"
+    path = tmp_path / "mine"
+    assert assur_cli(command, str(path)).err.splitlines()[-1].endswith(f"did you mean {path}.toml?")
 
 
 def test_the_same_as_json(check) -> None:

@@ -64,6 +64,12 @@ BAD = {
     "workspace zeng2019 --stroke -1:1 --stroke -2:2": (
         "--stroke: two intervals for all inputs\nhint: name the input, as --stroke yA1=-300:300"
     ),
+    "workspace zeng2019 --stroke=-1:1,yA1=-2:2 --stroke -3:3": (
+        "--stroke: two intervals for all inputs\nhint: name the input, as --stroke yA1=-300:300"
+    ),
+    "workspace zeng2019 --box x=1:2,": (
+        "--box: 'x=1:2,' has a comma too many\nhint: put one between two parts, none at the end"
+    ),
     "workspace zeng2019 --near -5": "--near: -5 is not a positive length",
     "workspace zeng2019 --near 0": "--near: 0 is not a positive length",
     "workspace zeng2019 --resolution 5.5": "--resolution: '5.5' is not a whole number",

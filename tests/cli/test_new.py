@@ -50,6 +50,19 @@ def test_a_closed_form_comes_along_if_asked_for(assur_cli, folder):
     assert mine.closed_form is not None
 
 
+@pytest.mark.parametrize("force", [(), ("--force",)])
+def test_a_closed_form_is_not_put_beside_the_files_of_others(assur_cli, folder, force):
+    assert assur_cli("new", "five.toml", "--from", "fivebar").code == 0
+    run = assur_cli("new", "fc.toml", "--from", "fivebar", "--with-closed-form", *force)
+    assert run.code == 2
+    assert "five.toml stands in the folder of fc.toml" in " ".join(run.err.split())
+    assert str(Path("fc", "fc.toml")) in run.err
+    assert list(folder.iterdir()) == [folder / "five.toml"]
+    Path("fc").mkdir()
+    assert assur_cli("new", str(Path("fc", "fc.toml")), "--from", "fivebar", "--with-closed-form").code == 0
+    assert assur.load(Path("five.toml")).closed_form is None
+
+
 def test_what_is_there_stays_there_unless_forced(assur_cli, folder):
     Path("my.toml").write_text("mine", encoding="utf-8")
     for words in (("--from", "fivebar"), ("--limb", "R[z] R[z] R[z]")):

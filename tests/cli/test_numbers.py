@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from assur.cli.numbers import assignments, interval, number, numbers, shielded, whole_number
+from assur.cli.numbers import assignments, interval, number, numbers, parts, shielded, whole_number
 from assur.errors import UsageError
 
 
@@ -29,7 +29,7 @@ def test_all_spellings_of_five(text):
         ("-1e61", "q: -1e61 is too large", ""),
         ("1,5", "q: '1,5' is not a number", "write a decimal point: 1.5"),
         ("-,5", "q: '-,5' is not a number", "write a decimal point: -.5"),
-        ("1,", "q: '1,' is not a number", "write a decimal point: 1"),
+        ("1,", "q: '1,' is not a number", "leave out the comma: 1"),
         ("\N{MINUS SIGN}5", "q: '\N{MINUS SIGN}5' is not a number", "write the minus as a hyphen: -5"),
     ],
 )
@@ -62,7 +62,20 @@ def test_assignments():
     assert assignments(["l2=300", "l3 = 4"], "--set", "l2=300") == {"l2": "300", "l3": "4"}
 
 
-@pytest.mark.parametrize("text", ["l2", "=3", "l2=", "="])
+def test_only_a_comma_in_front_of_a_name_parts():
+    assert parts(["-3:3,a=1,5", " b = -1:2 , c=0 "], "--stroke") == ["-3:3", "a=1,5", "b = -1:2", "c=0"]
+    assert assignments(["l2=3,5,l3=,5"], "--set", "l2=300") == {"l2": "3,5", "l3": ",5"}
+
+
+@pytest.mark.parametrize("text", ["x=1:2,", "x=1:2, ", ",x=1:2", "x=1:2,,y=3:4", "x=1:2, ,y=3:4", "x=1:2,,", ","])
+def test_a_comma_too_many_is_refused_as_such(text):
+    with pytest.raises(UsageError, match="has a comma too many") as caught:
+        assignments([text], "--box", "x=-1:1")
+    assert caught.value.message == f"--box: '{text.strip()}' has a comma too many"
+    assert caught.value.hint == "put one between two parts, none at the end"
+
+
+@pytest.mark.parametrize("text", ["l2", "=3", "l2=", "=", ""])
 def test_half_an_assignment_is_refused(text):
     with pytest.raises(UsageError, match=r"is not NAME=VALUE\nhint: for example --set l2=300$"):
         assignments([text], "--set", "l2=300")
@@ -75,7 +88,7 @@ def test_a_name_given_twice_is_refused():
 
 @pytest.mark.parametrize("text", ["3:-3", "3:3", "0:-0"])
 def test_an_interval_turned_round_or_empty_is_refused(text):
-    with pytest.raises(UsageError, match=r"^--box x = .* is turned round or empty\nhint: give LOW < HIGH$"):
+    with pytest.raises(UsageError, match=r"^--box x = .* is turned round or empty\nhint: give LOW < HIGH"):
         interval(text, "--box x", "x=-1:1")
 
 
@@ -101,3 +114,19 @@ def test_no_value_is_taken_for_an_option():
 def test_a_mode_that_is_missing_or_an_option_is_left_to_the_parser():
     assert shielded(["--mode"]) == ["--mode"]
     assert shielded(["--mode", "--json"]) == ["--mode", "--json"]
+
+
+@pytest.mark.parametrize(
+    ("what", "text", "hint"),
+    [
+        ("--box phi", "0:0", "give LOW < HIGH; to hold it: --at phi=0"),
+        ("--along x", " 2.50 : 2.5", "give LOW < HIGH; to hold it: --at x=2.50"),
+        ("--box phi", "1:0", "give LOW < HIGH"),
+        ("--stroke q", "1:1", "give LOW < HIGH"),
+        ("--stroke", "1:1", "give LOW < HIGH"),
+    ],
+)
+def test_an_interval_of_one_value_is_held_with_at(what, text, hint):
+    with pytest.raises(UsageError, match="is turned round or empty") as caught:
+        interval(text, what, "x=-1:1")
+    assert caught.value.hint == hint

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 import shutil
@@ -13,6 +14,35 @@ from assur.model.registry import load_record
 @pytest.fixture
 def path(tmp_path):
     return certificate(load_record("zeng2019"), most=60).write(tmp_path / "c.json")
+
+
+@pytest.fixture
+def forged(tmp_path):
+    """The file of a small certificate that a function changes, its checksum put right."""
+    made = certificate(load_record("zeng2019"), most=2)
+
+    def write(change):
+        document = json.loads(made.text)
+        del document["sha256"]
+        change(document)
+        text = json.dumps(document, sort_keys=True, separators=(",", ":"))
+        document["sha256"] = hashlib.sha256(text.encode()).hexdigest()
+        (tmp_path / "forged.json").write_text(json.dumps(document))
+        return str(tmp_path / "forged.json")
+
+    return write
+
+
+def own_formulas(document):
+    """Formulas that say nothing of a mechanism, for which all of a huge box is regular."""
+    one = (1.0).hex()
+    document["kind"] = "box"
+    document["statement"]["box"] = [[(-1e6).hex(), (1e6).hex()]] * 3
+    document["program"] = {"operations": [["number", one, one, ""]], "margins": [["M12", 0]], "nonzero": []}
+    document["program"]["factors"] = [["w", 0]]
+    document["proof"] = "r"
+    leaves = {"inside": 0, "regular": 1, "outside": 0, "open": 0}
+    document["claims"] = {"leaves": leaves, "reached": "yes", "regular": "yes"}
 
 
 def test_a_valid_one_is_verified(assur_cli, path, monkeypatch):
@@ -45,8 +75,6 @@ def test_a_damaged_one_is_refused(assur_cli, path):
 
 
 def test_a_false_one_is_refused(assur_cli, tmp_path):
-    import hashlib
-
     document = certificate(load_record("zeng2019"), most=60).to_json()
     del document["sha256"]
     document["proof"] = document["proof"].replace("b", "i")
@@ -58,19 +86,93 @@ def test_a_false_one_is_refused(assur_cli, tmp_path):
     assert "does not hold: inside for x " in run.out
 
 
-@pytest.mark.parametrize("part", ["mechanism", "mode", "parameters", "strokes", "held"])
-def test_a_statement_that_nobody_can_read_is_refused(assur_cli, tmp_path, part):
+@pytest.mark.parametrize("part", ["mechanism", "mode", "parameters", "strokes", "held", "files"])
+def test_a_statement_that_nobody_can_read_is_refused(assur_cli, forged, part):
     """Its leaves hold for its formulas, but what it says of a mechanism is nothing."""
-    import hashlib
+    text = {"mechanism": 5, "mode": 1}  # where a text is expected, "no" is the name of a mechanism or a mode
+    for value in (5, ["no"], {"no": "no"}, {"a": "0x1p5000"}, text.get(part, "no")):
+        run = assur_cli("verify", forged(lambda document, value=value: document["statement"].update({part: value})))
+        assert run.code == 3
+        assert run.err == ""
 
-    for value in (5, "no", ["no"], {"no": "no"}):
-        document = certificate(load_record("zeng2019"), most=2).to_json()
-        del document["sha256"]
-        document["statement"][part] = value
-        text = json.dumps(document, sort_keys=True, separators=(",", ":"))
-        document["sha256"] = hashlib.sha256(text.encode()).hexdigest()
-        (tmp_path / "c.json").write_text(json.dumps(document))
-        assert assur_cli("verify", str(tmp_path / "c.json")).code in (1, 2, 3, 5)
+
+NAMES = {
+    "mode": ["no", "+" * 5, "+" * 500],
+    "parameters": [
+        *({"l2": value} for value in (0.0, -1.0, 1e300, 5e-324)),
+        {"l_2": 280.0},
+        {"": 1.0},
+        {"record": 1.0},
+    ],
+    "held": [{"q": 0.0}, {"x": 1e308}, {"x": 0.0, "y": 0.0, "z": 0.0}, {"y": 5e-324}],
+    "strokes": [{"q": None}, {"yA1": (1.0, 0.0)}, {"yA1": (1e308, 1.5e308)}, {"yA1": (0.0, math.inf)}],
+}
+
+
+def in_hex(value):
+    return [end.hex() for end in value] if isinstance(value, tuple) else None if value is None else value.hex()
+
+
+@pytest.mark.parametrize("part", NAMES)
+def test_a_statement_of_another_mechanism_is_refused(assur_cli, forged, part):
+    """It is written as it should be, but there is no such mechanism: refused, and neither usage nor a bug."""
+    for value in NAMES[part]:
+        new = value if isinstance(value, str) else {name: in_hex(item) for name, item in value.items()}
+        run = assur_cli("verify", forged(lambda document, new=new: document["statement"].update({part: new})))
+        assert (run.code, run.err) == (1, "")
+
+
+@pytest.mark.parametrize("wrong", [{"l_2": 280.0}, {"l2": 0.0}])
+def test_a_dimension_that_is_none_does_not_turn_the_comparison_off(assur_cli, forged, wrong):
+    def change(document):
+        own_formulas(document)
+        document["statement"]["parameters"] = {name: value.hex() for name, value in wrong.items()}
+
+    run = assur_cli("verify", forged(change))
+    assert run.code == 1
+    assert run.out.startswith("refused: ")
+    assert "another mechanism or version: " in run.out
+    assert f"'{next(iter(wrong))}'" in run.out
+    run = assur_cli("verify", forged(change), "--json")
+    assert run.json["verified"] is False
+    assert assur_cli("verify", forged(change), "--mechanism", "zeng2019").code == 1
+    other = assur_cli("verify", forged(change), "--mechanism", "fivebar")
+    assert other.code == 1
+    assert "mechanism: zeng2019 there, fivebar here" in " ".join(other.out.split())
+
+
+@pytest.mark.parametrize("count", [1, 3, 5])
+def test_formulas_of_its_own_are_never_called_verified(assur_cli, forged, count):
+    """Anyone can write some under which a claim holds, for a mechanism of any name and any number of coordinates."""
+
+    def change(document):
+        own_formulas(document)
+        one = (1.0).hex()
+        document |= {"kind": "workspace"}
+        coordinates, box = list("xyzuv"[:count]), [[(0.0).hex(), one]] * count
+        document["statement"] |= {"mechanism": "mine", "coordinates": coordinates, "box": box}
+        document["claims"] = {"leaves": document["claims"]["leaves"], "volume": [one, one], "regular_volume": one}
+
+    run = assur_cli("verify", forged(change))
+    assert run.code == 5
+    assert run.out.startswith("holds for its own formulas: ")
+    assert "verified" not in run.out
+    data = assur_cli("verify", forged(change), "--json").json
+    assert (data["verified"], data["mechanism_compared"]) == (None, False)
+
+
+@pytest.mark.parametrize("part", ["mechanism", "mode"])
+def test_nothing_in_it_moves_the_cursor(assur_cli, forged, part):
+    run = assur_cli("verify", forged(lambda document: document["statement"].update({part: "a\x1b[2J\x1b[31mb"})))
+    assert run.code == 3
+    assert "\x1b" not in run.out + run.err
+
+
+def test_a_mechanism_without_closed_form_is_another(assur_cli, path, tmp_path):
+    shutil.copy(load_record("zeng2019").file, tmp_path)
+    run = assur_cli("verify", str(path), "--mechanism", str(tmp_path / "mechanism.toml"))
+    assert run.code == 1
+    assert "files: closed_form.py not as they were" in " ".join(run.out.split())
 
 
 def test_another_version_of_the_mechanism_is_refused(assur_cli, path, tmp_path):

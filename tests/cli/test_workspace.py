@@ -32,6 +32,15 @@ def test_box_strokes_and_sections_are_taken(assur_cli):
     assert data["volume"] == found.volume
 
 
+def test_strokes_with_and_without_a_name_may_be_one_word(assur_cli):
+    one, two = (
+        assur_cli("workspace", "zeng2019", *COARSE, *words, "--json").json
+        for words in (("--stroke=-300:300,yA1=-100:250",), ("--stroke", "-300:300", "--stroke", "yA1=-100:250"))
+    )
+    assert one["strokes"] == {"yA1": [-100.0, 250.0], "yA2": [-300.0, 300.0], "yA3": [-300.0, 300.0]}
+    assert one == two
+
+
 def test_strokes_of_angles_are_in_degrees(assur_cli):
     data = assur_cli("workspace", "fivebar", *COARSE, "--stroke", "theta1=0:90", "--json").json
     found = workspace(assur.load("fivebar"), strokes={"theta1": (0, math.pi / 2)}, resolution=12)

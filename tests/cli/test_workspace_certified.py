@@ -193,3 +193,28 @@ def test_help_shows_examples_that_run(assur_cli):
 def test_the_library_raises_what_the_command_says():
     with pytest.raises(UsageError):
         certified_workspace(ZENG, gap=0.0)
+
+
+@pytest.mark.parametrize(
+    "words", [("workspace", "--certify"), ("workspace", "--prove", "x=-5:5"), ("aspects",)], ids=lambda words: words[-1]
+)
+def test_a_file_without_a_closed_form_is_told_what_works_without_one(assur_cli, tmp_path, monkeypatch, words):
+    monkeypatch.chdir(tmp_path)
+    assert assur_cli("new", "my.toml", "--from", "fivebar").code == 0
+    run = assur_cli(words[0], "my.toml", *words[1:])
+    assert (run.code, run.out) == (2, "")
+    error, hint = run.err.splitlines()
+    assert error == "error: my has no closed form"
+    assert hint.startswith("hint: proofs over regions and sweeps need one")
+    named = hint.partition("; ")[2].partition(" work on the joint graph")[0]
+    assert named == "direct, inverse, singularity, follow and workspace without a proof"
+    values = {
+        "direct": ("127", "53"),
+        "inverse": ("0", "200"),
+        "singularity": ("--pose", "0", "200"),
+        "follow": ("--to", "10", "200"),
+        "workspace": ("--resolution", "6"),
+    }
+    assert [word for word in values if word in named.replace(",", "").split()] == list(values)
+    for command, rest in values.items():
+        assert assur_cli(command, "my.toml", *rest).code == 0

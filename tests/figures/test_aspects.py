@@ -9,12 +9,13 @@ import pytest
 from matplotlib.collections import PolyCollection
 
 from assur.errors import UsageError
-from assur.figures.aspects import caption, drawn, no_aspects, shown
+from assur.figures.aspects import caption, drawn, no_aspects, shown, undecided
 from assur.figures.context import Context
 from assur.figures.singular import symbol_of
 from assur.figures.style import styled
 from assur.model.registry import load_record
 from assur.workspace.aspects.aspects import aspects
+from assur.workspace.region import workspace
 
 
 def figure(name, path=None, **options):
@@ -66,7 +67,26 @@ def test_the_caption_names_the_signs():
     text = caption(Context(record), aspects(record, finest=20.0))
     (factor,) = [item for item in record.closed_form.factor_list if item.name == "sin_rods"]
     assert f"named by the signs of {symbol_of(factor)}." in text
-    assert "grey is undecided" in text
+    assert "is undecided and lies in the grey" in text
+
+
+def test_the_caption_says_how_much_of_the_workspace_is_proved_and_how_much_is_not():
+    """Shares are of what solids say that the workspace is, not of the box, of which this one fills a twelfth."""
+    record = load_record("planar_3rrr")
+    context = Context(record)
+    found, whole = context.aspects, workspace(record, resolution=48).volume
+    proved = sum(item.volume[0] for item in found.aspects)
+    assert found.search.open < 0.1
+    assert 1 - proved / whole > 0.6
+    assert 1 - proved / whole <= undecided(found) < 0.8
+    text = caption(context, found)
+    assert f"or {100 - float(shown(100 * undecided(found))):.4g} % of the workspace" in text
+    assert f"at most {shown(100 * undecided(found))} %" in text
+
+
+def test_the_caption_says_where_nothing_is_proved():
+    record = load_record("fivebar")
+    assert "No part is proved" in caption(Context(record), aspects(record, finest=2000.0))
 
 
 def test_the_share_that_is_undecided_is_rounded_up():

@@ -38,6 +38,13 @@ def test_numbers_and_titles_do_not_touch(low, high, azimuth):
             assert min(across, upward) <= 1.5, (text.get_text(), other.get_text())
     numbers = [item for item in texts if "mm" not in item.get_text()]
     assert len(numbers) >= 5
+    ticks = [line.get_xydata() for line in page.axes.lines]
+    ticks = [line for line in ticks if len(line) == 2 and np.linalg.norm(line[1] - line[0]) < 4.0]
+    for item in numbers:  # on the line of a tick, right beyond it
+        at = np.array(item.get_position())
+        ways = [(at - foot, (tip - foot) / np.linalg.norm(tip - foot)) for foot, tip in ticks]
+        aside = [abs(way[0] * along[1] - way[1] * along[0]) for way, along in ways if 3.0 < way @ along < 25.0]
+        assert min(aside) < 1e-6, item.get_text()
     upright = view(corners)[:, 0].min()  # the axis of z is the edge farthest to the left
     for item, box in zip(texts, boxes, strict=True):
         if item in numbers and box.x0 < upright:

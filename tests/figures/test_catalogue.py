@@ -39,6 +39,7 @@ def test_catalogue_has_a_number_title_and_caption_for_each(context):
         assert spec.title
         assert spec.caption.endswith(".")
         assert spec.caption.count("$") % 2 == 0, spec.caption
+        assert not re.search(r"(^|[\s(])-[\d.]", re.sub(r"\$[^$]*\$", "", spec.caption)), spec.caption  # hyphens
         for latex in re.findall(r"\$([^$]+)\$", spec.caption):
             assert "<merror>" not in latex_mathml(latex), latex
 
@@ -153,5 +154,6 @@ def test_without_closed_form_few_figures_are_missing():
     for spec in figures.catalogue(record, bare):
         assert spec.caption.endswith(".")
         assert spec.caption.count("$") % 2 == 0, spec.caption
+        assert not re.search(r"(^|[\s(])-[\d.]", re.sub(r"\$[^$]*\$", "", spec.caption)), spec.caption  # hyphens
         for latex in re.findall(r"\$([^$]+)\$", spec.caption):
             assert "<merror>" not in latex_mathml(latex), latex

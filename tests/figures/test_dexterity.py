@@ -3,6 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from assur import figures
 from assur.kinematics.rates.velocity import velocity_map
 from assur.workspace.fields import at_points
 
@@ -45,3 +46,8 @@ def test_the_velocity_factors_are_the_singular_values(context, data, figure, key
             np.testing.assert_allclose(item[key][i][j], factors[place], rtol=1e-6)
             seen += 1
     assert seen > 10
+
+
+@pytest.mark.parametrize(("figure", "end"), [("fastest", "max"), ("dexterity", "neither"), ("slowest", "neither")])
+def test_only_the_bar_of_colours_that_end_at_a_quantile_has_an_arrow(context, figure, end):
+    assert figures.drawing(context.record, figure, context).figure.axes[-1]._colorbar.extend == end

@@ -40,7 +40,10 @@ def test_every_index_has_a_map_on_the_same_axes(name):
         assert len(coloured) == int(np.any(np.isfinite(item.values)))
         if key in BOUNDED:
             assert coloured[0].get_clim() == (0.0, 1.0)
+            assert coloured[0].colorbar.extend == "neither"
         elif coloured:
+            clipped = np.nanmax(item.values) > coloured[0].get_clim()[1] * (1 + 1e-9)
+            assert coloured[0].colorbar.extend == ("max" if clipped else "neither")
             assert coloured[0].get_clim()[1] <= item.most.value * (1 + 1e-12)
 
 

@@ -10,6 +10,7 @@ import assur
 from assur import figures
 from assur.figures import indices as module
 from assur.figures.indices import MANIPULABILITY, TRANSMISSION, field, whole
+from assur.figures.singular import symbol_of
 from assur.figures.style import ORANGE, styled
 from assur.performance.indices import INDICES, indices
 from assur.workspace.fields import at_points
@@ -100,12 +101,27 @@ def test_the_thick_line_is_where_transmission_becomes_good(context):
 def test_captions_state_the_length_and_the_share(context):
     transmission, jacobian = TRANSMISSION.caption(context), MANIPULABILITY.caption(context)
     found = whole(context)
-    assert f"{100 * found.good.share:.1f} ± " in transmission
+    share = f"in {100 * found.good.share:.1f} ± " if found.good.share else "nowhere among the poses sampled;"
+    assert f"at least 0.7 {share}" in transmission
+    assert "0.0 ± 0.0" not in transmission
     assert f"{found.values['transmission'].mean:.3f} ± " in transmission
     mixed = context.record.name in ("planar_3rrr", "three_rps", "gough_stewart")
     assert ("characteristic length" in jacobian) == mixed
     if context.record.name == "fivebar":
         assert "(mm/rad)$^2$" in jacobian
+
+
+def test_the_bar_of_colours_has_an_arrow_where_something_is_beyond_it(context):
+    for entry in (TRANSMISSION, MANIPULABILITY):
+        data, figure = drawn(context, entry).data, drawn(context, entry).figure
+        most = max(np.nanmax(item["values"] / item["divided_by"]) for item in data["maps"].values())
+        assert figure.axes[-1]._colorbar.extend == ("max" if most > 1 + 1e-9 else "neither")
+
+
+def test_no_index_has_the_letter_of_a_factor_a_parameter_or_of_the_coupling_degree(context):
+    form = context.record.closed_form
+    taken = {symbol_of(factor) for factor in form.factor_list} | {f"${name}$" for name in context.record.parameters}
+    assert not (taken | {r"$\kappa$"}) & {f"${index.symbol}$" for index in INDICES.values()}
 
 
 def test_colours_past_the_border_are_those_of_the_nearest_node():

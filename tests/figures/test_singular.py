@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from assur.figures.meaning import named
-from assur.figures.singular import shown
+import assur
+from assur import figures
+from assur.figures.meaning import named, typeset
+from assur.figures.singular import shown, symbol_of
 from assur.kinematics.closure import closure_error
 from assur.kinematics.position import inverse
 from assur.kinematics.status import FACTOR_TOLERANCE, relative_factors
 from assur.model.points import point
 from assur.scene.skeleton import skeleton
+
+
+@cache
+def bare(name):
+    return figures.Context(assur.load(name))
 
 
 def test_every_example_is_drawn_once(context, data):
@@ -52,6 +62,38 @@ def test_what_is_called_collinear_or_parallel_is(context):
             assert np.linalg.norm(np.cross(first, second)) < 1e-5 * body.size**2, meaning
             checked += 1
     assert checked >= 2 or context.record.name != "zeng2019"
+
+
+@pytest.mark.parametrize("name", ["zeng2019", "delta_4s"])
+def test_no_text_is_a_cut_of_its_data_and_all_of_it_is_on_the_page(name):
+    context = bare(name)
+    for figure in ("serial", "parallel", "singular"):
+        drawing = figures.drawing(context.record, figure, context)
+        page = drawing.figure.axes[0]
+        said = " ".join(item.get_text() for item in page.texts)
+        for item in drawing.data["examples"]:
+            assert typeset(item["meaning"], context.skeleton) in said
+            assert symbol_of(next(f.factor for f in context.examples if f.factor.name == item["factor"]))[1:-1] in said
+        renderer = FigureCanvasAgg(drawing.figure).get_renderer()
+        whole = drawing.figure.bbox
+        for text in page.texts:
+            box = text.get_window_extent(renderer)
+            assert whole.x0 <= box.x0 <= box.x1 <= whole.x1, text.get_text()
+            assert whole.y0 <= box.y0 <= box.y1 <= whole.y1, text.get_text()
+
+
+def test_factors_that_vanish_in_the_same_configuration_share_a_panel_headed_by_the_status_there():
+    """Where u1 = 0 at the drawn configuration u2 = 0, too, so that the platform moves by itself."""
+    drawing = figures.drawing(bare("zeng2019").record, "singular", bare("zeng2019"))
+    panels = {item["factor"]: item["panel"] for item in drawing.data["examples"]}
+    assert panels["u1"] == panels["u2"]
+    assert len(set(panels.values())) == len(panels) - 1
+    (first, second) = (item for item in drawing.data["examples"] if item["factor"] in ("u1", "u2"))
+    np.testing.assert_allclose(first["pose"], second["pose"], atol=1e-3)
+    (heading,) = [item.get_text() for item in drawing.figure.axes[0].texts if item.get_text().startswith(panels["u1"])]
+    assert "u_1 = 0" in heading
+    assert "u_2 = 0" in heading
+    assert heading.endswith("(self-motion)")
 
 
 def _runs(meaning, body):

@@ -7,7 +7,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from assur.figures import singular, sketch, style
+from assur.figures import configuration, sketch, style
 from assur.scene import part
 from assur.scene.mesh import rgb
 
@@ -51,7 +51,7 @@ def closest(colours, vision):
             pytest.param((*part.LINKS, part.DRIVE, part.STAGE, grey), id=f"parts-{grey}")
             for grey in (part.STEEL, part.DARK, part.PLATE)
         ),
-        pytest.param((singular.ACCENT, singular.MUTED, part.DRIVE, part.DARK), id="accents"),
+        pytest.param((configuration.ACCENT, configuration.MUTED, part.DRIVE, part.DARK), id="accents"),
     ],
 )
 def test_colours_stay_apart(colours, vision):

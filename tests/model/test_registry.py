@@ -79,7 +79,8 @@ def test_the_closed_form_beside_a_file_belongs_to_it(folder: Path) -> None:
         (
             FORM.replace('{"s"', '{"t": Sign("sine", "1"), "s"'),
             ": signs s, t; those of [modes] in mechanism.toml: s\n"
-            "    hint: it belongs to every file of its folder: is it meant for this one?",
+            "    hint: it is read with every file of its folder; where it is another file's, "
+            "move it, with its file, to a folder of its own",
         ),
         (FORM.replace('"1")', '"2*lx")'), ": the scale '2*lx': 'lx'; a formula of g, l1, l2, l3, tilt"),
         (FORM.replace('"1")', '"-1")'), ": the scale '-1' is -1; it must be positive"),

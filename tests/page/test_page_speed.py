@@ -115,13 +115,13 @@ def answers(tab, shares):
     return [tab.evaluate(MOVED, [k % sliders, share]) for k, share in enumerate(shares)]
 
 
-@pytest.mark.parametrize("address", NAMES[:1], indirect=True)
 def test_a_slider_is_answered_at_once(opened, rng):
+    """In the best of some runs every answer, not only most."""
     shares = rng.uniform(-0.1, 0.1, size=MOVES + 1).tolist()
     tab, _ = opened()
-    best = np.full(MOVES, np.inf)
+    runs = []
     for _ in range(TRIES):
-        best = np.minimum(best, answers(tab, shares)[1:])
-        if max(best) < ANSWER:
+        runs.append(np.sort(answers(tab, shares)[1:]))
+        if runs[-1][-1] < ANSWER:
             break
-    assert max(best) < ANSWER, np.sort(best)
+    assert min(run[-1] for run in runs) < ANSWER, runs

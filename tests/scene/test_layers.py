@@ -84,14 +84,25 @@ def test_progress_is_told():
 def test_a_note_says_what_is_cut_by_the_box_and_why_there_is_nothing():
     """The planar 3-RRR lies inside its box; a box from which half of it is left out is named."""
     record = load("planar_3rrr")
-    assert layers_note(record, region(record, resolution=16)) == ""
+    held = "All of it at phi = 0 deg."
+    assert layers_note(record, region(record, resolution=16)) == held
     smaller = replace(record, box=record.box | {"x": (-200.0, 0.0)})
     note = layers_note(smaller, region(smaller, resolution=16))
-    assert note == "Seen inside the box of the file only, which cuts the workspace in x."
+    assert note == f"Seen inside the box of the file only, which cuts the workspace in x. {held}"
     away = replace(record, box=record.box | {"x": (5000.0, 5100.0)})
-    assert layers_note(away, region(away, resolution=16)).startswith("Nothing of the file's box is reached")
-    unsaid = replace(record, box={})
-    assert layers_note(unsaid, region(unsaid)).startswith("The file gives no [workspace] box for x, y")
+    looked = "Nothing was found on 16 cells along each coordinate: see the [workspace] box of the file."
+    assert layers_note(away, region(away, resolution=16)) == looked
+    for said, names in (((), "x, y"), (("x",), "y"), (("y",), "x")):
+        unsaid = replace(record, box={name: record.box[name] for name in said})
+        wanted = f"The file gives no [workspace] box for {names}: there is no workspace to be seen."
+        assert layers_note(unsaid, region(unsaid)) == wanted
+
+
+def test_a_note_claims_no_more_than_what_was_looked_at():
+    """A workspace smaller than a cell is not found, and is there all the same."""
+    record = replace(load("fivebar"), box={"x": (-1e5, 1e5), "y": (-1e5, 1e5)})
+    assert record.inverse([0.0, 200.0], record.modes.default_working).exists
+    assert layers_note(record, region(record)).startswith("Nothing was found on 32 cells along each coordinate")
 
 
 def test_another_mode_has_other_singular_curves():

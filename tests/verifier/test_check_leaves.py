@@ -17,7 +17,8 @@ X, ONE, LAST = 0, 1, 2
 def by_hand(box, leaf, operation, *, margin=ONE, nonzero=None, factor=ONE):
     """A certificate of one box of x and one leaf; its margin, what must not be zero and its factor are entries."""
     one = (1.0).hex()
-    statement = dict.fromkeys(("mechanism", "files", "parameters", "mode", "strokes", "held"), "")
+    files = dict.fromkeys(("hand.toml", "closed_form.py"), "0" * 64)
+    statement = {"mechanism": "hand", "files": files, "parameters": {}, "mode": "", "strokes": {}, "held": {}}
     leaves = {name: int(name[0] == leaf[0]) for name in ("inside", "regular", "outside")}
     document = {
         **{"format": "assur certificate", "version": 1, "kind": "box", "made_by": "hand"},

@@ -216,6 +216,17 @@ def test_it_follows_another_mode_from_a_solution_that_is_searched_for():
     assert abs(found.volume - known.volume) <= found.volume_error + 1e-3 * known.volume
 
 
+def test_where_it_was_followed_from_is_said_in_the_unit_of_the_file():
+    said = {}
+    for unit in ("deg", "rad"):
+        how = workspace(replace(stripped("planar_3rrr"), angle=unit), "+-+", resolution=4).how
+        value, said_unit = how.partition("phi = ")[2].split()
+        assert said_unit == unit
+        said[unit] = float(value)
+    assert abs(said["deg"]) > 1
+    assert said["deg"] == pytest.approx(np.degrees(said["rad"]), rel=1e-3)
+
+
 def test_a_box_that_nothing_reaches_is_empty_and_says_so():
     found = workspace(stripped("fivebar"), box={"x": (900, 950), "y": (900, 950)}, resolution=8)
     assert found.volume == 0.0

@@ -36,7 +36,8 @@ export function hashOf({ branch, values, camera, choices }) {
   const view = camera.map((value) => Number(value.toFixed(3))).join(",");
   const { tab, course, layers } = choices;
   const flags = FLAGS.map((name) => `${name}=${Number(choices[name])}`).join("&");
-  return `#mode=${branch}&joints=${packed(values)}&view=${view}&tab=${tab}&course=${course}&layers=${layers}&${flags}`;
+  const mode = branch < 0 ? "" : `mode=${branch}&`; // none where the mode has no name
+  return `#${mode}joints=${packed(values)}&view=${view}&tab=${tab}&course=${course}&layers=${layers}&${flags}`;
 }
 
 /** A whole number below a bound. @returns {number|null} */
@@ -60,7 +61,7 @@ export function readHash(hash, { count, branches, tabs, courses, layers }) {
   let damaged = false;
   const read = (name, call) => {
     const found = given.has(name) ? call(given.get(name)) : null;
-    damaged ||= given.has(name) && found === null;
+    damaged ||= given.has(name) && found === null && name !== "mode"; // how many there are depends on the pose
     return found;
   };
   const flag = (text) => (["0", "1"].includes(text) ? text === "1" : null);

@@ -20,7 +20,7 @@ export const NUMBERS = {
   serial: ["serial measure", "smallest singular value of Jq; 0 at a serial singularity"],
   distance: [
     "to a singularity",
-    "distance of the nearest singular pose that was found, the orientation held: along rays, then by Newton's steps; a nearer one may be missed",
+    "distance of the nearest singular pose that was found, the orientation held: along rays, then by Newton's steps; a nearer one may be missed, and after 3 s of search only what was found until then is said",
   ],
   factor: ["closest factor", "the factor of the closed form that is nearest to zero, as a share of its own scale"],
   residual: ["residual", "largest gap of the loops"],
@@ -29,11 +29,18 @@ export const NUMBERS = {
 /** A factor as a share of its own scale. */
 const signed = ({ value, share }) => Math.sign(value) * share;
 
-/** The distance of a singularity that was found, and of what kind. */
-function said({ amount, kind }, over, length, unit) {
+const KINDS = { parallel: "parallel", serial: "serial", passive: "a passive leg" };
+
+/**
+ * The distance of a singularity that was found, and of what kind.
+ * @param {{amount: number, kind: string}} found
+ * @param {boolean} over whether the search came to its end
+ * @param {number} range how far it looks
+ */
+export function distanceSaid({ amount, kind }, over, range, unit) {
   if (Number.isNaN(amount)) return "–";
-  if (amount < Infinity) return `${figures(amount, 3)} ${unit}, ${kind}`;
-  return over ? `none seen within ${figures(length, 3)} ${unit}` : "none seen";
+  if (amount < Infinity) return `${over ? "" : "at most "}${figures(amount, 3)} ${unit}, ${KINDS[kind]}`;
+  return over ? `none seen within ${figures(range, 3)} ${unit}` : "none seen yet";
 }
 
 /** @returns {{element: HTMLElement}} a list of numbers that follows the mechanism */
@@ -53,7 +60,7 @@ export function readout(mechanism) {
     let over = false;
     while (!over && performance.now() - start < PORTION) over = search.next().done;
     const left = patience - (performance.now() - start);
-    if (over || left < 0) rows.distance.textContent = said(found, over, mechanism.model.length, scene.unit);
+    if (over || left < 0) rows.distance.textContent = distanceSaid(found, over, mechanism.model.length, scene.unit);
     else timer = setTimeout(() => look(found, search, left), 0);
   };
   const show = () => {

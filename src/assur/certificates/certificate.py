@@ -132,7 +132,7 @@ def certificate(
     leaves = Leaves(rules)
     whole = Boxes(*(np.array(side)[:, None] for side in (where.low, where.high)))
     unsettled = (OPEN, INSIDE) if kind == "box" else (OPEN,)
-    limits = Limits(unsettled, gap, least_sides(whole, finest, rules.used), most)
+    limits = Limits(unsettled, gap, least_sides(whole, finest, rules.used), most, stoppable=True)
     box_stated = [exact(pair) for pair in zip(where.low, where.high, strict=True)]
     statement = {**common_statement(record, mode, strokes, rules), "box": box_stated}
     program = rules.to_json()
@@ -170,9 +170,9 @@ def least_sides(whole: Boxes, finest: float, used: Sequence[bool]) -> FloatArray
 
 
 def file_hashes(record: MechanismRecord) -> dict[str, str]:
-    """SHA-256 of the mechanism's file and of its closed form, by name."""
+    """SHA-256 of the mechanism's file and of its closed form, where it has one, by name."""
     paths = (record.file, record.file.parent / CLOSED_FORM)
-    return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in paths}
+    return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in paths if path.is_file()}
 
 
 def _checked(kind: str, gap: float | None, finest: float, most: int) -> float:

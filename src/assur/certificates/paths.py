@@ -52,6 +52,8 @@ def path_certificate(
     Errors:
         UsageError: there is no path.
 
+    Ctrl-C is raised on: a path is proved whole, or not at all.
+
     >>> from assur.model.registry import load_record
     >>> from assur.workspace.aspects.aspects import aspects
     >>> record = load_record("fivebar")

@@ -12,23 +12,32 @@ from typing import Any
 
 from assur.certificates.certificate import file_hashes
 from assur.certificates.formulas import CONSTANT, GROUPS, formulas
-from assur.errors import UnknownNameError, UsageError
+from assur.errors import UsageError
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import load_record, names, with_parameters
 
 
-def record_of(document: Mapping[str, Any], name_or_path: str | Path | None = None) -> MechanismRecord:
-    """The mechanism of a certificate, a built-in one of its name or that of a file, with the certificate's dimensions.
+def at_hand(document: Mapping[str, Any], name_or_path: str | Path | None = None) -> MechanismRecord | None:
+    """The mechanism of a certificate as its file has it: built in, or in a file that is named; None if neither.
 
     Errors:
-        UnknownNameError, UsageError: there is no such mechanism here, or it cannot have these dimensions.
+        UnknownNameError: no mechanism has the name that is given.
     """
-    statement = document["statement"]
-    own = statement["mechanism"]
+    own = document["statement"]["mechanism"]
     if name_or_path is None and own not in names():  # a path in a certificate must not make anyone run what is there
-        raise UnknownNameError("mechanism", str(own), names(), hint="say where its file is with --mechanism")
-    record = load_record(own if name_or_path is None else name_or_path)
-    changed = {name: float.fromhex(value) for name, value in statement["parameters"].items()}
+        return None
+    return load_record(own if name_or_path is None else name_or_path)
+
+
+def with_dimensions(document: Mapping[str, Any], record: MechanismRecord) -> MechanismRecord:
+    """The mechanism with the dimensions of a certificate; another mechanism, which `differences` tells, as it is.
+
+    Errors:
+        UsageError: it has none of such a name, or may not have such a value, so the certificate is not its own.
+    """
+    if document["statement"]["mechanism"] != record.name:
+        return record
+    changed = {name: float.fromhex(value) for name, value in document["statement"]["parameters"].items()}
     return with_parameters(record, **changed) if changed else record
 
 
@@ -37,7 +46,7 @@ def differences(document: Mapping[str, Any], record: MechanismRecord) -> tuple[s
 
     Args:
         document: a certificate that the verifier read.
-        record: the mechanism with the certificate's dimensions, from `record_of`.
+        record: the mechanism with the certificate's dimensions, from `at_hand` and `with_dimensions`.
 
     >>> from assur.certificates.certificate import certificate
     >>> record, other = load_record("zeng2019"), load_record("zeng2019", l2=300)

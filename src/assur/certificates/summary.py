@@ -50,7 +50,7 @@ def claim_lines(document: Mapping[str, Any], record: MechanismRecord | None = No
     if "volume" in claims:
         unit = _unit(document, record)
         low, high = (float.fromhex(value) for value in claims["volume"])
-        size = ("length", "area", "volume")[len(document["statement"]["coordinates"]) - 1]
+        size = {1: "length", 2: "area"}.get(len(document["statement"]["coordinates"]), "volume")
         lines += [f"{size} reached: {rounded(low, high)}{unit}"]
         least = rounded(float.fromhex(claims["regular_volume"]), 0.0).split(" ")[0]
         lines += [f"at least {least}{unit} of it is free of singularities"]

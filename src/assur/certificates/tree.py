@@ -73,12 +73,14 @@ class Limits:
         gap: what they may leave open, as a share of what is certainly reached.
         least: (k, 1) sides that are not longer are not halved.
         most: leaves at most.
+        stoppable: whether Ctrl-C ends the growth, too: what is decided by then is kept, the rest stays open.
     """
 
     unsettled: tuple[str, ...]
     gap: float
     least: FloatArray
     most: int
+    stoppable: bool = False
 
     def next(self, tree: Tree) -> IntArray:
         """Which boxes are halved next; none where the tree is large enough."""
@@ -111,8 +113,6 @@ def grow(
         progress: called with leaves so far and leaves at most.
         start: a tree of this box that is grown on.
 
-    Ctrl-C ends the growth: what is decided by then is kept, the rest stays open.
-
     >>> halves = lambda boxes: np.where(boxes.low[0] >= 0.5, "i", np.where(boxes.high[0] <= 0.5, "o00", "b"))
     >>> unit = Boxes(np.zeros((1, 1)), np.ones((1, 1)))
     >>> limits = Limits(("b",), 0.0, np.array([[1e-3]]), 9)
@@ -120,7 +120,7 @@ def grow(
     '0o00i'
     """
     tree = start or Tree(whole, judge(whole).astype("<U3"), np.array([-1]), np.array([-1]), np.ones(1))
-    with contextlib.suppress(KeyboardInterrupt):
+    with contextlib.suppress(*[KeyboardInterrupt] if limits.stoppable else []):
         while len(cut := limits.next(tree)):
             tree = _halved(tree, cut, judge, axes)
             if progress is not None:

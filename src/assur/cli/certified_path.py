@@ -47,6 +47,8 @@ def outcome(
     start, end = pose(record, ends.start, "--from", where.names), pose(record, ends.end, "--to", where.names)
     with progress("aspects", shared) as step:
         found = aspects(record, asked.mode, asked.box, asked.strokes, asked.held, size if finest else None, step)
+    if found.stopped == "interrupted":
+        raise KeyboardInterrupt  # nothing is kept of a path
     path = found.path(start, end)
     if path.status != "connected":
         return _none(path.status, path.why, exit_codes.of_answers([ANSWERS.get(path.status, "no")]))

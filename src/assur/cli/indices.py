@@ -61,9 +61,9 @@ def indices(
     error, and the share of it where the local transmission index is at least
     0.7. With --map: every index at the nodes of a grid over some coordinates,
     the others held by --at, in mid-box or as at home, and beside them the
-    distance from the nearest parallel singularity that rays find. Where lengths
-    and angles mix, lengths are divided by a characteristic length, which the
-    answer states.
+    distance from the nearest parallel singularity inside the reach that rays
+    find; the border of the reach is not counted. Where lengths and angles mix,
+    lengths are divided by a characteristic length, which the answer states.
 
     For example:
         assur indices zeng2019 --pose -15.4714 9.6849 456.3315

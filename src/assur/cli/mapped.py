@@ -158,8 +158,8 @@ def _shown(record: Mechanism, found: IndexMaps, written: Path | None) -> Iterabl
     if found.reach is not None:
         beyond = int(np.sum(np.isinf(found["distance"])))
         yield (
-            f"distance: from the nearest parallel singularity that rays found within {found.reach:g} {found.unit}"
-            f" (none from {beyond} nodes)"
+            "distance: from the nearest parallel singularity inside the reach, its border not counted, that rays found"
+            f" within {found.reach:g} {found.unit} (none from {beyond} nodes)"
         )
     yield length_words(record, found.length)
     if written is not None:

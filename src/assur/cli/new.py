@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 CLOSED_FORM = "closed_form.py"
 MODES: dict[str, Mode] = {"home": "home", "translation": "translation"}
 LIMBS = "3"
+OTHERS = 3
+"""So many files that are in the way are named."""
 
 
 def new(
@@ -118,6 +120,8 @@ def _written_copy(found: Copied, path: Path, *, force: bool, with_closed_form: b
 
     wanted = with_closed_form and found.closed_form is not None
     _refuse_neighbour(path, replaced=wanted and force)
+    if wanted:
+        _refuse_others(path)
     files = [str(write_whole(path, found.text))]
     if wanted and found.closed_form is not None:
         files.append(str(write_whole(path.parent / CLOSED_FORM, found.closed_form.read_bytes())))
@@ -181,6 +185,19 @@ def _refuse_neighbour(path: Path, *, replaced: bool) -> None:
         raise OutputError(
             f"{beside} is there already, and would be read as the closed form of {path.name}",
             hint="choose another folder",
+        )
+
+
+def _refuse_others(path: Path) -> None:
+    """A closed form is read with every mechanism's file of its folder, so that it stands with one alone."""
+    others = sorted(item.name for item in path.parent.glob("*.toml") if item.name != path.name)
+    if others:
+        more = f" and {len(others) - OTHERS} more" if len(others) > OTHERS else ""
+        stand = "stands" if len(others) == 1 else "stand"
+        raise OutputError(
+            f"{', '.join(others[:OTHERS])}{more} {stand} in the folder of {path}, "
+            f"and would be read with the closed form of {path.name}",
+            hint=f"give it a folder of its own, made first, as {path.parent / path.stem / path.name}",
         )
 
 

@@ -10,10 +10,14 @@ from assur.errors import UsageError
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 COMMA = re.compile(r"[+-]?\d*,\d*", re.ASCII)
 NEXT = re.compile(r",(?=[^,=]*=)")
-"""Between two assignments; the comma of a number is none."""
+"""In front of an assignment; the comma of a number is none."""
+EMPTY = re.compile(r"^\s*,|,\s*(,|$)")
+"""A comma with nothing on one side."""
 NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.IGNORECASE)
 LARGEST = 1e60
 """No dimension is larger; up to here the fourth power of a number is finite."""
+HOLDABLE = ("--box", "--along")
+"""Options whose interval is that of a coordinate which --at can hold."""
 VALUE = re.compile(r"-(\d|[.,]\d|inf|nan)", re.IGNORECASE)
 """How a value begins that could be taken for an option."""
 TIED = {"--mode": re.compile(r"[+0-]+\Z"), "--chain": re.compile(r"-[^-]")}
@@ -39,7 +43,8 @@ def number(text: str, what: str) -> float:
 
 def _hint(text: str) -> str:
     if COMMA.fullmatch(text) and text != ",":
-        return f"write a decimal point: {text.rstrip(',').replace(',', '.')}"
+        alone = text.endswith(",")
+        return f"leave out the comma: {text[:-1]}" if alone else f"write a decimal point: {text.replace(',', '.')}"
     if text.startswith("\N{MINUS SIGN}"):
         return f"write the minus as a hyphen: -{text[1:]}"
     return "give it like -143.3209 or 1.5e3, without a unit"
@@ -53,6 +58,22 @@ def numbers(texts: Sequence[str], names: Sequence[str], what: str) -> list[float
     return [number(text, name) for name, text in zip(names, texts, strict=True)]
 
 
+def parts(texts: Iterable[str], option: str) -> list[str]:
+    """What stands between commas, of texts that each are NAME=VALUE, or several, or begin with what has no name.
+
+    >>> parts(["-300:300, yA1=-1,5:1,5", "yA2=0:9"], "--stroke")
+    ['-300:300', 'yA1=-1,5:1,5', 'yA2=0:9']
+    """
+    found: list[str] = []
+    for text in texts:
+        if EMPTY.search(text):
+            raise UsageError(
+                f"{option}: '{text.strip()}' has a comma too many", hint="put one between two parts, none at the end"
+            )
+        found += (part.strip() for part in NEXT.split(text))
+    return found
+
+
 def assignments(texts: Iterable[str], option: str, example: str) -> dict[str, str]:
     """{name: text} from NAME=VALUE texts, each one or several with commas between; a name that comes twice is refused.
 
@@ -60,10 +81,10 @@ def assignments(texts: Iterable[str], option: str, example: str) -> dict[str, st
     {'x': '-20:0', 'y': '-50:50', 'z': '400:420'}
     """
     found: dict[str, str] = {}
-    for text in (part for several in texts for part in NEXT.split(several)):
+    for text in parts(texts, option):
         name, equals, value = (part.strip() for part in text.partition("="))
         if not (name and equals and value):
-            raise UsageError(f"{option}: '{text.strip()}' is not NAME=VALUE", hint=f"for example {option} {example}")
+            raise UsageError(f"{option}: '{text}' is not NAME=VALUE", hint=f"for example {option} {example}")
         if name in found:
             raise UsageError(f"{option}: {name} is given twice")
         found[name] = value
@@ -81,7 +102,11 @@ def interval(text: str, what: str, example: str) -> tuple[float, float]:
         raise UsageError(f"{what}: '{text.strip()}' is not LOW:HIGH", hint=f"for example {what.split()[0]} {example}")
     pair = number(low, what), number(high, what)
     if not pair[0] < pair[1]:
-        raise UsageError(f"{what} = {low.strip()}:{high.strip()} is turned round or empty", hint="give LOW < HIGH")
+        option, _, name = what.partition(" ")
+        hold = f"; to hold it: --at {name}={low.strip()}" if pair[0] == pair[1] and option in HOLDABLE else ""
+        raise UsageError(
+            f"{what} = {low.strip()}:{high.strip()} is turned round or empty", hint=f"give LOW < HIGH{hold}"
+        )
     return pair
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from assur.cli.numbers import assignments, interval, number, whole_number
+from assur.cli.numbers import assignments, interval, number, parts, whole_number
 from assur.cli.quantities import is_length
 from assur.errors import UnknownNameError, UsageError
 
@@ -86,14 +86,15 @@ def _strokes(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
     """Strokes by input; one without a name is for every input that has none of its own."""
     lengths = {item.name: item.coordinate.kind == "length" for item in record.inputs}
     example = f"{record.inputs[0].name}=-300:300"
-    common = [text for text in texts if "=" not in text]
+    given = parts(texts, "--stroke")
+    common = [text for text in given if "=" not in text]
     if len(common) > 1:
         raise UsageError("--stroke: two intervals for all inputs", hint=f"name the input, as --stroke {example}")
     found = {}
     for text in common:
         pair = interval(text, "--stroke", example)
         found = {name: _inside(record, pair, length) for name, length in lengths.items()}
-    for name, text in assignments([text for text in texts if "=" in text], "--stroke", example).items():
+    for name, text in assignments([text for text in given if "=" in text], "--stroke", example).items():
         if name not in lengths:
             raise UnknownNameError(f"input of {record.name}", name, lengths)
         found[name] = _inside(record, interval(text, f"--stroke {name}", example), lengths[name])

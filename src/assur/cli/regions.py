@@ -229,7 +229,7 @@ def _singular(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableTyp
     if share is None:
         yield f"share within {near} of one: not known"
     else:
-        yield f"share within {near} of one: {100 * share:.2f} %"
+        yield f"share within {near} of one: {100 * share:.2f} %; the border of the workspace is not counted"
 
 
 def with_error(value: float, error: float) -> str:

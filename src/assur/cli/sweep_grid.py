@@ -22,14 +22,11 @@ Place = tuple[float, float, int]
 def asked(record: MechanismRecord, problem: Problem, along: Sequence[str], at: Sequence[str]) -> Grid:
     """The grid of a problem: every coordinate of the pose, or every input, varies or is held; angles in rad."""
     from assur.kinematics.closed_form.grids import Grid
+    from assur.kinematics.status import NO_CLOSED_FORM
     from assur.model.pose import has_quaternion
 
     if record.closed_form is None:
-        hint = (
-            "assur inverse, direct and workspace solve it on its joint graph; `assur new FILE --from MODEL "
-            "--with-closed-form` copies the closed form of a mechanism of the catalogue"
-        )
-        raise UsageError(f"{record.name} has no closed form to sweep", hint=hint)
+        raise UsageError(f"{record.name} has no closed form to sweep", hint=NO_CLOSED_FORM)
     if problem == "inverse" and has_quaternion(record.platform.pose):
         raise UsageError(
             f"{record.name}: no grid over quaternions", hint="Mechanism.inverse takes an array of poses of your own"

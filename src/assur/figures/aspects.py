@@ -21,6 +21,7 @@ from assur.figures.plots import no_workspace
 from assur.figures.singular import symbol_of
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import INK, PALE, PAPER, SERIES, SMALL, TEXT, new_figure
+from assur.figures.written import at_least, minus, units
 from assur.model.pose import is_angle
 from assur.workspace.aspects.aspects import KINDS, Aspect, Aspects
 from assur.workspace.aspects.path import AspectPath
@@ -98,15 +99,44 @@ def drawn(context: Context, found: Aspects, path: AspectPath | None = None) -> D
 def caption(context: Context, found: Aspects) -> str:
     """What the figure shows, in words."""
     signs = _factors(context, found) or "no factor"
-    of_mode = f" of the working mode {found.mode}".replace("-", "−") if found.mode else ""
+    of_mode = f" of the working mode {minus(found.mode)}" if found.mode else ""
     held = ", ".join(
         f"{symbol(name)} = {value_words(context, name, value)}" for name, value in found.slice.held.items()
     )
     return (
         f"Aspects{of_mode}{f' with {held}' if held else ''} inside the box of the mechanism's file: parts without a"
-        f" parallel or serial singularity, named by the signs of {signs}. In each colour every pose is proved;"
-        f" grey is undecided, {shown(100 * found.search.open)} % of the box."
+        f" parallel or serial singularity, named by the signs of {signs}. {_parts(found)}"
     )
+
+
+def _parts(found: Aspects) -> str:
+    """How much of the workspace is proved, at least, and what may be undecided, at most."""
+    if not found.aspects:
+        return "No part is proved; what there may be of the workspace lies in the grey."
+    size = f"{at_least(math.fsum(item.volume[0] for item in found.aspects))} {units(found.unit)}"
+    open_ = shown(100 * undecided(found))
+    least = f"{100 - float(open_):.4g}"
+    return (
+        f"In each colour every pose is proved: together at least {size} or {least} % of the workspace;"
+        f" the rest of it, at most {open_} %, is undecided and lies in the grey."
+    )
+
+
+def undecided(found: Aspects) -> float:
+    """An upper bound of the share of the workspace that no aspect is proved to hold.
+
+    The workspace is what is proved and some of the undecided boxes; the more there is of them, the larger the share.
+
+    >>> from assur.model.registry import load_record
+    >>> from assur.workspace.aspects.aspects import aspects
+    >>> found = aspects(load_record("fivebar"), finest=20.0)
+    >>> bool(found.search.open < undecided(found) < 1.0)
+    True
+    """
+    proved = math.fsum(item.volume[0] for item in found.aspects)
+    box = found.search.frame.box
+    open_ = found.search.open * math.prod(high - low for low, high in box.intervals)
+    return open_ / (proved + open_) if open_ else 0.0
 
 
 def _factors(context: Context, found: Aspects) -> str:
@@ -213,7 +243,7 @@ def _words(label: str) -> str:
     >>> _words("-+/2")
     '− + / 2'
     """
-    return " ".join(label.replace("-", "−"))
+    return " ".join(minus(label))
 
 
 def _way(axes: Axes, path: AspectPath) -> None:
@@ -232,7 +262,7 @@ def _dress(context: Context, axes: Axes, found: Aspects, names: tuple[str, str])
         axis.set_label_text(axis_title(context, name))
         if is_angle(name) and context.record.angle == "deg":
             axis.set_major_locator(FixedLocator([float(np.radians(tick)) for tick in angle_ticks(low, high)]))
-            axis.set_major_formatter(FuncFormatter(lambda value, _: f"{np.degrees(value):.0f}".replace("-", "−")))
+            axis.set_major_formatter(FuncFormatter(lambda value, _: minus(f"{np.degrees(value):.0f}")))
 
 
 def _legend(found: Aspects, path: AspectPath | None) -> list[Any]:

@@ -10,13 +10,14 @@ from numpy.typing import NDArray
 
 from assur.figures.canvas import Canvas, View
 from assur.figures.style import GREY, INK, PALE, SMALL, TEXT
+from assur.figures.written import minus
 
 FloatArray = NDArray[np.float64]
-CROWDED = 14.0
-"""Nearer than this to the end of another axis, in points, two numbers would stand on one another."""
-
 ROOM = 24.0
-"""Points along an axis for each number on it; also what is moved aside then clears its neighbour."""
+"""Points along an axis for each number on it."""
+
+HALF = SMALL * np.array([0.26, 0.5])
+"""Half the width of a character, and half the height of a number, in points."""
 
 
 def draw_box(page: Canvas, view: View, low: FloatArray, high: FloatArray) -> None:
@@ -39,37 +40,33 @@ def draw_axes(
 ) -> None:
     """Ticks and titles of three coordinates on edges of the box between `low` and `high` (3,).
 
-    A tick says what it is times `per` (3,): the number that stands there for one unit of what is drawn.
+    A tick says what it is times `per` (3,): the number that stands there for one unit of what is drawn. Each number
+    stands at its tick; one that would stand on another number, where two axes meet, is left out.
     """
     middle = view((low + high) / 2)
-    edges = [_ends(view, low, high, axis) for axis in range(3)]
-    for axis, (ends, flat) in enumerate((ends, view(ends)) for ends in edges):
-        others = np.concatenate([view(edges[k]) for k in range(3) if k != axis])
+    taken: list[tuple[FloatArray, FloatArray]] = []
+    for axis in range(3):
+        ends = _ends(view, low, high, axis)
+        flat = view(ends)
         away = _outwards(flat, middle)
         page.line(flat, 0.7, INK, 3)
         first, last = low[axis] * per[axis], high[axis] * per[axis]
         most = int(np.clip(np.linalg.norm(flat[1] - flat[0]) / ROOM, 1, 5))
         for tick in MaxNLocator(most, steps=[1, 2, 3, 5, 10]).tick_values(first, last):
             if first - 1e-9 <= tick <= last + 1e-9:
-                at = ends[0].copy()
-                at[axis] = tick / per[axis]
-                foot = view(at)
+                place = ends[0].copy()
+                place[axis] = tick / per[axis]
+                foot = view(place)
                 page.line(np.array([foot, foot + 3 * away]), 0.5, INK, 3)
-                aside = _aside(foot, flat, others)
-                number = f"{tick:g}".replace("-", "−")
-                reach = 5.0 + np.abs(away) @ [0.25 * SMALL * len(number), 0.45 * SMALL]
-                page.text(foot + reach * away + aside, number, fontsize=SMALL)
+                number = minus(f"{tick:g}")
+                half = HALF * [len(number), 1.0]
+                at = foot + (5.0 + np.abs(away) @ half) * away
+                if not any(bool(np.all(np.abs(at - other) < half + size)) for other, size in taken):
+                    taken.append((at, half))
+                    page.text(at, number, fontsize=SMALL)
         upright = abs(away[0]) > 0.9  # a title beside it would stand on the numbers
-        at = flat[int(np.argmax(flat[:, 1]))] + [-9.0, 7.0] if upright else flat.mean(axis=0) + 23 * away
+        at = flat[int(np.argmax(flat[:, 1]))] + [-9.0, 9.5] if upright else flat.mean(axis=0) + 23 * away
         page.text(at, titles[axis], fontsize=TEXT)
-
-
-def _aside(foot: FloatArray, flat: FloatArray, others: FloatArray) -> FloatArray:
-    """How far a number moves along its own axis where another axis ends, too, so that both can be read."""
-    if np.min(np.linalg.norm(others - foot, axis=1)) > CROWDED:
-        return np.zeros(2)
-    way = flat.mean(axis=0) - foot
-    return np.asarray(CROWDED / 2 * way / max(float(np.linalg.norm(way)), 1e-9))
 
 
 def _ends(view: View, low: FloatArray, high: FloatArray, axis: int) -> FloatArray:

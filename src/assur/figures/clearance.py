@@ -11,11 +11,11 @@ from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
+from assur.figures.configuration import MUTED
 from assur.figures.context import Context
 from assur.figures.lines import before
 from assur.figures.placing import Letters
 from assur.figures.raster import filled
-from assur.figures.singular import MUTED
 from assur.figures.solid import HALO, model_camera, paste, triad
 from assur.figures.spec import Drawing
 from assur.figures.style import BLUE, INK, LETTER, ORANGE, PAGE, PAPER, RED, TEXT

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from assur import mechanism
 from assur.errors import UsageError
 from assur.figures.near import near_solid
+from assur.figures.written import minus
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
@@ -129,7 +130,9 @@ class Context:
         plan = self.companion.schematic
         if not plan.parameters or self.schematic.record is self.record:
             return ""
-        values = ", ".join(f"{name} = {value:g} {self.record.unit}" for name, value in plan.parameters.items())
+        values = ", ".join(
+            f"{name} = {minus(f'{value:g}')} {self.record.unit}" for name, value in plan.parameters.items()
+        )
         return f" Drawn with {values} {plan.because}.".replace("  ", " ")
 
     @cached_property

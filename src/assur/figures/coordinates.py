@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from assur.figures.context import Context
 from assur.figures.letters import mathematics
+from assur.figures.written import minus
 from assur.model.pose import LENGTHS, is_angle
 
 FloatArray = NDArray[np.float64]
@@ -33,7 +34,7 @@ def symbol(name: str) -> str:
 
 def value_words(context: Context, name: str, value: float) -> str:
     """A value of a coordinate with its unit, e.g. "300 mm" or "−30°"."""
-    number = f"{shown(context, name, value):.6g}".replace("-", "−")
+    number = minus(f"{shown(context, name, value):.6g}")
     if not is_angle(name):
         return f"{number} {context.record.unit}"
     return f"{number}°" if context.record.angle == "deg" else f"{number} rad"
@@ -81,7 +82,7 @@ def dress(context: Context, axes: Axes, names: Sequence[str]) -> None:
         axis.set_label_text(axis_title(context, name))
         if is_angle(name) and context.record.angle == "deg":
             axis.set_major_locator(FixedLocator([float(np.radians(tick)) for tick in angle_ticks(low, high)]))
-            axis.set_major_formatter(FuncFormatter(lambda value, _: f"{np.degrees(value):.0f}".replace("-", "−")))
+            axis.set_major_formatter(FuncFormatter(lambda value, _: minus(f"{np.degrees(value):.0f}")))
 
 
 def angle_ticks(low: float, high: float) -> list[float]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -57,7 +57,7 @@ def _missing(context: Context) -> str:
 
 def _caption(context: Context) -> str:
     return (
-        f"Local condition index $1/\\kappa$ of $J = J_p^{{-1}}J_q$ ({mode_words(context)}):"
+        f"Local condition index ${INDEX.symbol}$ of $J = J_p^{{-1}}J_q$ ({mode_words(context)}):"
         f" 0 is singular, 1 isotropic.{_mean(context)}"
     )
 
@@ -127,13 +127,22 @@ def _draw(context: Context, measure: Measure) -> Drawing:
     bar = figure.add_axes(
         ((width - right + 5.0) / width, bottom / height, 3.5 / width, (height - bottom - 5.0) / height)
     )
-    colorbar: Colorbar = figure.colorbar(image, cax=bar)
+    colorbar: Colorbar = figure.colorbar(image, cax=bar, extend=beyond(top, *known))
     unit = "" if measure is INDEX else factor_unit(context.record, None)
     colorbar.set_label(f"${measure.symbol}$" + (f" ({unit})" if unit else ""), fontsize=TEXT)
     colorbar.set_ticks([0.0, *_levels(top)])
     for level in _levels(top):
         colorbar.ax.axhline(level, color="white", linewidth=0.6)
     return Drawing(figure, {"unit": context.record.unit, "mode": context.workspace.mode, "maps": data})
+
+
+def beyond(top: float, *values: FloatArray) -> Literal["max", "neither"]:
+    """The end of a bar of colours: an arrow where there are values beyond it.
+
+    >>> beyond(2.0, np.array([1.0, np.nan]), np.array([3.0])), beyond(3.0, np.array([1.0, 3.0]))
+    ('max', 'neither')
+    """
+    return "max" if any(np.any(item > top * (1 + 1e-9)) for item in values) else "neither"
 
 
 def _values(

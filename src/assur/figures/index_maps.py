@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.figures.context import Context
 from assur.figures.coordinates import drawn_span, dress, plane_words, symbol, value_words
-from assur.figures.dexterity import SHOWN, planes
+from assur.figures.dexterity import SHOWN, beyond, planes
 from assur.figures.indices import COLOURS, continued
 from assur.figures.plots import mode_words, no_workspace, outline
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import GREY, INK, PAGE, SMALL, TEXT, new_figure
+from assur.figures.written import units
 from assur.model.pose import LENGTHS
 from assur.performance.indices import INDICES
 from assur.workspace.index_maps import IndexMaps, index_maps
@@ -76,7 +77,7 @@ def drawn(context: Context, found: IndexMaps) -> Drawing:
         axes = figure.add_axes((x / PAGE, y / height, scale * wide / PAGE, scale * tall / height))
         bar = figure.add_axes(((x + scale * wide + 2.0) / PAGE, y / height, 2.5 / PAGE, scale * tall / height))
         _draw_one(context, (axes, bar), found, name)
-        unit = f" ({_powers(item.unit)})" if item.unit else ""
+        unit = f" ({units(item.unit)})" if item.unit else ""
         figure.text(
             (x + scale * wide / 2) / PAGE,
             (y + scale * tall + 1.5) / height,
@@ -109,7 +110,7 @@ def _draw_one(context: Context, pair: tuple[Axes, Axes], found: IndexMaps, name:
     image = axes.pcolormesh(xs, ys, shown, cmap=COLOURS, norm=colours, shading="gouraud")
     image.set_clip_path(border)
     image.set_rasterized(True)
-    axes.figure.colorbar(image, cax=bar, extend="neither")
+    axes.figure.colorbar(image, cax=bar, extend=beyond(top, item.values))
     bar.tick_params(labelsize=SMALL)
 
 
@@ -132,16 +133,12 @@ def _polygons(context: Context, found: IndexMaps) -> list[FloatArray]:
     return [polygon[:, order] for polygon in polygons]
 
 
-def _powers(unit: str) -> str:
-    base, _, power = unit.partition("^")
-    return f"{base}$^{power}$" if power else unit
-
-
 def _caption(context: Context) -> str:
     found = whole(context)
     parts = [
-        f"Every index over one plane ({mode_words(context)}). $1/\\kappa$, $1/\\kappa_F$, ITI, OTI and LTI lie between"
-        f" 0, singular, and 1; the colours of $w$ and $\\sigma_{{\\max}}$ end at their {100 * SHOWN:.0f} % quantile."
+        f"Every index over one plane ({mode_words(context)}). $1/\\kappa(J)$, $1/\\kappa_F(J)$, ITI, OTI and LTI lie"
+        f" between 0, singular, and 1; the colours of $\\mu$ and $\\sigma_{{\\max}}$ end at their {100 * SHOWN:.0f} %"
+        " quantile."
     ]
     if found.length is not None:
         parts.append(
@@ -151,9 +148,9 @@ def _caption(context: Context) -> str:
     if found.reach is not None:
         item = found.maps["distance"]
         parts.append(
-            f"${item.symbol}$ is the distance from the nearest parallel singularity that rays found within"
-            f" {found.reach:.4g} {context.record.unit}, the orientation held; where there is"
-            " none the colour is that of the largest."
+            f"${item.symbol}$ is the distance from the nearest parallel singularity inside the reach that rays found"
+            f" within {found.reach:.4g} {context.record.unit}, the orientation held, so an upper bound; the border of"
+            " the reach is not counted; where there is none the colour is that of the largest."
         )
     return " ".join(parts)
 

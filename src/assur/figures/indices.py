@@ -19,10 +19,11 @@ from scipy.ndimage import distance_transform_edt
 
 from assur.figures.context import Context
 from assur.figures.coordinates import drawn_span, dress, plane_words, symbol, value_words
-from assur.figures.dexterity import SHOWN, planes
+from assur.figures.dexterity import SHOWN, beyond, planes
 from assur.figures.plots import mode_words, no_workspace, outline
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import GREY, INK, ORANGE, PAGE, TEXT, new_figure
+from assur.figures.written import units
 from assur.model.pose import LENGTHS
 from assur.performance.indices import INDICES, Indices
 from assur.performance.overall import OverallIndices, overall
@@ -93,30 +94,23 @@ def _transmission_caption(context: Context) -> str:
     if found is None or found.good is None:
         return words
     mean = found.values["transmission"]
-    share = f"{100 * found.good.share:.1f} ± {100 * found.good.share_error:.1f} %"
-    return (
-        f"{words} The local index is at least {GOOD:g} in {share} of the workspace;"
-        f" its mean is {mean.mean:.3f} ± {mean.mean_error:.3f}."
-    )
+    share = f"in {100 * found.good.share:.1f} ± {100 * found.good.share_error:.1f} % of the workspace"
+    where = share if found.good.share else "nowhere among the poses sampled"
+    return f"{words} The local index is at least {GOOD:g} {where}; its mean is {mean.mean:.3f} ± {mean.mean_error:.3f}."
 
 
 def _jacobian_caption(context: Context) -> str:
     there = field(context)
     top, unit = there.shares("manipulability")[1], INDICES["manipulability"].unit(there.found)
-    size = f"{top:.4g} {_powers(unit)}".strip()
+    size = f"{top:.4g} {units(unit)}".strip()
     words = (
-        f"Indices of $J = J_p^{{-1}}J_q$ ({mode_words(context)}): $1/\\kappa$ in the 2-norm and in the Frobenius norm,"
-        f" 0 singular and 1 isotropic, and the manipulability $w = \\sqrt{{\\det JJ^T}}$ divided by {size},"
+        f"Indices of $J = J_p^{{-1}}J_q$ ({mode_words(context)}): $1/\\kappa(J)$ in the 2-norm and in the Frobenius"
+        f" norm, 0 singular and 1 isotropic, and the manipulability $\\mu = \\sqrt{{\\det JJ^T}}$ divided by {size},"
         f" its {100 * SHOWN:.0f} % quantile."
     )
     if there.found.length is None:
         return words
     return f"{words} Lengths are divided by the characteristic length {there.found.length:.4g} {context.record.unit}."
-
-
-def _powers(unit: str) -> str:
-    base, _, power = unit.partition("^")
-    return f"{base}$^{power}$" if power else unit
 
 
 def _draw(context: Context, names: tuple[str, ...], *, good: bool) -> Drawing:
@@ -142,7 +136,9 @@ def _draw(context: Context, names: tuple[str, ...], *, good: bool) -> Drawing:
         data[name] = {"values": there.found[name], "divided_by": divisor}
     figure.text(left / width, 1.0 - 3.5 / height, f"{plane_words(*there.plane)}{place}", fontsize=TEXT)
     bar = figure.add_axes(((width - right + 5.0) / width, bottom / height, 3.5 / width, scale * tall / height))
-    figure.colorbar(ScalarMappable(Normalize(0.0, 1.0), COLOURS), cax=bar).set_ticks([0.0, *LEVELS[1::2], 1.0])
+    end = beyond(1.0, *(there.shares(name)[0] for name in names))
+    scale_bar = figure.colorbar(ScalarMappable(Normalize(0.0, 1.0), COLOURS), cax=bar, extend=end)
+    scale_bar.set_ticks([0.0, *LEVELS[1::2], 1.0])
     return Drawing(
         figure,
         {

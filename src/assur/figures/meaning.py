@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -57,6 +58,15 @@ def named(text: str, skeleton: Skeleton) -> Named:
     links = _links(text, skeleton)
     lines += [rod.points for rod in skeleton.rods if rod.link in links and not letters]
     return Named(tuple(lines), tuple(letters), links)
+
+
+def together(found: Sequence[Named]) -> Named:
+    """What several texts name, each point and link once."""
+    return Named(
+        tuple(line for item in found for line in item.lines),
+        tuple(dict.fromkeys(name for item in found for name in item.letters)),
+        tuple(dict.fromkeys(link for item in found for link in item.links)),
+    )
 
 
 def typeset(text: str, skeleton: Skeleton) -> str:

@@ -18,6 +18,7 @@ from assur.figures.context import Context
 from assur.figures.coordinates import held_words
 from assur.figures.singular import condition
 from assur.figures.style import BLUE, GREEN, ORANGE, PINK, RED
+from assur.figures.written import minus
 from assur.model.closed_form import Factor
 from assur.singularity.loci import Locus, parallel_factors
 from assur.workspace.region import Workspace
@@ -183,7 +184,7 @@ def near_words(context: Context) -> str:
 
 def mode_words(context: Context) -> str:
     """The working mode for a caption."""
-    mode = context.workspace.mode.replace("-", "−")
+    mode = minus(context.workspace.mode)
     return (f"working mode {mode}" if mode else "every mode") + held_words(context)
 
 

@@ -31,7 +31,8 @@ from assur.figures.raster import filled, lit
 from assur.figures.singular import condition
 from assur.figures.solid import strokes
 from assur.figures.spec import Drawing, Entry
-from assur.figures.style import DOTS_PER_INCH, GREY, PAGE, SMALL, TEXT, mm, new_figure
+from assur.figures.style import DOTS_PER_INCH, GREY, PAGE, SMALL, TEXT, new_figure
+from assur.figures.written import times_ten, units
 from assur.model.pose import is_angle
 from assur.scene.camera import orthographic
 from assur.scene.mesh import Mesh, creases, joined, surface
@@ -61,13 +62,16 @@ def size_words(found: Workspace) -> str:
     >>> from types import SimpleNamespace
     >>> size_words(SimpleNamespace(volume=22_813_484.0, volume_error=3674.0, unit="mm^3"))
     '(2.2813 ± 0.0004)·10$^{7}$ mm$^3$'
+    >>> size_words(SimpleNamespace(volume=2.8459, volume_error=0.0003, unit="m^3"))
+    '2.8459 ± 0.0003 m$^3$'
     """
     if found.volume == 0:
-        return f"0 {mm(found.unit)}"
+        return f"0 {units(found.unit)}"
     power = int(np.floor(np.log10(found.volume)))
     digits = int(np.clip(power - np.floor(np.log10(max(found.volume_error, 1e-6 * found.volume))), 1, 6))
     value, error = found.volume / 10.0**power, found.volume_error / 10.0**power
-    return f"({value:.{digits}f} ± {error:.{digits}f})·10$^{{{power}}}$ {mm(found.unit)}"
+    pair = f"{value:.{digits}f} ± {error:.{digits}f}"
+    return f"{times_ten(f'({pair})' if power else pair, power)} {units(found.unit)}"
 
 
 def _draw(context: Context) -> Drawing:

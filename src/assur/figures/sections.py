@@ -25,8 +25,9 @@ from assur.figures.plots import (
     present,
 )
 from assur.figures.spec import Drawing, Entry
-from assur.figures.style import BLUE, GREEN, GREY, INK, PAGE, PINK, SMALL, TEXT, mm, new_figure
-from assur.model.pose import is_angle
+from assur.figures.style import BLUE, GREEN, GREY, INK, PAGE, PINK, SMALL, TEXT, new_figure
+from assur.figures.written import units
+from assur.workspace.certified.region import unit
 from assur.workspace.sections import Section, cut
 
 FloatArray = NDArray[np.float64]
@@ -53,7 +54,9 @@ def _caption(context: Context) -> str:
         for locus in present(found)
         for item in found.sections
     )
-    rest = "" if curved else " No parallel-singular surface of this working mode was found that meets them."
+    rest = (
+        "" if curved else " No parallel-singular surface inside the workspace of this mode was found that meets them."
+    )
     return (
         f"Sections of the workspace ({mode_words(context)}) at {symbol(name)} = {values};"
         f" areas {areas} {_unit(context)}."
@@ -160,8 +163,7 @@ def _area(value: float) -> str:
 
 def _unit(context: Context) -> str:
     """Unit of the area of a section."""
-    angles = sum(map(is_angle, context.workspace.sections[0].plane))
-    return (mm(f"{context.record.unit}^2"), f"{context.record.unit} rad", mm("rad^2"))[angles]
+    return units(unit(context.record, context.workspace.sections[0].plane))
 
 
 def _data(context: Context) -> dict[str, Any]:

@@ -3,38 +3,35 @@
 from __future__ import annotations
 
 import textwrap
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from itertools import combinations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
+from assur.figures.canvas import POINTS, Canvas, canvas
+from assur.figures.configuration import Scene, draw_model, scene_of
 from assur.figures.context import Context
-from assur.figures.letters import letter, mathematics
-from assur.figures.meaning import Named, accented, named, typeset
-from assur.figures.placing import Letters
-from assur.figures.solid import model_camera, paste, triad
+from assur.figures.letters import mathematics
+from assur.figures.meaning import typeset
+from assur.figures.solid import model_camera, triad
 from assur.figures.spec import Drawing, Entry
-from assur.figures.style import LETTER, PAGE, PAPER, RED, SMALL, TEXT
+from assur.figures.style import LETTER, PAGE, SMALL, TEXT
+from assur.figures.written import minus
 from assur.kinematics.position import inverse
 from assur.kinematics.status import FACTOR_TOLERANCE, Status, relative_factors
 from assur.model.closed_form import Factor
 from assur.model.pose import LENGTHS, is_angle
-from assur.scene.camera import Camera
-from assur.scene.mesh import Mesh
-from assur.scene.parts import model
-from assur.scene.skeleton import Skeleton, skeleton
+from assur.scene.skeleton import skeleton
 from assur.singularity.examples import SingularExample
 
-FloatArray = NDArray[np.float64]
-ACCENT, MUTED = "#e07b45", "#c3c8cc"
-"""Colours of the links that a meaning names, and of all others where it names any."""
-
 COLUMNS = 3
-TEXT_HEIGHT = 17.0
+HEAD, LINE = 3.9, 3.2
+"""Heights of a line of a heading, and of one below it, in mm."""
+
+SAME = 1e-5
+"""Configurations whose points are apart by less than this share of the mechanism's size are one to the eye."""
 
 
 def example_of(context: Context, kind: str) -> SingularExample | None:
@@ -98,8 +95,9 @@ def _caption_further(context: Context) -> str:
     if context.record.closed_form is None:
         return "One configuration of each further kind of singularity at which a path from home stops."
     return (
-        "One configuration for each further factor that vanishes in the file's workspace box or near it, with the"
-        " factor, its kind and its geometric meaning. Where several vanish together the most severe status is given."
+        "Configurations in which the further factors vanish, in the file's workspace box or near it, with what each"
+        " factor means and, in brackets, the status there, of several the most severe. Factors that vanish in the"
+        " same configuration share a panel."
     )
 
 
@@ -114,9 +112,8 @@ def _where(context: Context, example: SingularExample) -> str:
         _value(context, name, value) for name, value in zip(context.record.platform.pose, example.pose, strict=True)
     )
     unit = f" {context.record.unit}" if all(name in LENGTHS for name in context.record.platform.pose) else ""
-    status = example.status.name.replace("_", "-")
-    mode = f"Working mode {signs(example.mode)}, pose" if example.mode else "Pose"
-    return f"{mode} ({pose}){unit}; status {status}."
+    mode = f"Working mode {minus(example.mode)}, pose" if example.mode else "Pose"
+    return f"{mode} ({pose}){unit}; status {_status(example)}."
 
 
 def _value(context: Context, name: str, value: float) -> str:
@@ -125,78 +122,97 @@ def _value(context: Context, name: str, value: float) -> str:
     mixed = name in LENGTHS and not all(other in LENGTHS for other in context.record.platform.pose)
     unit = "°" if degrees else f" {context.record.unit}" if mixed else ""
     digits = 2 if degrees or context.skeleton.size > 20 else 4
-    return f"{round(shown, digits) + 0.0:.{digits}f}".replace("-", "−") + unit
-
-
-def signs(mode: str) -> str:
-    """A mode with minus signs as wide as plus signs."""
-    return mode.replace("-", "−")
+    return minus(f"{round(shown, digits) + 0.0:.{digits}f}") + unit
 
 
 def _draw_one(kind: str, context: Context) -> Drawing:
     example = example_of(context, kind)
     if example is None:
         raise ValueError(_missing(kind, context))
-    scene = _scene(context, example)
+    scene = scene_of(context, [shown(context, example)])
     width = 120.0
     height = min(130.0, (width - 8.0) * scene.aspect)
-    page = canvas(width, height + 23.0)
-    _panel(page, scene, (4.0, 19.0, width - 8.0, height), LETTER)
     lines = textwrap.wrap(example.factor.meaning, 56)
+    foot = max(19.0, 10.0 + 4.5 * len(lines))
+    page = canvas(width, height + foot + 4.0)
+    draw_model(page, scene, (4.0, foot, width - 8.0, height), LETTER)
     for k, line in enumerate(lines):
         start = f"{condition(example.factor)}: " if k == 0 else ""
         at = (width / 2 * POINTS, (8.5 + 4.5 * (len(lines) - 1 - k)) * POINTS)
         page.text(at, start + typeset(line, scene.body), fontsize=LETTER)
     page.text((width / 2 * POINTS, 3.3 * POINTS), _where(context, scene.example), fontsize=SMALL)
     triad(page, model_camera(context), np.array([18.0, 70.0]))
-    return Drawing(page.figure, {"unit": context.record.unit, "examples": [_data(scene)]})
+    return Drawing(page.figure, {"unit": context.record.unit, "examples": _data(scene)})
 
 
 def _draw_further(context: Context) -> Drawing:
-    scenes = [_scene(context, example) for example in further(context)]
+    scenes = [scene_of(context, examples) for examples in _configurations(context)]
     columns = min(COLUMNS, len(scenes))
     rows = [scenes[k : k + columns] for k in range(0, len(scenes), columns)]
     width = PAGE / COLUMNS
-    heights = [TEXT_HEIGHT + 2 + (width - 4) * max(scene.aspect for scene in row) for row in rows]
+    feet = [3.5 + max(HEAD * len(_heading(scene)) + LINE * len(_words(scene)) for scene in row) for row in rows]
+    heights = [
+        foot + 2 + (width - 4) * max(scene.aspect for scene in row) for foot, row in zip(feet, rows, strict=True)
+    ]
     page = canvas(width * columns, sum(heights))
+    data = []
     for k, scene in enumerate(scenes):
-        place = (k % columns) * width, sum(heights[k // columns + 1 :])
-        _small(page, scene, f"({chr(97 + k)})", (*place, width, heights[k // columns]))
-    data = {"unit": context.record.unit, "examples": [_data(scene) for scene in scenes]}
-    return Drawing(page.figure, data)
+        label, row = f"({chr(97 + k)})", k // columns
+        cell = (k % columns) * width, sum(heights[row + 1 :]), width, heights[row]
+        _small(page, scene, label, cell, feet[row])
+        data += [{"panel": label, **item} for item in _data(scene)]
+    return Drawing(page.figure, {"unit": context.record.unit, "examples": data})
 
 
-def _small(page: Canvas, scene: _Scene, label: str, cell: tuple[float, float, float, float]) -> None:
-    """One of several: the model above, its words below, in a cell (left, bottom, width, height) in mm."""
+def _configurations(context: Context) -> list[list[SingularExample]]:
+    """The further examples as they are drawn, those that are one and the same configuration together."""
+    found: list[list[SingularExample]] = []
+    for example in (shown(context, item) for item in further(context)):
+        same = [group for group in found if _apart(context, group[0], example) <= SAME * context.skeleton.size]
+        if same:
+            same[0].append(example)
+        else:
+            found.append([example])
+    return found
+
+
+def _apart(context: Context, one: SingularExample, other: SingularExample) -> float:
+    """The largest distance between the same point of two configurations."""
+    first, second = (skeleton(context.record, context.companion, item.joints).points for item in (one, other))
+    return max(float(np.linalg.norm(at - second[name])) for name, at in first.items())
+
+
+def _heading(scene: Scene) -> list[str]:
+    """What vanishes, two factors on a line, and the status there."""
+    conditions = [condition(item.factor) for item in scene.examples]
+    lines = [", ".join(conditions[k : k + 2]) for k in range(0, len(conditions), 2)]
+    return [*lines[:-1], f"{lines[-1]} ({_status(scene.example)})"]
+
+
+def _words(scene: Scene) -> list[str]:
+    """Every meaning, on as many lines as it needs, and the mode."""
+    lines = [line for item in scene.examples for line in textwrap.wrap(item.factor.meaning, 46)]
+    notes = [f"mode {minus(scene.example.mode)}"] if scene.example.mode else []
+    notes += [] if scene.example.in_box else ["outside the box"]
+    return [*(typeset(line, scene.body) for line in lines), *([", ".join(notes)] if notes else [])]
+
+
+def _status(example: SingularExample) -> str:
+    return example.status.name.replace("_", "-")
+
+
+def _small(page: Canvas, scene: Scene, label: str, cell: tuple[float, float, float, float], foot: float) -> None:
+    """One of several: the model above, its words at the foot, in a cell (left, bottom, width, height) in mm."""
     left, bottom, width, height = cell
-    _panel(page, scene, (left + 2, bottom + TEXT_HEIGHT, width - 4, height - TEXT_HEIGHT - 2), TEXT)
-    factor = scene.example.factor
-    meaning = [typeset(line, scene.body) for line in textwrap.wrap(factor.meaning, 46)[:2]]
-    mode = f"mode {signs(scene.example.mode)}, " if scene.example.mode else ""
-    note = f"{mode}status {scene.example.status.name.replace('_', '-')}"
-    note += "" if scene.example.in_box else ", outside the box"
-    at = np.array([left + width / 2, bottom + TEXT_HEIGHT - 3.5])
-    page.text(at * POINTS, f"{label} {condition(factor)} ({factor.kind})", fontsize=TEXT)
-    for k, line in enumerate([*meaning, note]):
-        page.text((at - [0, 3.9 + 3.2 * k]) * POINTS, line, fontsize=SMALL)
-
-
-@dataclass(frozen=True, eq=False)
-class _Scene:
-    """An example as a model: its skeleton, what its factor's meaning names, and its mesh from where it is seen."""
-
-    example: SingularExample
-    body: Skeleton
-    named: Named
-    mesh: Mesh
-    camera: Camera
-
-    @property
-    def aspect(self) -> float:
-        """Height over width on the page."""
-        flat = self.camera.project(self.mesh.corners.reshape(-1, 3))
-        across, upward = np.ptp(flat, axis=0)
-        return float(upward / across)
+    draw_model(page, scene, (left + 2, bottom + foot, width - 4, height - foot - 2), TEXT)
+    at = np.array([left + width / 2, bottom + foot - 3.5])
+    first, *rest = _heading(scene)
+    for line in (f"{label} {first}", *rest):
+        page.text(at * POINTS, line, fontsize=TEXT)
+        at = at - [0, HEAD]
+    for line in _words(scene):
+        page.text(at * POINTS, line, fontsize=SMALL)
+        at = at - [0, LINE]
 
 
 def shown(context: Context, example: SingularExample) -> SingularExample:
@@ -217,63 +233,21 @@ def shown(context: Context, example: SingularExample) -> SingularExample:
     return example
 
 
-def _scene(context: Context, example: SingularExample) -> _Scene:
-    example = shown(context, example)
-    body = skeleton(context.record, context.companion, example.joints)
-    found = named(example.factor.meaning, body)
-    colours = dict.fromkeys(accented(found, body), ACCENT)
-    if colours:
-        colours = dict.fromkeys(context.record.links, MUTED) | colours
-    mesh = model(body, context.companion, colours)
-    return _Scene(example, body, found, mesh, model_camera(context))
-
-
-def _panel(page: Canvas, scene: _Scene, rectangle: tuple[float, float, float, float], size: float) -> None:
-    """The model with the links that the meaning names in colour, and lines through its points."""
-    left, bottom, width, height = rectangle
-    view = inside(scene.camera, scene.mesh.corners.reshape(-1, 3), (left + 1, bottom + 1, width - 2, height - 2))
-    weight = 1.0 if size == LETTER else 0.7
-    paste(page, scene.mesh, view, (left * POINTS, bottom * POINTS, width * POINTS, height * POINTS), weight)
-    letters = Letters(page)
-    _lines(page, view, scene.named, letters)
-    for name in scene.named.letters:
-        at = view(scene.body.points[name])
-        page.disc(at, 1.8, RED, PAPER, 0.5, order=13)
-        letters.add(at, letter(name), clear=4.0, fontsize=size, color=RED, weight="bold", bbox=_plate())
-    letters.place()
-
-
-def _plate() -> dict[str, Any]:
-    return {"boxstyle": "round,pad=0.08", "facecolor": "#ffffffd0", "edgecolor": "none"}
-
-
-def _lines(page: Canvas, view: View, found: Named, letters: Letters) -> None:
-    """Each line through the points that are named together, a little longer than they reach."""
-    for line in found.lines:
-        flat = view(line)
-        gaps = np.linalg.norm(flat[:, None] - flat[None], axis=2)
-        first, last = np.unravel_index(np.argmax(gaps), gaps.shape)
-        way = flat[last] - flat[first]
-        length = max(float(np.linalg.norm(way)), 1e-9)
-        ends = np.array([flat[first] - 14 * way / length, flat[last] + 14 * way / length])
-        page.line(ends, 2.6, PAPER, 12, solid_capstyle="butt", alpha=0.7)
-        page.line(ends, 1.1, RED, 12.1, linestyle=(0, (5, 2)), solid_capstyle="butt")
-        letters.avoid(ends)
-
-
-def _data(scene: _Scene) -> dict[str, Any]:
-    example = scene.example
-    return {
-        "factor": example.factor.name,
-        "kind": example.factor.kind,
-        "meaning": example.factor.meaning,
-        "mode": example.mode,
-        "status": example.status,
-        "in_box": example.in_box,
-        "pose": example.pose,
-        "inputs": example.inputs,
-        "points": scene.body.points,
-    }
+def _data(scene: Scene) -> list[dict[str, Any]]:
+    return [
+        {
+            "factor": example.factor.name,
+            "kind": example.factor.kind,
+            "meaning": example.factor.meaning,
+            "mode": example.mode,
+            "status": example.status,
+            "in_box": example.in_box,
+            "pose": example.pose,
+            "inputs": example.inputs,
+            "points": scene.body.points,
+        }
+        for example in scene.examples
+    ]
 
 
 SERIAL = Entry(

@@ -19,6 +19,7 @@ from assur.figures.placing import Letters
 from assur.figures.raster import SAMPLES, Buffers, filled, lit
 from assur.figures.spec import Drawing, Entry, always
 from assur.figures.style import BLUE, DOTS_PER_INCH, INK, PAPER, SMALL
+from assur.figures.written import minus
 from assur.scene.camera import Camera, orthographic
 from assur.scene.letters import lettered
 from assur.scene.mesh import Mesh
@@ -45,7 +46,7 @@ LONG, TOGETHER = 2.0, 1.0
 def _caption(context: Context) -> str:
     unit = context.record.unit
     values = ", ".join(
-        f"{name} = {item.value:g}{'' if item.unit in (unit, '1') else f' {item.unit}'}"
+        f"{name} = {minus(f'{item.value:g}')}{'' if item.unit in (unit, '1') else f' {item.unit}'}"
         for name, item in context.record.parameters.items()
         if not item.drawn_only
     )

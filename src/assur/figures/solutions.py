@@ -16,6 +16,7 @@ from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import BLUE, GREEN, INK, ORANGE, PAGE, PINK, RED, SKY, SMALL, TEXT
+from assur.figures.written import minus
 from assur.kinematics.answers.solution import Solution
 from assur.model.pose import QUATERNION, is_angle
 from assur.scene.camera import oblique, plane
@@ -80,8 +81,9 @@ def _caption(context: Context) -> str:
 
 def _printed(context: Context, value: float, kind: str) -> str:
     if kind == "length":
-        return f"{value:.4f} {context.record.unit}"
-    return f"{np.degrees(value):.3f}°" if context.record.angle == "deg" else f"{value:.4f} rad"
+        return minus(f"{round(value, 4) + 0.0:.4f} {context.record.unit}")
+    degrees = context.record.angle == "deg"
+    return minus(f"{round(np.degrees(value), 3) + 0.0:.3f}°" if degrees else f"{round(value, 4) + 0.0:.4f} rad")
 
 
 def _draw(context: Context) -> Drawing:
@@ -140,7 +142,7 @@ def _table(context: Context, page: Canvas, found: list[Ghost], width: float, hei
     ends = np.array([[left - 0.4 * step, top - 2.4], [left + (len(heads) - 0.55) * step, top - 2.4]])
     page.line(ends * POINTS, 0.5)
     for row, ghost in enumerate(found):
-        cells = [str(ghost.number), *_cells(context, ghost), ghost.solution.assembly_mode.replace("-", "−")]
+        cells = [str(ghost.number), *_cells(context, ghost), minus(ghost.solution.assembly_mode)]
         for k, cell in enumerate(cells):
             place = ((left + k * step) * POINTS, (top - 5.0 - 4.2 * row) * POINTS)
             page.text(place, cell, fontsize=SMALL + 0.5, color=ghost.colour)
@@ -150,7 +152,7 @@ def _cells(context: Context, ghost: Ghost) -> list[str]:
     degrees = context.record.angle == "deg"
     values = zip(context.record.platform.pose, ghost.solution.pose, strict=True)
     shown = [np.degrees(value) if degrees and is_angle(name) else value for name, value in values]
-    return [f"{round(value, 4) + 0.0:.4f}".replace("-", "−") for value in shown]
+    return [minus(f"{round(value, 4) + 0.0:.4f}") for value in shown]
 
 
 def _head(context: Context, name: str) -> str:

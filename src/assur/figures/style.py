@@ -90,13 +90,3 @@ def new_figure(width: float, height: float) -> Figure:
     figure = Figure(figsize=(width * MILLIMETRE, height * MILLIMETRE), dpi=72)
     FigureCanvasAgg(figure)
     return figure
-
-
-def mm(unit: str) -> str:
-    """A unit as axes show it.
-
-    >>> mm("mm^2")
-    'mm$^2$'
-    """
-    base, _, power = unit.partition("^")
-    return f"{base}$^{power}$" if power else unit

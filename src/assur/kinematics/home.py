@@ -17,7 +17,8 @@ from assur.model.registry import with_parameters
 
 FloatArray = NDArray[np.float64]
 STEPS = 24
-HINT = "these dimensions may have no assembly near home; change them in smaller steps or give another home"
+HINT = "these dimensions may have no assembly near home: give a home near one, or other dimensions"
+OTHERS_HINT = "write these dimensions into a copy of the file, with a [home] near the assembly that is wanted"
 
 
 @lru_cache(maxsize=64)
@@ -42,7 +43,7 @@ def home_values(record: MechanismRecord) -> FloatArray:
         found = _followed(record)
         fault = _fault(record, found)
         if fault:
-            raise UsageError(f"{record.name}: {fault}", hint=HINT)
+            raise UsageError(f"{record.name}: {fault}", hint=OTHERS_HINT)
     found.values.flags.writeable = False
     return found.values
 
@@ -89,4 +90,4 @@ def _modes(record: MechanismRecord, values: FloatArray) -> str:
     """Working and assembly mode of joint values (n,), by the quantities that the file names."""
     formulas = (record.modes.working, record.modes.assembly)
     signs = [[int(np.sign(quantity(record, item, values))) for item in group.values()] for group in formulas]
-    return " ".join(mode_text(row) for row in signs)
+    return " ".join(mode_text(row) for row in signs if row)

@@ -27,6 +27,12 @@ FACTOR_TOLERANCE = 4e-7
 NEAR_SINGULAR = 1e-3
 """A factor within this share of its scale makes a solution near_singular."""
 
+NO_CLOSED_FORM = (
+    "proofs over regions and sweeps need one, written in Python beside the file (assur.model.closed_form says how); "
+    "direct, inverse, singularity, follow and workspace without a proof work on the joint graph"
+)
+"""What to do where a mechanism has none."""
+
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 
@@ -107,8 +113,7 @@ def closed_form_of(record: MechanismRecord) -> ClosedForm:
     if record.closed_form is None:
         raise UsageError(
             f"{record.name} has no closed form",
-            hint="put one beside its file: `assur new FILE --from MODEL --with-closed-form` copies that of a "
-            "mechanism of the catalogue, assur.model.closed_form says what one declares",
+            hint=NO_CLOSED_FORM,
         )
     return record.closed_form
 

@@ -66,7 +66,10 @@ def _signs(record: MechanismRecord, form: ClosedForm, path: Path) -> Iterator[Pr
     own = {*record.modes.working, *record.modes.assembly}
     if own != set(form.signs):
         found = f"signs {listed(form.signs)}"
-        hint = "it belongs to every file of its folder: is it meant for this one?"
+        hint = (
+            "it is read with every file of its folder; where it is another file's, "
+            "move it, with its file, to a folder of its own"
+        )
         yield _problem(path, found, f"those of [modes] in {record.file.name}: {listed(own)}", hint)
 
 

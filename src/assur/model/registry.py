@@ -177,12 +177,13 @@ def _find(name_or_path: str | Path, files_of_folder: tuple[str, str]) -> Path:
                 return folder / file
     if path.suffix == ".toml" or isinstance(name_or_path, Path) or len(path.parts) > 1:
         return path
+    own = f"did you mean {text}.toml?" if text.strip() and os.path.isfile(f"{text}.toml") else ""  # noqa: PTH113
     if text.strip() and os.path.exists(path):  # noqa: PTH110  # as above
         what = f"a folder without {files_of_folder[0]}" if path.is_dir() else "a file that does not end in .toml"
-        raise UsageError(f"'{text}' is {what}", hint="name a mechanism (`assur list` has them) or a .toml file")
+        raise UsageError(f"'{text}' is {what}", hint=own or "name a mechanism (`assur list` has them) or a .toml file")
     reasons = {item.name: f"{item.title} is left out: {item.reason}" for item in left_out()}
     choices = names() if files_of_folder[0] == FILE else built_in
-    raise UnknownNameError("mechanism", text, choices, hint=reasons.get(text, ""))
+    raise UnknownNameError("mechanism", text, choices, hint=own or reasons.get(text, ""))
 
 
 def examine(name_or_path: str | Path, /) -> tuple[MechanismRecord | None, tuple[Problem, ...]]:

@@ -109,10 +109,10 @@ def _frobenius(found: Indices) -> FloatArray:
 
 
 INDICES: Mapping[str, Index] = {
-    "condition": Index(r"1/\kappa", "local condition index: 0 singular, 1 isotropic", 0, _condition),
-    "frobenius": Index(r"1/\kappa_F", "the same with the Frobenius norm", 0, _frobenius),
+    "condition": Index(r"1/\kappa(J)", "local condition index: 0 singular, 1 isotropic", 0, _condition),
+    "frobenius": Index(r"1/\kappa_F(J)", "the same with the Frobenius norm", 0, _frobenius),
     "manipulability": Index(
-        "w",
+        r"\mu",
         "manipulability, the product of the velocity factors",
         None,
         lambda found: np.prod(found.velocity_factors, axis=-1),

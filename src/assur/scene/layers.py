@@ -119,13 +119,23 @@ def layers_note(record: MechanismRecord, found: Workspace | None) -> str:
         lengths = [name for name in record.platform.pose if name in LENGTHS]
         if len(lengths) < 2:
             return "The pose has fewer than two lengths: there is no workspace to be seen."
-        return f"The file gives no [workspace] box for {', '.join(lengths)}: there is no workspace to be seen."
+        missing = ", ".join(name for name in lengths if name not in record.box)
+        return f"The file gives no [workspace] box for {missing}: there is no workspace to be seen."
     if not len(found.faces):
-        return "Nothing of the file's box is reached in this mode: see its [workspace] box."
+        cells = found.region.grid.cells[0]
+        return f"Nothing was found on {cells} cells along each coordinate: see the [workspace] box of the file."
     low, high = np.asarray(found.box.low), np.asarray(found.box.high)
     near = np.minimum(np.abs(found.vertices - low), np.abs(found.vertices - high)).min(axis=0)
     cut = [name for name, away, side in zip(found.box.names, near, high - low, strict=True) if away < CUT * side]
-    return f"Seen inside the box of the file only, which cuts the workspace in {', '.join(cut)}." if cut else ""
+    said = [f"Seen inside the box of the file only, which cuts the workspace in {', '.join(cut)}."] if cut else []
+    return " ".join([*said, *_held_words(record, found)])
+
+
+def _held_words(record: MechanismRecord, found: Workspace) -> list[str]:
+    """A sentence on the angles that are held, in the mechanism's unit."""
+    turned = 180.0 / np.pi if record.angle == "deg" else 1.0
+    words = [f"{name} = {round(value * turned, 4) + 0.0:g} {record.angle}" for name, value in found.slice.held.items()]
+    return [f"All of it at {', '.join(words)}."] if words else []
 
 
 def section_layer(record: MechanismRecord, cut: Section) -> Layer | None:

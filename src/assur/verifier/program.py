@@ -9,7 +9,7 @@ from flint import arb
 
 from assur.verifier import bounds
 from assur.verifier.bounds import Bounds, nonzero
-from assur.verifier.reading import names, number
+from assur.verifier.reading import names, number, printable
 
 Box = tuple[list[float], list[float]]
 TWO = {"+": bounds.add, "-": bounds.subtract, "*": bounds.multiply, "/": bounds.divide}
@@ -23,15 +23,20 @@ class Program:
         self.operations: list[tuple[str, list[int]]] = []
         self.given: dict[int, int] = {}
         self.fixed: dict[int, Bounds] = {}
-        for k, (name, *arguments) in enumerate(data["operations"]):
+        for k, operation in enumerate(data["operations"]):
+            if type(operation) is not list:
+                raise ValueError(f"operation {k}: no list")
+            name, *arguments = operation
             if name == "number":
-                low, high, _ = arguments
+                low, high, label = arguments
+                printable(label)
                 self.fixed[k] = arb(number(low)), arb(number(high))
                 if not number(low) <= number(high):
                     raise ValueError(f"operation {k}: bounds that are reversed")
                 arguments = []
             elif name == "coordinate":
-                self.given[k] = coordinates.index(*arguments)
+                (axis,) = arguments
+                self.given[k] = coordinates.index(axis)
                 arguments = []
             elif len(arguments) != (2 if name in TWO else 1 if name in ONE else -1):
                 raise ValueError(f"operation {k}: no {str(name)[:40]!r} of {len(arguments)} arguments in this format")

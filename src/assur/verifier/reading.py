@@ -1,10 +1,11 @@
-"""Reading a certificate: one JSON object of exactly the keys that the format has, every number an exact hex float."""
+"""Reading a certificate: one JSON object of exactly the keys and types of the format, numbers as exact hex floats."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import math
+import re
 from typing import Any
 
 FORMAT, VERSION = "assur certificate", 1
@@ -16,6 +17,8 @@ KEYS = {
 }
 PATH = KEYS["statement"] - {"box"} | {"from", "to", "points", "boxes"}
 """Keys of a statement about a path."""
+
+CLOSED_FORM = "closed_form.py"
 
 
 class RefusedError(Exception):
@@ -36,9 +39,17 @@ def read(data: bytes) -> dict[str, Any]:
         )
     except (ValueError, RecursionError) as error:
         raise MalformedError(f"not JSON, or cut short: {error}") from error
+    try:
+        return _whole(document)
+    except (TypeError, ValueError, RecursionError) as error:
+        raise MalformedError(f"not in this format: {error}") from error
+
+
+def _whole(document: Any) -> dict[str, Any]:
+    """What was read, if it has the keys, the types and the checksum of a certificate."""
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         raise MalformedError(f"no certificate: its format is not {FORMAT!r}")
-    if document.get("version") != VERSION:
+    if [type(document.get("version")), document.get("version")] != [int, VERSION]:
         raise MalformedError(f"version {document.get('version')!r} of the format; this verifier knows {VERSION}")
     for part, usual in KEYS.items():
         keys = PATH if part == "statement" and document["kind"] == "path" else usual
@@ -49,21 +60,65 @@ def read(data: bytes) -> dict[str, Any]:
     text = json.dumps(rest, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
     if hashlib.sha256(text.encode()).hexdigest() != document["sha256"]:
         raise MalformedError("edited or damaged: its checksum is not that of its content")
+    printable(document["made_by"])
+    _statement(document["statement"])
     return document
+
+
+def _statement(statement: dict[str, Any]) -> None:
+    """Check what says of which mechanism it is; the proof does not use it, so nothing else would."""
+    for value in (statement["mechanism"], statement["mode"]):
+        printable(value)
+    files, parameters, held, strokes = (_table(statement[name]) for name in ("files", "parameters", "held", "strokes"))
+    for value in (*parameters.values(), *held.values()):
+        number(value)
+    for pair in strokes.values():
+        if pair is not None and not (type(pair) is list and len(pair) == 2):
+            raise ValueError(f"{str(pair)[:40]!r} is no stroke")
+        numbers([end for end in pair or () if end not in ("-inf", "inf")])
+    if len(files) != 2 or CLOSED_FORM not in files:
+        raise ValueError(f"the files of a mechanism are its own and {CLOSED_FORM}, not {str(list(files))[:80]}")
+    if not all(re.fullmatch("[0-9a-f]{64}", printable(digest)) for digest in files.values()):
+        raise ValueError("a file with what is no SHA-256")
 
 
 def number(text: str) -> float:
     """A finite float from its one hex spelling, such as 0x1.8000000000000p+1."""
-    value = float.fromhex(text)
+    try:
+        value = float.fromhex(text)
+    except (TypeError, ValueError, OverflowError):
+        value = math.inf
     if not math.isfinite(value) or value.hex() != text:
-        raise ValueError(f"{text[:40]!r} is no finite float in its hex spelling")
+        raise ValueError(f"{str(text)[:40]!r} is no finite float in its hex spelling")
+    return value
+
+
+def numbers(value: list[str]) -> list[float]:
+    """A list of such floats."""
+    if type(value) is not list:
+        raise ValueError(f"{str(value)[:40]!r} is no list of numbers")
+    return [number(item) for item in value]
+
+
+def printable(value: str) -> str:
+    """A text that moves no cursor and clears no screen."""
+    if type(value) is not str or not value.isprintable():
+        raise ValueError(f"{str(value)[:40]!r} is no printable text")
     return value
 
 
 def names(value: list[str]) -> list[str]:
-    """A list of different texts."""
-    if type(value) is not list or len(set(value)) != len(value) or any(type(item) is not str for item in value):
+    """A list of different printable texts."""
+    if type(value) is not list or len({printable(item) for item in value}) != len(value):
         raise ValueError(f"{str(value)[:40]!r} is no list of different names")
+    return value
+
+
+def _table(value: dict[str, Any]) -> dict[str, Any]:
+    """An object with printable names."""
+    if type(value) is not dict:
+        raise ValueError(f"{str(value)[:40]!r} is no object")
+    names(list(value))
     return value
 
 

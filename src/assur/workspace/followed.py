@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
 from assur.errors import UsageError
+from assur.kinematics.answers.at_border import angle_at_border
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import mode_signs, sign_names
 from assur.kinematics.parasitic import all_coordinates
@@ -272,7 +273,9 @@ def _start(
         if np.any(found.exists):
             joints = found.joints[found.exists][0]
             where = ", ".join(
-                f"{name} = {value:.4g}{' rad' if is_angle(name) else ''}"
+                f"{name} = {angle_at_border(record, value):.4g} {record.angle}"
+                if is_angle(name)
+                else f"{name} = {value:.4g}"
                 for name, value in zip(slice_.free, point, strict=True)
             )
             return (point, joints), f"followed from a solution at {where}"

@@ -30,7 +30,7 @@ FloatArray = NDArray[np.float64]
 NODES = 60
 MOST_NODES = 2_000_000
 DISTANCE = "distance"
-MEANING = "distance from the nearest parallel singularity that was found, the orientation held"
+MEANING = "distance from the nearest parallel singularity inside the reach that was found, the orientation held"
 
 
 @dataclass(frozen=True)
@@ -229,7 +229,7 @@ def index_maps(
     away = None
     if record.closed_form is not None and set(record.platform.pose) & set(LENGTHS):
         away = distance(record, region.slice.poses(points[inside]), region.mode, reach)
-        maps[DISTANCE] = _map("d", MEANING, record.unit, spread(away.value, np.nan), points, shape)
+        maps[DISTANCE] = _map(r"\delta", MEANING, record.unit, spread(away.value, np.nan), points, shape)
     return IndexMaps(
         mechanism=record.name,
         mode=region.mode,

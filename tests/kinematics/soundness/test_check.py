@@ -231,8 +231,9 @@ def sound(text: str):
 
 
 def test_what_the_cases_are_made_of_is_sound() -> None:
-    for text in (FOUR, DELTA, RRR, TWO):
+    for text in (FOUR, RRR, TWO):
         assert doubts(sound(text)) == ()
+    assert [item.path for item in doubts(sound(DELTA))] == ["limbs.leg.home"]  # roughly written
     record = read_text(FOUR, Path("m.toml"))
     assert float(closure_error(record, record.home)) < 1e-12
     assert np.degrees(home_values(record)) == pytest.approx([90, -90, 90, 90])
@@ -393,6 +394,28 @@ def test_what_is_unusual_is_noted_and_is_no_fault(here, capsys, edits, expected)
     _, _, _, *told, following = capsys.readouterr().out.splitlines()
     assert following == "next: assur page m.toml"
     assert lines(told) == [line if line[0] == "?" else f"note: m.toml:{line}" for line in expected]
+
+
+def test_a_home_that_is_far_from_the_assembly_is_noted_with_the_largest_first() -> None:
+    """By the other route: what is told are the values of the assembled home and those of the file."""
+    text = FOUR.replace("A = 90", "A = 80").replace("\nC = 90", "\nC = 70")
+    record = sound(text)
+    (note,) = doubts(record)
+    stated, closed = np.degrees(record.home), np.degrees(home_values(record))
+    order = np.argsort(-np.abs(closed - stated))[:3]
+    assert (note.line, note.path, note.allowed) == (23, "home", NEAR)
+    assert note.found == "the loops close at " + "; ".join(
+        f"{'ABCD'[k]} = {closed[k]:.4g} deg, the file says {stated[k]:.4g} deg" for k in order
+    )
+
+
+@pytest.mark.parametrize(("away", "noted"), [(0.9, False), (360.0, False), (20.0, True)])
+def test_whole_turns_and_what_is_rounded_are_no_other_home(away: float, noted: bool) -> None:
+    record = sound(FOUR.replace("D = 90", f"D = {90 + away}"))
+    moved = np.max(np.abs(np.sin((home_values(record) - record.home) / 2)))
+    assert bool(moved > np.sin(np.radians(0.5))) == noted
+    assert [item.path for item in doubts(record)] == (["home"] if noted else [])
+    assert doubts(with_parameters(record, ground=101)) == ()  # which moves home, as it should
 
 
 # ---- other dimensions ------------------------------------------------------------------------------------------

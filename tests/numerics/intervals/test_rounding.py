@@ -5,6 +5,8 @@ from __future__ import annotations
 import ctypes
 import ctypes.util
 import platform
+import struct
+import sys
 from fractions import Fraction
 
 import numpy as np
@@ -23,6 +25,10 @@ X86 = {"downwards": 0x400, "upwards": 0x800, "to zero": 0xC00}
 ARM = {"upwards": 0x400000, "downwards": 0x800000, "to zero": 0xC00000}
 MODES = {"x86_64": X86, "AMD64": X86, "aarch64": ARM, "arm64": ARM}
 """Of rounding, as <fenv.h> numbers them."""
+
+X86_ZEROS = {"results": 0x8000, "operands": 0x40, "both": 0x8040}
+ZEROS = {("linux", "x86_64"): (28, X86_ZEROS), ("linux", "aarch64"): (0, {"both": 0x1000000})}
+"""Where the register of the modes lies in an fenv_t, and the bits that make zeros of subnormal numbers."""
 
 
 @pytest.fixture(scope="module")
@@ -133,3 +139,24 @@ def test_an_interval_is_refused_where_another_library_left_the_rounding_otherwis
     finally:
         library.fesetround(nearest)
     assert (x * x).contains(0.1 * 0.1)
+
+
+@pytest.mark.parametrize("which", X86_ZEROS)
+def test_an_interval_is_refused_where_another_library_makes_zeros_of_subnormal_numbers(which):
+    """2^-1022 - 1.5 2^-1022 would be [-0, 0] there. Importing a library linked with -ffast-math may do that."""
+    place, bits = ZEROS.get((sys.platform, platform.machine()), (0, {}))
+    if which not in bits:
+        pytest.skip("no such mode, or no place known for it, on this machine")
+    library = ctypes.CDLL(ctypes.util.find_library("m"))
+    before = ctypes.create_string_buffer(256)
+    assert library.fegetenv(before) == 0
+    changed = ctypes.create_string_buffer(before.raw, len(before.raw))
+    struct.pack_into("<I", changed, place, struct.unpack_from("<I", before, place)[0] | bits[which])
+    x, y = Interval.of([2.0**-1022]), Interval.of([1.5 * 2.0**-1022])
+    assert library.fesetenv(changed) == 0
+    try:
+        with pytest.raises(UsageError, match="takes subnormal numbers for zero"):
+            x - y
+    finally:
+        library.fesetenv(before)
+    assert (x - y).high < 0

@@ -1,43 +1,49 @@
 /**
- * How far the nearest singularity is, the orientation held: along rays, and from where they meet one by Newton's steps.
+ * How far the nearest singularity is, the orientation held: along rays, and from where they end by Newton's steps.
  *
- * What is found is a singular pose, so its distance is true; a nearer one that no ray meets may be missed.
+ * What is found is a pose that is singular to about a thousandth of its distance; a nearer one that no ray meets may be
+ * missed. Beyond a ray's end the mechanism cannot go on in its mode, whatever its measures say.
  */
 
 import { frames } from "./frames.js";
+import { regularKinds } from "./motion.js";
 import { nearAssembly } from "./newton.js";
 import { isLength, poseOf } from "./pose.js";
 import { measuresAt, passage } from "./rates.js";
 
 const SHIFTS = [1e-4, 1e-6, 1e-8]; // for derivatives, of the model's length
-const RAY = 0.1; // step along a ray, of the model's length
 const LONGEST = 0.1; // step, of the model's length
-const HALVES = 6; // of a step that leads out of reach
+const LEAST = 1e-5; // step along a ray, of the model's length: where that is refused the ray ends
+const ASIDE = 0.02; // of the model's length
+const HALVES = 6; // of Newton's step that leads out of reach
 const STEPS = 30;
 const SETTLED = 1e-3; // of the distance: steps that are shorter end the search, and what is left is that little
-const NOTHING = 1e-5; // of the model's length: a distance that is none
 
 const dot = (a, b) => a.reduce((total, value, k) => total + value * b[k], 0);
 const minus = (a, b) => a.map((value, k) => value - b[k]);
 
-/** What vanishes: the parallel measure with its sign, which it changes; the serial one squared, for it falls to zero
- * like a root where two working modes meet and the reach ends. */
+/** What vanishes: the parallel measure with its sign, which it changes; the others squared, for they fall to zero like a
+ * root where two working modes meet and the reach ends. */
 const VANISHES = {
   parallel: ({ measured, sense }) => sense * measured.parallel,
   serial: ({ measured }) => measured.serial ** 2,
+  passive: ({ measured }) => measured.passive ** 2,
 };
 
 /** The nearest singularity that was found so far; `search` goes on, and who calls it may stop at any time. */
 export class NearestSingular {
   /** In length units; infinite where none was found within the model's length, NaN where the pose has no lengths. */
   amount = Infinity;
-  /** @type {"parallel"|"serial"} */
+  /** @type {"parallel"|"serial"|"passive"} */
   kind = "parallel";
+  /** The pose that is nearly singular; null where none was found. @type {number[]|null} */
+  pose = null;
 
   constructor(model, values) {
     const pose = poseOf(model, frames(model, values));
     this.model = model;
     this.lengths = pose.map((_, k) => k).filter((k) => isLength(model.pose[k]));
+    this.kinds = regularKinds(model);
     this.start = { values, pose, measured: measuresAt(model, values), sense: 1 };
     if (!this.lengths.length) this.amount = NaN;
   }
@@ -45,17 +51,92 @@ export class NearestSingular {
   /** Every portion, some solved poses long, so that a page can draw between them. */
   *search() {
     if (!this.lengths.length) return;
-    yield* this.look(this.start, "parallel");
-    yield* this.look(this.start, "serial");
+    for (const from of [this.start, this.aside()]) for (const kind of this.kinds) yield* this.descend(from, kind);
     for (const way of directions(this.lengths.length)) {
-      const met = yield* ray(this.model, this.start, this.lengths, way, Math.min(this.amount, this.model.length));
-      if (met) yield* this.look(met.last, met.kind);
+      const end = yield* this.ray(way);
+      if (end) yield* this.descend(end.inner, end.kind);
     }
   }
 
-  *look(from, kind) {
-    const amount = this.start.measured[kind] === 0 ? 0 : yield* amountTo(this.model, this.start, from, this.lengths, kind);
-    if (amount < this.amount && amount <= this.model.length) [this.amount, this.kind] = [amount, kind];
+  /** A place a little beside the start: from a pose of symmetry the steepest way may lead to where two legs end at once. */
+  aside() {
+    const pose = this.start.pose.slice();
+    this.lengths.forEach((index, j) => (pose[index] += ASIDE * 0.6 ** j * this.model.length));
+    return reached(this.model, this.start, pose) ?? this.start;
+  }
+
+  /** How far a pose is from where the search began, in the coordinates that are lengths. */
+  away(pose) {
+    return Math.hypot(...this.lengths.map((k) => pose[k] - this.start.pose[k]));
+  }
+
+  take(amount, kind, pose) {
+    if (amount < this.amount && amount <= this.model.length)
+      Object.assign(this, { amount, kind, pose: pose.slice() });
+  }
+
+  /** The kind of singularity that ends a ray, and a place some way before it; null where nothing nearer than that known does. */
+  *ray(way) {
+    const { model, start, lengths } = this;
+    const end = Math.min(this.amount, model.length);
+    let [last, inner, away, step] = [start, start, 0, LONGEST * model.length];
+    while (away < end) {
+      const next = Math.min(end, away + step);
+      const pose = start.pose.slice();
+      lengths.forEach((index, j) => (pose[index] += next * way[j]));
+      const there = reached(model, last, pose);
+      yield;
+      if (there?.sense > 0) {
+        if (next - this.away(inner.pose) > LONGEST * model.length) inner = last;
+        [last, away, step] = [there, next, Math.min(2 * step, LONGEST * model.length)];
+        continue;
+      }
+      if (step > LEAST * model.length) {
+        step /= 2;
+        continue;
+      }
+      const kind = there ? "parallel" : this.least(last);
+      this.take(next, kind, pose);
+      return { inner, kind };
+    }
+    return null;
+  }
+
+  /** The kind that is nearest to zero of those that end a mode's reach. */
+  least({ measured }) {
+    const kinds = this.kinds.filter((kind) => kind !== "parallel");
+    return kinds.reduce((best, kind) => (measured[kind] < measured[best] ? kind : best), kinds[0] ?? "serial");
+  }
+
+  /** Newton's steps from a place to the nearest pose at which the measure of a kind vanishes. */
+  *descend(from, kind) {
+    const { model, start, lengths } = this;
+    const origin = lengths.map((k) => start.pose[k]);
+    const measure = VANISHES[kind];
+    let at = from;
+    for (let k = 0; k < STEPS; k++) {
+      const value = measure(at);
+      if (value === 0) return this.take(this.away(at.pose), kind, at.pose);
+      const slope = [];
+      for (const index of lengths) {
+        slope.push(slopeBy(model, at, index, measure));
+        yield;
+      }
+      const square = dot(slope, slope);
+      if (!(square > 0)) return;
+      const here = lengths.map((index) => at.pose[index]);
+      const left = Math.abs(value) / Math.sqrt(square);
+      const away = this.away(at.pose);
+      const small = SETTLED * (away + left) + LEAST * model.length;
+      if (left <= small) this.take(away + left, kind, at.pose);
+      // the nearest pose to the origin at which the measure's tangent plane vanishes
+      const share = (value + dot(slope, minus(origin, here))) / square;
+      const step = minus(minus(origin, slope.map((item) => item * share)), here);
+      const length = Math.hypot(...step);
+      if (length <= small) return;
+      at = moved(model, at, lengths, step, Math.min(1, (LONGEST * model.length) / length));
+      if (!at) return;
+    }
   }
 }
 
@@ -69,55 +150,9 @@ export function nearestSingular(model, values) {
 
 /** Unit vectors along axes and diagonals. */
 function directions(count) {
-  const signs = Array.from({ length: count }).reduce((all) => all.flatMap((way) => [-1, 0, 1].map((item) => [...way, item])), [[]]);
-  return signs.filter((way) => way.some(Boolean)).map((way) => way.map((item) => item / Math.hypot(...way)));
-}
-
-/** The last place on a ray before its steps meet a singularity, and of what kind; null where they meet none. */
-function* ray(model, start, lengths, way, end) {
-  let last = start;
-  for (let away = RAY * model.length; away < end + RAY * model.length; away += RAY * model.length) {
-    const pose = start.pose.slice();
-    lengths.forEach((index, j) => (pose[index] += Math.min(away, end) * way[j]));
-    const there = reached(model, last, pose);
-    yield;
-    if (!there) return { last, kind: "serial" };
-    if (there.sense < 0) return { last, kind: "parallel" };
-    last = there;
-  }
-  return null;
-}
-
-/** Distance from the start of a pose at which the measure of a kind vanishes, the nearest one that steps come by. */
-function* amountTo(model, start, from, lengths, kind) {
-  const only = (pose) => lengths.map((k) => pose[k]);
-  const origin = only(start.pose);
-  let at = from;
-  let best = Infinity;
-  for (let k = 0; k < STEPS; k++) {
-    const slope = [];
-    for (const index of lengths) {
-      slope.push(slopeBy(model, at, index, VANISHES[kind]));
-      yield;
-    }
-    const square = dot(slope, slope);
-    if (!(square > 0)) break;
-    const value = VANISHES[kind](at);
-    const here = only(at.pose);
-    const left = Math.abs(value) / Math.sqrt(square);
-    const away = Math.hypot(...minus(here, origin));
-    const small = SETTLED * (away + left) + NOTHING * model.length;
-    if (left <= small) best = Math.min(best, away + left);
-    // the nearest pose to the origin at which the measure's tangent plane vanishes
-    const share = (value + dot(slope, minus(origin, here))) / square;
-    const step = minus(minus(origin, slope.map((item) => item * share)), here);
-    const length = Math.hypot(...step);
-    if (length <= small) break;
-    const next = moved(model, at, lengths, step, Math.min(1, (LONGEST * model.length) / length));
-    if (!next) break;
-    at = next;
-  }
-  return best;
+  const longer = (ways) => ways.flatMap((way) => [-1, 0, 1].map((item) => [...way, item]));
+  const ways = Array.from({ length: count }).reduce(longer, [[]]);
+  return ways.filter((way) => way.some(Boolean)).map((way) => way.map((item) => item / Math.hypot(...way)));
 }
 
 /** The mechanism a share of a step further, or less of it where that is out of reach; null where no part is. */

@@ -117,7 +117,7 @@ const longest = (model, from, to) =>
   to.reduce((most, value, k) => Math.max(most, Math.abs(value - from[k]) / model.scale[k]), 0);
 
 /** The singularities that change a mode: those that home does not have, as one that has them has them everywhere. */
-function regularKinds(model) {
+export function regularKinds(model) {
   if (!regular.has(model)) {
     const home = measuresAt(model, model.home);
     regular.set(

@@ -30,6 +30,10 @@ TINY = 1 / 500
 TURNS = 1e-6
 """A platform whose angular velocity, of a motion of size one, stays below this keeps its orientation."""
 
+AWAY, AWAY_OF_LENGTH = float(np.radians(1.0)), 0.01
+"""A stated home value is noted that is further from the closed one: an angle, a share of the characteristic length."""
+MOST_AWAY = 3
+
 ROUND = 1e-7
 """Home may stand on a bound: beyond it by this (rad, or share of the characteristic length) is not outside."""
 
@@ -76,13 +80,14 @@ def check(record: MechanismRecord) -> None:
 
 def doubts(record: MechanismRecord) -> tuple[Problem, ...]:
     """What is no fault but probably not meant: a mechanism of the size of a pin or of a house, a length that is tiny
-    against the others, a home of many turns, a workspace box without home in it.
+    against the others, a home of many turns, one from which the loops close only far off, a workspace box without home
+    in it.
 
     >>> from assur.model.registry import load_record
     >>> doubts(load_record("zeng2019"))
     ()
     """
-    return _ordered([*_size(record), *_tiny(record), *_turns(record), *_box(record)])
+    return _ordered([*_size(record), *_tiny(record), *_turns(record), *_away(record), *_box(record)])
 
 
 def _size(record: MechanismRecord) -> list[Problem]:
@@ -119,6 +124,31 @@ def _turns(record: MechanismRecord) -> list[Problem]:
             text = f"{record.coordinate_label(item)} begins at {turns:.3g} turns"
             found.append(problem(record, place(record, "home", item.joint), text, "it is unusual, but may be", hint))
     return _one_each(found)
+
+
+def _away(record: MechanismRecord) -> list[Problem]:
+    """Home values of the file that are not those of the assembly to which the loops close from them."""
+    if record.overrides:  # whose home is not the file's
+        return []
+    home, length = home_values(record), characteristic_length(record)
+    angular = np.array([item.kind == "angle" for item in record.coordinates])
+    change = home - record.home
+    turned = np.where(angular, np.remainder(change + np.pi, 2 * np.pi) - np.pi, change)  # whole turns change nothing
+    share = np.abs(turned) / np.where(angular, AWAY, AWAY_OF_LENGTH * length)
+    largest = [int(index) for index in np.argsort(-share, kind="stable") if share[index] > 1][:MOST_AWAY]
+    if not largest:
+        return []
+    told = [
+        f"{record.coordinate_label(record.coordinates[index])} = "
+        f"{_rounded(record, record.home[index] + turned[index], angular=bool(angular[index]))}, "
+        f"the file says {_rounded(record, record.home[index], angular=bool(angular[index]))}"
+        for index in largest
+    ]
+    hint = "is it the assembly that is meant?"
+    path = table_place(record, "home")
+    return [
+        problem(record, path, f"the loops close at {'; '.join(told)}", "values near an assembled configuration", hint)
+    ]
 
 
 def _box(record: MechanismRecord) -> list[Problem]:
@@ -188,6 +218,12 @@ def _quantity(record: MechanismRecord, value: float, *, angular: bool) -> str:
     if not angular:
         return f"{value:.6g} {record.unit}"
     return f"{np.degrees(value):.6g} deg" if record.angle == "deg" else f"{value:.6g} rad"
+
+
+def _rounded(record: MechanismRecord, value: float, *, angular: bool) -> str:
+    """To four digits of the file's unit, which is finer than a home needs."""
+    shown = np.degrees(value) if angular and record.angle == "deg" else value
+    return f"{round(float(shown), 9):.4g} {record.angle if angular else record.unit}"
 
 
 def _one_each(problems: list[Problem]) -> list[Problem]:

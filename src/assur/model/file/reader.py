@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from assur.errors import MechanismFileError, Problem, UsageError
@@ -35,7 +36,9 @@ def file_text(path: Path) -> str:
         content = path.read_bytes()
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise UsageError(f"cannot read '{path}': {reason}") from None
+        ending = os.path.isfile(f"{path}.toml")  # noqa: PTH113  # which a name that is none does not upset
+        hint = f"did you mean {path}.toml?" if ending else ""
+        raise UsageError(f"cannot read '{path}': {reason}", hint=hint) from None
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:

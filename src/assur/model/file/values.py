@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import keyword
 import math
 import re
@@ -70,11 +71,22 @@ def _listed(count: int, what: str) -> BeforeValidator:
         if not isinstance(value, list):
             raise refuse(shown(value), f"allowed: {what}")
         if len(value) != count:
-            hint = COMMA if count > 1 and len(value) == 2 * count else ""
-            raise refuse(shown(value), f"allowed: {what}", hint)
+            raise refuse(_written(value), f"allowed: {what}", COMMA if _split(value, count) else "")
         return value
 
     return BeforeValidator(check)
+
+
+def _written(value: list[object]) -> str:
+    """A list with what stands in it, where that is short."""
+    text = f"[{', '.join(map(shown, value))}]"
+    return f"{shown(value)}, {text}" if len(text) <= 60 else shown(value)
+
+
+def _split(value: list[object], count: int) -> bool:
+    """Whether commas of decimals may have made a list longer than it is meant: 0,5 is two whole numbers."""
+    whole = [isinstance(part, int) and not isinstance(part, bool) for part in value]
+    return count > 1 and len(value) > count and any(a and b for a, b in itertools.pairwise(whole))
 
 
 def _axis(value: object) -> object:

@@ -9,8 +9,10 @@ Products and quotients may underflow, and a result of 0 need not be exact: their
 on the size. A sum, a difference or a root is 0 only where it is exact, and below 2^-1021 sums are exact: their step
 needs no such part, so that bounds of 0 stay 0, and what is a sum of squares does not become negative.
 
-All of it holds where the processor rounds to nearest. Other libraries may leave it otherwise, without a word (importing
-some interval libraries does): every interval that is made asks, and raises.
+All of it holds where the processor rounds to nearest and keeps subnormal numbers: where it takes them for zero, a sum
+of 0 may be any of them. Other libraries may leave a thread otherwise, without a word (importing some interval
+libraries, or one linked with -ffast-math, does): every interval that is made asks, in the thread that makes it, and
+raises.
 """
 
 from __future__ import annotations
@@ -37,8 +39,12 @@ TINY = 2.0**-60
 """Added to 1, or taken from it, this is rounded away; upwards, downwards or to zero one of the two is not."""
 
 
+SUBNORMAL = float(np.int64(1).view(np.float64))
+"""The least float above 0, from its bits: read from decimals it is 0 where subnormal numbers are taken for zero."""
+
+
 def check_nearest() -> None:
-    """See that this thread rounds to nearest.
+    """See that this thread rounds to nearest, to subnormal numbers too.
 
     Errors:
         UsageError: it does not, so that no bound could be trusted.
@@ -48,6 +54,12 @@ def check_nearest() -> None:
             "this thread of the processor does not round to nearest, so no bound of an interval would be proved",
             hint="another library changed the mode of rounding: import it in another process, or set the mode back"
             " (fesetround(FE_TONEAREST))",
+        )
+    if SUBNORMAL + 0.0 == 0.0:
+        raise UsageError(
+            "this thread of the processor takes subnormal numbers for zero, so no bound of an interval would be proved",
+            hint="another library has turned that on (one linked with -ffast-math does): import it in another process,"
+            " or turn it off (fesetenv(FE_DFL_ENV))",
         )
 
 

@@ -128,7 +128,8 @@ def run(steps: Any, given: Any, answer: Any, work: Any, clamped: bool) -> None:
         given: low, high, defined (V, N) and exact (V,), whether both bounds are one object: an exact zero among the
             factors makes an exact zero of the product.
         answer: low, high, defined (R, N).
-        work: low, high, defined (P, B), room for intermediate results.
+        work: low, high, defined (P, B). The first rows come filled with what is the same for every element, are read
+            again for each B of them, and so must be no step's place; the others are room for intermediate results.
         clamped: whether the root of a negative number counts as defined.
     """
     low, high, defined = work

@@ -102,7 +102,8 @@ class _Plan:
     Attributes:
         steps: (S, 5) place in `STEPS`, place of the result, those of the arguments, and of a product the row of its
             second factor among what is given, or -1.
-        places: how many results are kept at a time; in the first ones is what does not vary, uniform numbers first.
+        places: how many results are kept at a time; in the first ones is what does not vary, uniform numbers first: no
+            step writes there.
         rows: entry -> row of the answer.
         numbers: the written ones.
     """

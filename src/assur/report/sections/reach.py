@@ -115,7 +115,8 @@ def share(found: Findings) -> list[Scalar]:
     region = found.workspace
     if region.share is None:
         return []
-    near = f"within {region.near:g} {shown_unit(found.record.unit)} of a parallel-singular surface inside"
+    away = f"{region.near:g} {shown_unit(found.record.unit)}"
+    near = f"within {away} of a parallel-singular surface inside; the border of the workspace is not counted"
     if all(locus.factor in found.nowhere for locus in region.loci):
         known = f"{PROVED}: there is no such surface"
     else:
