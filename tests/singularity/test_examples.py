@@ -7,8 +7,9 @@ import pytest
 
 import assur
 from assur.kinematics.closure import mobility
+from assur.kinematics.pose import pose_of
 from assur.kinematics.status import FACTOR_TOLERANCE, Status, scale
-from assur.singularity.examples import singular_examples
+from assur.singularity.examples import brought_to, singular_examples
 
 
 def test_every_factor_of_the_paper_has_an_example_at_its_zero():
@@ -19,6 +20,22 @@ def test_every_factor_of_the_paper_has_an_example_at_its_zero():
         verdict = paper.singularity(example.pose, example.mode)
         assert abs(verdict.relative[name]) <= FACTOR_TOLERANCE
         assert example.status.name == verdict.kind
+
+
+@pytest.mark.parametrize("name", ["zeng2019", "fivebar", "planar_3rrr"])
+def test_what_is_brought_to_a_pose_stays_what_it_is_and_knows_its_box(name):
+    """Far away in one coordinate, so that what can follow leaves the box."""
+    record = assur.load(name)
+    away = pose_of(record, record.home_values) + 1e3 * np.eye(len(record.platform.pose))[1]
+    for example in singular_examples(record):
+        moved = brought_to(record, away, example)
+        verdict = record.singularity(moved.pose, moved.mode)
+        assert abs(verdict.relative[example.factor.name]) <= FACTOR_TOLERANCE
+        assert verdict.kind == example.status.name
+        low, high = np.array([record.box[item] for item in record.platform.pose]).T
+        assert moved.in_box == np.all((low <= moved.pose) & (moved.pose <= high))
+    if name == "zeng2019":  # nothing depends on its y
+        assert moved.pose[1] == away[1]
 
 
 def test_examples_are_the_same_every_time():

@@ -27,7 +27,7 @@ from assur.performance.indices import Indices, indices, indices_at
 from assur.scene.camera import Camera, plane
 from assur.scene.companion import Companion, companion
 from assur.scene.skeleton import Skeleton, skeleton
-from assur.singularity.examples import SingularExample, singular_examples
+from assur.singularity.examples import SingularExample, brought_to, singular_examples
 from assur.topology.facts import Topology
 from assur.workspace.aspects.aspects import KINDS, Aspects, aspects
 from assur.workspace.certified.criteria import criteria
@@ -146,7 +146,8 @@ class Context:
     @cached_property
     def examples(self) -> tuple[SingularExample, ...]:
         """One singular configuration for each factor that has one."""
-        return singular_examples(self.record)
+        found = singular_examples(self.record)
+        return tuple(brought_to(self.record, self.pose, item) for item in found)
 
     @cached_property
     def topology(self) -> Topology:

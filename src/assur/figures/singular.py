@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from dataclasses import replace
 from functools import partial
-from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -19,8 +17,6 @@ from assur.figures.solid import model_camera, triad
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import LETTER, PAGE, SMALL, TEXT
 from assur.figures.written import minus
-from assur.kinematics.position import inverse
-from assur.kinematics.status import FACTOR_TOLERANCE, Status, relative_factors
 from assur.model.closed_form import Factor
 from assur.model.pose import LENGTHS, is_angle
 from assur.scene.skeleton import skeleton
@@ -87,7 +83,7 @@ def _caption(kind: str, context: Context) -> str:
     of_path = "" if context.record.closed_form else ", at which a path from home stops"
     return (
         f"Example of a {kind} singularity{of_path}: {condition(example.factor)}, {_geometry(context, example.factor)}."
-        f" {_where(context, shown(context, example))}"
+        f" {_where(context, example)}"
     )
 
 
@@ -129,7 +125,7 @@ def _draw_one(kind: str, context: Context) -> Drawing:
     example = example_of(context, kind)
     if example is None:
         raise ValueError(_missing(kind, context))
-    scene = scene_of(context, [shown(context, example)])
+    scene = scene_of(context, [example])
     width = 120.0
     height = min(130.0, (width - 8.0) * scene.aspect)
     lines = textwrap.wrap(example.factor.meaning, 56)
@@ -167,7 +163,7 @@ def _draw_further(context: Context) -> Drawing:
 def _configurations(context: Context) -> list[list[SingularExample]]:
     """The further examples as they are drawn, those that are one and the same configuration together."""
     found: list[list[SingularExample]] = []
-    for example in (shown(context, item) for item in further(context)):
+    for example in further(context):
         same = [group for group in found if _apart(context, group[0], example) <= SAME * context.skeleton.size]
         if same:
             same[0].append(example)
@@ -213,24 +209,6 @@ def _small(page: Canvas, scene: Scene, label: str, cell: tuple[float, float, flo
     for line in _words(scene):
         page.text(at * POINTS, line, fontsize=SMALL)
         at = at - [0, LINE]
-
-
-def shown(context: Context, example: SingularExample) -> SingularExample:
-    """The example moved to the drawn configuration in as many pose coordinates as leave it what it is."""
-    if context.record.closed_form is None:
-        return example  # it lies where a path stopped
-    home = context.pose
-    size = len(example.pose)
-    for count in range(size, 0, -1):
-        for chosen in combinations(range(size), count):
-            pose = example.pose.copy()
-            pose[list(chosen)] = home[list(chosen)]
-            here = inverse(context.record, pose, example.mode)
-            value = relative_factors(context.record, here.factors)[example.factor.name][0]
-            same = bool(here.exists[0]) and Status(int(here.status[0])) == example.status
-            if same and abs(float(value)) <= FACTOR_TOLERANCE:
-                return replace(example, pose=pose, inputs=here.inputs[0], joints=here.joints[0])
-    return example
 
 
 def _data(scene: Scene) -> list[dict[str, Any]]:

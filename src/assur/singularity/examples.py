@@ -8,7 +8,8 @@ alone make a constraint singularity. Without a closed form paths from home are f
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -116,7 +117,35 @@ def singular_examples(
             for candidate in _zeros_in_mode(record, mode, poses, unclear):
                 if candidate.name not in best or candidate.others < best[candidate.name].others:
                     best[candidate.name] = candidate
-    return tuple(_example(record, factor, best[factor.name], low, high) for factor in factors if factor.name in best)
+    return tuple(_example(record, factor, best[factor.name]) for factor in factors if factor.name in best)
+
+
+def brought_to(record: MechanismRecord, pose: FloatArray, example: SingularExample) -> SingularExample:
+    """The example moved to a pose (m,) in as many of its coordinates as leave it what it is.
+
+    So examples differ where they have to alone, as in y of a mechanism of which nothing depends on y. Without a closed
+    form an example stays where a path stopped.
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("zeng2019")
+    >>> found = [brought_to(record, np.array([0.0, 7.0, 400.0]), item) for item in singular_examples(record)]
+    >>> {float(item.pose[1]) for item in found}
+    {7.0}
+    """
+    if record.closed_form is None:
+        return example
+    size = len(example.pose)
+    for count in range(size, 0, -1):
+        for chosen in combinations(range(size), count):
+            there = example.pose.copy()
+            there[list(chosen)] = pose[list(chosen)]
+            here = inverse(record, there, example.mode)
+            value = relative_factors(record, here.factors)[example.factor.name][0]
+            same = bool(here.exists[0]) and Status(int(here.status[0])) == example.status
+            if same and abs(float(value)) <= FACTOR_TOLERANCE:
+                inside = _in_box(record, there)
+                return replace(example, pose=there, inputs=here.inputs[0], joints=here.joints[0], in_box=inside)
+    return example
 
 
 def _sought(form: ClosedForm) -> list[Factor]:
@@ -149,9 +178,9 @@ def _met_on_paths(
             continue
         status = Status(int(classify_at(record, stop.joints)))
         if status not in (Status.regular, Status.near_singular):
-            in_box = bool(np.all((stop.pose >= low) & (stop.pose <= high)))
             mode, last[grown] = record.modes.default_working, k
-            best[stop.kind] = SingularExample(MET[stop.kind], mode, stop.pose, stop.inputs, stop.joints, status, in_box)
+            inside = _in_box(record, stop.pose)
+            best[stop.kind] = SingularExample(MET[stop.kind], mode, stop.pose, stop.inputs, stop.joints, status, inside)
         if len(best) == len(MET):
             break
     return tuple(best[kind] for kind in MET if kind in best)
@@ -167,13 +196,16 @@ class _Candidate:
     others: int
 
 
-def _example(
-    record: MechanismRecord, factor: Factor, found: _Candidate, low: FloatArray, high: FloatArray
-) -> SingularExample:
+def _example(record: MechanismRecord, factor: Factor, found: _Candidate) -> SingularExample:
     here = inverse(record, found.pose, found.mode)
-    in_box = bool(np.all((found.pose >= low) & (found.pose <= high)))
-    status = Status(int(here.status[0]))
-    return SingularExample(factor, found.mode, here.given, here.inputs[0], here.joints[0], status, in_box)
+    status, inside = Status(int(here.status[0])), _in_box(record, found.pose)
+    return SingularExample(factor, found.mode, here.given, here.inputs[0], here.joints[0], status, inside)
+
+
+def _in_box(record: MechanismRecord, pose: FloatArray) -> bool:
+    """Whether a pose (m,) lies in the file's box."""
+    low, high = np.array([record.box[name] for name in record.platform.pose]).T
+    return bool(np.all((pose >= low) & (pose <= high)))
 
 
 def _zeros_in_mode(record: MechanismRecord, mode: str, poses: FloatArray, names: list[str]) -> list[_Candidate]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from assur.errors import UsageError
-from assur.figures.aspects import shown
+from assur.figures.aspects import shown, undecided
 from assur.report.findings import Findings
 from assur.report.numbers import bounds, count, extent_unit
 from assur.report.sections.reach import size_name
@@ -46,8 +46,8 @@ def _counts(answer: Aspects) -> list[Scalar]:
         ),
         Scalar(
             "undecided, at most",
-            float(shown(100 * answer.search.open)),
-            "% of the box",
+            float(shown(100 * undecided(answer))),
+            "% of the workspace",
             PROVED,
             note=f"{count(len(answer.search.undecided), 'box')} over {size}; --finest of assur aspects cuts smaller",
         ),
