@@ -83,7 +83,7 @@ function facts(scene) {
 }
 
 /** A sentence below what it is about, if there is one. */
-const note = (text) => (text ? el("p", { class: "quiet" }, text) : "");
+const note = (text) => (text ? el("p", { class: "quiet" }, minus(text)) : "");
 
 const count = (list) => (list.length > 1 ? String(list.length) : "");
 
