@@ -9,12 +9,13 @@ import pytest
 from matplotlib.collections import PolyCollection
 
 from assur.errors import UsageError
-from assur.figures.aspects import caption, drawn, no_aspects, shown, undecided
+from assur.figures.aspects import caption, drawn, no_aspects, shown
 from assur.figures.context import Context
 from assur.figures.singular import symbol_of
 from assur.figures.style import styled
 from assur.model.registry import load_record
 from assur.workspace.aspects.aspects import aspects
+from assur.workspace.aspects.volumes import undecided_share
 from assur.workspace.region import workspace
 
 
@@ -78,10 +79,10 @@ def test_the_caption_says_how_much_of_the_workspace_is_proved_and_how_much_is_no
     proved = sum(item.volume[0] for item in found.aspects)
     assert found.search.open < 0.1
     assert 1 - proved / whole > 0.6
-    assert 1 - proved / whole <= undecided(found) < 0.8
+    assert 1 - proved / whole <= undecided_share(found) < 0.8
     text = caption(context, found)
-    assert f"or {100 - float(shown(100 * undecided(found))):.4g} % of the workspace" in text
-    assert f"at most {shown(100 * undecided(found))} %" in text
+    assert f"or {100 - float(shown(100 * undecided_share(found))):.4g} % of the workspace" in text
+    assert f"at most {shown(100 * undecided_share(found))} %" in text
 
 
 def test_the_caption_says_where_nothing_is_proved():

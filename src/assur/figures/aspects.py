@@ -25,6 +25,7 @@ from assur.figures.written import at_least, minus, units
 from assur.model.pose import is_angle
 from assur.workspace.aspects.aspects import KINDS, Aspect, Aspects
 from assur.workspace.aspects.path import AspectPath
+from assur.workspace.aspects.volumes import undecided_share
 from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.criteria import criteria
 
@@ -114,29 +115,12 @@ def _parts(found: Aspects) -> str:
     if not found.aspects:
         return "No part is proved; what there may be of the workspace lies in the grey."
     size = f"{at_least(math.fsum(item.volume[0] for item in found.aspects))} {units(found.unit)}"
-    open_ = shown(100 * undecided(found))
+    open_ = shown(100 * undecided_share(found))
     least = f"{100 - float(open_):.4g}"
     return (
         f"In each colour every pose is proved: together at least {size} or {least} % of the workspace;"
         f" the rest of it, at most {open_} %, is undecided and lies in the grey."
     )
-
-
-def undecided(found: Aspects) -> float:
-    """An upper bound of the share of the workspace that no aspect is proved to hold.
-
-    The workspace is what is proved and some of the undecided boxes; the more there is of them, the larger the share.
-
-    >>> from assur.model.registry import load_record
-    >>> from assur.workspace.aspects.aspects import aspects
-    >>> found = aspects(load_record("fivebar"), finest=20.0)
-    >>> bool(found.search.open < undecided(found) < 1.0)
-    True
-    """
-    proved = math.fsum(item.volume[0] for item in found.aspects)
-    box = found.search.frame.box
-    open_ = found.search.open * math.prod(high - low for low, high in box.intervals)
-    return open_ / (proved + open_) if open_ else 0.0
 
 
 def _factors(context: Context, found: Aspects) -> str:

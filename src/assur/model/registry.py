@@ -18,7 +18,7 @@ from assur.model.closed_form_file import disagreements, read_closed_form
 from assur.model.file.build import build
 from assur.model.file.faults import Faults
 from assur.model.file.parameters import checked_overrides
-from assur.model.file.reader import examined, file_text, read_mechanism
+from assur.model.file.reader import examined, file_text, read_mechanism, with_ending
 from assur.model.file.toml_source import read_toml
 from assur.model.file.topology_file import read_topology
 from assur.model.file.topology_schema import is_topology
@@ -177,7 +177,7 @@ def _find(name_or_path: str | Path, files_of_folder: tuple[str, str]) -> Path:
                 return folder / file
     if path.suffix == ".toml" or isinstance(name_or_path, Path) or len(path.parts) > 1:
         return path
-    own = f"did you mean {text}.toml?" if text.strip() and os.path.isfile(f"{text}.toml") else ""  # noqa: PTH113
+    own = with_ending(text)
     if text.strip() and os.path.exists(path):  # noqa: PTH110  # as above
         what = f"a folder without {files_of_folder[0]}" if path.is_dir() else "a file that does not end in .toml"
         raise UsageError(f"'{text}' is {what}", hint=own or "name a mechanism (`assur list` has them) or a .toml file")

@@ -25,6 +25,16 @@ def read_mechanism(path: Path) -> MechanismRecord:
     return read_text(file_text(path), path)
 
 
+def with_ending(text: str) -> str:
+    """The hint that a file has the name but for its ending; empty where there is none.
+
+    >>> with_ending("no such file")
+    ''
+    """
+    there = text.strip() and os.path.isfile(f"{text}.toml")  # noqa: PTH113  # which a name that is none does not upset
+    return f"did you mean {text}.toml?" if there else ""
+
+
 def file_text(path: Path) -> str:
     """The text of a file in UTF-8.
 
@@ -36,9 +46,7 @@ def file_text(path: Path) -> str:
         content = path.read_bytes()
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
-        ending = os.path.isfile(f"{path}.toml")  # noqa: PTH113  # which a name that is none does not upset
-        hint = f"did you mean {path}.toml?" if ending else ""
-        raise UsageError(f"cannot read '{path}': {reason}", hint=hint) from None
+        raise UsageError(f"cannot read '{path}': {reason}", hint=with_ending(str(path))) from None
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:

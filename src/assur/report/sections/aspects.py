@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from assur.errors import UsageError
-from assur.figures.aspects import shown, undecided
+from assur.figures.aspects import shown
 from assur.report.findings import Findings
 from assur.report.numbers import bounds, count, extent_unit
 from assur.report.sections.reach import size_name
 from assur.report.sections.singularities import plain
 from assur.results.kinds import PROVED, Cell, Result, Scalar, Section, Table
 from assur.workspace.aspects.aspects import Aspects
+from assur.workspace.aspects.volumes import undecided_share
 
 LISTED = 12
 """Aspects in the table, the largest first."""
@@ -46,7 +47,7 @@ def _counts(answer: Aspects) -> list[Scalar]:
         ),
         Scalar(
             "undecided, at most",
-            float(shown(100 * undecided(answer))),
+            float(shown(100 * undecided_share(answer))),
             "% of the workspace",
             PROVED,
             note=f"{count(len(answer.search.undecided), 'box')} over {size}; --finest of assur aspects cuts smaller",
