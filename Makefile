@@ -11,16 +11,21 @@ INSTALL := PIP_CONSTRAINT=constraints.txt PIP_BUILD_CONSTRAINT=constraints.txt P
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help demo test mutations check figures report docs bench format constraints clean
+.PHONY: help demo test test-deep mutations check figures report docs bench format constraints clean
 
 help: ## list the targets
-	@sed -n 's/^\([a-z]*\): .*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
+	@sed -n 's/^\([a-z-]*\): .*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
 
 demo: $(VENV)/installed ## set up, then the main job: the paper's mechanism, checked row by row
 	$(BIN)/assur demo
 
 test: $(VENV)/installed-$(if $(ALL),all,dev) ## set up, then every test; ALL=yes installs every extra for those that need one
 	OPENBLAS_NUM_THREADS=1 $(if $(ALL),ASSUR_EXTRAS=required )$(BIN)/python -m pytest -n 2 --dist worksteal $(ARGS)
+
+# Another seed every day, so that the days together see more; the line that make prints holds it.
+SEED ?= $(shell date +%Y%m%d)
+test-deep: $(VENV)/installed-$(if $(ALL),all,dev) ## the long walks, real kills and thousands of mutations that `test` leaves out; SEED=20260101 draws its examples again
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 --dist worksteal -m "deep or hypothesis" --hypothesis-profile=deep --hypothesis-seed=$(SEED) $(ARGS)
 
 mutations: $(VENV)/installed-dev ## put faults into a copy of the source, one by one: the test named for each notices it (needs Node)
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 -m mutation tests/test_mutations.py

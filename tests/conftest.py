@@ -1,8 +1,9 @@
-"""What all tests share: a cache of their own, and what some need beyond a plain installation, by marker.
+"""What all tests share: a cache of their own, how many examples they draw, and what some need, by marker.
 
 Tests whose need is not met are left out, and the end of the run says which; ASSUR_EXTRAS=required, as in continuous
-integration, makes that an error before anything runs, and makes a run fail in which a test was skipped. Faults put
-into the source take minutes: they are left out unless `-m mutation` asks for them.
+integration, makes that an error before anything runs, and makes a run fail in which a test was skipped. What takes
+minutes is left out unless `-m` asks for it, and the end of the run says how: `deep`, long walks, real kills and
+thousands of mutations, and `mutation`, faults put into the source. The end of a run also names its slowest files.
 """
 
 from __future__ import annotations
@@ -10,11 +11,26 @@ from __future__ import annotations
 import importlib.util
 import os
 import shutil
+from collections import Counter
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 os.environ.setdefault("ASSUR_CACHE", str(Path(__file__).parents[1] / "build" / "cache"))  # not the user's own
+
+# No example database: what a run draws depends on nothing that an earlier one left. Quick draws the same examples each
+# time; deep draws others for each seed, which `make test-deep` prints. Either prints what replays a failing example.
+settings.register_profile("quick", max_examples=100, derandomize=True, deadline=None, database=None, print_blob=True)
+settings.register_profile(
+    "deep",
+    max_examples=2000,
+    deadline=None,
+    database=None,
+    print_blob=True,
+    suppress_health_check=[HealthCheck.too_slow],  # other work on the machine is no fault of a strategy
+)
+settings.load_profile("quick")
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
@@ -41,8 +57,17 @@ NEEDS = {
 
 MISSING = {marker: what for marker, (present, what) in NEEDS.items() if not present}
 REQUIRED = os.environ.get("ASSUR_EXTRAS") == "required"
+ASKED = {"mutation": "make mutations", "deep": "make test-deep"}
+"""Marker -> the command that runs its tests, which are left out unless `-m` names the marker."""
+SLOWEST = 10
+"""So many files are named at the end of a run of more than these."""
+
 SKIPPED = []
 """Of this run: what was skipped by its own word."""
+LEFT = Counter()
+"""Of this run: how many tests were left out by each marker of `ASKED`."""
+SECONDS = Counter()
+"""Of this run: what the tests of each file took together."""
 
 
 def pytest_configure(config):
@@ -51,14 +76,19 @@ def pytest_configure(config):
 
 
 def pytest_collection_modifyitems(config, items):
-    out = [*MISSING, *(() if "mutation" in config.option.markexpr else ("mutation",))]
-    left = {item for item in items if any(item.get_closest_marker(marker) for marker in out)}
+    asked = [marker for marker in ASKED if marker not in config.option.markexpr]
+    left = []
+    for item in items:
+        if marker := next((marker for marker in [*MISSING, *asked] if item.get_closest_marker(marker)), None):
+            LEFT[marker] += marker in asked
+            left.append(item)
     if left:
-        config.hook.pytest_deselected(items=list(left))
-        items[:] = [item for item in items if item not in left]
+        config.hook.pytest_deselected(items=left)
+        items[:] = [item for item in items if item not in set(left)]
 
 
 def pytest_runtest_logreport(report):
+    SECONDS[report.nodeid.split("::")[0]] += report.duration
     SKIPPED.extend([report.nodeid] if report.skipped and not hasattr(report, "wasxfail") else [])
 
 
@@ -66,7 +96,16 @@ def pytest_collectreport(report):
     SKIPPED.extend([report.nodeid] if report.skipped else [])
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node, error):
+    """Every worker collects every test, so that each says what all left out."""
+    for marker, count in getattr(node, "workeroutput", {}).get("left", {}).items():
+        LEFT[marker] = count
+
+
 def pytest_sessionfinish(session, exitstatus):
+    if hasattr(session.config, "workeroutput"):
+        session.config.workeroutput["left"] = dict(LEFT)
     if REQUIRED and SKIPPED and exitstatus == pytest.ExitCode.OK:
         session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
@@ -76,6 +115,13 @@ def pytest_terminal_summary(terminalreporter):
         terminalreporter.write_line(f"SKIPPED, though ASSUR_EXTRAS=required: {', '.join(sorted(set(SKIPPED)))}")
     for marker, what in MISSING.items():
         terminalreporter.write_line(f"NOT RUN: the tests marked {marker}; they need {what} (or make test ALL=yes)")
+    for marker, count in sorted(LEFT.items()):
+        if count:
+            terminalreporter.write_line(f"NOT RUN: {count} tests marked {marker}; they run with {ASKED[marker]}")
+    if len(SECONDS) > SLOWEST:
+        terminalreporter.section(f"the {SLOWEST} slowest of {len(SECONDS)} files, {sum(SECONDS.values()):.0f} s in all")
+        for path, seconds in SECONDS.most_common(SLOWEST):
+            terminalreporter.write_line(f"{seconds:8.1f} s  {path}")
 
 
 @pytest.fixture(scope="session")

@@ -2,17 +2,18 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from assur.numerics import rotations
+from examples import examples
 
 parts = st.floats(-3.0, 3.0)
 
 
 @given(st.tuples(parts, parts, parts))
-@settings(max_examples=200, deadline=None)
+@examples(200)
 def test_rotation_of_a_vector_agrees_with_scipy(vector):
     expected = Rotation.from_rotvec(vector).as_matrix()
     np.testing.assert_allclose(rotations.from_vector(np.array(vector)), expected, rtol=0, atol=1e-14)

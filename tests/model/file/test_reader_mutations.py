@@ -23,7 +23,7 @@ from typing import Any
 import networkx as nx
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from assur.errors import MechanismFileError, Problem, UsageError
@@ -31,6 +31,7 @@ from assur.kinematics.soundness.check import doubts, faults
 from assur.model.file.reader import read_text
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import names
+from examples import examples
 
 HERE = Path(__file__).parent
 SOURCES = [
@@ -221,20 +222,20 @@ def rebuilt(draw: Callable[..., Any]) -> str:
     return "\n".join(f"{json.dumps(key)} = {toml(value)}" for key, value in document.items())
 
 
-@settings(max_examples=250, deadline=None, database=None)
+@examples(250)
 @given(rebuilt())
 def test_a_document_with_other_values_is_read_or_refused(text: str) -> None:
     check(text)
 
 
-@pytest.mark.slow
-@settings(max_examples=1200, deadline=None, database=None)
+@pytest.mark.deep
+@examples(200)
 @given(rebuilt() | mutated())
 def test_many_documents_with_other_values_are_read_or_refused(text: str) -> None:
     check(text)
 
 
-@settings(max_examples=200, deadline=None, database=None)
+@examples(200)
 @given(st.data())
 def test_any_document_is_refused(data: st.DataObject) -> None:
     """Tables, lists and values of TOML under the keys of the form, and others."""
@@ -257,13 +258,13 @@ def test_a_document_written_again_is_the_same() -> None:
         assert first.home.tolist() == second.home.tolist()
 
 
-@settings(max_examples=100, deadline=None, database=None)
+@examples(100)
 @given(mutated())
 def test_a_file_with_other_tokens_is_read_or_refused(text: str) -> None:
     check(text)
 
 
-@settings(max_examples=100, deadline=None, database=None)
+@examples(100)
 @given(st.sampled_from(SOURCES), st.data())
 def test_a_file_with_lines_lost_or_moved_is_read_or_refused(text: str, data: st.DataObject) -> None:
     lines = text.splitlines()
@@ -274,7 +275,7 @@ def test_a_file_with_lines_lost_or_moved_is_read_or_refused(text: str, data: st.
     check("\n".join(lines))
 
 
-@settings(max_examples=100, deadline=None, database=None)
+@examples(100)
 @given(st.text(max_size=80))
 def test_any_text_is_refused(text: str) -> None:
     assert isinstance(outcome(text), MechanismFileError)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import assur
@@ -24,6 +24,7 @@ from assur.synthesis.drafting.drafting import Drafted, drafted
 from assur.synthesis.drafting.facts import facts
 from assur.synthesis.drafting.repeating import repeated
 from assur.topology.notation import parse_chains
+from examples import examples
 
 PATH = Path("my.toml")
 HYBRID = ["{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", "P[y] P(4R)[y] P(4R)[x]"]
@@ -152,13 +153,13 @@ CHAINS = st.lists(JOINTS, min_size=2, max_size=4).map(" ".join)
 LIMBS = st.lists(JOINTS, min_size=2, max_size=3).map(" ".join)
 
 
-@settings(max_examples=15, deadline=None, derandomize=True)
+@examples(15)
 @given(st.lists(CHAINS, min_size=2, max_size=3))
 def test_random_chains_become_a_sound_file_or_a_clear_refusal(texts):
     check_or_refuse(lambda: parse_chains(texts))
 
 
-@settings(max_examples=15, deadline=None, derandomize=True)
+@examples(15)
 @given(LIMBS, st.integers(2, 3))
 def test_random_limbs_become_a_sound_file_or_a_clear_refusal(text, count):
     check_or_refuse(lambda: repeated(text, count))

@@ -5,7 +5,7 @@ from itertools import accumulate
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from assur.errors import UnknownNameError, UsageError
@@ -31,6 +31,7 @@ from assur.topology.linkages.twists import (
     poc_dimensions,
 )
 from assur.topology.notation import parse_chain
+from examples import examples
 
 
 def _around(text, count=3):
@@ -289,7 +290,7 @@ def _chains(draw):
     return Chain(tuple(joints))
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(_chains(), st.integers(0, 1000))
 def test_a_chain_from_its_other_end_has_as_many_motions(chain, seed):
     """The twist of the base against the platform is the opposite one: dim and r agree, whatever the placing."""

@@ -4,13 +4,14 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import assur
 from assur.topology.chains import Chain, ChainJoint, InnerLoop, Parallelogram
 from assur.topology.joints import JOINT_TYPES, PRISMATIC, REVOLUTE
 from assur.topology.notation import parse_chain, parse_chains, plain_text, symbolic_text
+from examples import examples
 
 STYLES = ["unicode", "ascii", "latex"]
 
@@ -128,7 +129,7 @@ def test_names_of_others_are_not_written():
     assert symbolic_text(Chain(tuple(joints))) == "SOC{-R ∥ R ∥ R ∥ R ∥ R7 ∥ P-}"
 
 
-@settings(max_examples=100, deadline=None)
+@examples(100)
 @given(st.data())
 @pytest.mark.parametrize("style", STYLES)
 def test_what_is_written_reads_back_to_the_same_text(style, random_chains, data):
@@ -140,7 +141,7 @@ def test_what_is_written_reads_back_to_the_same_text(style, random_chains, data)
     assert [symbolic_text(again, other) for other in STYLES] == [symbolic_text(chain, other) for other in STYLES]
 
 
-@settings(max_examples=100, deadline=None)
+@examples(100)
 @given(st.data())
 def test_shared_points_read_back_too(random_chains, data):
     drawn = [element for element in data.draw(random_chains()).elements if not isinstance(element, InnerLoop)]

@@ -5,13 +5,14 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 import assur
 from assur.errors import UsageError
 from assur.topology.chains import Chain
 from assur.topology.notation import NotationError, parse_chain, parse_chains, plain_text, symbolic_text
+from examples import examples
 
 VALID = [
     "P[x] R[0.5,0.866,0] R[x] H[-z]@A",
@@ -50,7 +51,7 @@ def chain_or_error(*texts):
         assert plain_text(parse_chain(plain_text(chain))) == plain_text(chain)
 
 
-@settings(max_examples=500, deadline=None)
+@examples(500)
 @given(st.lists(st.text() | st.text(LETTERS, max_size=30), min_size=1, max_size=3))
 @example(["R[" + "9" * 3000 + ",1,0]"])
 @example(["R" + "9" * 3000])
@@ -60,7 +61,7 @@ def test_any_text(texts):
     chain_or_error(*texts)
 
 
-@settings(max_examples=500, deadline=None)
+@examples(500)
 @given(st.sampled_from(VALID), st.integers(0, 10**6), st.integers(1, 4))
 def test_mutations_of_valid_texts(text, seed, count):
     rng = random.Random(seed)

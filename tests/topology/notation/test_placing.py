@@ -4,7 +4,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from assur.topology.directions import NEARLY, parallel, perpendicular
@@ -17,7 +17,6 @@ def axes(text):
     return [axis for joint in parse_chain(text).joints for axis in joint.axes]
 
 
-@settings(deadline=None)
 @given(st.lists(st.sampled_from(["∥", "⊥", "-"]), min_size=1, max_size=12))
 def test_neighbours_lie_as_the_signs_say_and_others_do_not(signs):
     """Of R's in series: only parallel runs are parallel, only neighbouring runs with ⊥ between them perpendicular."""

@@ -1,15 +1,16 @@
 """The plain form reads back as the same chain."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from assur.topology.chains import Chain, ChainJoint
 from assur.topology.joints import REVOLUTE
 from assur.topology.notation import parse_chain, plain_text
+from examples import examples
 
 
-@settings(max_examples=300, deadline=None)
+@examples(300)
 @given(st.data())
 def test_round_trip(random_chains, same_up_to_names, data):
     chain = data.draw(random_chains())

@@ -1,12 +1,13 @@
 from __future__ import annotations
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from assur.topology.rules.blocks import Block, Structure
 from assur.topology.rules.bundles import bundles
 from assur.topology.rules.meeting import Line
+from examples import examples
 
 lines = st.lists(st.tuples(st.integers(0, 4), st.sampled_from([None, 0, 1, 2])), min_size=3, max_size=12)
 
@@ -29,7 +30,7 @@ def _rank(lines, rng):
     return np.linalg.matrix_rank(np.array(twists), tol=1e-8)
 
 
-@settings(max_examples=400, deadline=None)
+@examples(400)
 @given(lines, st.integers(0, 10**6))
 def test_the_number_of_independent_lines_is_their_rank(lines, seed):
     once = [line for index, line in enumerate(lines) if line[1] is None or line not in lines[:index]]

@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from assur.topology.notation import parse_chain, parse_chains
@@ -10,6 +10,7 @@ from assur.topology.rules.derivation import Derivation, Step, counted, in_words,
 from assur.topology.rules.intersection import parallel
 from assur.topology.rules.motion import Motion
 from assur.topology.rules.union import serial
+from examples import examples
 
 SET = PocSet(2, 1, 3, Mark("arm", ("R1",)), Mark("parallel", ("R1",)))
 
@@ -78,7 +79,7 @@ JOINTS = (
 texts = st.lists(st.sampled_from(JOINTS), min_size=1, max_size=6).map(" ".join)
 
 
-@settings(max_examples=150, deadline=None)
+@examples(150)
 @given(texts)
 def test_a_derivation_ends_with_what_it_derives(text):
     motion = serial(parse_chain(text))
@@ -89,7 +90,7 @@ def test_a_derivation_ends_with_what_it_derives(text):
         assert derivation.steps[-1].result == derivation.whole.result
 
 
-@settings(max_examples=150, deadline=None)
+@examples(150)
 @given(texts)
 def test_every_step_obeys_criterion_c2(text):
     """Eq. (1) at one O': dim M <= min(sum of the operands' dim, t + r), and nothing gets lost."""
@@ -105,7 +106,7 @@ def test_every_step_obeys_criterion_c2(text):
         assert (step.rule == "linear rule") <= (not lost)
 
 
-@settings(max_examples=80, deadline=None)
+@examples(80)
 @given(st.lists(texts, min_size=2, max_size=3))
 def test_a_platforms_derivation_ends_with_what_it_derives(limbs):
     motion = parallel([serial(chain) for chain in parse_chains(limbs)])

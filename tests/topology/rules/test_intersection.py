@@ -3,7 +3,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from assur.errors import UsageError
@@ -17,6 +17,7 @@ from assur.topology.rules.intersection import parallel, xi_of_next
 from assur.topology.rules.motion import Motion
 from assur.topology.rules.refusals import Refusal
 from assur.topology.rules.union import serial
+from examples import examples
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
@@ -226,7 +227,7 @@ def _limb(directions):
     return parts.map(lambda found: Chain(tuple([joint for part in found for joint in part][:6])))
 
 
-@settings(max_examples=200, deadline=None)
+@examples(200)
 @given(mechanisms())
 def test_rules_and_twists_agree_on_random_mechanisms(chains):
     motion = parallel([serial(chain) for chain in chains])
@@ -234,7 +235,7 @@ def test_rules_and_twists_agree_on_random_mechanisms(chains):
         assert _numbers(motion) == _by_twists(chains)
 
 
-@settings(max_examples=150, deadline=None)
+@examples(150)
 @given(mechanisms())
 def test_rules_and_twists_agree_in_translation_mode(chains):
     motions = [serial(chain, "translation") for chain in chains]
@@ -282,7 +283,7 @@ def test_the_rules_seldom_refuse():
     assert sum(isinstance(answer, Motion) for answer in answers) >= 34
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(mechanisms())
 def test_one_more_limb_takes_away(chains):
     """Eq. (2) is an intersection, and xi of Eq. (4) a number of equations."""

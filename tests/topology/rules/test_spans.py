@@ -2,11 +2,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from assur.topology.directions import unit
 from assur.topology.rules.spans import ALL, NOTHING, Span, along, perpendicular
+from examples import examples
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 DIRECTIONS = (X, Y, Z, unit((1, 1, 0)), unit((0.3, 0.5, 0.8)))
@@ -62,13 +63,13 @@ def _rank(vectors):
     return int(np.linalg.matrix_rank(vectors, tol=1e-7)) if len(vectors) else 0
 
 
-@settings(max_examples=300, deadline=None)
+@examples(300)
 @given(steps, st.integers(0, 10**6))
 def test_a_span_has_the_rank_of_what_it_stands_for(steps, seed):
     assert _built(steps).dim == _rank(_drawn(steps, np.random.default_rng(seed)))
 
 
-@settings(max_examples=300, deadline=None)
+@examples(300)
 @given(steps, directions, st.integers(0, 10**6))
 def test_what_a_span_contains_it_contains_at_every_moment(steps, direction, seed):
     span = _built(steps)
@@ -76,7 +77,7 @@ def test_what_a_span_contains_it_contains_at_every_moment(steps, direction, seed
     assert span.contains(direction) == (_rank(np.vstack([vectors, direction])) == span.dim)
 
 
-@settings(max_examples=300, deadline=None)
+@examples(300)
 @given(steps, steps, st.integers(0, 10**6))
 def test_sum_and_meet_have_the_ranks_of_what_they_stand_for(first, second, seed):
     one, other = _built(first), _built(second)

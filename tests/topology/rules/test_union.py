@@ -3,7 +3,7 @@ from __future__ import annotations
 import time
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from assur.errors import UsageError
@@ -17,6 +17,7 @@ from assur.topology.poc import Mark
 from assur.topology.rules.motion import Motion
 from assur.topology.rules.refusals import Refusal
 from assur.topology.rules.union import serial
+from examples import examples
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
@@ -157,13 +158,13 @@ chains = st.lists(joints, min_size=1, max_size=8).map(lambda items: Chain(tuple(
 
 
 @pytest.mark.slow
-@settings(max_examples=3000, deadline=None)
+@examples(200)
 @given(chains)
 def test_rules_and_twists_agree_on_random_chains(chain):
     assert _by_rules(serial(chain)) == _by_twists(chain)
 
 
-@settings(max_examples=150, deadline=None)
+@examples(150)
 @given(chains)
 def test_fixed_directions_are_not_more_than_there_are_elements(chain):
     motion = serial(chain)
@@ -174,7 +175,7 @@ def test_fixed_directions_are_not_more_than_there_are_elements(chain):
     assert motion.poc.dependent >= 0
 
 
-@settings(max_examples=150, deadline=None)
+@examples(150)
 @given(chains, chains)
 def test_a_longer_chain_does_no_less(first, second):
     """Eq. (1) is a union."""
