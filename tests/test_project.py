@@ -7,6 +7,7 @@ import itertools
 import os
 import re
 import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -21,6 +22,7 @@ FOLDERS = sorted(path for path in (SOURCE / "mechanisms").iterdir() if path.is_d
 MECHANISMS = [folder for folder in FOLDERS if (folder / "mechanism.toml").is_file()]
 NOT_MIRRORS = {"contract", "papers", "derivations", "examples"}
 CITED_HOSTS = {"www.apache.org", "www.w3.org", "arxiv.org", "doi.org"}
+CLOCKS = {"perf_counter", "perf_counter_ns", "process_time", "process_time_ns", "thread_time", "thread_time_ns"}
 NOBODY = re.compile(r"localhost|127\.[\d.]+|0\.0\.0\.0|192\.0\.2\.\d+|(?:[\w-]+\.)*example(?:\.\w+)?")
 """This machine itself, every address of it, and names and addresses that are reserved for documentation."""
 
@@ -192,3 +194,25 @@ def test_ci_runs_both_commands_and_fails_with_either(tmp_path, failing):
     ran = subprocess.run([ROOT / ".ci" / "run"], env=environment, capture_output=True, text=True)
     assert ran.stdout.split("\n") == ["make test", "make check", ""]
     assert (ran.returncode == 0) == (failing == "nothing")
+
+
+def test_the_processes_that_ci_starts_share_their_bytecode(tmp_path):
+    stand_in = tmp_path / "make"
+    stand_in.write_text(
+        f'#!/bin/sh\n"{sys.executable}" -c "import sys; print(sys.dont_write_bytecode, sys.pycache_prefix)"\n'
+    )
+    stand_in.chmod(0o755)
+    environment = {**os.environ, "PATH": f"{tmp_path}{os.pathsep}{os.environ['PATH']}", "PYTHONDONTWRITEBYTECODE": "1"}
+    ran = subprocess.run([ROOT / ".ci" / "run"], env=environment, capture_output=True, text=True)
+    assert ran.stdout.splitlines() == [f"False {ROOT / 'build' / 'bytecode'}"] * 2
+
+
+def test_no_test_has_a_limit_of_time():
+    """How long something takes is measured by `make bench`; a test may only give up waiting for what hangs."""
+    found = [
+        f"{path.relative_to(ROOT)}:{node.lineno}: {node.attr}"
+        for path in sorted((ROOT / "tests").rglob("*.py"))
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Attribute) and node.attr in CLOCKS
+    ]
+    assert found == []

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import time
 from functools import lru_cache
 from pathlib import Path
 
@@ -17,6 +16,7 @@ from assur.kinematics.paths.following import follow
 from assur.kinematics.pose import pose_of
 from assur.model.points import point
 from assur.singularity.examples import singular_examples
+from work import calls
 
 DELTA = Path(__file__).parents[2] / "model" / "file" / "delta.toml"
 DOCS = Path(__file__).parents[3] / "docs" / "mechanism-file.md"
@@ -327,16 +327,20 @@ def test_a_start_in_a_singularity_stops_at_once():
     assert path.stopped.kind in ("parallel", "self_motion")
 
 
-def test_fifty_steps_of_the_paper_s_mechanism_take_about_a_second():
-    """A generous bound: the machine may be busy."""
+def test_a_step_takes_as_much_work_on_a_long_path_as_on_a_short_one():
     mechanism = assur.load("zeng2019")
     start = mechanism.home_values
-    here = pose_of(mechanism, start)
-    began = time.process_time()
-    path = follow(mechanism, start, poses=here + np.array([30.0, 40.0, -40.0]), largest_step=0.02)
-    assert path.stopped is None
-    assert len(path) > 50
-    assert (time.process_time() - began) / len(path) < 0.06
+    ahead = pose_of(mechanism, start) + np.array([30.0, 40.0, -40.0])
+
+    def work(largest_step):
+        """Steps, and calls a step."""
+        path = follow(mechanism, start, poses=ahead, largest_step=largest_step)
+        assert path.stopped is None
+        return len(path), calls(lambda: follow(mechanism, start, poses=ahead, largest_step=largest_step)) / len(path)
+
+    (few, each_of_few), (many, each_of_many) = work(0.08), work(0.02)
+    assert many > 2 * few
+    assert each_of_many <= each_of_few
 
 
 @pytest.mark.parametrize(

@@ -1,19 +1,17 @@
 """Whatever is in a file, the reader answers with a record or with the faults of the file, and nothing else.
 
 What it accepts is looked over by `assert_whole`, which knows the form of a record and none of the reader's code, and
-is then checked on its joint graph, which may refuse it but not fail. Times are processor times, so that a busy machine
-does not matter; the limits are twice what is promised (1 s to read, 5 s to check), for slow ones.
+is then checked on its joint graph, which may refuse it but not fail. Of a file with ever so many of something the calls
+are counted, in place of a time that another machine would not have.
 """
 
 from __future__ import annotations
 
 import copy
 import datetime
-import gc
 import json
 import math
 import re
-import time
 import tomllib
 from collections.abc import Callable
 from importlib.resources import files
@@ -32,6 +30,7 @@ from assur.model.file.reader import read_text
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import names
 from examples import examples
+from work import calls
 
 HERE = Path(__file__).parent
 SOURCES = [
@@ -39,8 +38,9 @@ SOURCES = [
     (HERE / "delta.toml").read_text(encoding="utf-8"),
     *(files("assur").joinpath(f"mechanisms/{name}/mechanism.toml").read_text(encoding="utf-8") for name in names()),
 ]
-READING, CHECKING = 2.0, 10.0
-"""Seconds of processor time."""
+CALLS = 200
+"""Of a character of a file at most: reading and checking grow in proportion, not with the square. The costliest names
+close to an unknown key are 110; 200,000 characters are the most that a file has, some seconds."""
 TOKEN = re.compile(r"\"[^\"\n]*\"|[A-Za-z_][\w.']*|-?\d+(?:\.\d+)?|[^\w\s]")
 ODD = [
     "nan", "inf", "-1", "0", "1e308", "true", '"x"', '""', '"-z"', '"l1*(2"', '"pi"', '"1 deg"', "[]", "{}", "[[]]",
@@ -53,11 +53,9 @@ def check(text: str) -> None:
     found = outcome(text)
     if isinstance(found, MechanismRecord):
         assert_whole(found)
-        begun = time.process_time()
         problems = faults(found)
         if not problems:
             doubts(found)
-        assert time.process_time() - begun < CHECKING
     else:
         problems = found.problems
         assert problems
@@ -72,8 +70,6 @@ def check(text: str) -> None:
 
 
 def outcome(text: str) -> MechanismRecord | MechanismFileError:
-    gc.freeze()  # the time is that of reading, not of looking through what other tests left in memory
-    begun = time.process_time()
     try:
         return read_text(text, Path("f.toml"))
     except MechanismFileError as error:
@@ -82,9 +78,6 @@ def outcome(text: str) -> MechanismRecord | MechanismFileError:
         if "is a topology without dimensions" not in str(error):
             raise
         return MechanismFileError([Problem("f.toml", None, "", str(error), "a mechanism")])
-    finally:
-        gc.unfreeze()
-        assert time.process_time() - begun < READING
 
 
 def assert_whole(record: MechanismRecord) -> None:
@@ -222,7 +215,7 @@ def rebuilt(draw: Callable[..., Any]) -> str:
     return "\n".join(f"{json.dumps(key)} = {toml(value)}" for key, value in document.items())
 
 
-@examples(250)
+@examples(60)
 @given(rebuilt())
 def test_a_document_with_other_values_is_read_or_refused(text: str) -> None:
     check(text)
@@ -235,7 +228,7 @@ def test_many_documents_with_other_values_are_read_or_refused(text: str) -> None
     check(text)
 
 
-@examples(200)
+@examples(100)
 @given(st.data())
 def test_any_document_is_refused(data: st.DataObject) -> None:
     """Tables, lists and values of TOML under the keys of the form, and others."""
@@ -258,13 +251,13 @@ def test_a_document_written_again_is_the_same() -> None:
         assert first.home.tolist() == second.home.tolist()
 
 
-@examples(100)
+@examples(60)
 @given(mutated())
 def test_a_file_with_other_tokens_is_read_or_refused(text: str) -> None:
     check(text)
 
 
-@examples(100)
+@examples(30)
 @given(st.sampled_from(SOURCES), st.data())
 def test_a_file_with_lines_lost_or_moved_is_read_or_refused(text: str, data: st.DataObject) -> None:
     lines = text.splitlines()
@@ -275,7 +268,7 @@ def test_a_file_with_lines_lost_or_moved_is_read_or_refused(text: str, data: st.
     check("\n".join(lines))
 
 
-@examples(100)
+@examples(60)
 @given(st.text(max_size=80))
 def test_any_text_is_refused(text: str) -> None:
     assert isinstance(outcome(text), MechanismFileError)
@@ -322,7 +315,7 @@ MANY = {
 
 
 @pytest.mark.parametrize("what", MANY)
-def test_ever_so_many_of_something_are_read_or_refused_in_time(what: str) -> None:
+def test_ever_so_many_of_something_are_read_or_refused_by_work_in_proportion(what: str) -> None:
     """New lines stand below a table's head, in the place of a value, or, where no place is named, at the end."""
     old, new = MANY[what]
     lines = "\n".join(new)
@@ -331,4 +324,4 @@ def test_ever_so_many_of_something_are_read_or_refused_in_time(what: str) -> Non
     else:
         assert old in SOURCES[0]
         text = SOURCES[0].replace(old, f"{old}\n{lines}" if old.startswith("[") else lines, 1)
-    check(text)
+    assert calls(lambda: check(text)) < CALLS * len(text)

@@ -1,7 +1,5 @@
 from __future__ import annotations
 
-import time
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -18,6 +16,7 @@ from assur.topology.rules.motion import Motion
 from assur.topology.rules.refusals import Refusal
 from assur.topology.rules.union import serial
 from examples import examples
+from work import calls
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
@@ -253,16 +252,10 @@ def test_another_mode_is_an_error():
         serial([], mode="fast")
 
 
-def test_a_chain_takes_about_a_millisecond():
-    chain = parse_chain("R[x] R[y] P[z] R[z] R[x] P[y] R[y] R[x]")
-    best = min(_seconds(chain) for _ in range(20))
-    assert best < 5e-3
-
-
-def _seconds(chain):
-    start = time.perf_counter()
-    assert serial(chain).poc.dim == 6
-    return time.perf_counter() - start
+def test_the_work_grows_in_proportion_to_the_length_of_a_chain():
+    short, long = (parse_chain(" ".join(["R[x] R[y] P[z] R[z] R[x] P[y] R[y] R[x]"] * times)) for times in (3, 6))
+    assert serial(short).poc.dim == 6
+    assert calls(lambda: serial(long)) <= 2 * calls(lambda: serial(short))
 
 
 def test_the_derivation_of_the_papers_first_hybrid_chain():
