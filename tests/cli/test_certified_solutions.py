@@ -3,6 +3,7 @@ from __future__ import annotations
 import assur
 from assur.kinematics.certified.certify import certified_direct, certified_inverse
 from assur.kinematics.certified.result import answer
+from spherical import QUATERNION, spherical
 
 INPUTS = ["162.6907", "-143.3209", "-24.6776"]
 POSE = ["-15.4714", "9.6849", "456.3315"]
@@ -91,3 +92,22 @@ def test_what_cannot_be_certified_is_refused(assur_cli):
         assert "--certify" in run.err
     run = assur_cli("inverse", "zeng2019", *POSE, "--certify", "--method", "search")
     assert run.code == 2
+
+
+def test_where_phi_and_psi_turn_about_one_axis_the_answer_says_so(assur_cli, tmp_path):
+    """Four of the eight poses of an Agile Eye have theta = 90 or -90 deg, whatever its inputs are."""
+    path = str(spherical(tmp_path))
+    run = assur_cli("direct", path, "10", "20", "-15", "--certify")
+    assert (run.code, run.err) == (5, "")
+    assert run.out.count("-180.0000 .. 180.0000") == 8
+    assert "phi and psi: any, where theta may be 90.0000 deg or its negative" in " ".join(run.out.split())
+    found = assur_cli("direct", path, "10", "20", "-15", "--certify", "--json").json["solutions"]
+    assert [item["undetermined"] for item in found].count(["phi", "psi"]) == 4
+    assert all(None not in item["pose"][end] for item in found for end in ("low", "high"))
+
+
+def test_at_a_half_turn_the_parts_of_a_quaternion_have_either_sign(assur_cli, tmp_path):
+    run = assur_cli("direct", str(spherical(tmp_path, QUATERNION)), "0", "0", "0", "--certify")
+    assert run.code == 5
+    assert run.out.count("-1.000000 .. 1.000000") == 3
+    assert "of either sign where qw may be 0" in " ".join(run.out.split())

@@ -2,8 +2,11 @@ from __future__ import annotations
 
 import numpy as np
 
+import assur
+from assur.figures.catalogue import drawing
 from assur.kinematics.position import direct
 from assur.model.points import point
+from spherical import spherical
 
 
 def test_all_listed_direct_solutions_are_drawn_and_close(context, data):
@@ -31,3 +34,10 @@ def test_driven_joints_stand_at_one_place_in_all(context, data):
     for item in solutions:
         for name in sliders:
             np.testing.assert_allclose(item["points"][name], solutions[0]["points"][name], atol=1e-6)
+
+
+def test_a_mechanism_whose_joints_are_in_one_point_is_drawn(tmp_path):
+    record = assur.load(spherical(tmp_path))
+    drawn = drawing(record, "solutions")
+    assert np.all(np.isfinite(drawn.figure.get_size_inches()))
+    assert len(drawn.data["solutions"]) == 8

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from assur.cli import exit_codes
 from assur.cli.options import MethodName, Outcome
 from assur.cli.output import heading, table
-from assur.cli.quantities import Style, pose_text, short, style_of
+from assur.cli.quantities import QUATERNION, Style, pose_text, short, style_of
 from assur.errors import UsageError
 
 if TYPE_CHECKING:
@@ -54,6 +55,7 @@ def _shown(record: Mechanism, data: dict[str, Any], headline: str) -> Iterable[R
     yield ""
     if data["solutions"]:
         yield _solutions(record, data, style)
+        yield from _undetermined(style, data)
     if data["undecided"]:
         yield _undecided(data, style)
     yield from _right(record, data)
@@ -86,12 +88,35 @@ def _solutions(record: Mechanism, data: dict[str, Any], style: Style) -> Rendera
         pairs = list(zip(bounds["low"], bounds["high"], strict=True))
         middles = [0.5 * (low + high) for low, high in pairs]
         if direct:
-            values = [style.coordinate(*pair) for pair in zip(data["coordinates"], middles, strict=True)]
+            values = [
+                _range(style, name, pair) if name in item["undetermined"] else style.coordinate(name, middle)
+                for name, pair, middle in zip(data["coordinates"], pairs, middles, strict=True)
+            ]
+            told = [name not in item["undetermined"] for name in data["coordinates"]]
         else:
             values = [style.kind(*pair) for pair in zip(kinds, middles, strict=True)]
-        width = max(high - low for low, high in pairs)
+            told = [True] * len(pairs)
+        width = max((high - low for (low, high), known in zip(pairs, told, strict=True) if known), default=0.0)
         rows.append((item["mode"], *values, at_most(width), item[other], str(hows.index(item["how"]) + 1)))
     return table(("mode", *titles, "width", other.partition("_")[0], "proof"), rows)
+
+
+def _range(style: Style, name: str, pair: tuple[float, float]) -> str:
+    return " .. ".join(dict.fromkeys(style.coordinate(name, end) for end in pair))
+
+
+def _undetermined(style: Style, data: dict[str, Any]) -> Iterable[str]:
+    """Why some coordinates are no numbers though the pose is proved."""
+    names = {name for item in data["solutions"] for name in item.get("undetermined", ())}
+    angles = [name for name in data["coordinates"] if name in names and name not in QUATERNION]
+    if angles:
+        right = style.degrees(90.0 if data["angle"] == "deg" else math.pi / 2)
+        yield (
+            f"{' and '.join(angles)}: any, where theta may be {right} {data['angle']} or its negative: both turn about"
+            " one axis there, and only the two together say how the platform stands"
+        )
+    if names & set(QUATERNION):
+        yield "qx, qy, qz: of either sign where qw may be 0, since q and -q are one orientation"
 
 
 def _undecided(data: dict[str, Any], style: Style) -> RenderableType:

@@ -152,6 +152,8 @@ def _pose_shown(record: Mechanism, data: dict[str, Any], units: dict[str, str]) 
         left=("input",),
     )
     factors = ", ".join(map(short, data["velocity_factors"]))
+    if data["status"] == "undecided":
+        yield "theta is a right angle: phi and psi have no rates of their own, so that J does not exist here"
     yield f"velocity factors of J = Jp^-1 Jq: {factors} {data['velocity_factor_unit']}".rstrip()
     yield length_words(record, data["characteristic_length"])
 

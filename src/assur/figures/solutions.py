@@ -27,6 +27,9 @@ TALLEST = 105.0
 GAP = 12.0
 """Of the drawings, in mm."""
 
+LEAST = 0.1
+"""Share of the mechanism's size that a drawing spans at least."""
+
 MOST = 8
 """More than these on one another cannot be read."""
 
@@ -95,6 +98,8 @@ def _draw(context: Context) -> Drawing:
     drawn = found[:MOST]
     cloud = np.concatenate([cloud_of(item.skeleton, context.companion) for item in drawn])
     spans = np.array([np.ptp(camera.project(cloud), axis=0) for camera in cameras])  # (panels, 2)
+    # a mechanism whose joints are in one point has symbols there all the same
+    spans = np.maximum(spans, LEAST * context.skeleton.size)
     scale = min(TALLEST / spans[:, 1].max(), (PAGE - GAP * (len(cameras) + 1)) / spans[:, 0].sum())
     rooms = scale * spans
     width = max(110.0, float(rooms[:, 0].sum()) + GAP * (len(cameras) + 1))

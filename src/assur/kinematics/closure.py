@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.kinematics.pose import platform_rates, pose_error
+from assur.kinematics.pose import error_rates, pose_error
 from assur.model.joint_graph import Frame, child_frame, frames, joint_graph, screws
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
@@ -151,7 +151,8 @@ def closing_system(
     values = components.by_components(values)
     placed = frames(record, values)
     twists = screws(record, placed, values)
-    units = np.array([1.0 if name in LENGTHS else length for name in rate_names(record.platform.pose)])
+    lengths = sum(name in LENGTHS for name in record.platform.pose)
+    units = np.repeat([1.0, length], [lengths, len(rate_names(record.platform.pose)) - lengths])
     rows = 6 * len(graph.cut)
     count = rows if poses is None else rows + len(units)
     residual, jacobian = np.empty((len(values), count)), np.zeros((len(values), count, values.shape[-1]))
@@ -167,7 +168,7 @@ def closing_system(
             block[:, 3:, columns] = sense * length * angular
     if poses is not None:
         residual[:, rows:] = pose_error(record, placed, poses, length)
-        jacobian[:, rows:] = platform_rates(record, placed, twists) * units[:, None]
+        jacobian[:, rows:] = error_rates(record, placed, twists) * units[:, None]
     return residual, jacobian
 
 

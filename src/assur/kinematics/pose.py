@@ -60,23 +60,48 @@ def platform_twists(record: MechanismRecord, placed: dict[str, Frame], twists: F
 def pose_error(record: MechanismRecord, placed: dict[str, Frame], poses: FloatArray, length: float) -> FloatArray:
     """How far (N, k) the platform is from poses (N, m): lengths, and rotations times `length`.
 
-    Its derivative by the joint values is `pose_rates`, angular rows times `length`, exact where it is zero.
+    Its derivative by the joint values is that of `error_rates`, angular rows times `length`, exact where it is zero. A
+    pose that tells the whole orientation is compared by the rotation between the two, since three angles lose one
+    direction where theta is a right angle.
     """
     rotation, point = _platform(record, placed)
-    given = {name: poses[..., k] for k, name in enumerate(record.platform.pose)}
-    turned = any(name in ANGLES for name in record.platform.pose)
-    angles = dict(zip(ANGLES, rotations.to_angles(rotation), strict=True)) if turned else {}
-    rows = []
-    for name in rate_names(record.platform.pose):
-        if name in LENGTHS:
-            rows.append(point[..., LENGTHS.index(name)] - given[name])
-        elif name in ANGLES:
-            rows.append(length * _nearest_turn(angles[name] - given[name]))
-    if has_quaternion(record.platform.pose):
-        wanted = rotations.from_quaternion(np.stack([given[name] for name in QUATERNION], axis=-1))
-        turn = rotations.to_vector(rotation @ np.swapaxes(wanted, -1, -2))
+    names = record.platform.pose
+    given = {name: poses[..., k] for k, name in enumerate(names)}
+    rows = [point[..., LENGTHS.index(name)] - given[name] for name in names if name in LENGTHS]
+    if _whole_orientation(names):
+        turn = rotations.to_vector(rotation @ np.swapaxes(_orientation(names, given), -1, -2))
         rows += [length * turn[..., k] for k in range(3)]
+    elif any(name in ANGLES for name in names):
+        angles = dict(zip(ANGLES, rotations.to_angles(rotation), strict=True))
+        rows += [length * _nearest_turn(angles[name] - given[name]) for name in names if name in ANGLES]
     return np.stack(rows, axis=-1)
+
+
+def error_rates(record: MechanismRecord, placed: dict[str, Frame], twists: FloatArray) -> FloatArray:
+    """Rates (..., k, n) of the rows of `pose_error`, lengths first, then rad: per rate of each joint."""
+    names = record.platform.pose
+    if _whole_orientation(names):
+        moves = platform_twists(record, placed, twists)
+        lengths = [3 + LENGTHS.index(name) for name in names if name in LENGTHS]
+        return np.asarray(moves[..., [*lengths, 0, 1, 2], :])
+    rates = platform_rates(record, placed, twists)
+    return np.asarray(rates[..., [*np.flatnonzero(_is_length(names)), *np.flatnonzero(~_is_length(names))], :])
+
+
+def _is_length(names: tuple[str, ...]) -> NDArray[np.bool_]:
+    return np.array([name in LENGTHS for name in names], dtype=bool)
+
+
+def _whole_orientation(names: tuple[str, ...]) -> bool:
+    """Whether a pose tells the platform's whole orientation."""
+    return has_quaternion(names) or all(name in names for name in ANGLES)
+
+
+def _orientation(names: tuple[str, ...], given: dict[str, FloatArray]) -> FloatArray:
+    """Rotation (..., 3, 3) that the coordinates of a pose mean."""
+    if has_quaternion(names):
+        return rotations.from_quaternion(np.stack([given[name] for name in QUATERNION], axis=-1))
+    return rotations.from_angles(*(given[name] for name in ANGLES))
 
 
 def platform_rates(record: MechanismRecord, placed: dict[str, Frame], twists: FloatArray) -> FloatArray:
@@ -87,6 +112,43 @@ def platform_rates(record: MechanismRecord, placed: dict[str, Frame], twists: Fl
         rotation, _ = _platform(record, placed)
         named |= zip(ANGLES, _angle_rates(rotation, moves[..., :3, :]), strict=True)
     return np.stack([named[name] for name in rate_names(record.platform.pose)], axis=-2)
+
+
+def turning_rates(record: MechanismRecord, placed: dict[str, Frame], twists: FloatArray) -> FloatArray:
+    """As `platform_rates`, wx, wy and wz in the places of phi, theta and psi where a pose has all three.
+
+    Those rates exist at every orientation, also where theta is a right angle.
+    """
+    names = rate_names(record.platform.pose)
+    if not all(name in names for name in ANGLES):
+        return platform_rates(record, placed, twists)
+    moves = platform_twists(record, placed, twists)
+    rows = [3 + LENGTHS.index(name) if name in LENGTHS else ANGLES.index(name) for name in names]
+    return np.asarray(moves[..., rows, :])
+
+
+def turning_matrix(record: MechanismRecord, values: FloatArray) -> FloatArray:
+    """What rates of the pose (k,) are to those of `turning_rates`: E (..., k, k) at joint values (..., n).
+
+    The angular velocity is phi' z + theta' (Rz y) + psi' (Rz Ry x); E is the unit matrix for other poses. Its
+    determinant is the cosine of theta but for its sign.
+    """
+    names = rate_names(record.platform.pose)
+    matrix = np.broadcast_to(np.eye(len(names)), (*values.shape[:-1], len(names), len(names))).copy()
+    if not all(name in names for name in ANGLES):
+        return matrix
+    rotation, _ = _platform(record, frames(record, values))
+    phi, theta, _ = rotations.to_angles(rotation)
+    zero, one = np.zeros_like(phi), np.ones_like(phi)
+    columns = {
+        "phi": (zero, zero, one),
+        "theta": (-np.sin(phi), np.cos(phi), zero),
+        "psi": (np.cos(phi) * np.cos(theta), np.sin(phi) * np.cos(theta), -np.sin(theta)),
+    }
+    for name, column in columns.items():
+        for row, value in zip(ANGLES, column, strict=True):
+            matrix[..., names.index(row), names.index(name)] = value
+    return matrix
 
 
 def _angle_rates(rotation: FloatArray, angular: FloatArray) -> tuple[FloatArray, ...]:

@@ -239,15 +239,20 @@ def _at_joints(record: MechanismRecord, joints: FloatArray) -> Part:
 
 
 def status_of(here: VelocityMap) -> NDArray[np.int8]:
-    """`Status` (...) of configurations by what is singular there; unreachable where loops are open."""
+    """`Status` (...) of configurations by what is singular there; unreachable where loops are open.
+
+    Undecided where nothing is singular but the coordinates of the pose have no rates (`VelocityMap.no_rates`).
+    """
     kinds = 2 * here.singular_input + 3 * here.singular_output
     of_kind = np.array([Status.regular, 0, Status.serial, Status.parallel, 0, Status.comprehensive], dtype=np.int8)
-    return np.where(here.exists, of_kind[kinds], Status.unreachable).astype(np.int8)
+    found = np.where((kinds == 0) & here.no_rates, Status.undecided, of_kind[kinds])
+    return np.where(here.exists, found, Status.unreachable).astype(np.int8)
 
 
 def _part(record: MechanismRecord, status: NDArray[np.int8], here: VelocityMap, joints: FloatArray) -> Part:
-    missing = (status == Status.unreachable) | (status == Status.undecided) | ~np.all(np.isfinite(joints), axis=-1)
-    matrix = np.where((missing | here.singular_output)[:, None, None], np.nan, here.matrix)
+    missing = (status == Status.unreachable) | ~np.all(np.isfinite(joints), axis=-1)
+    missing |= (status == Status.undecided) & ~here.no_rates
+    matrix = np.where((missing | here.singular_output | here.no_rates)[:, None, None], np.nan, here.matrix)
     found = transmission_at(record, np.where(missing[:, None], 0.0, joints))
     singular = here.singular_output | here.singular_input
     fields = [np.where(singular[:, None], 0.0, values) for values in (found.inputs, found.outputs)]

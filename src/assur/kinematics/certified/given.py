@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
 from assur.numerics.dual import Dual
-from assur.numerics.intervals.functions import ERROR, cosine_sine, from_degrees
+from assur.numerics.intervals.functions import ERROR, TURN, cosine_sine, from_degrees
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.krawczyk import parts
 from assur.numerics.number_types import Intervals
@@ -96,6 +96,8 @@ def printed(record: MechanismRecord, components: tuple[Any, ...]) -> tuple[Inter
 def number(value: Any) -> Interval:
     """An interval as it is, a pair (cosine, sine) as bounds of its angle in rad; they may reach beyond a half turn.
 
+    Where the pair may be (0, 0) it has no angle: the bounds are then a whole turn, -pi to pi, and not defined.
+
     >>> angle = number((Interval.of(-0.6), Interval.of(0.8)))
     >>> bool(angle.contains(np.arctan2(0.8, -0.6))), bool(angle.width < 1e-14)
     (True, True)
@@ -112,4 +114,7 @@ def number(value: Any) -> Interval:
     share = off / size * 2.3
     bound = np.where(np.isfinite(share.high) & (share.high < 1), share.high, np.inf)
     spread = Interval(-bound, bound, share.defined & np.isfinite(bound))
-    return Interval.of(middle) * Interval.of(1 - ERROR, 1 + ERROR) + spread
+    near = Interval.of(middle) * Interval.of(1 - ERROR, 1 + ERROR) + spread
+    known = np.isfinite(bound)
+    half = 0.5 * TURN.high
+    return Interval(np.where(known, near.low, -half), np.where(known, near.high, half), near.defined)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from assur.kinematics.certified.given import turn
 from assur.kinematics.certified.joint_frames import Placed
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import LENGTHS, QUATERNION, is_angle
+from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion, is_angle
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.krawczyk import parts
 from assur.numerics.number_types import Intervals
@@ -23,7 +23,8 @@ FloatArray = NDArray[np.float64]
 def pose_parts(record: MechanismRecord, placed: dict[str, Placed]) -> list[Any]:
     """The pose's coordinates over bounds of frames, an angle as (cosine, sine) up to a positive factor.
 
-    Theta is between -90 and 90 deg, qw positive.
+    Theta is between -90 and 90 deg, qw not negative. Where qw may be 0 the other parts may have either sign, since q
+    and -q are one orientation.
 
     >>> from assur.model.registry import load_record
     >>> record = load_record("planar_3rpr")
@@ -43,9 +44,22 @@ def pose_parts(record: MechanismRecord, placed: dict[str, Placed]) -> list[Any]:
         "psi": (as_interval(rotation[2][2]), as_interval(rotation[2][1])),
         "qw": scalar,
     }
-    for name, (i, j) in zip(QUATERNION[1:], ((2, 1), (0, 2), (1, 0)), strict=True):
-        found[name] = as_interval(minus(rotation[i][j], rotation[j][i])) / (scalar * 4)
+    for k, (i, j) in enumerate(((2, 1), (0, 2), (1, 0))):
+        quotient = as_interval(minus(rotation[i][j], rotation[j][i])) / (scalar * 4)
+        found[QUATERNION[k + 1]] = _at_most(quotient, _size(rotation, k))
     return [found[name] for name in record.platform.pose]
+
+
+def _size(rotation: Any, axis: int) -> Interval:
+    """Absolute value of the part of a quaternion about an axis, without its sign: 4 qx^2 = 1 + r11 - r22 - r33."""
+    own, *others = (as_interval(rotation[k][k]) for k in (axis, (axis + 1) % 3, (axis + 2) % 3))
+    return (1 + own - others[0] - others[1]).sqrt() / 2
+
+
+def _at_most(number: Interval, size: Interval) -> Interval:
+    """Bounds of a number that is no larger than a size, where dividing by what may be zero has left it without any."""
+    known = np.isfinite(number.low) & np.isfinite(number.high)
+    return Interval(np.where(known, number.low, -size.high), np.where(known, number.high, size.high), number.defined)
 
 
 def pose_rows(record: MechanismRecord, placed: dict[str, Placed], pose: Interval) -> tuple[list[Any], list[Any]]:
@@ -55,6 +69,10 @@ def pose_rows(record: MechanismRecord, placed: dict[str, Placed], pose: Interval
     wanted = dict(zip(record.platform.pose, parts(pose), strict=True))
     rows: list[Any] = [minus(point[LENGTHS.index(name)], wanted[name]) for name in LENGTHS if name in wanted]
     positive: list[Any] = []
+    if has_quaternion(record.platform.pose) or all(name in wanted for name in ANGLES):
+        # the whole orientation by one rotation: three angles lose a direction where theta is a right angle
+        own, more = _turned_to(rotation, _wanted_rotation(wanted))
+        return rows + own, positive + more
     pairs = {"phi": (rotation[0][0], rotation[1][0]), "psi": (rotation[2][2], rotation[2][1])}
     for name in (name for name in wanted if is_angle(name)):
         cosine, sine = turn(wanted[name])
@@ -63,21 +81,29 @@ def pose_rows(record: MechanismRecord, placed: dict[str, Placed], pose: Interval
             continue
         rows.append(minus(times(pairs[name][1], cosine), times(pairs[name][0], sine)))
         positive.append(plus(times(pairs[name][0], cosine), times(pairs[name][1], sine)))
-    if QUATERNION[0] in wanted:
-        own, more = _turned_to(rotation, [wanted[name] for name in QUATERNION])
-        rows, positive = rows + own, positive + more
     return rows, positive
 
 
-def _turned_to(rotation: Any, quaternion: list[Interval]) -> tuple[list[Any], list[Any]]:
-    """Skew part and trace of the turn from a quaternion of any length to a rotation."""
-    w, x, y, z = quaternion
+def _wanted_rotation(wanted: dict[str, Interval]) -> Any:
+    """Rows of the rotation that a quaternion of any length, or phi, theta and psi mean."""
+    if QUATERNION[0] not in wanted:
+        (cf, sf), (ct, st), (cp, sp) = (turn(wanted[name]) for name in ANGLES)
+        return (
+            (cf * ct, cf * st * sp - sf * cp, cf * st * cp + sf * sp),
+            (sf * ct, sf * st * sp + cf * cp, sf * st * cp - cf * sp),
+            (-st, ct * sp, ct * cp),
+        )
+    w, x, y, z = (wanted[name] for name in QUATERNION)
     twice = 2 / (w * w + x * x + y * y + z * z)
-    wanted = (
+    return (
         (1 - twice * (y * y + z * z), twice * (x * y - w * z), twice * (x * z + w * y)),
         (twice * (x * y + w * z), 1 - twice * (x * x + z * z), twice * (y * z - w * x)),
         (twice * (x * z - w * y), twice * (y * z + w * x), 1 - twice * (x * x + y * y)),
     )
+
+
+def _turned_to(rotation: Any, wanted: Any) -> tuple[list[Any], list[Any]]:
+    """Skew part and trace of the turn from a wanted rotation to a rotation."""
     gap = [[_dot([row[i] for row in wanted], [row[j] for row in rotation]) for j in range(3)] for i in range(3)]
     skew = [minus(gap[2][1], gap[1][2]), minus(gap[0][2], gap[2][0]), minus(gap[1][0], gap[0][1])]
     return skew, [plus(plus(gap[0][0], gap[1][1]), gap[2][2])]

@@ -13,7 +13,8 @@ from assur.kinematics import border
 from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import is_angle
+from assur.model.pose import QUATERNION, is_angle
+from assur.numerics.intervals.functions import TURN
 from assur.numerics.intervals.interval import Interval
 from assur.results.json_text import plain
 
@@ -121,6 +122,24 @@ class CertifiedSolutions:
         return f"{count} proved{but}, {where}"
 
 
+def undetermined(record: MechanismRecord, pose: Interval) -> tuple[str, ...]:
+    """The coordinates of a proved pose (m,) that no bounds can tell: phi and psi at theta = 90 deg, signs at qw = 0.
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("planar_3rpr")
+    >>> undetermined(record, Interval.of([0.0, 0.0, -4.0], [0.0, 0.0, 4.0]))
+    ('phi',)
+    """
+    names = record.platform.pose
+    either_sign = QUATERNION[0] in names and bool(pose.low[names.index(QUATERNION[0])] <= 0.0)
+    whole_turn = pose.width >= TURN.low
+    return tuple(
+        name
+        for name, turn in zip(names, whole_turn, strict=True)
+        if (is_angle(name) and turn) or (either_sign and name in QUATERNION[1:])
+    )
+
+
 def at_most(size: float) -> str:
     """An upper bound as text of two digits, at most a tenth above the size.
 
@@ -164,7 +183,10 @@ def answer(found: CertifiedSolutions) -> dict[str, Any]:
 def _solution(found: CertifiedSolutions, item: ProvedSolution) -> dict[str, Any]:
     record = found.record
     if found.problem == "direct":
-        bounds = {"pose": _pose_bounds(record, item.pose.low, item.pose.high)}
+        bounds = {
+            "pose": _pose_bounds(record, item.pose.low, item.pose.high),
+            "undetermined": list(undetermined(record, item.pose)),
+        }
         other = {"working_mode": item.working_mode}
     else:
         low, high = (inputs_at_border(record, end) for end in (item.inputs.low, item.inputs.high))

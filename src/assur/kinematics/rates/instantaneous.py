@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.kinematics.closure import CLOSED, characteristic_length, closure_error
+from assur.kinematics.pose import turning_matrix
 from assur.kinematics.rates.motions import (
     SINGULAR,
     IntArray,
@@ -53,6 +54,8 @@ class Instant:
         constraint_jacobian: (..., c, 6), rows that annul the platform's twist (angular velocity, velocity of the
             platform's point): orthonormal constraint wrenches. Zero where the platform has gained a freedom.
         closed: whether the joint values close the loops; elsewhere all matrices and measures are NaN.
+        no_rates: (...) where phi, theta and psi have no rates of their own, theta being a right angle: the mechanism
+            need not be singular there, and measures and ranks, which count angular velocities, do not say so.
     """
 
     jp: FloatArray
@@ -64,6 +67,7 @@ class Instant:
     constraint_jacobian: FloatArray
     closed: BoolArray
     motion: Motion
+    no_rates: BoolArray
 
     @cached_property
     def types(self) -> Mapping[str, BoolArray]:
@@ -135,8 +139,9 @@ def instantaneous(record: MechanismRecord, joints: ArrayLike) -> Instant:
     measures = {"output": _smallest(jp) * whole, "input": _smallest(jq) * whole, "closure": np.minimum(share, 1.0)}
     wrenches = _complement(motion.twists_left, motion.ranks.twists, int(usual.twists))  # (..., c, 6)
     unknown = ~closed[..., None, None]
+    turning = turning_matrix(record, values)
     return Instant(
-        jp=np.where(unknown, np.nan, jp * length / pose_units(record)),
+        jp=np.where(unknown, np.nan, jp * length / pose_units(record) @ turning),
         jq=np.where(unknown, np.nan, jq * length / input_units(record)),
         measures={name: np.where(closed, value, np.nan) for name, value in measures.items()},
         ranks=motion.ranks,
@@ -145,6 +150,7 @@ def instantaneous(record: MechanismRecord, joints: ArrayLike) -> Instant:
         constraint_jacobian=np.where(unknown, np.nan, wrenches / twist_units(record)),
         closed=np.asarray(closed),
         motion=motion,
+        no_rates=np.asarray(closed & (np.abs(np.linalg.det(turning)) <= SINGULAR)),
     )
 
 

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from assur.kinematics.border import checked
 from assur.kinematics.closure import RANK_GAP, assemble, characteristic_length, loop_twists
 from assur.kinematics.home import home_values
-from assur.kinematics.pose import platform_rates, platform_twists
+from assur.kinematics.pose import platform_twists, turning_rates
 from assur.model.joint_graph import frames, screws
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
@@ -61,7 +61,8 @@ class Motion:
     """Null space of the closure (..., n, n; columns that are none are zero), and what it moves, scaled to numbers.
 
     `left`, `values`, `right` are the singular value decomposition of the scaled closure Jacobian, `scale` (n,) turns
-    scaled joint rates into rates; `inputs` (..., F, n), `pose` (..., k, n) and `twists` (..., 6, n) are per motion.
+    scaled joint rates into rates; `inputs` (..., F, n), `pose` (..., k, n) and `twists` (..., 6, n) are per motion, the
+    pose's rates being those of `assur.kinematics.pose.turning_rates`.
     """
 
     left: FloatArray
@@ -154,7 +155,7 @@ def motions(record: MechanismRecord, values: FloatArray, threshold: float | None
     for row, item in enumerate(record.inputs):
         inputs[row, item.coordinate.index] = item.sign
     inputs = np.broadcast_to(inputs * scale / input_units(record)[:, None], (*values.shape[:-1], *inputs.shape))
-    pose = platform_rates(record, placed, unit_twists) * scale / pose_units(record)[:, None]
+    pose = turning_rates(record, placed, unit_twists) * scale / pose_units(record)[:, None]
     twists = platform_twists(record, placed, unit_twists) * scale / twist_units(record)[:, None]
     parts = {
         "inputs": inputs,

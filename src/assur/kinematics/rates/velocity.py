@@ -33,7 +33,9 @@ class VelocityMap:
     are those of the printed inputs. `exists` (...) says where the mode reaches the pose, or the joint values close the
     loops; elsewhere every number is NaN. `singular_output` (...) marks where Jp is singular, `singular_input` where Jq
     is, judged by the factors of the closed form or by the ranks of the joint graph. Of a mechanism with more or fewer
-    inputs than rates, Jq is not square: it has no determinant (NaN) and is solved by least squares.
+    inputs than rates, Jq is not square: it has no determinant (NaN) and is solved by least squares. `no_rates` (...)
+    marks where theta is a right angle, so that phi and psi have no rates of their own: J does not exist there, though
+    the mechanism need not be singular.
     """
 
     jp: FloatArray
@@ -41,11 +43,13 @@ class VelocityMap:
     singular_output: NDArray[np.bool_]
     singular_input: NDArray[np.bool_]
     exists: NDArray[np.bool_]
+    no_rates: NDArray[np.bool_]
 
     @classmethod
     def of(cls, instant: Instant) -> VelocityMap:
         """The velocity map of a first-order motion on the joint graph."""
-        return cls(instant.jp, instant.jq, instant.singular_output, instant.singular_input, instant.closed)
+        singular = (instant.singular_output, instant.singular_input)
+        return cls(instant.jp, instant.jq, *singular, instant.closed, instant.no_rates)
 
     @cached_property
     def det_jp(self) -> FloatArray:
@@ -65,13 +69,13 @@ class VelocityMap:
 
     @cached_property
     def matrix(self) -> FloatArray:
-        """J = Jp^-1 Jq (..., k, n), with v = J qdot; NaN where `singular_output`."""
-        return _solve(self.jp, self.jq, self.singular_output)
+        """J = Jp^-1 Jq (..., k, n), with v = J qdot; NaN where `singular_output` or `no_rates`."""
+        return _solve(self.jp, self.jq, self.singular_output | self.no_rates)
 
     @cached_property
     def velocity_factors(self) -> FloatArray:
         """Singular values of J (..., min(k, n)), largest first: how much faster than inputs; NaN where singular."""
-        unknown = self.singular_output | ~self.exists
+        unknown = self.singular_output | self.no_rates | ~self.exists
         safe = np.where(unknown[..., None, None], 0.0, self.matrix)
         factors: FloatArray = np.linalg.svd(safe, compute_uv=False)
         return np.where(unknown[..., None], np.nan, factors)
@@ -228,6 +232,7 @@ def _velocity_map(
         (np.asarray(output) & real).reshape(batch),
         (np.asarray(inputs) & real).reshape(batch),
         there,
+        np.zeros(batch, dtype=bool),
     )
 
 
