@@ -6,16 +6,48 @@ Misuse raises one of these; mathematics never does, it answers by a `Status`.
 from __future__ import annotations
 
 import difflib
+import unicodedata
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+_HIDDEN = frozenset(("Cc", "Cf", "Cs", "Zl", "Zp"))
+"""Categories of Unicode that a reader does not see, but a terminal obeys: controls, directions, separators of lines."""
+
+
+def hidden(text: str, kept: str = "\n") -> str:
+    r"""The characters of a text that nobody sees: controls, escapes, changes of direction; "" where there are none.
+
+    Args:
+        text: any text.
+        kept: those that may be there.
+
+    >>> hidden("a\x1b[2J"), hidden("a title"), hidden("x\u202ey")
+    ('\x1b', '', '\u202e')
+    """
+    if text.isprintable():
+        return ""
+    return "".join(sign for sign in text if sign not in kept and unicodedata.category(sign) in _HIDDEN)
+
+
+def visible(text: str, kept: str = "\n") -> str:
+    r"""A text with its hidden characters written out, so that no terminal obeys them.
+
+    >>> print(visible("a\x1b[2J"))
+    a\x1b[2J
+    """
+    unseen = set(hidden(text, kept))
+    if not unseen:
+        return text
+    return "".join(sign.encode("unicode_escape").decode() if sign in unseen else sign for sign in text)
+
 
 def cut(text: str, length: int = 60) -> str:
-    """A text for a message, cut where it is very long.
+    """A text for a message, cut where it is very long, with all of it to be seen.
 
     >>> cut("a long name", 9)
     'a long...'
     """
+    text = visible(text, kept="")
     return text if len(text) <= length else text[: length - 3] + "..."
 
 

@@ -8,7 +8,7 @@ from assur.cli.main import application
 COMMANDS = (
     *("list", "show", "check", "topology", "direct", "inverse", "follow", "singularity", "workspace", "certify"),
     *("verify", "audit", "figures", "report", "new", "schema", "export", "crosscheck", "indices", "synthesize"),
-    *("aspects", "sweep", "page", "view", "motion", "collisions", "demo", "doctor"),
+    *("aspects", "sweep", "page", "view", "motion", "collisions", "demo", "doctor", "cache"),
 )
 
 

@@ -21,6 +21,7 @@ from assur.errors import MechanismFileError, Problem, UnknownNameError
 from assur.model.file.schema import Entry
 from assur.model.file.toml_source import read_toml
 from assur.model.mechanism import MechanismRecord
+from assur.results.reading import file_text
 
 EVIDENCE = "evidence"
 
@@ -67,7 +68,7 @@ def erratum(record: MechanismRecord, name: str) -> Erratum:
 def _entries(path: Path) -> dict[str, ErratumEntry]:
     if not path.is_file():
         return {}
-    source = read_toml(path.read_text(encoding="utf-8"), str(path))
+    source = read_toml(file_text(path), str(path))
     return checked(ErrataFile, source, path).root
 
 

@@ -22,6 +22,7 @@ from assur.model.file.toml_source import TomlSource, read_toml
 from assur.model.file.values import Value, refuse, shown
 from assur.model.formula import Formula
 from assur.model.mechanism import MechanismRecord
+from assur.results.reading import file_text
 
 FOLDER = "reference"
 ERRATA = "errata.toml"
@@ -109,7 +110,7 @@ def read_form(path: Path, kinds: Mapping[str, type[Entry]]) -> Any:
         definitions=(dict[str, Value], Field(default_factory=dict)),
         **fields,
     )
-    source = read_toml(path.read_text(encoding="utf-8"), str(path))
+    source = read_toml(file_text(path), str(path))
     return checked(form, source, path)
 
 

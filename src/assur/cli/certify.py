@@ -121,9 +121,10 @@ def _compatible(kind: str, start: str | None, end: str | None, gap: str | None, 
 
 def _earlier(path: Path) -> dict[str, Any]:
     """The certificate of a file; one that proves nothing is refused before it is carried on."""
+    from assur.results.reading import MOST_CERTIFICATE, file_content
     from assur.verifier.reading import RefusedError, read
 
     try:
-        return read(path.read_bytes())
+        return read(file_content(path, MOST_CERTIFICATE))
     except RefusedError as error:
         raise UsageError(f"cannot carry on {path}: {error}", hint="leave --resume out to begin anew") from error

@@ -34,6 +34,7 @@ def application() -> App:
     """The application with every command."""
     from assur.cli.aspects import aspects
     from assur.cli.audit import audit
+    from assur.cli.cache import cache
     from assur.cli.certify import certify
     from assur.cli.check import check
     from assur.cli.collisions import collisions
@@ -76,7 +77,7 @@ def application() -> App:
         "Singularity, workspace, quality": (singularity, workspace, aspects, indices),
         "See it move": (page, view, motion),
         "Draw, write, build": (figures, report, export, collisions),
-        "Prove and check": (certify, verify, crosscheck, audit, doctor, demo),
+        "Prove and check": (certify, verify, crosscheck, audit, doctor, cache, demo),
     }
     for title, commands in groups.items():
         group = Group.create_ordered(title)

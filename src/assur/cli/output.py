@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Literal
 
-from assur.errors import AssurError, MechanismFileError, OutputError
+from assur.errors import AssurError, MechanismFileError, OutputError, visible
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
@@ -56,7 +56,24 @@ def show(items: Iterable[RenderableType]) -> None:
     out = console()
     for item in items:
         with written():
-            out.print(item, soft_wrap=isinstance(item, Verbatim), crop=False)
+            out.print(_seen(item), soft_wrap=isinstance(item, Verbatim), crop=False)
+
+
+def _seen(item: RenderableType) -> RenderableType:
+    """An item whose hidden characters, such as those of a path that was typed, are written out."""
+    from rich.console import ConsoleOptions
+    from rich.measure import Measurement
+    from rich.segment import Segment
+
+    class Seen:
+        def __rich_console__(self, console: Console, options: ConsoleOptions) -> Iterator[Segment]:
+            for part in console.render(item, options):
+                yield part if part.control else Segment(visible(part.text), part.style)
+
+        def __rich_measure__(self, console: Console, options: ConsoleOptions) -> Measurement:
+            return Measurement.get(console, options, item)
+
+    return Seen()
 
 
 @contextmanager
@@ -87,7 +104,8 @@ class InterruptedByUserError(AssurError):
 
 def complain(error: AssurError, *, json: bool = False) -> None:
     """An error on standard error: what is wrong, then a hint; with `json` as one object on standard output too."""
-    sys.stderr.write(f"{error}\n" if isinstance(error, InterruptedByUserError) else f"error: {error}\n")
+    text = visible(str(error))  # what was typed stands in it
+    sys.stderr.write(f"{text}\n" if isinstance(error, InterruptedByUserError) else f"error: {text}\n")
     if json:
         from assur.results.json_text import json_text
 

@@ -44,13 +44,11 @@ def verify(
         assur verify cert.json --mechanism my_mechanism.toml
     """
     path = Path(file)
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        raise UsageError(f"cannot read {path}: {error.strerror}", hint="give a file of `assur certify`") from error
+    from assur.results.reading import MOST_CERTIFICATE, file_content
     from assur.verifier.check import verify as checked
     from assur.verifier.reading import MalformedError, RefusedError
 
+    content = file_content(path, MOST_CERTIFICATE, "give a file of `assur certify`")
     start = time.perf_counter()
     try:
         document = checked(content)

@@ -18,7 +18,7 @@ from assur.model.closed_form_file import disagreements, read_closed_form
 from assur.model.file.build import build
 from assur.model.file.faults import Faults
 from assur.model.file.parameters import checked_overrides
-from assur.model.file.reader import examined, file_text, read_mechanism, with_ending
+from assur.model.file.reader import description_text, examined, read_mechanism, with_ending
 from assur.model.file.toml_source import read_toml
 from assur.model.file.topology_file import read_topology
 from assur.model.file.topology_schema import is_topology
@@ -84,7 +84,7 @@ def means_topology(name_or_path: str | Path, /) -> bool:
     (True, False)
     """
     path = _find(name_or_path, (TOPOLOGY, FILE))
-    return is_topology(read_toml(file_text(path), str(path)).data)
+    return is_topology(read_toml(description_text(path), str(path)).data)
 
 
 def load_topology(name_or_path: str | Path, /) -> TopologyDescription:
@@ -202,7 +202,7 @@ def examine(name_or_path: str | Path, /) -> tuple[MechanismRecord | None, tuple[
     path = _find(name_or_path, (FILE, TOPOLOGY))
     beside = path.parent / CLOSED_FORM
     try:
-        record, faults = examined(file_text(path), path)
+        record, faults = examined(description_text(path), path)
     except MechanismFileError as error:
         return None, (*error.problems, *_faults_beside(beside, None, None))
     problems = (*faults.told(), *_faults_beside(beside, record, faults))

@@ -10,6 +10,7 @@ from assur.model.file.toml_source import read_toml
 from assur.model.mechanism import MechanismRecord
 from assur.page.origin import has_errata, left_out
 from assur.report.sections.derived import rounded
+from assur.results.reading import file_text
 from assur.topology.facts import Topology
 
 KINDS = {"none": "every output depends on every input", "partial": "partly decoupled", "full": "decoupled"}
@@ -43,7 +44,7 @@ def errata(record: MechanismRecord) -> list[dict[str, str]]:
     if record.folder is None or not has_errata(record) or left_out(record):
         return []
     path = record.folder / FOLDER / ERRATA
-    entries = checked(ErrataFile, read_toml(path.read_text(encoding="utf-8"), str(path)), path).root
+    entries = checked(ErrataFile, read_toml(file_text(path), str(path)), path).root
     return [
         {"id": name, "text": f"{entry.where}: printed {entry.printed.rstrip('., ')}. {entry.finding}"}
         for name, entry in entries.items()

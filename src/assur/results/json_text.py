@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from assur.errors import hidden
+
 
 def plain(value: Any) -> Any:
     """Numbers, texts, lists and dicts only; NaN and infinity become None.
@@ -42,7 +44,12 @@ def plain(value: Any) -> Any:
 def json_text(value: Any) -> str:
     """The JSON text of a result, without NaN or Infinity.
 
+    Characters that nobody sees are escaped, so that a terminal that shows it obeys none.
+
     >>> json_text({"residual": float("inf")})
     '{"residual": null}'
     """
-    return json.dumps(plain(value), allow_nan=False, ensure_ascii=False)
+    text = json.dumps(plain(value), allow_nan=False, ensure_ascii=False)
+    for sign in set(hidden(text)):
+        text = text.replace(sign, json.dumps(sign)[1:-1])
+    return text

@@ -14,6 +14,7 @@ from assur.model.file.faults import Faults
 from assur.model.file.toml_source import TomlSource, read_toml
 from assur.model.formula import FormulaError, parse
 from assur.model.mechanism import MechanismRecord
+from assur.results.reading import file_text
 from assur.scene.camera import Camera, oblique, orthographic
 
 FILE = "figures.toml"
@@ -146,7 +147,7 @@ def companion(record: MechanismRecord) -> Companion:
     path = record.folder / FILE if record.folder else None
     if path is None or not path.is_file():
         return Companion()
-    source = read_toml(path.read_text(encoding="utf-8"), str(path))
+    source = read_toml(file_text(path), str(path))
     faults = Faults(str(path), source)
     found = _checked(source, faults)
     if found is None:

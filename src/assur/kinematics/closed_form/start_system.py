@@ -21,6 +21,7 @@ from assur.model.pose import QUATERNION, has_quaternion
 from assur.numerics.expanded import System, expand, unknowns
 from assur.numerics.monodromy import all_solutions, random_complex
 from assur.numerics.path_tracking import polished
+from assur.results.reading import file_text
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -71,7 +72,7 @@ def start_system(record: MechanismRecord, system: PolynomialSystem) -> tuple[Com
     path = record.folder / FILE if record.folder else None
     if path is None or not path.is_file():
         return found_start(record, system)
-    data = read_toml(path.read_text(encoding="utf-8"), str(path)).data
+    data = read_toml(file_text(path), str(path)).data
     parameters = np.array([complex(*data["start"][name]) for name in _names(record)])
     rough = np.array(data["solutions"]).reshape(-1, len(system.unknowns), 2) @ [1, 1j]
     here = family(record, system, parameters, parameters[None])

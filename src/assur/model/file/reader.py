@@ -13,6 +13,7 @@ from assur.model.file.form import check_form
 from assur.model.file.toml_source import read_toml
 from assur.model.file.topology_schema import is_topology
 from assur.model.mechanism import MechanismRecord
+from assur.results.reading import file_text
 
 
 def read_mechanism(path: Path) -> MechanismRecord:
@@ -22,7 +23,7 @@ def read_mechanism(path: Path) -> MechanismRecord:
         MechanismFileError: the file has faults; all of them are in it.
         UsageError: there is no such file, it cannot be read, or it is a topology file.
     """
-    return read_text(file_text(path), path)
+    return read_text(description_text(path), path)
 
 
 def with_ending(text: str) -> str:
@@ -35,24 +36,12 @@ def with_ending(text: str) -> str:
     return f"did you mean {text}.toml?" if there else ""
 
 
-def file_text(path: Path) -> str:
-    """The text of a file in UTF-8.
+def description_text(path: Path) -> str:
+    """The text of a mechanism's or a topology's file.
 
-    Errors:
-        MechanismFileError: it is not UTF-8.
-        UsageError: there is no such file, or it cannot be read.
+    Errors: as `assur.results.reading.file_text`.
     """
-    try:
-        content = path.read_bytes()
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise UsageError(f"cannot read '{path}': {reason}", hint=with_ending(str(path))) from None
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = content[: error.start].count(b"\n") + 1
-        found = f"byte 0x{content[error.start]:02x}"
-        raise MechanismFileError([Problem(str(path), line, "", found, "allowed: UTF-8 text")]) from None
+    return file_text(path, hint=with_ending(str(path)))
 
 
 def read_text(text: str, path: Path) -> MechanismRecord:

@@ -10,7 +10,7 @@ from pydantic_core import ErrorDetails
 
 from assur.errors import UsageError
 from assur.model.file.faults import Faults, listed, nearest
-from assur.model.file.reader import file_text
+from assur.model.file.reader import description_text
 from assur.model.file.toml_source import KeyPath, read_toml
 from assur.model.file.topology_schema import DeclaredEntry, TopologyEntry, is_mechanism
 from assur.model.file.values import shown
@@ -38,7 +38,7 @@ def read_topology(path: Path) -> TopologyDescription:
         MechanismFileError: the file has faults; all of them are in it.
         UsageError: there is no such file, it cannot be read, or it is that of a mechanism.
     """
-    return read_topology_text(file_text(path), path)
+    return read_topology_text(description_text(path), path)
 
 
 def read_topology_text(text: str, path: Path) -> TopologyDescription:

@@ -15,13 +15,13 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from assur.cache import cache_folder, keep, mark_used
 from assur.errors import UsageError
 from assur.numerics.recording.source import GROUP, digest, places_of, source
 from assur.numerics.recording.tape import Tape
@@ -159,24 +159,15 @@ def _shares(count: int, threads: int) -> list[tuple[int, int]]:
     return [(start, min(start + step, count)) for start in range(0, max(count, 1), step)]
 
 
-def cache_folder() -> Path:
-    """Where compiled loops are kept: ASSUR_CACHE, or the user's cache folder."""
-    chosen = os.environ.get("ASSUR_CACHE")
-    if chosen:
-        return Path(chosen)
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "assur"
-
-
 @lru_cache(maxsize=64)
 def _loaded(text: str) -> ModuleType:
     """The source as a module; a file, since numba keeps machine code beside files only."""
     name = f"assur_loop_{digest(text)}"
     path = cache_folder() / "loops" / f"{name}.py"
-    if not path.exists() or path.read_text(encoding="utf-8") != text:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        fresh = path.with_name(f"{name}.{os.getpid()}")
-        fresh.write_text(text, encoding="utf-8")
-        fresh.replace(path)
+    if path.is_file() and path.read_text(encoding="utf-8") == text:
+        mark_used(path)
+    else:
+        keep("loops", path.name, text.encode())
     spec = importlib.util.spec_from_file_location(name, path)
     if spec is None or spec.loader is None:
         raise ImportError(f"cannot load {path}")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from assur.errors import UnknownNameError, UsageError
-from assur.model.file.reader import file_text
+from assur.model.file.reader import description_text
 from assur.model.registry import CLOSED_FORM, left_out, load_record, names, topology_names
 
 _NAME = re.compile(r"^name(\s*)=.*?$", re.MULTILINE)
@@ -69,7 +69,7 @@ def copied(model: str, path: Path) -> Copied:
     """
     name = mechanism_name(path)
     record = load_record(model)
-    text = file_text(record.file)
+    text = description_text(record.file)
     beside = record.file.parent / CLOSED_FORM
     renamed = _NAME.sub(lambda found: f'name{found[1]}= "{name}"', text, count=1)
     comments = _COMMENTS.match(renamed)

@@ -1,0 +1,150 @@
+"""What is kept for the next start: in one folder of the user, of limited size, the oldest of it goes first.
+
+Everything there can be made anew, so it may be removed at any time.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from assur.errors import UsageError
+from assur.storage import replace_file
+
+KINDS = {
+    "loops": "formulas as machine code",
+}
+"""Folder of what is kept -> what that is. Nothing else in the cache's folder is ever touched."""
+
+LIMIT = 512
+"""Megabytes that are kept at most, unless ASSUR_CACHE_LIMIT says another number."""
+MEGABYTE = 1_000_000
+
+
+@dataclass(frozen=True)
+class Kept:
+    """Something that is kept: one file, or a few of one name.
+
+    Attributes:
+        kind: its folder, one of `KINDS`.
+        name: what its files' names begin with.
+        files: all of them.
+        size: their bytes.
+        used: when it was last written or used, in seconds since 1970.
+    """
+
+    kind: str
+    name: str
+    files: tuple[Path, ...]
+    size: int
+    used: float
+
+
+def cache_folder() -> Path:
+    """Where it is kept: ASSUR_CACHE, or the user's cache folder."""
+    chosen = os.environ.get("ASSUR_CACHE")
+    if chosen:
+        return Path(chosen)
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "assur"
+
+
+def limit() -> int:
+    """Bytes that are kept at most.
+
+    Errors:
+        UsageError: ASSUR_CACHE_LIMIT is no number of megabytes.
+    """
+    text = os.environ.get("ASSUR_CACHE_LIMIT", str(LIMIT))
+    if not (text.isascii() and text.isdigit()):
+        raise UsageError(f"ASSUR_CACHE_LIMIT: '{text}' is no whole number of megabytes", hint=f"for example {LIMIT}")
+    return int(text) * MEGABYTE
+
+
+def keep(kind: str, name: str, data: bytes) -> Path:
+    """Keep a file, and let the oldest go where all together are larger than the limit.
+
+    Args:
+        kind: one of `KINDS`.
+        name: of the file.
+        data: what stands in it.
+
+    Errors:
+        OSError: it cannot be written.
+    """
+    path = cache_folder() / kind / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    replace_file(path, data)
+    trim(_stem(path))
+    return path
+
+
+def mark_used(path: Path) -> None:
+    """Note that a kept file is in use, so that it is not among the oldest."""
+    with contextlib.suppress(OSError):
+        os.utime(path)
+
+
+def kept() -> tuple[Kept, ...]:
+    """All that is kept, the oldest first."""
+    found: dict[tuple[str, str], list[tuple[Path, os.stat_result]]] = {}
+    for kind in KINDS:
+        for path in _files(cache_folder() / kind):
+            with contextlib.suppress(OSError):  # gone meanwhile
+                found.setdefault((kind, _stem(path)), []).append((path, path.stat()))
+    every = [
+        Kept(
+            kind,
+            name,
+            tuple(path for path, _ in files),
+            sum(status.st_size for _, status in files),
+            max(status.st_mtime for _, status in files),
+        )
+        for (kind, name), files in found.items()
+    ]
+    return tuple(sorted(every, key=lambda one: (one.used, one.kind, one.name)))
+
+
+def trim(spared: str = "") -> tuple[Kept, ...]:
+    """Remove the oldest until the rest is within the limit; what is `spared` by name stays. Returns what went."""
+    every, most = kept(), limit()
+    size = sum(one.size for one in every)
+    gone = []
+    for one in every:
+        if size <= most:
+            break
+        if one.name != spared:
+            _remove(one)
+            gone.append(one)
+            size -= one.size
+    return tuple(gone)
+
+
+def clear() -> tuple[Kept, ...]:
+    """Remove all that is kept; returns what went."""
+    every = kept()
+    for one in every:
+        _remove(one)
+    return every
+
+
+def _files(folder: Path) -> Iterator[Path]:
+    """Files of a folder and of those inside; nothing is followed out of it."""
+    for place, _, names in os.walk(folder):
+        for name in names:
+            path = Path(place) / name
+            if path.is_file() and not path.is_symlink():
+                yield path
+
+
+def _stem(path: Path) -> str:
+    """What the names of a file, and of those that were made of it, begin with."""
+    return path.name.lstrip(".").partition(".")[0]
+
+
+def _remove(one: Kept) -> None:
+    for path in one.files:
+        with contextlib.suppress(OSError):
+            path.unlink(missing_ok=True)
