@@ -17,6 +17,7 @@ TYPES = "allowed: cylindrical, helical, prismatic, revolute, spherical, universa
 NUMBER = 'allowed: a number, or a formula in quotes: 30, "l2/2", "62 deg"'
 NAME = "a name is a letter, then letters, digits, _ and primes"
 MIXED = "allowed: angles with angles, plain numbers with plain numbers"
+FIRST = "; the first one is in line"
 POINT = "write decimals with a point: 0.5, not 0,5"
 DEG = "a unit makes an angle of a number: 90 deg"
 QUANTITIES = (
@@ -28,20 +29,20 @@ CASES: list[tuple[str, str, list[str]]] = [
     # the top of the file
     ("format = 1", "format = 2", ["1: format: 2; allowed: 1, the format that this version reads"]),
     ("format = 1", "format = true", ["1: format: true; allowed: 1, the format that this version reads"]),
-    ("format = 1\n", "", [" format: missing; this must be there: 1, the format that this version reads"]),
+    ("format = 1\n", "", ["1: format: missing; this must be there: 1, the format that this version reads"]),
     ('name = "fourbar"', 'name = "four bar"', ['2: name: "four bar" is no name; allowed: letters, digits, _ and -']),
-    ('unit = "mm"\n', "", [" unit: missing; this must be there: the unit of length: mm, cm, m, in or ft"]),
+    ('unit = "mm"\n', "", ["1: unit: missing; this must be there: the unit of length: mm, cm, m, in or ft"]),
     ('unit = "mm"', 'unit = "mile"', ['3: unit: "mile"; allowed: mm, cm, m, in or ft']),
-    ('angle = "deg"\n', "", [" angle: missing; this must be there: the unit of angles: deg or rad"]),
+    ('angle = "deg"\n', "", ["1: angle: missing; this must be there: the unit of angles: deg or rad"]),
     ('angle = "deg"', 'angle = "degree"', ['4: angle: "degree"; allowed: deg or rad', "? did you mean 'deg'?"]),
-    ('base = "ground"\n', "", [" base: missing; this must be there: the link that stands still"]),
+    ('base = "ground"\n', "", ["1: base: missing; this must be there: the link that stands still"]),
     ('base = "ground"', 'base = "grund"', [f"5: base: unknown link 'grund'; {LINKS}", "? did you mean 'ground'?"]),
     ("platform = ", "plattform = ", [f"6: plattform: unknown key; {TOP}", "? did you mean 'platform' or 'format'?"]),
     ('"coupler", point', '"ground", point', ["6: platform.link: 'ground' is the base; allowed: another link"]),
     ('["x", "y"]', "[]", ["6: platform.pose: a list of 0; allowed: at least 1"]),
     ('["x", "y"]', '["x", "w", "y"]',
      ['6: platform.pose[1]: "w"; allowed: x, y, z, phi, theta, psi, qw, qx, qy or qz', "? did you mean 'qw'?"]),
-    ('["x", "y"]', '["x", "y", "y"]', ["6: platform.pose: a coordinate twice; allowed: each once"]),
+    ('["x", "y"]', '["x", "y", "y"]', [f"6: platform.pose[2]: the coordinate y twice{FIRST} 6; allowed: each once"]),
     ('["x", "y"]', '["x", "y", "qw"]',
      ["6: platform.pose: half a quaternion; allowed: qw, qx, qy, qz together, without angles"]),
     ('"y"] }', '"y", "phi"], orientation = "constant" }',
@@ -177,11 +178,16 @@ CASES: list[tuple[str, str, list[str]]] = [
     # names
     ('axis = "z"', 'axis = "z", alias = "R 1"',
      [f'22: joints.A.alias: "R 1" is no name; {NAME}', "? the reader adds the dots in names such as leg1.B"]),
-    ("P = { link", "R2 = { link", ["23: joints.B.alias: a point has the name 'R2' already; allowed: another name"]),
-    ("P = { link", "A = { link", ["34: points.A: a joint has the name 'A' already; allowed: another name"]),
-    ("P = { link", "crank = { link", ["17: links.crank: a point has the name 'crank' already; allowed: another name"]),
-    ("P = { link", "l1 = { link", ["9: parameters.l1: a point has the name 'l1' already; allowed: another name"]),
-    ("gamma = ", "tilt = ", ["31: angles.tilt: a parameter has the name 'tilt' already; allowed: another name"]),
+    ("P = { link", "R2 = { link",
+     [f"34: points.R2: a joint has the name 'R2' already{FIRST} 23; allowed: another name"]),
+    ("P = { link", "A = { link",
+     [f"34: points.A: a joint has the name 'A' already{FIRST} 22; allowed: another name"]),
+    ("P = { link", "crank = { link",
+     [f"34: points.crank: a link has the name 'crank' already{FIRST} 17; allowed: another name"]),
+    ("P = { link", "l1 = { link",
+     [f"34: points.l1: a parameter has the name 'l1' already{FIRST} 9; allowed: another name"]),
+    ("gamma = ", "tilt = ",
+     [f"31: angles.tilt: a parameter has the name 'tilt' already{FIRST} 13; allowed: another name"]),
     ("P = { link", "sin = { link",
      [f'34: points.sin: "sin" is a reserved word; {NAME}', "? the reader adds the dots in names such as leg1.B"]),
     ("P = { link", "1P = { link",
@@ -196,18 +202,19 @@ CASES: list[tuple[str, str, list[str]]] = [
     ("[inputs]", '[inputs]\norder = ["A", "B"]',
      ["28: inputs.order[1]: 'B' has no entry in [inputs]; allowed: the inputs, each once",
       '? add B = { name = "q" }']),
-    ("[inputs]", '[inputs]\norder = ["A", "A"]', ["28: inputs.order[1]: 'A' twice; allowed: the inputs, each once"]),
+    ("[inputs]", '[inputs]\norder = ["A", "A"]',
+     [f"28: inputs.order[1]: 'A' twice{FIRST} 28; allowed: the inputs, each once"]),
     ("[inputs]", '[inputs]\nB = { name = "q" }\norder = ["A"]',
      ["29: inputs.order: lacks B; allowed: the inputs, each once"]),
     ("[inputs]", '[inputs]\nB = { name = "theta" }',
-     ["29: inputs.A.name: an input has the name 'theta' already; allowed: another name"]),
+     [f"29: inputs.A.name: an input has the name 'theta' already{FIRST} 28; allowed: another name"]),
     ("[inputs]", '[inputs]\nR2 = { name = "q1" }\nB = { name = "q2" }',
-     ["29: inputs.B: 'B' is an input already; allowed: each joint once"]),
+     [f"29: inputs.B: 'B' is an input already{FIRST} 28; allowed: each joint once"]),
     ("[inputs]", "[inputs]\nB.rotation = { name = 'q' }",
      ["28: inputs.B.rotation: unknown key; allowed here: latex, name, offset, sign, stroke",
       '? a name with a dot stands in quotes: "leg1.B"', "28: inputs.B.name: missing; this key must be there"]),
     ('[inputs]\nA = { name = "theta", latex = "\\\\theta", stroke = [-180, "180 deg"] }\n', "",
-     [" inputs: missing; this must be there: a table of the actuated joints"]),
+     ["1: inputs: missing; this must be there: a table of the actuated joints"]),
     ('name = "theta"', 'name = "theta", sign = 2', ["28: inputs.A.sign: 2; allowed: 1 or -1"]),
     ('name = "theta"', 'name = "theta", sign = true', ["28: inputs.A.sign: true; allowed: 1 or -1"]),
     ('[-180, "180 deg"]', "[180, -180]",
@@ -243,7 +250,7 @@ CASES: list[tuple[str, str, list[str]]] = [
       "? add B = 0, or a better guess"]),
     ("B = -50", "B = [1, 2]", ["46: home.B: 2 values; allowed: 1 (rotation)"]),
     ("B = -50", "B = -50\nQ = 3", [f"47: home.Q: unknown joint 'Q'; {JOINTS}"]),
-    ("B = -50", "B = -50\nR2 = 3", ["47: home.R2: 'R2' is given twice; allowed: each joint once"]),
+    ("B = -50", "B = -50\nR2 = 3", [f"47: home.R2: 'R2' is given twice{FIRST} 46; allowed: each joint once"]),
     ("B = -50", 'B = "-50 - l1 deg"',
      ['46: home.B: "-50 - l1 deg" has \'deg\' at character 10; expected an operator or the end',
       "? write * between factors: 2*l2"]),
@@ -282,7 +289,7 @@ def test_all_faults_of_a_file_come_at_once_in_the_order_of_their_lines(fourbar: 
         text = text.replace(old, new, 1)
     found = [line for line in faults(text) if not line.startswith("    ")]
     assert [line.split(": ")[0:2] for line in found] == [
-        ["f.toml", "unit"],
+        ["f.toml:1", "unit"],
         ["f.toml:10", "parameters.l3.value"],
         ["f.toml:11", "parameters.g.value"],
         ["f.toml:21", "joints.A.child"],
@@ -381,3 +388,16 @@ def test_a_table_that_is_none_ends_the_reading(faults: Faults, table: str) -> No
 def test_an_empty_file_says_what_a_mechanism_needs(faults: Faults) -> None:
     needed = ["format", "name", "unit", "angle", "base", "platform", "links", "joints", "inputs", "home"]
     assert [line.split(": ")[1:3] for line in faults("")] == [[key, "missing; this must be there"] for key in needed]
+
+
+def test_a_format_is_an_integer(fourbar: str, faults: Faults) -> None:
+    for text in ("1.0", '"1"', "true", "[1]", "2", "1e0"):
+        assert faults(fourbar.replace("format = 1", f"format = {text}", 1))[0].startswith("f.toml:1: format: ")
+
+
+@pytest.mark.parametrize("old", ['name = "theta"', 'alias = "R2"', 'name = "fourbar"'])
+def test_names_that_are_values_have_100_characters_at_most(fourbar: str, faults: Faults, old: str) -> None:
+    assert old in fourbar
+    long = f'{old.partition(" = ")[0]} = "{"n" * 101}"'
+    found = faults(fourbar.replace(old, long, 1))
+    assert any("a name of 101 characters; allowed: at most 100" in line for line in found)

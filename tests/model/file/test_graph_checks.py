@@ -119,7 +119,8 @@ CASES = [
     ('serial = ["Pa"]', 'serial = ["Pa", "Pa", "Pa"]', [f"27: chains.only: '{name}' stands here twice; {ONCE}"
                                                         for name in "ABCD"]),
     ('serial = ["Pa"]', 'serial = ["Pa"]\n[chains.other]\nserial = ["A", "B"]',
-     [f"29: chains.other: '{name}' stands here in the chain 'only' as well; {ONCE}" for name in "AB"]),
+     [f"29: chains.other: '{name}' stands here in the chain 'only' as well; the first one is in line 27; {ONCE}"
+      for name in "AB"]),
     ('serial = ["Pa"]', 'serial = ["A", "B"]',
      [f"27: chains: no chain has C, D; {ONCE}",
       "? the chains together are the whole mechanism; without any they are found from the joints"]),

@@ -52,6 +52,8 @@ def _holds(word: str, said: Any, value: Any, schema: dict[str, Any]) -> bool:
             return sum(fits(value, item) for item in said) == 1
         case "pattern":
             return not isinstance(value, str) or re.search(said, value) is not None
+        case "maxLength":
+            return not isinstance(value, str) or len(value) <= said
         case "minLength":
             return not isinstance(value, str) or len(value) >= said
         case "minimum":

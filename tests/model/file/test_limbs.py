@@ -149,7 +149,8 @@ CASES: list[tuple[str, str, list[str]]] = [
      ['21: limbs.leg.joints.A.type: "rotary"; '
       "allowed: cylindrical, helical, prismatic, revolute, spherical, universal"]),
     ('E = { link = "arm"', 'A = { link = "arm"',
-     ["29: limbs.leg.points.A: a joint has the name 'leg1.A' already; allowed: another name",
+     ["29: limbs.leg.points.A: a joint has the name 'leg1.A' already; the first one is in line 21; "
+      "allowed: another name",
       "37: modes.working.s2: unknown quantity 'leg2.E.z'; there is:"]),
     (ANGLES, "count = 1", ["15: limbs.leg.repeat.count: 1; allowed: greater than or equal to 2"]),
     (ANGLES, "count = 1000000000", ["15: limbs.leg.repeat.count: 1000000000; allowed: less than or equal to 60"]),
@@ -177,7 +178,7 @@ CASES: list[tuple[str, str, list[str]]] = [
     ('about = "z"', "about = [0, 0, 0]",
      ["15: limbs.leg.repeat.about: an axis of length zero; allowed: a vector that has a direction"]),
     ("[links]", "[points]\nleg2 = { link = 'hand' }\n[links]",
-     ["16: limbs.leg: a point has the name 'leg2' already; allowed: another name"]),
+     ["16: limbs.leg: a point has the name 'leg2' already; the first one is in line 12; allowed: another name"]),
 ]  # fmt: skip
 
 
@@ -203,7 +204,8 @@ def test_the_limbs_of_two_templates_may_not_have_one_name(faults: Faults) -> Non
     text = DELTA[: DELTA.index("[limbs.leg]")] + legs + second
     assert faults(text) == [
         f"f.toml:{text[: text.index('[limbs.leg1]')].count(chr(10)) + 1}: limbs.leg1: "
-        "a limb has the name 'leg11' already; allowed: another name"
+        "a limb has the name 'leg11' already; the first one is in line "
+        f"{text[: text.index('[limbs.leg]')].count(chr(10)) + 1}; allowed: another name"
     ]
 
 

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import contextlib
+import json
 from collections.abc import Iterator
 from importlib.resources import files
 from typing import Any
@@ -8,7 +9,8 @@ from typing import Any
 import pytest
 
 from assur.errors import MechanismFileError
-from assur.model.file.toml_source import KeyPath, read_toml
+from assur.model.file.key_path import KeyPath
+from assur.model.file.toml_source import read_toml
 
 DOCUMENT = r'''
 top = 1                       # a comment with "quotes" and = signs
@@ -60,7 +62,7 @@ def test_lines_of_keys_and_elements() -> None:
     }
     assert {path: source.lines[path] for path in expected} == expected
     assert source.line(("top", "nothing", 3)) == 2
-    assert source.line(("nothing",)) is None
+    assert source.line(("nothing",)) == 1  # the document
 
 
 def test_windows_line_ends_change_no_line() -> None:
@@ -81,24 +83,31 @@ def test_every_key_and_element_has_a_line(fourbar: str) -> None:
 COMMA = "write decimals with a point: 0.5, not 0,5"
 ONCE = "each name may be given once"
 WRONG = [
-    ("a = 1\nb = 3,5", 2, "b = 3,5", COMMA),
-    ("a = { v = 3,5, m = 1 }", 1, "a = { v = 3,5, m = 1 }", COMMA),
-    ("a = 1\n\na = 2", 3, "a = 2", ONCE),
-    ("[a]\n[a]", 2, "[a]", ONCE),
-    ("a = {b=1,b=2}", 1, "a = {b=1,b=2}", ONCE),
-    ("a = ", 1, "a =", ""),
-    ("a = 'x\n", 1, "a = 'x", ""),
+    ("a = 1\nb = 3,5", 2, "b = 3,5", COMMA, 0),
+    ("a = { v = 3,5, m = 1 }", 1, "a = { v = 3,5, m = 1 }", COMMA, 0),
+    ("a = 1\n\na = 2", 3, "a = 2", ONCE, 1),
+    ("b = 1\n[a]\n[a]", 3, "[a]", ONCE, 2),
+    ("\na = {b=1,b=2}", 2, "a = {b=1,b=2}", ONCE, 2),
+    ("[t]\na = [\n1,\n2]\nb = 1\n[u]\n[t.a]\nc = 1", 7, "[t.a]", ONCE, 2),
+    ("\na = {b=1}\n[a.c]\nd = 1", 3, "[a.c]", ONCE, 2),
+    ("\na = {b=1}\na.c = 2", 3, "a.c = 2", ONCE, 2),
+    ("\na.b = 1\n[a]", 3, "[a]", ONCE, 2),
+    ("[[a]]\n[a]", 2, "[a]", ONCE, 1),
+    ("[x]\n[a.b]\n[a]\nb.c=2", 4, "b.c=2", ONCE, 2),
+    ("a = ", 1, "a =", "", 0),
+    ("a = 'x\n", 1, "a = 'x", "", 0),
 ]
 
 
-@pytest.mark.parametrize(("text", "line", "row", "hint"), WRONG)
-def test_what_is_not_toml_is_refused_with_its_line(text: str, line: int, row: str, hint: str) -> None:
+@pytest.mark.parametrize(("text", "line", "row", "hint", "first"), WRONG)
+def test_what_is_not_toml_is_refused_with_its_line(text: str, line: int, row: str, hint: str, first: int) -> None:
     with pytest.raises(MechanismFileError) as caught:
         read_toml(text, "f.toml")
     (problem,) = caught.value.problems
     assert (problem.file, problem.line, problem.hint) == ("f.toml", line, hint)
     assert problem.found.startswith("not TOML: ")
-    assert problem.found.endswith(f" in `{row}`")
+    again = f"; the first one is in line {first}" if first else ""
+    assert problem.found.endswith(f" in `{row}`{again}")
 
 
 @pytest.mark.parametrize(
@@ -151,3 +160,45 @@ def test_brackets_as_deep_as_the_toml_reader_goes_are_no_crash() -> None:
     for depth in range(50, 500, 25):
         with contextlib.suppress(MechanismFileError):
             read_toml("a = " + "[" * depth + "]" * depth, "f.toml")
+
+
+def test_every_name_that_is_given_again_is_told_with_its_first_line() -> None:
+    with pytest.raises(MechanismFileError) as caught:
+        read_toml("a = 1\nb = 1\na = 2\nc = 3,5\nb = 2\n", "f.toml")
+    told = [(problem.line, problem.found.partition("; ")[2]) for problem in caught.value.problems]
+    assert told == [(3, "the first one is in line 1"), (4, ""), (5, "the first one is in line 2")]
+
+
+UNSEEN = [
+    "\x1b[2J",
+    "\x1b]0;title\x07",
+    "\x00",
+    "\r",
+    "\x7f",
+    "\x9b2J",
+    "\u202e",
+    "\u2066",
+    "\u200b",
+    "\u2028",
+    "\ufeff",
+]
+
+
+@pytest.mark.parametrize("sign", UNSEEN)
+def test_what_a_terminal_obeys_and_nobody_sees_is_refused_in_every_text(sign: str) -> None:
+    written = json.dumps(f"a{sign}b").replace("\x7f", "\\u007f")
+    for text in (f"\n{written} = 1", f"\nt = {written}", f"[a]\nt = [{{ b = [0, {written}] }}]"):
+        with pytest.raises(MechanismFileError, match=rf"f.toml:2: .*U\+{ord(sign[0]):04X}") as caught:
+            read_toml(text, "f.toml")
+        assert str(caught.value).replace("\n", "").isprintable()
+
+
+def test_texts_of_any_script_and_of_several_lines_are_read() -> None:
+    text = "Größe\tβ\nПлатформа \u05d0\u05d1 \u754c \U0001f916 \u00a0."
+    assert read_toml(f"t = {json.dumps(text, ensure_ascii=False)}", "f.toml").data["t"] == text
+
+
+def test_a_name_has_100_characters_at_most() -> None:
+    read_toml(f"[{'a' * 100}]", "f.toml")
+    with pytest.raises(MechanismFileError, match=r"f.toml:1: .*a name of 101 characters; allowed: at most 100"):
+        read_toml(f"[{'a' * 101}]", "f.toml")

@@ -104,9 +104,9 @@ def test_what_may_be_left_out() -> None:
 
 CASES: list[tuple[str, str, list[str]]] = [
     ("format = 1", "format = 2", ["1: format: 2; allowed: 1, the format that this version reads"]),
-    ("format = 1\n", "", [" format: missing; this must be there: 1, the format that this version reads"]),
+    ("format = 1\n", "", ["1: format: missing; this must be there: 1, the format that this version reads"]),
     ('"topology"', '"topologie"', ['2: kind: "topologie"; allowed: "topology"']),
-    ('kind = "topology"\n', "", [' kind: missing; this must be there: "topology"']),
+    ('kind = "topology"\n', "", ['1: kind: missing; this must be there: "topology"']),
     ('"mix"', '"a mix"', ['3: name: "a mix" is no name; allowed: letters, digits, _ and -']),
     ('"mix"', "3", ["3: name: 3; allowed: a text in quotes"]),
     ('"here"', "[1]", ["5: source: a list of 1; allowed: a text in quotes"]),
@@ -124,7 +124,7 @@ CASES: list[tuple[str, str, list[str]]] = [
     ('"2.1"', '"2.2"', ['12: actuate[1]: "2.2" is a joint P(4S); in this limb may be actuated: 2.1 (R)']),
     ('"3.3"', '"3.6"',
      ['12: actuate[2]: "3.6" is a joint S; in this limb may be actuated: 3.1 (P), 3.2 (R), 3.3 (P), 3.4 (R)']),
-    ('"2.1"', '"1.1"', ['12: actuate[1]: "1.1" again; allowed: each joint once']),
+    ('"2.1"', '"1.1"', ['12: actuate[1]: "1.1" again; the first one is in line 12; allowed: each joint once']),
     ('["1.1", "2.1", "3.3"]', "[]", ["12: actuate: an empty list; allowed: at least one element"]),
     # declared facts
     ("[declared]\n", "declared = 3\n[x]\n",
@@ -188,7 +188,9 @@ def test_a_mechanism_and_a_topology_are_not_taken_for_each_other(fourbar: str) -
 
 
 def test_an_empty_file_misses_everything() -> None:
-    assert [line.split(":")[0] for line in faults("")] == [" format", " kind", " name", " chains"]
+    assert [line.split(":")[:2] for line in faults("")] == [
+        ["1", f" {key}"] for key in ("format", "kind", "name", "chains")
+    ]
 
 
 @given(st.data())
@@ -216,6 +218,7 @@ def test_what_is_written_of_a_built_in_topology_is_read_the_same(name: str) -> N
 
 
 COUNT = st.integers(0, 9)
+SEEN = st.text(st.characters(exclude_categories=("Cc", "Cf", "Cs", "Zl", "Zp")))
 POCS = st.tuples(st.integers(0, 3), st.integers(0, 3))
 FACTS_OF_ONE_LIMB = st.builds(
     Declared,
@@ -228,12 +231,12 @@ FACTS_OF_ONE_LIMB = st.builds(
     limb_dims=st.none() | st.tuples(COUNT),
     redundant_constraints=st.none() | st.tuples(COUNT, COUNT),
     internal_freedoms=st.none() | st.tuples(COUNT, COUNT),
-    source=st.text(),
+    source=SEEN,
 )
 
 
 @given(
-    texts=st.tuples(st.text(min_size=1), st.text(), st.text()),
+    texts=st.tuples(SEEN.filter(bool), SEEN, SEEN),
     actuate=st.sampled_from([(), ((1, 1),), ((1, 3), (1, 2))]),
     mode=st.sampled_from(["home", "translation"]),
     declared=FACTS_OF_ONE_LIMB,

@@ -6,8 +6,8 @@ from assur.errors import Problem
 from assur.kinematics.home import home_values
 from assur.kinematics.soundness.axes import axes_hint
 from assur.kinematics.soundness.claims import Claims
+from assur.model.file.key_path import KeyPath
 from assur.model.file.place import problem, table_place
-from assur.model.file.toml_source import KeyPath
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, rate_names
 

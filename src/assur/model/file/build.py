@@ -14,12 +14,12 @@ from assur.model.file.build_letters import build_angles, build_modes, build_poin
 from assur.model.file.description import Description
 from assur.model.file.faults import Faults
 from assur.model.file.graph_checks import check_graph
+from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import expand, repeated
 from assur.model.file.names import check_names
 from assur.model.file.numbers import Numbers
 from assur.model.file.parameters import evaluate_parameters
 from assur.model.file.scope import Scope
-from assur.model.file.toml_source import KeyPath
 from assur.model.mechanism import Link, MechanismRecord, Platform
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, is_angle
 
@@ -130,7 +130,10 @@ def _platform(file: schema.FileEntry, scope: Scope, geometry: Geometry) -> Platf
         scope.faults.add(("platform", "link"), f"'{link}' is the base", "allowed: another link")
     path, names = ("platform", "pose"), set(entry.pose)
     if len(names) < len(entry.pose):
-        scope.faults.add(path, "a coordinate twice", "allowed: each once")
+        again = next(k for k, name in enumerate(entry.pose) if name in entry.pose[:k])
+        first = scope.faults.first((*path, entry.pose.index(entry.pose[again])))
+        found = f"the coordinate {entry.pose[again]} twice; {first}"
+        scope.faults.add((*path, again), found, "allowed: each once")
     if names & set(QUATERNION) and (not names >= set(QUATERNION) or names & set(ANGLES)):
         scope.faults.add(path, "half a quaternion", "allowed: qw, qx, qy, qz together, without angles")
     if names - set(LENGTHS) and entry.orientation == "constant":

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from assur.model.file import schema
 from assur.model.file.build_joints import Geometry
 from assur.model.file.faults import listed
+from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Tables
 from assur.model.file.numbers import Numbers
 from assur.model.file.scope import Scope
-from assur.model.file.toml_source import KeyPath
 from assur.model.mechanism import Input
 from assur.topology.joints import SPHERICAL
 
@@ -23,6 +23,7 @@ FloatArray = NDArray[np.float64]
 def build_inputs(file: schema.FileEntry, tables: Tables, scope: Scope, numbers: Numbers) -> tuple[Input, ...]:
     """Inputs in the order that the file names, else in the order in which they stand there."""
     found: dict[int, Input] = {}
+    places: dict[int, KeyPath] = {}
     for placed in tables.inputs.values():
         entry, path = placed.entry, placed.path
         item = scope.coordinate(placed.local, path, placed.instance)
@@ -31,7 +32,9 @@ def build_inputs(file: schema.FileEntry, tables: Tables, scope: Scope, numbers: 
         offset = numbers.of(item.kind, entry.offset, (*path, "offset"))
         stroke = numbers.interval(item.kind, entry.stroke, (*path, "stroke")) if entry.stroke else None
         if item.index in found:
-            scope.faults.add(path, f"'{placed.local}' is an input already", "allowed: each joint once")
+            first = scope.faults.first(places[item.index])
+            scope.faults.add(path, f"'{placed.local}' is an input already; {first}", "allowed: each joint once")
+        places.setdefault(item.index, path)
         found[item.index] = Input(item, entry.name, entry.latex or entry.name, offset, float(entry.sign), stroke)
     complete = len(found) == len(tables.inputs) and not tables.broken.get("inputs")
     if file.inputs.order is None or not complete:
@@ -41,6 +44,7 @@ def build_inputs(file: schema.FileEntry, tables: Tables, scope: Scope, numbers: 
 
 def _ordered(order: tuple[str, ...], found: Mapping[int, Input], scope: Scope) -> tuple[Input, ...]:
     indices = []
+    places: dict[int, int] = {}
     for place, name in enumerate(order):
         path = ("inputs", "order", place)
         item = scope.coordinate(name, path)
@@ -50,7 +54,9 @@ def _ordered(order: tuple[str, ...], found: Mapping[int, Input], scope: Scope) -
             hint = f'add {name} = {{ name = "q" }}'
             scope.faults.add(path, f"'{name}' has no entry in [inputs]", "allowed: the inputs, each once", hint)
         elif item.index in indices:
-            scope.faults.add(path, f"'{name}' twice", "allowed: the inputs, each once")
+            first = scope.faults.first(("inputs", "order", places[item.index]))
+            scope.faults.add(path, f"'{name}' twice; {first}", "allowed: the inputs, each once")
+        places.setdefault(item.index, place)
         indices.append(item.index)
     left = [item.coordinate.joint for index, item in found.items() if index not in indices]
     if left and len(indices) == len(order):
@@ -61,22 +67,25 @@ def _ordered(order: tuple[str, ...], found: Mapping[int, Input], scope: Scope) -
 def build_home(tables: Tables, scope: Scope, geometry: Geometry) -> FloatArray:
     """Joint values (n,) near one assembled configuration; every joint must have its own."""
     home = np.full(len(scope.coordinates), np.nan)
+    places: dict[str, KeyPath] = {}
     for placed in tables.home.values():
         joint = scope.joint(placed.local, placed.path, placed.instance)
         if joint is None:
             continue
         items = [item for item in scope.coordinates if item.joint == joint]
+        if joint in places:
+            first = scope.faults.first(places[joint])
+            scope.faults.add(placed.path, f"'{placed.local}' is given twice; {first}", "allowed: each joint once")
+        places.setdefault(joint, placed.path)
         if len(placed.entry) != len(items):
             allowed = f"allowed: {len(items)} ({', '.join(item.component for item in items)})"
             scope.faults.add(placed.path, f"{len(placed.entry)} values", allowed)
             continue
         for place, (item, value) in enumerate(zip(items, placed.entry, strict=True)):
-            if not np.isnan(home[item.index]):
-                scope.faults.add(placed.path, f"'{placed.local}' is given twice", "allowed: each joint once")
             home[item.index] = geometry.numbers.of(item.kind, value, (*placed.path, place))
         if len(items) == len(SPHERICAL.components) and items[0].component == SPHERICAL.components[0]:
-            places = [item.index for item in items]
-            home[places] = geometry.turned(home[places], placed.instance)  # a rotation vector turns with its limb
+            turning = [item.index for item in items]
+            home[turning] = geometry.turned(home[turning], placed.instance)  # a rotation vector turns with its limb
     given = {scope.aliases.get(name, name) for name in (*tables.home, *tables.broken.get("home", ()))}
     if tables.home or tables.broken.get("home"):
         _check_complete(given, tables, scope)

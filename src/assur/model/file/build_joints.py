@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.model.file import schema
+from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Instance, Placed
 from assur.model.file.numbers import Numbers, Triple
 from assur.model.file.scope import Scope
-from assur.model.file.toml_source import KeyPath
 from assur.model.mechanism import Joint
 from assur.numerics import rotations
 from assur.topology.joints import JOINT_TYPES

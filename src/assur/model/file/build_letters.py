@@ -6,10 +6,10 @@ from collections.abc import Mapping
 
 from assur.model.file import schema
 from assur.model.file.build_joints import Geometry
+from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Tables
 from assur.model.file.numbers import MIXED, MIXED_HINT, Kind, KindError, Numbers, kind_of
 from assur.model.file.scope import Scope
-from assur.model.file.toml_source import KeyPath
 from assur.model.formula import Formula
 from assur.model.mechanism import Coordinate, Modes, Point
 

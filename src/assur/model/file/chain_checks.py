@@ -6,8 +6,8 @@ from collections import Counter
 from collections.abc import Sequence
 
 from assur.model.file.faults import Faults, listed
+from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Instance, Tables
-from assur.model.file.toml_source import KeyPath
 from assur.model.mechanism import Chain, MechanismRecord
 
 _ONCE = "allowed: each joint in one chain, once"
@@ -35,7 +35,8 @@ def _check_shares(record: MechanismRecord, tables: Tables, faults: Faults) -> No
         for joint in _joints(record, chain):
             if joint in owners:
                 where = "twice" if owners[joint] == name else f"in the chain '{owners[joint]}' as well"
-                faults.add(tables.chains[name].path, f"'{joint}' stands here {where}", _ONCE)
+                first = f"; {faults.first(tables.chains[owners[joint]].path)}" if owners[joint] != name else ""
+                faults.add(tables.chains[name].path, f"'{joint}' stands here {where}{first}", _ONCE)
             owners.setdefault(joint, name)
     left = [name for name in record.joints if name not in owners]
     if left:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from assur.model.file.key_path import KeyPath
 from assur.model.file.schema import FileEntry
-from assur.model.file.toml_source import KeyPath, TomlSource
+from assur.model.file.toml_source import TomlSource
 
 
 @dataclass(frozen=True, eq=False)

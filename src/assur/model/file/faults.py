@@ -6,7 +6,8 @@ import difflib
 from collections.abc import Iterable
 
 from assur.errors import MechanismFileError, Problem, cut
-from assur.model.file.toml_source import KeyPath, TomlSource
+from assur.model.file.key_path import KeyPath, path_text
+from assur.model.file.toml_source import TomlSource
 
 _SHOWN = 24
 MOST = 100
@@ -39,6 +40,10 @@ class Faults:
         if problem not in self.problems:
             self.problems.append(problem)
 
+    def first(self, path: KeyPath) -> str:
+        """Where the first of two that are equal stands, for the message about the second."""
+        return f"the first one is in line {self.source.line(path)}"
+
     def unknown(self, path: KeyPath, kind: str, name: str, choices: Iterable[str]) -> None:
         """Note a name that does not exist, with those that do, nearest first in the hint."""
         told = len(self.problems) < MOST
@@ -66,22 +71,6 @@ class Faults:
         rest = [Problem(self.file, None, "", f"{self.more} more faults", "correct the others first")]
         ordered = sorted(self.problems, key=lambda problem: problem.line or 0)
         return (*ordered, *(rest if self.more else []))
-
-
-def path_text(path: KeyPath) -> str:
-    """A key path as TOML writes it, elements of arrays in brackets.
-
-    >>> path_text(("joints", "B1", "at", 2)), path_text(("home", "leg1.B"))
-    ('joints.B1.at[2]', 'home."leg1.B"')
-    """
-    text = ""
-    for part in path:
-        if isinstance(part, int):
-            text += f"[{part}]"
-        else:
-            plain = part.replace("_", "a").replace("-", "a").isalnum() and part.isascii()
-            text += ("." if text else "") + (cut(part) if plain else f'"{cut(part)}"')
-    return text
 
 
 def listed(names: Iterable[str]) -> str:

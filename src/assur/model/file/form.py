@@ -12,7 +12,7 @@ from pydantic_core import ErrorDetails
 
 from assur.model.file import schema
 from assur.model.file.faults import Faults, listed, nearest
-from assur.model.file.toml_source import KeyPath
+from assur.model.file.key_path import KeyPath
 from assur.model.file.values import shown
 
 _TABLES: dict[str, type[schema.Entry]] = {

@@ -10,6 +10,7 @@ import json
 from typing import Any
 
 from assur.model.file.schema import FileEntry
+from assur.model.file.texts import MAX_NAME
 from assur.model.file.values import AXES, DEFINITION, NAME_PATTERN, PLAIN_PATTERN
 
 Schema = dict[str, Any]
@@ -44,11 +45,22 @@ DEFINITIONS: dict[str, Schema] = {
     "mechanism_name": {
         "description": "Letters, digits, _ and -.",
         "type": "string",
+        "maxLength": MAX_NAME,
         "pattern": "^[A-Za-z0-9][A-Za-z0-9_-]*$",
     },
-    "format": {"description": "1, the format of the file.", "const": 1},
-    "name": {"description": "A letter, then letters, digits, _ and primes.", "type": "string", "pattern": NAME_PATTERN},
-    "plain_name": {"description": "A letter, then letters, digits, _.", "type": "string", "pattern": PLAIN_PATTERN},
+    "format": {"description": "1, the format of the file.", "type": "integer", "const": 1},
+    "name": {
+        "description": "A letter, then letters, digits, _ and primes.",
+        "type": "string",
+        "maxLength": MAX_NAME,
+        "pattern": NAME_PATTERN,
+    },
+    "plain_name": {
+        "description": "A letter, then letters, digits, _.",
+        "type": "string",
+        "maxLength": MAX_NAME,
+        "pattern": PLAIN_PATTERN,
+    },
 }
 _PATTERNS = {NAME_PATTERN: "name", PLAIN_PATTERN: "plain_name"}
 

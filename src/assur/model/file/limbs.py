@@ -14,7 +14,7 @@ from typing import Any, Generic, TypeVar
 from assur.model.file import schema
 from assur.model.file.description import Description
 from assur.model.file.faults import Faults
-from assur.model.file.toml_source import KeyPath
+from assur.model.file.key_path import KeyPath
 from assur.model.formula import Formula
 
 Item = TypeVar("Item")

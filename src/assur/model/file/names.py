@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from assur.model.file import schema
 from assur.model.file.faults import Faults
+from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Tables
-from assur.model.file.toml_source import KeyPath
 
 Use = tuple[str, str, KeyPath]
 """A name, what it names, and where."""
@@ -25,13 +25,15 @@ def check_names(file: schema.FileEntry, tables: Tables, faults: Faults) -> None:
 
 
 def _check_group(uses: list[Use], faults: Faults) -> None:
-    first: dict[str, str] = {}
+    first: dict[str, tuple[str, KeyPath]] = {}
     told: set[KeyPath] = set()
-    for name, kind, path in uses:
+    for name, kind, path in sorted(uses, key=lambda use: faults.source.line(use[2])):
         if name in first and path not in told:
             told.add(path)
-            faults.add(path, f"{_a(first[name])} has the name '{name}' already", "allowed: another name")
-        first.setdefault(name, kind)
+            other, place = first[name]
+            found = f"{_a(other)} has the name '{name}' already; {faults.first(place)}"
+            faults.add(path, found, "allowed: another name")
+        first.setdefault(name, (kind, path))
 
 
 def _a(kind: str) -> str:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from assur.model import syntax as s
 from assur.model.file.faults import Faults
-from assur.model.file.toml_source import KeyPath
+from assur.model.file.key_path import KeyPath
 from assur.model.formula import Formula
 
 FloatArray = NDArray[np.float64]

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from assur.errors import Problem, cut
 from assur.model.file.description import Description
-from assur.model.file.faults import path_text
+from assur.model.file.key_path import KeyPath, path_text
 from assur.model.file.schema import FileEntry
-from assur.model.file.toml_source import KeyPath
 from assur.model.mechanism import Coordinate, MechanismRecord
 
 _LONG = 600

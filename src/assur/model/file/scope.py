@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from typing import TypeVar
 
 from assur.model.file.faults import Faults
+from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Instance, Tables
 from assur.model.file.numbers import Kind
-from assur.model.file.toml_source import KeyPath
 from assur.model.formula import Formula
 from assur.model.mechanism import Coordinate
 from assur.topology.joints import JOINT_TYPES, JointType

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 import tomllib
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from assur.errors import MechanismFileError, Problem
+from assur.model.file.key_path import KeyPath, path_text
+from assur.model.file.texts import text_faults
+from assur.model.file.toml_lines import Lines
 
-KeyPath = tuple[str | int, ...]
 MAX_CHARACTERS = 200_000
 MAX_DEPTH = 20
 MAX_BITS = 10_000
@@ -20,25 +22,24 @@ MAX_ITEMS = 5_000
 _PLACE = re.compile(r"\s*\(at (?:line (\d+), column \d+|end of document)\)$")
 MAX_SYNTAX = 20
 """Syntax errors that are told at once."""
-_ALONE = ("Invalid value", "Expected newline or end of document after a statement", "Expected '=' after a key")
+_ALONE = (
+    "Invalid value",
+    "Expected newline or end of document after a statement",
+    "Expected '=' after a key",
+    "Cannot overwrite a value",
+)
 """Errors that concern the line in which they are found, and no other."""
 _STATEMENT = re.compile(r"\s*[\w.\"'-]+\s*=?[^\[\]{}\"']*(?:#.*)?")
 """A line that opens nothing which another one closes."""
 _DECIMAL_COMMA = re.compile(r"=\s*[\[{]?[^#\"']*\d,\d")
-_BARE = re.compile(r"[A-Za-z0-9_-]+")
-_STRING = re.compile(
-    r'"""(?:[^\\]|\\.)*?"{3,5}' r"|'''.*?'{3,5}" r'|"(?:[^"\\\n]|\\.)*"' r"|'[^'\n]*'",
-    re.DOTALL,
-)
-_SCALAR = re.compile(r"[^,\]}#\n]+")
 _PART = r"""(?:[A-Za-z0-9_-]+|"(?:[^"\\\n]|\\.)*"|'[^'\n]*')"""
 _TOKEN = re.compile(
     r'#[^\n]*|"""(?:[^\\]|\\.)*?"{3,5}|' + r"'''.*?'{3,5}|"
     rf"(?P<deep>(?:{_PART}[ \t]*\.[ \t]*){{{MAX_DEPTH}}})|{_PART}",
     re.DOTALL,
 )
+_TWICE = ("overwrite", "twice", "Duplicate", "mutate", "redefine")
 _TOO_DEEP = ("names or brackets nested too deeply", f"at most {MAX_DEPTH} levels; a few are enough")
-_BLANK = re.compile(r"(?:[ \t\r\n]|#[^\n]*)*")
 
 
 @dataclass(frozen=True)
@@ -53,12 +54,12 @@ class TomlSource:
     data: dict[str, Any]
     lines: dict[KeyPath, int]
 
-    def line(self, path: KeyPath) -> int | None:
-        """Line of the deepest part of a path that stands in the document."""
+    def line(self, path: KeyPath) -> int:
+        """Line of the deepest part of a path that stands in the document; the first line where none does."""
         for length in range(len(path), 0, -1):
             if path[:length] in self.lines:
                 return self.lines[path[:length]]
-        return None
+        return 1
 
 
 def read_toml(text: str, file: str) -> TomlSource:
@@ -85,13 +86,17 @@ def read_toml(text: str, file: str) -> TomlSource:
     try:
         data = tomllib.loads(text)
         _check_size(data, file)
-        return TomlSource(data, _Lines(text.replace("\r\n", "\n")).lines())
+        source = TomlSource(data, Lines(text.replace("\r\n", "\n")).lines())
     except tomllib.TOMLDecodeError as error:
         raise MechanismFileError(_all_syntax(file, text, str(error))) from None
     except RecursionError:
         raise _fault(file, None, *_TOO_DEEP) from None
     except ValueError as error:  # an integer of thousands of digits
         raise _fault(file, None, f"not TOML: {error}", "numbers within the range of floats") from None
+    unreadable = [Problem(file, source.line(path), path_text(path), *said) for path, said in text_faults(data)]
+    if unreadable:
+        raise MechanismFileError(unreadable[:MAX_SYNTAX])
+    return source
 
 
 def _check_size(data: dict[str, Any], file: str) -> None:
@@ -148,112 +153,27 @@ def _syntax(file: str, rows: list[str], message: str) -> Problem:
     reason = _PLACE.sub("", message)
     found = f"not TOML: {reason[0].lower()}{reason[1:]}" + (f" in `{row[:80]}`" if row else "")
     hint = ""
+    first = _first_of(rows, line) if any(word in reason for word in _TWICE) else None
+    if first is not None:
+        found += f"; the first one is in line {first}"
     if _DECIMAL_COMMA.search(row):
         hint = "write decimals with a point: 0.5, not 0,5"
-    elif any(word in reason for word in ("overwrite", "twice", "Duplicate", "mutate")):
+    elif any(word in reason for word in _TWICE):
         hint = "each name may be given once"
     return Problem(file, line, "", found, "a document in TOML 1.0", hint)
 
 
-class _Lines:
-    """Walks over a document that is known to be TOML and notes where keys and elements stand.
-
-    The elements of an array of tables ([[name]]) share the lines of that name: mechanism files have none.
-    """
-
-    def __init__(self, text: str) -> None:
-        self.text = text
-        self.position = 0
-        self.seen = 0
-        self.line = 1
-        self.found: dict[KeyPath, int] = {}
-
-    def lines(self) -> dict[KeyPath, int]:
-        table: KeyPath = ()
-        self._skip()
-        while self.position < len(self.text):
-            if self._at("["):
-                table = self._header()
-            else:
-                self._pair(table)
-            self._skip()
-        return self.found
-
-    def _at(self, mark: str) -> bool:
-        return self.text.startswith(mark, self.position)
-
-    def _skip(self) -> None:
-        match = _BLANK.match(self.text, self.position)
-        self.position = match.end() if match else self.position
-
-    def _note(self, path: KeyPath) -> KeyPath:
-        self.line += self.text.count("\n", self.seen, self.position)
-        self.seen = self.position
+def _first_of(rows: list[str], line: int) -> int | None:
+    """The line of what is given again in a line: of the same name, or of the value that it would be a part of."""
+    walk = Lines("\n".join(rows[:line]))
+    with contextlib.suppress(IndexError):  # a value that goes on after the line
+        walk.lines()
+    noted: dict[KeyPath, int] = {}
+    first = None
+    for path, where in walk.notes:
+        earlier = [noted[path[:length]] for length in range(1, len(path) + 1) if path[:length] in noted]
+        if where == line and earlier:
+            first = earlier[-1]
         for length in range(1, len(path) + 1):
-            self.found.setdefault(path[:length], self.line)
-        return path
-
-    def _header(self) -> KeyPath:
-        brackets = 2 if self._at("[[") else 1
-        self.position += brackets
-        table = tuple(self._keys())
-        self.position += brackets
-        return self._note(table)
-
-    def _keys(self) -> list[str]:
-        keys: list[str] = []
-        while True:
-            self._skip_blanks()
-            if self.text[self.position] in "\"'":
-                text = self._match(_STRING)
-                keys.append(str(tomllib.loads(f"k = {text}")["k"]))
-            else:
-                keys.append(self._match(_BARE))
-            self._skip_blanks()
-            if not self._at("."):
-                return keys
-            self.position += 1
-
-    def _skip_blanks(self) -> None:
-        while self.position < len(self.text) and self.text[self.position] in " \t":
-            self.position += 1
-
-    def _match(self, pattern: re.Pattern[str]) -> str:
-        match = pattern.match(self.text, self.position)
-        if match is None:  # cannot be in a document that tomllib has read; go on and lose only a line number
-            self.position += 1
-            return ""
-        self.position = match.end()
-        return match.group()
-
-    def _pair(self, table: KeyPath) -> None:
-        path = self._note((*table, *self._keys()))
-        self.position += 1
-        self._value(path)
-
-    def _value(self, path: KeyPath) -> None:
-        self._skip_blanks()
-        if self._at("["):
-            self._items("]", path, self._element)
-        elif self._at("{"):
-            self._items("}", path, lambda inner, _: self._pair(inner))
-        elif self._at('"') or self._at("'"):
-            self._match(_STRING)
-        else:
-            self._match(_SCALAR)
-
-    def _element(self, path: KeyPath, index: int) -> None:
-        self._value(self._note((*path, index)))
-
-    def _items(self, closing: str, path: KeyPath, item: Callable[[KeyPath, int], None]) -> None:
-        self.position += 1
-        index = 0
-        self._skip()
-        while self.position < len(self.text) and not self._at(closing):
-            item(path, index)
-            index += 1
-            self._skip()
-            if self._at(","):
-                self.position += 1
-            self._skip()
-        self.position += 1
+            noted.setdefault(path[:length], where)
+    return first

@@ -10,8 +10,9 @@ from pydantic_core import ErrorDetails
 
 from assur.errors import UsageError
 from assur.model.file.faults import Faults, listed, nearest
+from assur.model.file.key_path import KeyPath
 from assur.model.file.reader import description_text
-from assur.model.file.toml_source import KeyPath, read_toml
+from assur.model.file.toml_source import read_toml
 from assur.model.file.topology_schema import DeclaredEntry, TopologyEntry, is_mechanism
 from assur.model.file.values import shown
 from assur.model.topology_description import Declared, TopologyDescription
@@ -136,7 +137,8 @@ def _check_actuators(entry: TopologyEntry, chains: _READABLE, faults: Faults) ->
     for index, (limb, place) in enumerate(entry.actuate):
         path: KeyPath = ("actuate", index)
         if entry.actuate.index((limb, place)) < index:
-            faults.add(path, f'"{limb}.{place}" again', "allowed: each joint once")
+            first = faults.first(("actuate", entry.actuate.index((limb, place))))
+            faults.add(path, f'"{limb}.{place}" again; {first}', "allowed: each joint once")
         elif entry.chains and limb > len(entry.chains):
             faults.add(path, f'"{limb}.{place}"', f"there are {len(entry.chains)} chains")
         elif limb - 1 in chains:

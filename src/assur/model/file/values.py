@@ -11,6 +11,7 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, BeforeValidator, PlainValidator, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
+from assur.model.file.texts import long_name
 from assur.model.formula import RESERVED, Formula, FormulaError, parse
 
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*'*")
@@ -98,7 +99,15 @@ def _axis(value: object) -> object:
     return value
 
 
+def _short(value: str) -> str:
+    said = long_name(value)
+    if said:
+        raise refuse(*said)
+    return value
+
+
 def _name(value: str) -> str:
+    _short(value)
     if not NAME.fullmatch(value) or value in RESERVED:
         what = "a reserved word" if value in RESERVED else "no name"
         allowed = "a name is a letter, then letters, digits, _ and primes"
@@ -118,19 +127,20 @@ def _components(value: object) -> object:
 
 
 def _mechanism_name(value: str) -> str:
+    _short(value)
     if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_-]*", value):
         raise refuse(f"{shown(value)} is no name", "allowed: letters, digits, _ and -")
     return value
 
 
 def _format(value: object) -> object:
-    if value != 1 or isinstance(value, bool):
+    if value != 1 or not isinstance(value, int) or isinstance(value, bool):
         raise refuse(shown(value), "allowed: 1, the format that this version reads")
     return value
 
 
 def _sense(value: object) -> object:
-    if value not in (1, -1) or isinstance(value, bool):
+    if value not in (1, -1) or not isinstance(value, int) or isinstance(value, bool):
         raise refuse(shown(value), "allowed: 1 or -1")
     return value
 
@@ -146,7 +156,11 @@ Range = Annotated[tuple[Value, Value], _listed(2, "a list [low, high]"), _descri
 Axis = Annotated[Vector, BeforeValidator(_axis), _described("axis")]
 TwoAxes = Annotated[tuple[Axis, Axis], _listed(2, "a list of two axes"), _described("two_axes")]
 Name = Annotated[str, AfterValidator(_name), WithJsonSchema({"type": "string", "pattern": NAME_PATTERN})]
-PlainName = Annotated[str, AfterValidator(_plain_name), WithJsonSchema({"type": "string", "pattern": PLAIN_PATTERN})]
+PlainName = Annotated[
+    str,
+    AfterValidator(_plain_name),
+    WithJsonSchema({"type": "string", "pattern": PLAIN_PATTERN}),
+]
 HomeValue = Annotated[tuple[Value, ...], BeforeValidator(_components), _described("home_value")]
 Sense = Annotated[int, PlainValidator(_sense), _described("sense")]
 ZERO = (parse("0"), parse("0"), parse("0"))
