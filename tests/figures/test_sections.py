@@ -1,8 +1,11 @@
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
+from assur.figures.catalogue import spec
 from assur.workspace.fields import at_points
 
 pytestmark = pytest.mark.parametrize("context", ["zeng2019"], indirect=True)
@@ -42,3 +45,14 @@ def test_areas_by_counting_poses_at_which_no_margin_is_negative(context, data):
         inside = np.all([at_points(field, 3, points) >= 0 for field in context.workspace.margins.values()], axis=0)
         cell = np.prod([axis[1] - axis[0] for axis in axes])
         assert item["area"] == pytest.approx(inside.sum() * cell, abs=2 * 500 * cell)
+
+
+def test_the_areas_that_are_printed_hold_the_proved_bounds(context, data):
+    """Of the number and its error as text, against the certificate of the same workspace."""
+    caption = spec(context.record, "sections", context).caption
+    printed = re.findall(r"([\d ]+(?:\.\d+)?) ± ([\d ]+(?:\.\d+)?)", caption)
+    assert len(printed) == len(context.workspace.sections) == len(context.bounds.sections)
+    for (value, error), item in zip(printed, context.bounds.sections, strict=True):
+        middle, half = (float(text.replace(" ", "")) for text in (value, error))
+        assert middle - half <= item.area[0] <= middle <= item.area[1] <= middle + half
+    assert "with bounds that are proved" in caption

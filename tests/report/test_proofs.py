@@ -6,7 +6,10 @@ import pytest
 
 import assur
 from assur.errors import UsageError
-from assur.report.proofs import GAPS, TOLERANCE, attempt, cube, workspace_bounds
+from assur.report.proofs import TOLERANCE, cube
+from assur.results.attempt import attempt
+from assur.workspace.certified.volume_bounds import GAPS, volume_bounds
+from assur.workspace.region import workspace
 
 
 def refuse():
@@ -26,7 +29,8 @@ def test_a_refusal_is_a_reason_and_a_fault_stays_a_fault():
 
 def test_the_gap_follows_how_many_coordinates_the_region_depends_on():
     for name, depends in (("zeng2019", 2), ("orthoglide", 3)):
-        found = workspace_bounds(assur.load(name))
+        record = assur.load(name)
+        found = volume_bounds(record, workspace(record, resolution=8))
         assert len(found.paving.names) == depends
         assert found.gap == GAPS[depends]
         assert found.gap_reached <= found.gap

@@ -244,7 +244,7 @@ def test_the_json_has_its_stated_shape(built):
         "sections",
     ]
     assert found["box"] == [[-110.0, 90.0], [-250.0, 250.0], [180.0, 480.0]]
-    assert [list(item) for item in found["sections"]] == [["z", "area"]] * 4
+    assert [list(item) for item in found["sections"]] == [["z", "area", "area_error"]] * 4
     assert list(found["parallel_singular"]) == ["factors", "near", "share"]
     assert found["parallel_singular"]["near"] == 10.0
     assert found["how"] == "closed form"

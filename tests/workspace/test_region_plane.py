@@ -111,5 +111,5 @@ def test_rods_fold_onto_each_other_on_arcs_of_known_length(mode):
 
 def test_the_json_has_the_last_coordinate_as_key(wide):
     found = json.loads(json.dumps(wide.to_json(), allow_nan=False))
-    assert [list(item) for item in found["sections"]] == [["y", "area"]] * 2
+    assert [list(item) for item in found["sections"]] == [["y", "area", "area_error"]] * 2
     assert found["box"] == [list(pair) for pair in WIDE]

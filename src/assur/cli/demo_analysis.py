@@ -140,7 +140,7 @@ def workspace(ledger: Ledger, findings: Findings, shared: Plain) -> None:
     with progress("workspace", shared):
         found = findings.workspace
     last = found.box.names[-1]
-    rows = [(f"{item.value:g}", f"{item.area:.1f}") for item in found.sections]
+    rows = [(f"{item.value:g}", with_error(item.area, item.area_error)) for item in found.sections]
     ledger.show([f"volume {with_error(found.volume, found.volume_error)} {found.unit}"])
     ledger.show([table((f"section at {last} [{record.unit}]", f"area [{record.unit}^2]"), rows)])
     volume, sigma = _sampled(record, found)
@@ -164,7 +164,6 @@ def workspace(ledger: Ledger, findings: Findings, shared: Plain) -> None:
 def _proved(ledger: Ledger, findings: Findings, shared: Plain) -> None:
     """Proved bounds of the volume and of the sections, with the estimates by solids beside them."""
     from assur.results.outward import outward
-    from assur.workspace.sections import section
 
     with progress("workspace, proved", shared):
         proof, cube = findings.bounds, findings.cube
@@ -174,8 +173,7 @@ def _proved(ledger: Ledger, findings: Findings, shared: Plain) -> None:
     found = findings.workspace
     pairs = [(found.volume, found.volume_error, proof.volume)]
     for item, cut in zip(found.sections, proof.sections, strict=True):
-        coarser = section(findings.coarser, item.value, item.coordinate)
-        pairs.append((item.area, abs(item.area - coarser.area), cut.area))
+        pairs.append((item.area, item.area_error, cut.area))
     low, high = proof.volume
     ledger.claim(
         f"the volume and the {len(pairs) - 1} sections lie within their errors of the bounds proved by intervals",

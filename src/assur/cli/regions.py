@@ -202,7 +202,7 @@ def _sections(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableTyp
     unit = " ".join(power(name, exponent) for name, exponent in powers if exponent)
     yield table(
         (f"section at {last}", f"area [{unit}]" if unit else "area"),
-        [(f"{item[last]:g}", f"{item['area']:.7g}") for item in data["sections"]],
+        [(f"{item[last]:g}", with_error(item["area"], item["area_error"])) for item in data["sections"]],
     )
     yield ""
 

@@ -24,6 +24,7 @@ from assur.model.pose import is_angle
 from assur.model.registry import with_parameters
 from assur.performance.dexterity import GlobalIndex, global_condition_index
 from assur.performance.indices import Indices, indices, indices_at
+from assur.results.attempt import attempt
 from assur.scene.camera import Camera, plane
 from assur.scene.companion import Companion, companion
 from assur.scene.skeleton import Skeleton, skeleton
@@ -31,6 +32,8 @@ from assur.singularity.examples import SingularExample, brought_to, singular_exa
 from assur.topology.facts import Topology
 from assur.workspace.aspects.aspects import KINDS, Aspects, aspects
 from assur.workspace.certified.criteria import criteria
+from assur.workspace.certified.region import CertifiedWorkspace
+from assur.workspace.certified.volume_bounds import volume_bounds
 from assur.workspace.domain import box_of
 from assur.workspace.region import Workspace, workspace
 from assur.workspace.slices import MOST, slice_at
@@ -158,6 +161,11 @@ class Context:
     def workspace(self) -> Workspace:
         """The workspace in the default working mode and the file's box."""
         return self.given_workspace or workspace(self.record)
+
+    @cached_property
+    def bounds(self) -> CertifiedWorkspace | str:
+        """Proved bounds of its volume and of its sections, or why there are none."""
+        return attempt(lambda: volume_bounds(self.record, self.workspace))
 
     @cached_property
     def aspects(self) -> Aspects:

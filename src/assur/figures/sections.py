@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -46,7 +47,7 @@ def _missing(context: Context) -> str:
 
 def _caption(context: Context) -> str:
     found = context.workspace
-    areas = ", ".join(_area(item.area) for item in found.sections)
+    areas = ", ".join(_area(*item) for item in _known_areas(context))
     name = found.box.names[-1]
     values = ", ".join(value_words(context, name, item.value) for item in found.sections)
     curved = any(
@@ -59,7 +60,7 @@ def _caption(context: Context) -> str:
     )
     return (
         f"Sections of the workspace ({mode_words(context)}) at {symbol(name)} = {values};"
-        f" areas {areas} {_unit(context)}."
+        f" areas {areas} {_unit(context)}, {_known_by(context)}."
         " Borders are named by the margin that is zero there, with the factors that vanish with it in brackets."
         f"{rest}"
     )
@@ -78,6 +79,7 @@ def _draw(context: Context) -> Drawing:
     height = top + rows * (tall + bottom)
     figure = new_figure(PAGE, height)
     used: dict[str, Line2D] = {}
+    areas = _known_areas(context)
     for k, item in enumerate(found.sections):
         start = left + (k % columns) * (wide + gap)
         low = (rows - 1 - k // columns) * (tall + bottom) + bottom
@@ -90,7 +92,7 @@ def _draw(context: Context) -> Drawing:
         middle = (start + wide / 2) / PAGE
         title = f"({chr(97 + k)}) {symbol(item.coordinate)} = {value_words(context, item.coordinate, item.value)}"
         figure.text(middle, (low - 14.0) / height, title, ha="center", fontsize=TEXT)
-        area = f"area {_area(item.area)} {_unit(context)}"
+        area = f"area {_area(*areas[k])} {_unit(context)}"
         figure.text(middle, (low - 18.0) / height, area, ha="center", fontsize=SMALL)
     borders = sorted(used, key=lambda name: name == "")
     figure.legend(handles=[*_areas(context), *(used[name] for name in borders)], loc="upper center", ncols=4)
@@ -152,13 +154,44 @@ def _close(context: Context, item: Section) -> tuple[float, tuple[FloatArray, ..
     return cut(context.near, axis, item.value, (box.low[axis], box.high[axis]))
 
 
-def _area(value: float) -> str:
-    """A large number whole and in groups of three, by spaces; a small one to four digits.
+def _proved(context: Context) -> dict[float, tuple[float, float]]:
+    """Where a section lies -> proved bounds of its area; none without a closed form."""
+    found = context.bounds
+    return {} if isinstance(found, str) else {item.value: item.area for item in found.sections}
 
-    >>> _area(95000.2), _area(0.123456)
-    ('95 000', '0.1235')
+
+def _known_areas(context: Context) -> list[tuple[float, float]]:
+    """Area of each section and its error: of proved bounds where there are, else of the solids."""
+    proved = _proved(context)
+    return [
+        (0.5 * sum(proved[item.value]), 0.5 * (proved[item.value][1] - proved[item.value][0]))
+        if item.value in proved
+        else (item.area, item.area_error)
+        for item in context.workspace.sections
+    ]
+
+
+def _known_by(context: Context) -> str:
+    """By what the errors of areas are known."""
+    if _proved(context):
+        return "with bounds that are proved"
+    return "errors estimated from solids at two resolutions"
+
+
+def _area(value: float, error: float) -> str:
+    """A number with its error, rounded to one digit of it and up, so that it still holds; in groups of three.
+
+    >>> _area(92749.75, 0.65), _area(0.123456, 0.00021), _area(0.0, 0.0)
+    ('92 749.8 ± 0.8', '0.1235 ± 0.0003', '0')
     """
-    return f"{value:,.0f}".replace(",", " ") if value >= 1000 or value == 0 else f"{value:.4g}"
+    error = max(error, 1e-9 * abs(value))
+    if error == 0:
+        return "0"
+    digits = -int(np.floor(np.log10(error)))
+    rounded = round(value, digits)
+    bound = math.ceil((error + abs(rounded - value)) * 10.0**digits) / 10.0**digits
+    shown = max(digits, 0)
+    return f"{rounded:,.{shown}f} ± {bound:,.{shown}f}".replace(",", " ")
 
 
 def _unit(context: Context) -> str:
@@ -176,6 +209,8 @@ def _data(context: Context) -> dict[str, Any]:
                 item.coordinate: item.value,
                 "plane": item.plane,
                 "area": item.area,
+                "area_error": item.area_error,
+                "proved": _proved(context).get(item.value),
                 "polygons": item.polygons,
                 "near_area": near[0],
                 "near": near[1],

@@ -36,7 +36,8 @@ from assur.performance.dexterity import GlobalIndex, global_condition_index
 from assur.report.formulas.reading import Reading, reading
 from assur.report.numbers import Style, style_of
 from assur.report.pictures import pictures
-from assur.report.proofs import REFUSED, attempt, cube, workspace_bounds
+from assur.report.proofs import cube
+from assur.results.attempt import REFUSED, attempt
 from assur.results.kinds import Picture
 from assur.singularity.examples import SingularExample
 from assur.singularity.verdict import Verdict, verdict_at
@@ -45,8 +46,6 @@ from assur.workspace.aspects.aspects import Aspects
 from assur.workspace.aspects.nowhere import nothing_reached, nowhere_zero
 from assur.workspace.certified.largest import LargestShape
 from assur.workspace.certified.region import CertifiedWorkspace
-from assur.workspace.grid import grid_over
-from assur.workspace.reach import Reach, reach
 from assur.workspace.region import RESOLUTION, Workspace, workspace
 
 FloatArray = NDArray[np.float64]
@@ -244,15 +243,9 @@ class Findings:
         return workspace(self.record, resolution=self.resolution)
 
     @cached_property
-    def coarser(self) -> Reach:
-        """The same region at half the resolution, for the errors of areas."""
-        region = self.workspace
-        return reach(region.margins, {}, grid_over(region.box, self.resolution // 2))
-
-    @cached_property
     def bounds(self) -> CertifiedWorkspace | str:
         """Proved bounds of its volume and of its sections, or why there are none."""
-        return attempt(lambda: workspace_bounds(self.record))
+        return self.context.bounds
 
     @cached_property
     def aspects(self) -> Aspects | str:

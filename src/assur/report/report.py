@@ -12,7 +12,6 @@ from typing import Any
 import assur
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
-from assur.report.proofs import REFUSED, reason
 from assur.report.render import Page, page_html
 from assur.report.sections.aspects import aspects
 from assur.report.sections.auditing import auditing
@@ -26,6 +25,7 @@ from assur.report.sections.singularities import singularities
 from assur.report.sections.summary import summary
 from assur.report.sections.topology import topology
 from assur.report.sections.velocity import velocity
+from assur.results.attempt import REFUSED, reason
 from assur.results.files import write_whole
 from assur.results.json_text import plain
 from assur.results.kinds import Facts, Picture, Result, Scalar, Section

@@ -58,7 +58,8 @@ class Workspace:
         near, share: `share` of the volume lies within the distance `near` of one of these surfaces; None
             where there is no volume, where a pose coordinate is an angle, or where `near` is too small to resolve.
         vertices, faces: (n, 3) and (k, 3), the surface of the region, or the triangulated region in a plane.
-        margins, region: the fields and the solid behind it all.
+        margins, region, coarser: the fields and the solid behind it all, and that at half the resolution.
+        strokes: those that were asked for in place of the file's.
         how: "closed form", or from where the mode was followed: "followed from home".
     """
 
@@ -77,6 +78,8 @@ class Workspace:
     faces: NDArray[np.int64] = field(repr=False)
     margins: Mapping[str, Field] = field(repr=False)
     region: Reach = field(repr=False)
+    coarser: Reach = field(repr=False)
+    strokes: Mapping[str, Stroke | None] | None = None
     how: str = CLOSED_FORM
 
     @property
@@ -96,7 +99,7 @@ class Workspace:
 
     def section(self, value: float, coordinate: str | None = None) -> Section:
         """The cut at a value of a pose coordinate, the last one where none is named."""
-        return section(self.region, value, coordinate or self.box.names[-1])
+        return section(self.region, value, coordinate or self.box.names[-1], self.coarser)
 
     def projection(self, *plane: str) -> Projection:
         """What the region covers on the plane of two pose coordinates, e.g. `projection("x", "z")` for XOZ."""
@@ -141,7 +144,7 @@ class Workspace:
             "box": self.box.intervals,
             "held": dict(self.slice.held),
             "parallel_singular": self.parallel_singular,
-            "sections": [{key: item.value, "area": item.area} for item in self.sections],
+            "sections": [{key: item.value, "area": item.area, "area_error": item.area_error} for item in self.sections],
         }
 
 
@@ -225,7 +228,7 @@ def workspace(
         unit=unit(record, domain.names),
         volume=region.volume,
         volume_error=abs(region.volume - coarser.volume),
-        sections=tuple(section(region, value, domain.names[-1]) for value in values),
+        sections=tuple(section(region, value, domain.names[-1], coarser) for value in values),
         loci=loci,
         near=float(near),
         share=share,
@@ -233,6 +236,8 @@ def workspace(
         faces=faces,
         margins=fields.margins,
         region=region,
+        coarser=coarser,
+        strokes=strokes,
         how=fields.how,
     )
     fields.tick()

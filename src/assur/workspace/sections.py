@@ -12,6 +12,8 @@ from assur.errors import UsageError
 from assur.workspace.reach import Reach
 
 FloatArray = NDArray[np.float64]
+AROUND = (-1.0, -0.5, 0.0, 0.5, 1.0)
+"""Cuts that are compared, in cells of the coarser region away from the one that is asked for."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,6 +24,8 @@ class Section:
         coordinate, value: where it is cut.
         plane: names of the coordinates that remain.
         area: area of the cut; total length where one coordinate remains.
+        area_error: estimate of its error: the largest difference to half the resolution, here and up to a cell away.
+            One cut alone may agree by chance, where its surface happens to lie alike on both grids.
         polygons: each (n, 2), outer ones counter-clockwise, holes clockwise; intervals (2, 1) where one
             coordinate remains.
     """
@@ -30,6 +34,7 @@ class Section:
     value: float
     plane: tuple[str, ...]
     area: float
+    area_error: float
     polygons: tuple[FloatArray, ...]
 
 
@@ -62,8 +67,11 @@ def cut(solid: Manifold, axis: int, value: float, span: tuple[float, float]) -> 
     return float(cross.area()), flat_polygons(cross, axis)
 
 
-def section(region: Reach, value: float, coordinate: str) -> Section:
-    """The cut through a region at a value of one of its coordinates, which must lie in the box."""
+def section(region: Reach, value: float, coordinate: str, coarser: Reach) -> Section:
+    """The cut through a region at a value of one of its coordinates, which must lie in the box.
+
+    `coarser` is the same region at half the resolution, by which the error of the area is estimated.
+    """
     box = region.grid.box
     axis = box.axis(coordinate)
     span = box.low[axis], box.high[axis]
@@ -75,7 +83,17 @@ def section(region: Reach, value: float, coordinate: str) -> Section:
     plane = tuple(name for name in box.names if name != coordinate)
     if region.grid.dimension == 2:
         polygons = tuple(_interval(polygon[:, [0]]) for polygon in polygons)
-    return Section(coordinate, float(value), plane, area / region.grid.thickness, polygons)
+    error = _area_error(region, coarser, axis, float(value))
+    return Section(coordinate, float(value), plane, area / region.grid.thickness, error, polygons)
+
+
+def _area_error(region: Reach, coarser: Reach, axis: int, value: float) -> float:
+    box = region.grid.box
+    span = box.low[axis], box.high[axis]
+    step = float(coarser.grid.step[axis])
+    values = np.unique(np.clip([value + cells * step for cells in AROUND], *span))
+    fine, coarse = (np.array([cut(item.solid, axis, at, span)[0] for at in values]) for item in (region, coarser))
+    return float(np.max(np.abs(fine - coarse))) / region.grid.thickness
 
 
 def _interval(along: FloatArray) -> FloatArray:

@@ -17,7 +17,6 @@ from assur.singularity.loci import Locus, parallel_factors
 from assur.workspace.parasitic import largest_parasitic
 from assur.workspace.projections import projection
 from assur.workspace.region import Workspace
-from assur.workspace.sections import section
 
 AGAINST = "AGAINST the proved bounds"
 SHARE = "estimate: by a solid about the surface, its error not estimated"
@@ -236,7 +235,7 @@ def _projections(found: Findings) -> list[Table]:
     rows = []
     for plane in itertools.combinations(region.box.names, 2):
         area = region.projection(*plane).area
-        error = abs(area - projection(found.coarser, plane).area)
+        error = abs(area - projection(region.coarser, plane).area)
         rows.append(("–".join(plane), with_error(area, error), extent_unit(record, plane)))
     return [Table("Projections", ("plane", "area", "unit"), tuple(rows), known_by=TWO_RESOLUTIONS)]
 
@@ -252,7 +251,7 @@ def _sections(found: Findings) -> list[Table]:
     proved = {} if isinstance(proof, str) else {item.value: item.area for item in proof.sections}
     rows: list[tuple[Cell, ...]] = []
     for item in region.sections:
-        error = abs(item.area - section(found.coarser, item.value, name).area)
+        error = item.area_error
         row = (_at(record, name, item.value), with_error(item.area, error))
         both = proved.get(item.value)
         rows.append((*row, bounds(*both), agreement(item.area, error, both)) if both else (*row, "", ""))

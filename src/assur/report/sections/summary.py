@@ -10,11 +10,11 @@ from assur.kinematics.modes import Problem
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.report.findings import Findings
 from assur.report.numbers import count
-from assur.report.proofs import REFUSED
 from assur.report.sections.performance import SPREAD, mixed_units
 from assur.report.sections.position import how_found, noun
 from assur.report.sections.proved import right
 from assur.report.sections.reach import extents, held_words, share
+from assur.results.attempt import REFUSED
 from assur.results.kinds import EXACT, RANK, Scalar, Section
 
 

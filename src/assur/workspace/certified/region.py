@@ -139,6 +139,7 @@ def certified_workspace(
     sections: Sequence[float] | None = None,
     finest: float | Mapping[str, float] | None = None,
     progress: Progress | None = None,
+    section_gap: float | None = None,
 ) -> CertifiedWorkspace:
     """Proved bounds of the volume of a workspace inside a box, and of the areas of its sections.
 
@@ -154,6 +155,7 @@ def certified_workspace(
         finest: in place of a gap the extent at which boxes about the boundary are no longer cut, in length units;
             angles in rad are that over the characteristic length, or by coordinate. Sections keep the gap.
         progress: called with (steps done, steps in all).
+        section_gap: the gap of sections, where it is another.
 
     Returns:
         The frozen result. Ctrl-C, and more boxes than the memory holds, end it with the bounds reached; `note` says so.
@@ -180,7 +182,8 @@ def certified_workspace(
     for k, value in enumerate(values):
         if "interrupted" in (paving.stopped, *(item.stopped for item in cuts)):
             break
-        found = pave(criteria(record, mode, strokes, {**poses.held, last: value}), rest, gap, None, tick.part(k + 1))
+        asked = criteria(record, mode, strokes, {**poses.held, last: value})
+        found = pave(asked, rest, section_gap or gap, None, tick.part(k + 1))
         cuts.append(CertifiedSection(last, value, (found.low, found.high), unit(record, rest.names), found.stopped))
     return CertifiedWorkspace(
         mechanism=record.name,
