@@ -92,7 +92,7 @@ def newton(rows: Table, mechanism: assur.Mechanism, start: FloatArray, expected:
 def mujoco(rows: Table, repeats: int) -> None:
     """The same closure by Newton steps on MuJoCo's model, one pose after another, where MuJoCo is installed."""
     if find_spec("mujoco") is None:
-        rows.add_row("closure by MuJoCo", "not installed", "", "", "pip install 'assur[sim]'")
+        rows.add_row("closure by MuJoCo", "not installed", "", "", "pip install '.[sim]'")
         return
     from assur.crosscheck.engine import engine, put, settle
 

@@ -47,7 +47,7 @@ NEAR = 1e3  # by so much more than its loops a pose may be open; another assembl
 ROUNDING = 1e-10  # mm
 MANY = 10_000  # poses closed at once
 MISSING = "not installed"
-HOW = escape("pip install 'assur[bench]'")
+HOW = escape("pip install '.[bench]'")
 BAD = "[red]DISAGREE[/]"
 
 

@@ -45,11 +45,11 @@ def chromium():
 
 
 NEEDS = {
-    "sim": (installed("mujoco"), "MuJoCo: pip install 'assur[sim]'"),
-    "view": (installed("viser"), "viser: pip install 'assur[view]'"),
-    "cad": (installed("OCP"), "Open CASCADE: pip install 'assur[cad]'"),
-    "movie": (installed("imageio_ffmpeg"), "ffmpeg: pip install 'assur[movie]'"),
-    "site": (installed("sphinx") and installed("myst_parser"), "Sphinx: pip install 'assur[docs]'"),
+    "sim": (installed("mujoco"), "MuJoCo: pip install '.[sim]'"),
+    "view": (installed("viser"), "viser: pip install '.[view]'"),
+    "cad": (installed("OCP"), "Open CASCADE: pip install '.[cad]'"),
+    "movie": (installed("imageio_ffmpeg"), "ffmpeg: pip install '.[movie]'"),
+    "site": (installed("sphinx") and installed("myst_parser"), "Sphinx: pip install '.[docs]'"),
     "browser": (chromium() and installed("playwright"), "Chromium: apt install chromium, and pip install playwright"),
     "node": (shutil.which("node"), "Node: apt install nodejs"),
 }

@@ -59,6 +59,21 @@ def test_constraints_hold_names_and_versions_only():
     assert [line for line in lines if not re.fullmatch(r"[A-Za-z0-9._-]+==[0-9][A-Za-z0-9.+!]*", line)] == []
 
 
+def test_nobody_is_told_to_install_assur_by_its_name():
+    """No package index has it: an extra is installed from its folder, as `pip install '.[view]'`."""
+    named = r"(?:[\w.=<>~\[\]-]+\s+)*['\"]?assur\b(?!['\"]?[/.])"
+    told = re.compile(rf"\b(?:pip3?|pipx|uv)\s+(?:pip\s+)?(?:install|add|inject)\s+{named}")
+    found = [
+        f"{path.relative_to(ROOT)}: {hit.group()}"
+        for path in carried_files()
+        if path.suffix not in {".png", ".gif"} and path.name != "CHANGELOG.md"
+        for hit in told.finditer(path.read_text(encoding="utf-8", errors="replace"))
+    ]
+    assert found == []
+    assert all(told.search(f"pip install {name}") for name in ("'assur[view]'", "-U assur", "numpy assur"))
+    assert not told.search("pip install '.[view]' in assur's folder")
+
+
 def test_every_dependency_is_pinned_within_its_range():
     table = project()
     extras = table["project"]["optional-dependencies"].values()

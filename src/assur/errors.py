@@ -51,6 +51,15 @@ def cut(text: str, length: int = 60) -> str:
     return text if len(text) <= length else text[: length - 3] + "..."
 
 
+def extra_hint(extra: str) -> str:
+    """How to get what an extra of assur brings: from its source, for no package index has assur.
+
+    >>> extra_hint("view")
+    "pip install '.[view]' in assur's folder"
+    """
+    return f"pip install '.[{extra}]' in assur's folder"
+
+
 class AssurError(Exception):
     """An error with a hint. `exit_code` is what the command line returns for it."""
 

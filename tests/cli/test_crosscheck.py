@@ -38,7 +38,7 @@ def test_without_the_engine_it_says_how_to_install_it(assur_cli, monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
     run = assur_cli("crosscheck", "fivebar")
     assert run.code == 2
-    assert "pip install 'assur[sim]'" in run.err
+    assert "pip install '.[sim]'" in run.err
 
 
 @pytest.mark.parametrize("words", [("--samples", "0"), ("--samples", "x"), ("--seed", "-1"), ("--engine", "bullet")])

@@ -49,6 +49,29 @@ def test_an_unknown_form_is_refused_with_the_known_ones(assur_cli):
     assert "mjcf" in run.err
 
 
+def test_servos_are_written_in_place_of_motors_where_they_are_asked_for(assur_cli, tmp_path):
+    tags = []
+    for words in ([], ["--servos"]):
+        path = tmp_path / f"it{len(words)}.xml"
+        assert assur_cli("export", "fivebar", *words, "-o", str(path)).code == 0
+        tags.append([item.tag for item in ElementTree.parse(path).getroot().find("actuator")])
+    assert tags == [["motor", "motor"], ["position", "position"]]
+
+
+@pytest.mark.parametrize("form", ["sdf", "urdf", "glb"])
+def test_servos_are_of_mjcf_alone(assur_cli, tmp_path, form):
+    run = assur_cli("export", "fivebar", "--format", form, "--servos", "-o", str(tmp_path / f"it.{form}"))
+    assert run.code == 2
+    assert "has no actuators" in run.err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_help_says_who_reads_what(assur_cli):
+    said = " ".join(assur_cli("export", "--help").out.split())
+    assert "Drake refuses its loops" in said
+    assert "Gazebo, Drake" not in said
+
+
 def test_stl_is_a_folder_with_a_bill(assur_cli, tmp_path):
     run = assur_cli("export", "fivebar", "--format", "stl", "-o", str(tmp_path / "printed"), "--json")
     assert run.code == 0, run.err
@@ -100,5 +123,5 @@ def test_step_without_its_extra_says_what_to_install(assur_cli, tmp_path, monkey
     monkeypatch.setitem(sys.modules, "OCP", None)
     run = assur_cli("export", "fivebar", "--format", "step", "-o", str(tmp_path / "it.step"))
     assert run.code == 2
-    assert "pip install 'assur[cad]'" in run.err
+    assert "pip install '.[cad]'" in run.err
     assert list(tmp_path.iterdir()) == []

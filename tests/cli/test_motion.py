@@ -84,6 +84,6 @@ def test_an_mp4_without_ffmpeg_is_refused_before_the_work(assur_cli, tmp_path, m
     run = assur_cli("motion", "fivebar", "-o", str(tmp_path / "m.mp4"))
     assert (run.code, run.out) == (2, "")
     assert run.err.startswith(
-        "error: an MP4 needs the program ffmpeg, which is not found\nhint: pip install 'assur[movie]' "
+        "error: an MP4 needs the program ffmpeg, which is not found\nhint: pip install '.[movie]' "
     )
     assert list(tmp_path.iterdir()) == []

@@ -68,7 +68,7 @@ def test_without_viser_it_says_what_to_install(monkeypatch, capsys):
     assert main(["view", "fivebar", "--no-open"]) == 2
     said = capsys.readouterr().err
     assert "the live view needs viser, which is not installed" in said
-    assert "pip install 'assur[view]'" in said
+    assert "pip install '.[view]'" in said
 
 
 @pytest.fixture

@@ -60,7 +60,7 @@ def test_a_link_in_another_place_differs():
 
 
 @pytest.mark.sim
-def test_a_servo_of_the_other_sense_differs_in_the_inputs_alone():
+def test_a_motor_of_the_other_sense_differs_in_the_inputs_alone():
     text = mjcf(assur.load("fivebar"))
     turned = text.replace('gear="1"', 'gear="-1"')
     assert turned != text
@@ -123,7 +123,7 @@ def test_the_same_seed_gives_the_same_numbers():
 
 def test_without_mujoco_the_message_says_how_to_install_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
-    with pytest.raises(assur.UsageError, match=re.escape("pip install 'assur[sim]'")):
+    with pytest.raises(assur.UsageError, match=re.escape("pip install '.[sim]'")):
         crosscheck(assur.load("fivebar"))
 
 

@@ -7,6 +7,7 @@ import pytest
 
 import assur
 from assur.crosscheck import engine as engines
+from assur.export.mjcf import mjcf
 
 pytestmark = pytest.mark.sim
 
@@ -30,7 +31,10 @@ def test_the_home_key_closes_the_loops_and_puts_our_joint_values(engine):
     np.testing.assert_allclose(key, engine.data.qpos, atol=1e-12)
 
 
-def test_half_a_second_of_simulation_keeps_loops_closed_and_servos_near_home(engine):
+@pytest.mark.parametrize("name", assur.names())
+def test_half_a_second_of_simulation_keeps_loops_closed_and_servos_near_home(name):
+    record = assur.load(name)
+    engine = engines.engine(record, mjcf(record, servos=True))
     at_home(engine)
     link = engine.record.platform.link
     before = engines.link_frames(engine)[link][1]

@@ -1,7 +1,8 @@
-"""The MJCF file, read back by a reader of its own: nested bodies, joints in their order, sites and constraints."""
+"""The MJCF file, read back by a reader of its own: nested bodies, joints, sites, constraints and actuators."""
 
 from __future__ import annotations
 
+from itertools import zip_longest
 from xml.etree import ElementTree
 
 import numpy as np
@@ -74,7 +75,17 @@ def named_values(record, joint_values, home, parents, metre):
             rest = Rotation.from_rotvec(home[start : start + 3]).as_matrix() @ joint.turn
             forward = parents.get(body(joint.child)) == body(joint.parent)
             found[name] = rest.T @ there if forward else rest @ there.T
-    return found
+    return found | printed_values(record, joint_values, metre)
+
+
+def printed_values(record, joint_values, metre):
+    """Of actuated joints the printed inputs by their signs."""
+    units = [metre if item.coordinate.kind == "length" else 1.0 for item in record.inputs]
+    printed = [item.sign * joint_values[item.coordinate.index] + item.offset for item in record.inputs]
+    return {
+        record.coordinate_label(item.coordinate): item.sign * unit * value
+        for item, unit, value in zip(record.inputs, units, printed, strict=True)
+    }
 
 
 def at(record, joint_values, home, metre, text):
@@ -96,23 +107,35 @@ def test_links_are_where_the_joint_graph_says_at_any_joint_values(record, text, 
         np.testing.assert_allclose(sites[letter][1], metre * point(record, letter, anywhere), atol=1e-9)
 
 
-def gaps(text, sites):
-    """Distances of what the constraints want together, and angles where a weld does."""
+def gaps(text, home, there):
+    """Distances that the constraints want to be nothing: a point of one body, and where it lay in the other at home."""
     found = []
-    for item in ElementTree.fromstring(text).find("equality"):
-        if item.tag != "joint":
-            first, second = sites[item.get("site1")], sites[item.get("site2")]
-            found.append(np.linalg.norm(first[1] - second[1]))
-            if item.tag == "weld":
-                found.append(np.max(np.abs(first[0] - second[0])))
+    for item in ElementTree.fromstring(text).findall("equality/connect"):
+        (near, place), (far, origin) = home[item.get("body1")], home[item.get("body2")]
+        anchor = floats(item.get("anchor"))
+        other = far.T @ (place + near @ anchor - origin)
+        (near, place), (far, origin) = there[item.get("body1")], there[item.get("body2")]
+        found.append(np.linalg.norm(place + near @ anchor - origin - far @ other))
     return found
 
 
 def test_constraints_hold_where_the_loops_close_and_only_there(record, text, anywhere, elsewhere, home, metre):
-    _, sites = at(record, elsewhere, home, metre, text)
-    assert max(gaps(text, sites)) < 1e-9
-    _, sites = at(record, anywhere, home, metre, text)
-    assert max(gaps(text, sites)) > 1e-4
+    rest, _ = at(record, home, home, metre, text)
+    assert max(gaps(text, rest, at(record, elsewhere, home, metre, text)[0])) < 1e-9
+    assert max(gaps(text, rest, at(record, anywhere, home, metre, text)[0])) > 1e-4
+
+
+def test_it_keeps_to_what_every_reader_knows(record, text):
+    root = ElementTree.fromstring(text)
+    screws = [joint for joint in record.joints.values() if joint.type.letter == "H"]
+    constraints = [item.tag for item in root.find("equality")]
+    assert len(constraints) - constraints.count("connect") == len(screws) == constraints.count("joint")
+    assert all(item.get("body1") and item.get("body2") for item in root.findall("equality/connect"))
+    assert {item.tag for item in root.find("actuator")} == {"motor"}
+    named = {tag: [item.get("name") for item in root.iter(tag)] for tag in ("body", "joint", "site")}
+    assert all(len(item.findall("joint")) <= 1 for item in root.iter("body"))
+    assert len(set(named["body"])) == len(named["body"])
+    assert not {*named["body"], *named["joint"]} & {*named["site"]}
 
 
 def test_the_home_key_is_the_reference_of_every_joint_in_the_order_of_the_bodies(record, text):
@@ -125,19 +148,33 @@ def test_the_home_key_is_the_reference_of_every_joint_in_the_order_of_the_bodies
     np.testing.assert_array_equal(floats(key.get("qpos")), wanted)
 
 
-def test_a_servo_for_each_input_rests_at_the_printed_input(record, text, home, metre):
-    root = ElementTree.fromstring(text)
-    servos = root.findall("actuator/general")
-    assert [servo.get("name") for servo in servos] == [item.name for item in record.inputs]
-    controls = floats(root.find("keyframe/key").get("ctrl"))
-    for servo, item, control in zip(servos, record.inputs, controls, strict=True):
+def length(servo, values):
+    return float(servo.get("gear")) * values[servo.get("joint")]
+
+
+def test_the_length_of_each_motor_is_the_printed_input(record, text, anywhere, home, metre):
+    motors = ElementTree.fromstring(text).findall("actuator/motor")
+    assert [motor.get("name") for motor in motors] == [item.name for item in record.inputs]
+    values = named_values(record, anywhere, home, nesting(text), metre)
+    for motor, item in zip(motors, record.inputs, strict=True):
         unit = metre if item.coordinate.kind == "length" else 1.0
-        joint_value = unit * home[item.coordinate.index]
-        constant, slope, _ = floats(servo.get("biasprm"))
-        force = float(servo.get("gainprm")) * control + constant + slope * float(servo.get("gear")) * joint_value
-        assert force == pytest.approx(0.0, abs=1e-6 * float(servo.get("gainprm")))
-        assert control == pytest.approx(item.sign * joint_value + unit * item.offset, abs=1e-9)
-        assert servo.get("joint") == record.coordinate_label(item.coordinate)
+        printed = item.sign * anywhere[item.coordinate.index] + item.offset
+        assert length(motor, values) == pytest.approx(unit * printed, abs=1e-12)
+
+
+def test_a_servo_for_each_input_rests_at_the_printed_input(record, home, metre):
+    root = ElementTree.fromstring(mjcf(record, servos=True))
+    servos = root.findall("actuator/position")
+    assert [servo.get("name") for servo in servos] == [item.name for item in record.inputs]
+    values = printed_values(record, home, metre)
+    controls = floats(root.find("keyframe/key").get("ctrl"))
+    np.testing.assert_allclose(controls, [length(servo, values) for servo in servos], atol=1e-12)
+    for servo, item in zip(servos, record.inputs, strict=True):
+        unit = metre if item.coordinate.kind == "length" else 1.0
+        stroke = None if item.stroke is None else unit * np.array(item.stroke)
+        assert (servo.get("ctrlrange") is None) == (stroke is None)
+        if stroke is not None:
+            np.testing.assert_allclose(floats(servo.get("ctrlrange")), stroke)
 
 
 def test_a_screw_is_tied_to_its_turn(record, text, metre):
@@ -148,11 +185,20 @@ def test_a_screw_is_tied_to_its_turn(record, text, metre):
         assert floats(item.get("polycoef"))[1] == pytest.approx(metre * joint.pitch / (2 * np.pi))
 
 
-def test_limits_are_ranges_of_the_joints(record, text, metre):
+def test_limits_and_strokes_are_ranges_of_the_joints(record, text, metre):
     ranges = {item.get("name"): item.get("range") for item in ElementTree.fromstring(text).iter("joint")}
+    driven = {record.coordinate_label(item.coordinate): item for item in record.inputs}
     for joint in record.joints.values():
-        for item, limit in zip(record.joint_coordinates(joint.name), joint.limits, strict=False):
+        for item, limit in zip_longest(record.joint_coordinates(joint.name), joint.limits):
             label = record.coordinate_label(item)
-            if limit is not None and label in ranges:
+            bounds = [] if limit is None else [np.array(limit)]
+            if label in driven:
+                one = driven[label]
+                bounds = [bound + one.offset / one.sign for bound in bounds]
+                bounds += [] if one.stroke is None else [np.sort(np.array(one.stroke) / one.sign)]
+            if label in ranges and joint.type.letter != "S":
+                assert (ranges[label] is None) == (not bounds)
+            if label in ranges and bounds:
                 unit = metre if item.kind == "length" else 1.0
-                np.testing.assert_allclose(floats(ranges[label]), unit * np.array(limit))
+                both = [np.max(bounds, axis=0)[0], np.min(bounds, axis=0)[1]]
+                np.testing.assert_allclose(floats(ranges[label]), unit * np.array(both))

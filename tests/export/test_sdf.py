@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from assur.export.sdf import Names, sdf
+from assur.export.names import Names
+from assur.export.sdf import sdf
 from assur.model.joint_graph import frames
 from assur.model.points import point
 
@@ -27,7 +28,7 @@ def pose(element):
 
 def model_of(text):
     root = ElementTree.fromstring(text)
-    assert root.get("version") == "1.10"
+    assert root.get("version") == "1.9"
     return root.find("model")
 
 
@@ -62,7 +63,7 @@ def moved(joint, parent_home, child_home, values):
         for axis, value in zip(axes, values, strict=True):
             swing = swing @ Rotation.from_rotvec(value * axis).as_matrix()
     if kind == "screw":
-        slide = axes[0] * values[0] * float(joint.find("screw_thread_pitch").text) / (2 * np.pi)
+        slide = -axes[0] * values[0] / float(joint.find("thread_pitch").text)
     # the anchor stays where it is, but for the slide
     centre = place + turn @ (anchor + slide)
     return turn @ swing, centre - turn @ swing @ anchor

@@ -199,7 +199,7 @@ def test_without_ffmpeg_there_is_a_hint(tmp_path, monkeypatch, package):
     monkeypatch.setattr(importlib.util, "find_spec", lambda _: None if package == "missing" else True)
     with pytest.raises(UsageError, match="ffmpeg, which is not found") as caught:
         ffmpeg()
-    assert caught.value.hint == "pip install 'assur[movie]' brings one; or write .gif or .webp"
+    assert caught.value.hint == "pip install '.[movie]' in assur's folder brings one; or write .gif or .webp"
 
 
 def _none():

@@ -133,4 +133,4 @@ def test_without_viser_it_says_what_to_install(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "viser", None)
     with pytest.raises(UsageError, match="needs viser") as caught:
         server.library()
-    assert caught.value.hint == "pip install 'assur[view]'"
+    assert caught.value.hint == "pip install '.[view]' in assur's folder"

@@ -22,7 +22,7 @@ def crosscheck(
     /,
     *,
     engine: Annotated[
-        Literal["mujoco"], Parameter(help="The engine; it comes with pip install 'assur[sim]'.")
+        Literal["mujoco"], Parameter(help="The engine; it comes with the extra sim: pip install '.[sim]'.")
     ] = "mujoco",
     samples: Annotated[str, Parameter(metavar="COUNT", help="Random poses; 20 if left out.")] = "20",
     seed: Annotated[str, Parameter(metavar="NUMBER", help="Of the random poses; 0 if left out.")] = "0",

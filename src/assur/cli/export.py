@@ -29,8 +29,9 @@ def export(
         Literal["mjcf", "sdf", "urdf", "step", "glb", "stl", "bom"],
         Parameter(
             name="--format",
-            help="For simulators mjcf (MuJoCo; if left out), sdf (Gazebo, Drake), urdf with a file of loops; for"
-            " prototypes step (CAD; pip install 'assur[cad]'), stl (printers), glb (moving), bom (parts and bearings).",
+            help="For simulators mjcf (MuJoCo, Newton, Drake, Pinocchio; if left out), sdf (Gazebo), urdf (a tree, with"
+            " a file of loops beside it); for prototypes step (CAD; it needs the extra cad), stl (printers), glb"
+            " (moving), bom (parts and bearings).",
         ),
     ] = "mjcf",
     output: Annotated[
@@ -39,14 +40,25 @@ def export(
             name=("-o", "--output"), metavar="FILE", help="The file to be written, NAME.xml and so on; of stl a folder."
         ),
     ] = None,
+    servos: Annotated[
+        bool,
+        Parameter(
+            name="--servos",
+            negative=(),
+            help="Of mjcf: position servos, whose control is the printed input, in place of motors.",
+        ),
+    ] = False,
     shared: Drawn = DRAWN_DEFAULTS,
 ) -> Outcome:
     """Write a mechanism for a simulator, for CAD, for viewers or for printers.
 
     Simulator files are in m and rad, standing at home. MJCF closes the loops by
-    stiff constraints and has a servo for each input. SDF has every joint as it
-    is. URDF is a tree; its loops stand in a file beside it, FILE.loops.json.
-    Masses are nominal: 1 kg for each link.
+    points that stay together and has a motor for each input: MuJoCo, Newton and
+    Drake read both, Pinocchio the loops. What ties a screw's turn to its advance
+    only MuJoCo and Newton read. SDF 1.9 has every joint as it is, and no motors:
+    libsdformat 12 and newer (Gazebo) read it, Drake refuses its loops. URDF is a
+    tree, which all of them read; no engine reads its loops, which stand in a
+    file beside it, FILE.loops.json. Masses are nominal: 1 kg for each link.
 
     Prototype files have links with bores, pins, rails and carriages; lengths
     that the joint graph gives are kept, all others are drawn, to begin with.
@@ -55,6 +67,7 @@ def export(
 
     For example:
         assur export fivebar -o fivebar.xml
+        assur export fivebar --servos -o fivebar-servos.xml
         assur export zeng2019 --format urdf -o zeng.urdf
         assur export zeng2019 --format step --thickness 12 -o zeng.step
         assur export zeng2019 --format stl -o printed
@@ -65,13 +78,15 @@ def export(
     from assur.export.cad.bill import bill
     from assur.export.files import export
 
+    if servos and format_ != "mjcf":
+        raise UsageError(f"--servos: {format_} has no actuators", hint="it is for mjcf")
     if format_ in SIMULATED and shared.thickness is not None:
         raise UsageError(
             f"--thickness: {format_} has balls and arms of its own sizes", hint="it is for step, stl, glb and bom"
         )
     path = _path(record, format_, output)
     with progress("export", shared):
-        written = [str(item) for item in export(record, format_, path)]
+        written = [str(item) for item in export(record, format_, path, servos=servos)]
         rows = () if format_ in (*SIMULATED, "glb") else bill(record)
     data: dict[str, Any] = {"mechanism": record.name, "format": format_, "files": written}
     if format_ in SIMULATED:

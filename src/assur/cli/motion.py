@@ -41,7 +41,7 @@ def motion(
     All inputs swing, each a little behind the one before, as far as the mode and
     the limits of the file let them; or, with --to, the platform goes straight to
     a pose and back. The platform point leaves a red line. MP4 needs the program
-    ffmpeg, which pip install 'assur[movie]' brings; GIF and WebP need nothing. An
+    ffmpeg, which pip install '.[movie]' brings; GIF and WebP need nothing. An
     old file is replaced whole or not at all.
 
     For example:

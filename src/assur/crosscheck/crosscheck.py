@@ -51,7 +51,7 @@ TOLERANCES = {
 MEANINGS = {
     "frames of links": "every link, the engine set to our joint values",
     "loops": "rows of the engine's constraints at our solutions",
-    "inputs": "controls at which the servos rest, against our inputs",
+    "inputs": "lengths of the actuators, against our inputs",
     "freedoms": "nullity of the engine's constraints, against ours",
     "self-motions": "the platform moves with inputs locked where we say so; 1: it does not",
     "Jacobian, joint graph": "rates of the pose per input rate, by screws",

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.errors import UsageError
+from assur.errors import UsageError, extra_hint
 from assur.export.bodies import Bodies, bodies
-from assur.export.mjcf import body_name, mjcf
+from assur.export.mjcf import body_name, mjcf, printed
 from assur.model.joint_graph import Frame
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, rate_names
@@ -62,13 +62,12 @@ def engine(record: MechanismRecord, text: str | None = None) -> Engine:
     try:
         import mujoco
     except ImportError as error:
-        hint = "pip install 'assur[sim]'"
-        raise UsageError(f"MuJoCo cannot be loaded: {error}", hint=hint) from error
+        raise UsageError(f"MuJoCo cannot be loaded: {error}", hint=extra_hint("sim")) from error
     model = mujoco.MjModel.from_xml_string(mjcf(record) if text is None else text)
     model.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_LIMIT
     dofs = [model.joint(record.coordinate_label(item.coordinate)).dofadr[0] for item in record.inputs]
-    found = bodies(record)
+    found = printed(record, bodies(record))
     slides = model.jnt_type[model.dof_jntid] == mujoco.mjtJoint.mjJNT_SLIDE
     units = np.where(slides, found.size, 1.0)
     return Engine(record, found, mujoco, model, mujoco.MjData(model), np.array(dofs, dtype=np.intp), units)
@@ -100,11 +99,10 @@ def link_frames(engine: Engine) -> Mapping[str, Frame]:
 
 
 def printed_inputs(engine: Engine) -> FloatArray:
-    """The controls (n,) at which the servos would rest, in m and rad: the printed inputs here."""
-    gain, bias = engine.model.actuator_gainprm[:, 0], engine.model.actuator_biasprm
-    here: FloatArray = -(bias[:, 0] + bias[:, 1] * engine.data.actuator_length) / gain
+    """The lengths (n,) of the actuators, in m and rad: the printed inputs here."""
     order = [engine.model.actuator(item.name).id for item in engine.record.inputs]
-    return here[order]
+    lengths: FloatArray = engine.data.actuator_length[order]
+    return lengths
 
 
 def constraints(engine: Engine) -> tuple[FloatArray, FloatArray]:

@@ -9,8 +9,7 @@ ball), which is left to a constraint between carrier and child. A revolute or sp
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,6 +34,12 @@ CARRIER_INERTIA = 4e-7
 
 THICKNESS = 0.02
 """Radius of the drawn capsules, as a share of the characteristic length."""
+
+PAIR = np.array([[-0.5], [0.5]])
+"""Two points of an axis, in characteristic lengths along it: what keeps them together keeps the axis."""
+
+TRIANGLE = 0.5 * (np.eye(3) - 1 / 3)
+"""Three points (3, 3) about their mean, in characteristic lengths: what keeps them together keeps a frame."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,21 +70,19 @@ class Body:
 
 @dataclass(frozen=True, eq=False)
 class Closure:
-    """What closes a loop: points of two bodies that coincide, or two frames that do.
+    """What closes a loop: points of two bodies that coincide at home, and stay together.
 
     Attributes:
         joint: the cut joint.
-        kind: "point" (a ball joint), "line" (two points on the axis of a hinge) or "frame" (nothing moves).
-        first, second: names of the bodies, carrier (or parent) and child.
-        first_points, second_points: (k, 3) in their frames, in m.
+        first, second: names of the bodies.
+        points: (k, 3) in the frame of the first, in m: one for a ball joint, two on the axis of a hinge, three that
+            are not in line where nothing moves.
     """
 
     joint: str
-    kind: Literal["point", "line", "frame"]
     first: str
     second: str
-    first_points: FloatArray
-    second_points: FloatArray
+    points: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,8 +115,8 @@ def bodies(record: MechanismRecord) -> Bodies:
 
     >>> from assur.model.registry import load_record
     >>> found = bodies(load_record("fivebar"))
-    >>> list(found.bodies), [(item.joint, item.kind) for item in found.closures]
-    (['base', 'crank1', 'crank2', 'rod1', 'rod2'], [('P', 'line')])
+    >>> list(found.bodies), [(item.joint, item.points.shape) for item in found.closures]
+    (['base', 'crank1', 'crank2', 'rod1', 'rod2'], [('P', (2, 3))])
     """
     home = home_values(record)
     placed = frames(record, home)
@@ -125,43 +128,77 @@ def bodies(record: MechanismRecord) -> Bodies:
         near, far = (joint.parent, joint.child) if forward else (joint.child, joint.parent)
         steps = joint_steps(record, joint, home, forward=forward, metre=metre)
         made[far] = _body(record, far, near, placed[near], placed[far], steps, size)
-    closures = []
-    for joint in graph.cut:
-        carrier, closure = _cut(record, joint, home, placed, metre, size)
-        if carrier is not None:
-            made[carrier.name] = carrier
-        closures.append(closure)
-    return Bodies(made, tuple(closures), home, metre, size)
+    tree = Bodies(made, (), home, metre, size)
+    cut = [_cut(record, joint, tree, placed) for joint in graph.cut]
+    carriers = {body.name: body for body, _ in cut if body is not None}
+    return replace(tree, bodies=made | carriers, closures=tuple(closure for _, closure in cut))
+
+
+def singly_jointed(model: Bodies) -> Bodies:
+    """The same with a nominal body between every two elementary joints, so that each body is carried by one.
+
+    Several joints of one body are read in different ways: Drake takes the axes of all but the last in the frame of
+    the parent, MuJoCo in that of the body.
+
+    >>> from assur.model.registry import load_record
+    >>> model = bodies(load_record("three_upu"))
+    >>> len(model.bodies), len(singly_jointed(model).bodies)
+    (10, 14)
+    """
+    made: dict[str, Body] = {}
+    for body in model.bodies.values():
+        place = (body.parent, body.orientation, body.position)
+        for step in body.steps[:-1]:
+            name = f"{step.name}.link"
+            made[name] = carrier(name, place, (step,), step.at, model.size)
+            place = (name, np.eye(3), np.zeros(3))
+        parent, orientation, position = place
+        made[body.name] = replace(
+            body, parent=parent, orientation=orientation, position=position, steps=body.steps[-1:]
+        )
+    return replace(model, bodies=made)
+
+
+def carrier(
+    name: str, place: tuple[str, FloatArray, FloatArray], steps: tuple[Step, ...], at: FloatArray, size: float
+) -> Body:
+    """A nominal body with its mass at one point (3,), in m; `place`: its parent, orientation and position there."""
+    return Body(name, *place, steps, at[None], CARRIER_MASS, at, CARRIER_INERTIA * size**2)
 
 
 def _cut(
-    record: MechanismRecord, joint: Joint, home: FloatArray, placed: Mapping[str, Frame], metre: float, size: float
+    record: MechanismRecord, joint: Joint, model: Bodies, placed: Mapping[str, Frame]
 ) -> tuple[Body | None, Closure]:
     """The carrier of a cut joint, where it needs one, and what closes the loop.
 
     An actuated joint is carried whole, so that it can be driven; so is one that does not end in a hinge or a ball.
+    The points are those of a body whose own joint is at its origin, for Pinocchio counts them from that joint: a
+    carrier, the parent or the child. Where neither of these two is such a body, the joint is carried whole too.
     """
-    steps = joint_steps(record, joint, home, forward=True, metre=metre)
+    steps = joint_steps(record, joint, model.home, forward=True, metre=model.metre)
     last = steps[-1]
     driven = any(item.coordinate.joint == joint.name for item in record.inputs)
-    kind: Literal["point", "line", "frame"] = "point" if last.kind == "ball" else "line"
-    if driven or last.kind == "slide" or joint.pitch:
-        kind = "frame"
-    kept = steps if kind == "frame" else steps[:-1]
-    parent = placed[joint.parent]
-    here = child_frame(joint, parent, home[joint_graph(record).slices[joint.name]])
-    offsets = np.array([[-0.5], [0.5]]) * size * last.axis if kind == "line" else np.zeros((1, 3))
-    points = last.at + offsets
+    parent, child = (_at_its_joint(model.bodies[name]) for name in (joint.parent, joint.child))
+    whole = driven or last.kind == "slide" or bool(joint.pitch) or (len(steps) == 1 and not parent and not child)
+    kept = steps if whole else steps[:-1]
+    offsets = model.size * (TRIANGLE if whole else np.zeros((1, 3)) if last.kind == "ball" else PAIR * last.axis)
+    near = placed[joint.parent]
+    here = child_frame(joint, near, model.home[joint_graph(record).slices[joint.name]])
+    orientation, position = _relative(near, here)
+    origin = model.metre * position + orientation @ last.at
     if kept:
+        steps = tuple(replace(step, at=np.zeros(3)) for step in kept)
         name = f"{joint.name}.carrier"
-        orientation, position = _relative(parent, here)
-        inertia = CARRIER_INERTIA * size**2
-        place = metre * position
-        carrier = Body(name, joint.parent, orientation, place, kept, last.at[None], CARRIER_MASS, last.at, inertia)
-        return carrier, Closure(joint.name, kind, name, joint.child, points, points)
-    orientation, position = _relative(parent, here)
-    there = points @ orientation.T + metre * position
-    return None, Closure(joint.name, kind, joint.parent, joint.child, there, points)
+        body = carrier(name, (joint.parent, orientation, origin), steps, np.zeros(3), model.size)
+        return body, Closure(joint.name, name, joint.child, offsets)
+    if parent:
+        return None, Closure(joint.name, joint.parent, joint.child, origin + offsets @ orientation.T)
+    return None, Closure(joint.name, joint.child, joint.parent, last.at + offsets)
+
+
+def _at_its_joint(body: Body) -> bool:
+    """Whether the body's origin is at the joint that carries it; the base has none."""
+    return not body.steps or not np.any(body.steps[-1].at)
 
 
 def _body(

@@ -29,13 +29,14 @@ ENDINGS: dict[Format, tuple[str, ...]] = {
 BILL = "bom.csv"
 
 
-def export(record: MechanismRecord, form: Format, path: Path) -> tuple[Path, ...]:
+def export(record: MechanismRecord, form: Format, path: Path, *, servos: bool = False) -> tuple[Path, ...]:
     """Write a mechanism in one form; returns the files written. Of STL the path is that of a folder.
 
-    Beside FILE.urdf stands FILE.loops.json, beside FILE.step FILE.bom.csv, and in the folder of STL files bom.csv.
+    `servos`: of MJCF, position servos in place of motors. Beside FILE.urdf stands FILE.loops.json, beside FILE.step
+    FILE.bom.csv, and in the folder of STL files bom.csv.
     """
     if form == "mjcf":
-        return (write_whole(path, mjcf(record)),)
+        return (write_whole(path, mjcf(record, servos=servos)),)
     if form == "sdf":
         return (write_whole(path, sdf(record)),)
     if form in ("step", "glb", "stl", "bom"):

@@ -1,26 +1,31 @@
 """MJCF, the file of MuJoCo: the spanning tree as nested bodies, the loops closed by equality constraints.
 
+What is written is what MuJoCo, Newton, Drake and Pinocchio all read: every loop is closed by `connect` constraints of
+two bodies and an anchor, which coincide at home. Of ball joints that is one point, of hinges two points of the axis,
+of anything else three points of a carrier. And every body is carried by one joint, with nominal bodies between.
+
 The model stands at home; a joint's value there is its `ref`, so that the values of hinges and slides are ours (in m
-and rad). A ball joint counts from home. An actuator is called by the name of the input, and its control is the
-printed input. Where a mechanism closes its loops by ball joints, they are `connect` constraints of one point; by
-hinges, of two points of the axis, whose six rows say what five would; by anything else, a `weld` to a carrier.
+and rad), and those of actuated joints are the printed inputs times their signs. A ball joint counts from home. An
+actuator is called by the name of the input, and its length is the printed input: a motor pushes along it, a servo
+takes it for its control.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
 from xml.etree import ElementTree
 
 import numpy as np
-from numpy.typing import NDArray
 
-from assur.export.bodies import Bodies, Body, Closure, bodies
+from assur.export.bodies import Bodies, Body, Closure, bodies, singly_jointed
+from assur.export.names import Names
 from assur.export.shapes import arms, radius
 from assur.export.steps import Step
 from assur.export.xml_text import Element, child, comment, document, number, numbers, quaternion
-from assur.model.mechanism import Input, MechanismRecord
+from assur.model.mechanism import MechanismRecord
 from assur.topology.joints import HELICAL
 
-FloatArray = NDArray[np.float64]
 NOTE = "masses and sizes of bodies are nominal; lengths in m, angles in rad; key 'home' is the assembled home"
 TIMESTEP = 5e-4
 STIFF = {"solref": "0.001 1", "solimp": "0.999 0.9999 0.001 0.5 2"}
@@ -30,8 +35,13 @@ QUICKNESS = 100.0
 """Natural frequency of the position servos, in rad/s, with the mass of all bodies on each."""
 
 
-def mjcf(record: MechanismRecord) -> str:
+def mjcf(record: MechanismRecord, *, servos: bool = False) -> str:
     """The text of the MJCF file of a mechanism.
+
+    Args:
+        record: the mechanism.
+        servos: position servos as actuators in place of motors. MuJoCo and Newton know both; Drake takes the range
+            of a servo's control for its largest force.
 
     Raises what `assur.kinematics.home.home_values` raises: only what closes can be exported.
 
@@ -40,7 +50,7 @@ def mjcf(record: MechanismRecord) -> str:
     >>> text.count("<body "), text.count("<connect "), '<key name="home"' in text
     (5, 2, True)
     """
-    model = bodies(record)
+    model = singly_jointed(printed(record, bodies(record)))
     root = ElementTree.Element("mujoco", model=record.name)
     comment(root, f"{record.title}; {NOTE}")
     child(root, "compiler", angle="radian", autolimits="true")
@@ -56,8 +66,36 @@ def mjcf(record: MechanismRecord) -> str:
     for closure in model.closures:
         _closure(equality, closure)
     _screws(record, model, equality)
-    _actuators(record, model, root)
+    _actuators(record, model, root, servos=servos)
+    _home(record, model, root, servos=servos)
     return document(root)
+
+
+def printed(record: MechanismRecord, model: Bodies) -> Bodies:
+    """The bodies with actuated joints whose values are the printed inputs by their signs, within their strokes.
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("planar_3rpr")
+    >>> model = bodies(record)
+    >>> leg = record.inputs[0]
+    >>> step = printed(record, model).steps[record.coordinate_label(leg.coordinate)]
+    >>> bool(step.value(model.home) == leg.sign * model.metre * (leg.sign * model.home[step.index] + leg.offset))
+    True
+    """
+    driven = {record.coordinate_label(one.coordinate): one for one in record.inputs}
+
+    def told(step: Step) -> Step:
+        one = driven.get(step.name)
+        if one is None:
+            return step
+        offset = step.ratio * one.offset / one.sign
+        bounds = [] if step.limits is None else [np.array(step.limits) + offset]
+        bounds += [] if one.stroke is None else [np.sort(step.ratio * np.array(one.stroke) / one.sign)]
+        limits = (float(max(low for low, _ in bounds)), float(min(high for _, high in bounds))) if bounds else None
+        return replace(step, home=step.home + offset, offset=offset, limits=limits)
+
+    told_bodies = {name: replace(body, steps=tuple(map(told, body.steps))) for name, body in model.bodies.items()}
+    return replace(model, bodies=told_bodies)
 
 
 def _tree(record: MechanismRecord, model: Bodies, world: Element) -> None:
@@ -77,14 +115,18 @@ def _tree(record: MechanismRecord, model: Bodies, world: Element) -> None:
             child(element, "inertial", pos=numbers(body.centre), mass=number(body.mass), diaginertia=inertia)
         _joints(element, body)
         _shapes(element, body, model)
+    _sites(record, model, made)
+
+
+def _sites(record: MechanismRecord, model: Bodies, made: Mapping[str, Element]) -> None:
+    """Letters, and the platform's point. Pinocchio takes a site for a body of its name, so that they differ."""
+    names = Names([*map(body_name, model.bodies), *model.steps])
     for letter in record.points.values():
-        child(made[letter.link], "site", name=letter.name, pos=numbers(model.metre * letter.at))
+        site = names.new(letter.name, "point")
+        child(made[letter.link], "site", name=site, pos=numbers(model.metre * letter.at))
     if "platform" not in record.points:
-        child(made[record.platform.link], "site", name="platform", pos=numbers(model.metre * record.platform.point))
-    for closure in model.closures:
-        for side, body_of, points in _sides(closure):
-            for k, point in enumerate(points, 1):
-                child(made[body_of], "site", name=_site(closure, side, k), pos=numbers(point))
+        site, at = names.new("platform", "point"), model.metre * record.platform.point
+        child(made[record.platform.link], "site", name=site, pos=numbers(at))
 
 
 def _joints(element: Element, body: Body) -> None:
@@ -106,19 +148,10 @@ def _shapes(element: Element, body: Body, model: Bodies) -> None:
         child(element, "geom", type="capsule", size=size, fromto=numbers([*arm.start, *arm.end]))
 
 
-def _sides(closure: Closure) -> list[tuple[str, str, FloatArray]]:
-    return [("first", closure.first, closure.first_points), ("second", closure.second, closure.second_points)]
-
-
-def _site(closure: Closure, side: str, number_: int) -> str:
-    return f"{closure.joint}.{side}{number_}"
-
-
 def _closure(equality: Element, closure: Closure) -> None:
-    tag = "weld" if closure.kind == "frame" else "connect"
-    for k in range(1, len(closure.first_points) + 1):
-        first, second = _site(closure, "first", k), _site(closure, "second", k)
-        child(equality, tag, name=f"{closure.joint}.{k}", site1=first, site2=second)
+    ends = {"body1": body_name(closure.first), "body2": body_name(closure.second)}
+    for k, point in enumerate(closure.points, 1):
+        child(equality, "connect", name=f"{closure.joint}.{k}", **ends, anchor=numbers(point))
 
 
 def _screws(record: MechanismRecord, model: Bodies, equality: Element) -> None:
@@ -130,34 +163,26 @@ def _screws(record: MechanismRecord, model: Bodies, equality: Element) -> None:
             child(equality, "joint", name=slide, joint1=slide, joint2=joint.name, polycoef=f"0 {lead} 0 0 0")
 
 
-def _actuators(record: MechanismRecord, model: Bodies, root: Element) -> None:
-    """Position servos called by the inputs, and the home key: every joint, then every control."""
+def _actuators(record: MechanismRecord, model: Bodies, root: Element, *, servos: bool) -> None:
+    """Motors or position servos, called by the inputs."""
     actuator = child(root, "actuator")
     mass = sum(body.mass for body in model.bodies.values())
-    controls = []
-    for item in record.inputs:
-        ratio = model.metre if item.coordinate.kind == "length" else 1.0
-        arm = 1.0 if item.coordinate.kind == "length" else model.size
-        stiffness, damping = mass * (QUICKNESS * arm) ** 2, 2 * mass * QUICKNESS * arm**2
-        child(
-            actuator,
-            "general",
-            name=item.name,
-            joint=record.coordinate_label(item.coordinate),
-            gear=number(item.sign),
-            gaintype="fixed",
-            biastype="affine",
-            gainprm=number(stiffness),
-            biasprm=numbers([-stiffness * ratio * item.offset, -stiffness, -damping]),
-            **_stroke(item, ratio),
-        )
-        controls.append(ratio * (item.sign * model.home[item.coordinate.index] + item.offset))
-    places = np.concatenate([[1.0, 0.0, 0.0, 0.0] if step.kind == "ball" else [step.home] for step in _ordered(model)])
-    child(child(root, "keyframe"), "key", name="home", qpos=numbers(places), ctrl=numbers(controls))
+    for one in record.inputs:
+        step = model.steps[record.coordinate_label(one.coordinate)]
+        arm = 1.0 if step.kind == "slide" else model.size
+        gains = {"kp": number(mass * (QUICKNESS * arm) ** 2), "kv": number(2 * mass * QUICKNESS * arm**2)}
+        if one.stroke is not None:
+            gains["ctrlrange"] = numbers(step.ratio * np.array(one.stroke))
+        common = {"name": one.name, "joint": step.name, "gear": number(one.sign)}
+        child(actuator, "position" if servos else "motor", **common, **(gains if servos else {}))
 
 
-def _stroke(item: Input, ratio: float) -> dict[str, str]:
-    return {} if item.stroke is None else {"ctrlrange": numbers([ratio * bound for bound in item.stroke])}
+def _home(record: MechanismRecord, model: Bodies, root: Element, *, servos: bool) -> None:
+    """The key of that name: every joint, then every control: of a servo the printed input, of a motor no force."""
+    places = [[1.0, 0.0, 0.0, 0.0] if step.kind == "ball" else [step.home] for step in _ordered(model)]
+    lengths = [one.sign * model.steps[record.coordinate_label(one.coordinate)].home for one in record.inputs]
+    controls = np.array(lengths) if servos else np.zeros(len(lengths))
+    child(child(root, "keyframe"), "key", name="home", qpos=numbers(np.concatenate(places)), ctrl=numbers(controls))
 
 
 def _ordered(model: Bodies) -> list[Step]:

@@ -1,7 +1,8 @@
-"""SDF 1.10: every joint of the joint graph as it stands, loops and all.
+"""SDF 1.9: every joint of the joint graph as it stands, loops and all.
 
 The model stands at home, where SDF counts every joint value as zero; a note at each joint gives ours. A cylindrical
-joint, which SDF does not have, is a slide and a hinge with a nominal link between. Letters are frames.
+joint, which SDF does not have, is a slide and a hinge with a nominal link between. Letters are frames. libsdformat 12
+(Gazebo Fortress, Debian 12) reads no newer version, and newer libraries read this one.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.export.bodies import CARRIER_INERTIA, CARRIER_MASS, Bodies, Body, bodies
+from assur.export.names import Names
 from assur.export.shapes import arms, radius
 from assur.export.steps import Step, joint_steps
 from assur.export.xml_text import Element, child, comment, document, number, numbers
@@ -22,7 +24,7 @@ from assur.numerics import rotations
 from assur.topology.joints import CYLINDRICAL, HELICAL, SPHERICAL, UNIVERSAL
 
 FloatArray = NDArray[np.float64]
-VERSION = "1.10"
+VERSION = "1.9"
 NOTE = "masses and sizes are nominal; lengths in m, angles in rad; it stands at home, where every joint is at zero"
 
 
@@ -58,20 +60,6 @@ def sdf(record: MechanismRecord) -> str:
         frame = child(top, "frame", name=names.new(letter.name, "point"), attached_to=links[letter.link])
         child(frame, "pose", pose(np.eye(3), model.metre * letter.at), rotation_format="quat_xyzw")
     return document(root)
-
-
-class Names:
-    """Names of the links, joints and frames of a model, which SDF wants to differ; some are reserved."""
-
-    def __init__(self) -> None:
-        self.taken = {"world"}
-
-    def new(self, name: str, kind: str) -> str:
-        """The name, where it is taken already with its kind after it."""
-        while name in self.taken:
-            name = f"{name}.{kind}"
-        self.taken.add(name)
-        return name
 
 
 def pose(orientation: FloatArray, position: FloatArray) -> str:
@@ -138,7 +126,8 @@ def _joint(
     elif joint.type is HELICAL:
         hinge = next(step for step in steps if step.kind == "hinge")
         made = _element(top, name, "screw", parent, own, [hinge])
-        child(made, "screw_thread_pitch", number(model.metre * joint.pitch))
+        # rad per m, of a right-handed thread below zero; SDF 1.10 has the advance per turn in its place
+        child(made, "thread_pitch", number(-2 * np.pi / (model.metre * joint.pitch)))
     else:
         kind = "prismatic" if steps[0].kind == "slide" else "revolute"
         _element(top, name, kind, parent, own, steps)

@@ -29,6 +29,7 @@ class Step:
         index: of our joint value that moves it (of a ball: the first of three).
         ratio: how much it moves, in rad or m, per unit of that value.
         home: its value at home, in rad or m; 0 for a ball.
+        offset: its value where ours is zero, in rad or m.
         limits: (low, high) in rad or m, or None.
         turn: of a ball, the two rotations (3, 3) between which that of our rotation vector stands.
         backwards: of a ball, whether it moves our parent against our child.
@@ -45,10 +46,11 @@ class Step:
     limits: tuple[float, float] | None = None
     turn: tuple[FloatArray, FloatArray] = (np.eye(3), np.eye(3))
     backwards: bool = False
+    offset: float = 0.0
 
     def value(self, joint_values: FloatArray) -> FloatArray:
         """Value (...) of a hinge or slide, in rad or m, at our joint values (..., n)."""
-        return np.asarray(self.ratio * joint_values[..., self.index])
+        return np.asarray(self.ratio * joint_values[..., self.index] + self.offset)
 
     def rotation(self, joint_values: FloatArray) -> FloatArray:
         """Rotation (..., 3, 3) of a ball away from home, in the frame of the carried body, at our joint values."""

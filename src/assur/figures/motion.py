@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
-from assur.errors import UsageError
+from assur.errors import UsageError, extra_hint
 from assur.figures.canvas import View
 from assur.figures.context import Context
 from assur.figures.raster import SAMPLES, filled, lit
@@ -190,7 +190,7 @@ def ffmpeg() -> str:
     if not found:
         raise UsageError(
             "an MP4 needs the program ffmpeg, which is not found",
-            hint="pip install 'assur[movie]' brings one; or write .gif or .webp",
+            hint=f"{extra_hint('movie')} brings one; or write .gif or .webp",
         )
     return found
 

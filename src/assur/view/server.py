@@ -21,7 +21,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from assur.errors import AssurError, UsageError
+from assur.errors import AssurError, UsageError, extra_hint
 from assur.view.guard import POLICY, Answer, Guard, as_sent, reached_at
 
 REFUSED = b"refused\n"
@@ -116,7 +116,7 @@ HINTS = {
     errno.EADDRINUSE: "choose another --port, or leave it out for a free one",
     errno.EACCES: "choose a --port from 1024, or leave it out for a free one",
 }
-VERSION = "install the version of viser that assur names: pip install 'assur[view]'"
+VERSION = f"install the version of viser that assur names: {extra_hint('view')}"
 
 
 def library() -> Any:
@@ -124,9 +124,7 @@ def library() -> Any:
     try:
         return importlib.import_module("viser")
     except ImportError:
-        raise UsageError(
-            "the live view needs viser, which is not installed", hint="pip install 'assur[view]'"
-        ) from None
+        raise UsageError("the live view needs viser, which is not installed", hint=extra_hint("view")) from None
 
 
 def _check_free(host: str, port: int) -> None:

@@ -45,4 +45,4 @@ def test_without_open_cascade_it_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "OCP", None)
     with pytest.raises(UsageError, match="not installed") as caught:
         kernel.needed()
-    assert caught.value.hint == "pip install 'assur[cad]'"
+    assert caught.value.hint == "pip install '.[cad]' in assur's folder"

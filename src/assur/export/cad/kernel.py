@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.errors import AssurError, UsageError
+from assur.errors import AssurError, UsageError, extra_hint
 from assur.scene.shapes import Ball, Bar, Box, Cylinder, Shape, Slab
 
 FloatArray = NDArray[np.float64]
@@ -20,7 +20,7 @@ def needed() -> None:
         import OCP  # noqa: F401
     except ImportError as error:
         raise UsageError(
-            "STEP files are made by Open CASCADE, which is not installed", hint="pip install 'assur[cad]'"
+            "STEP files are made by Open CASCADE, which is not installed", hint=extra_hint("cad")
         ) from error
 
 

@@ -1,0 +1,24 @@
+"""Names in a file: those of links, joints and points, which some readers want to differ."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+class Names:
+    """Names that are taken in a file; `world` is reserved in every form.
+
+    >>> names = Names()
+    >>> names.new("world", "link"), names.new("A", "link"), names.new("A", "joint")
+    ('world.link', 'A', 'A.joint')
+    """
+
+    def __init__(self, taken: Iterable[str] = ()) -> None:
+        self.taken = {"world", *taken}
+
+    def new(self, name: str, kind: str) -> str:
+        """The name, where it is taken already with its kind after it."""
+        while name in self.taken:
+            name = f"{name}.{kind}"
+        self.taken.add(name)
+        return name
