@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics import closure, position
 from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.contract.check import check_closed_form
 from assur.kinematics.home import home_values
 from assur.kinematics.position import Method
 from assur.kinematics.rates import velocity
@@ -53,7 +54,9 @@ class Mechanism(MechanismRecord):
 
     def with_parameters(self, /, **values: float) -> Self:
         """The same mechanism with other dimensions, checked as those of the file are."""
-        return registry.with_parameters(self, **values)
+        changed = registry.with_parameters(self, **values)
+        check_closed_form(changed)
+        return changed
 
     def direct(
         self, inputs: ArrayLike, mode: str | None = None, method: Method = "auto", *, crossed: bool = False
@@ -168,10 +171,14 @@ class Mechanism(MechanismRecord):
 def load(name: str | Path, /, **parameters: Any) -> Mechanism:
     """A built-in mechanism by name, or one from a file, with some of its parameters changed.
 
+    A closed form beside a file of one's own is held against the joint graph first (`assur.kinematics.contract`): where
+    it does not agree, that is a `MechanismFileError`.
+
     >>> load("zeng2019", l2=300).parameters["l2"].value
     300.0
     """
     record = registry.load_record(name, **parameters)
+    check_closed_form(record)
     return Mechanism(**vars(record))
 
 

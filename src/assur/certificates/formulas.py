@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.contract.check import checked_form
 from assur.kinematics.modes import mode_signs, sign_names
-from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, QUATERNION, has_quaternion, is_angle
 from assur.numerics.intervals.functions import cosine_sine
@@ -120,13 +120,14 @@ def formulas(
 
     Errors:
         UsageError: no closed form, an unknown mode, coordinate or input, a stroke that is none.
+        MechanismFileError: the closed form does not agree with the joint graph.
 
     >>> from assur.model.registry import load_record
     >>> found = formulas(load_record("zeng2019"))
     >>> found.names("margins"), found.names("factors")[:4], found.used
     (('n_alpha', 'n_beta', 'M12', 'M3'), ('u1_minus_u2', 'w', 'v', 'sin_alpha_minus_beta'), (True, False, True))
     """
-    form, poses, recorder = closed_form_of(record), slice_at(record, held), Recorder()
+    form, poses, recorder = checked_form(record), slice_at(record, held), Recorder()
     numbers: dict[str, Interval] = {}
 
     def given(name: str, value: Interval | float) -> Recorded:

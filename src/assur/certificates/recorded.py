@@ -13,6 +13,7 @@ from typing import Any
 from assur.certificates.certificate import file_hashes
 from assur.certificates.formulas import CONSTANT, GROUPS, formulas
 from assur.errors import UsageError
+from assur.kinematics.contract.check import check_closed_form
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import load_record, names, with_parameters
 
@@ -22,11 +23,14 @@ def at_hand(document: Mapping[str, Any], name_or_path: str | Path | None = None)
 
     Errors:
         UnknownNameError: no mechanism has the name that is given.
+        MechanismFileError: its closed form does not agree with its joint graph.
     """
     own = document["statement"]["mechanism"]
     if name_or_path is None and own not in names():  # a path in a certificate must not make anyone run what is there
         return None
-    return load_record(own if name_or_path is None else name_or_path)
+    record = load_record(own if name_or_path is None else name_or_path)
+    check_closed_form(record)
+    return record
 
 
 def with_dimensions(document: Mapping[str, Any], record: MechanismRecord) -> MechanismRecord:
@@ -38,7 +42,10 @@ def with_dimensions(document: Mapping[str, Any], record: MechanismRecord) -> Mec
     if document["statement"]["mechanism"] != record.name:
         return record
     changed = {name: float.fromhex(value) for name, value in document["statement"]["parameters"].items()}
-    return with_parameters(record, **changed) if changed else record
+    if changed:
+        record = with_parameters(record, **changed)
+        check_closed_form(record)
+    return record
 
 
 def differences(document: Mapping[str, Any], record: MechanismRecord) -> tuple[str, ...]:

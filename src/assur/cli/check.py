@@ -21,28 +21,37 @@ def check(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> O
     Of the text: its form, names, numbers and formulas; and of the closed form
     beside it. Where what the loops are made of is sound, of the joint graph
     too: whether it closes and moves, whether its inputs determine it, whether
-    pose, orientation and limits are as stated. Exit code 3: there is a fault.
+    pose, orientation and limits are as stated. Last, a closed form of your own
+    is held against the joint graph. Exit code 3: there is a fault.
 
     For example:
         assur check my.toml
         assur check my.toml --json
     """
     from assur.kinematics.soundness.check import doubts, faults
-    from assur.model.registry import examine
+    from assur.model.registry import examine, load_record
 
     known, problems = examine(mechanism)
     if problems:
         every = [*problems, *(faults(known) if known else ())]
         every.sort(key=lambda item: (item.file.endswith(".py"), item.line or 0))
         return _outcome(mechanism, every, (), None)
-    record = shared.mechanism(mechanism)
-    found = faults(record)
+    record = load_record(mechanism, **shared.dimensions)
+    found = faults(record) or _of_closed_form(record)
     facts = None if found else _summary(record)
     return _outcome(record.name, found, () if found else doubts(record), facts, _next(mechanism))
 
 
+def _of_closed_form(record: Any) -> tuple[Any, ...]:
+    """What a closed form claims and the joint graph denies; one that is built in is held to the same by the tests."""
+    from assur.kinematics.contract.check import closed_form_problems
+
+    return closed_form_problems(record)
+
+
 def _summary(record: Any) -> dict[str, Any]:
     from assur.kinematics.rates.motions import general
+    from assur.model.registry import is_built_in
 
     usual = general(record)
     return {
@@ -51,6 +60,7 @@ def _summary(record: Any) -> dict[str, Any]:
         "freedoms": int(usual.freedoms - usual.internal),
         "internal_freedoms": int(usual.internal),
         "closed_form": record.closed_form is not None,
+        "closed_form_checked": record.closed_form is not None and not is_built_in(record),
     }
 
 
@@ -86,9 +96,12 @@ def _shown(data: dict[str, Any], problems: list[Any], notes: list[Any], then: st
     spins = f" and {count(internal, 'internal freedom')}" if internal else ""
     bodies = f"{count(facts['links'], 'link')}, {count(facts['joints'], 'joint')}"
     yield f"{bodies}; {count(facts['freedoms'], 'freedom')}{spins}"
-    yield (
-        "a closed form stands beside it" if facts["closed_form"] else "no closed form: it is solved on its joint graph"
-    )
+    if facts["closed_form_checked"]:
+        yield "a closed form stands beside it, and agrees with the joint graph"
+    elif facts["closed_form"]:
+        yield "a closed form stands beside it"
+    else:
+        yield "no closed form: it is solved on its joint graph"
     yield from (Verbatim(f"note: {note}") for note in notes)
     if then:
         yield Verbatim(then)

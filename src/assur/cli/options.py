@@ -80,12 +80,14 @@ class Shared(Plain):
     def mechanism(self, name: str) -> Mechanism:
         """The mechanism of that name or file, with the dimensions of `--set`."""
         from assur.mechanism import load
-        from assur.model.registry import with_parameters
 
+        return load(name, **self.dimensions)
+
+    @property
+    def dimensions(self) -> dict[str, float]:
+        """Those of `--set`."""
         given = assignments(self.set_, "--set", "l2=300")
-        values = {key: number(text, f"--set {key}") for key, text in given.items()}
-        found = load(name)
-        return with_parameters(found, **values) if values else found
+        return {key: number(text, f"--set {key}") for key, text in given.items()}
 
 
 @Parameter(name="*", group=SHARED)

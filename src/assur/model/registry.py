@@ -53,6 +53,15 @@ def topology_names() -> tuple[str, ...]:
     return _with(TOPOLOGY)
 
 
+def is_built_in(record: MechanismRecord) -> bool:
+    """Whether a record is of a file that is part of assur.
+
+    >>> is_built_in(load_record("fivebar"))
+    True
+    """
+    return _folder().resolve() in record.file.resolve().parents
+
+
 @dataclasses.dataclass(frozen=True)
 class LeftOut:
     """A mechanism of the literature that is not built in, and the reason."""

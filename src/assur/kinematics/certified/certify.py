@@ -17,7 +17,7 @@ from assur.kinematics.certified.result import CertifiedSolutions
 from assur.kinematics.certified.roots import direct_by_roots
 from assur.kinematics.certified.signs import direct_by_signs, inverse_by_signs
 from assur.kinematics.certified.systems import direct_by_system
-from assur.kinematics.status import closed_form_of
+from assur.kinematics.contract.check import checked_form
 from assur.model.closed_form import Eliminant, PolynomialSystem
 from assur.model.mechanism import MechanismRecord
 
@@ -39,6 +39,7 @@ def certified_direct(record: MechanismRecord, inputs: ArrayLike, way: Way = "aut
     Errors:
         UsageError: a way that is not possible; inputs that are not n finite numbers; no box of poses to search.
         UnknownNameError: a way that there is not.
+        MechanismFileError: the closed form does not agree with the joint graph.
 
     Example: the four poses of Table 1 of Zeng et al. 2019, and an input beside which none is proved.
 
@@ -53,7 +54,7 @@ def certified_direct(record: MechanismRecord, inputs: ArrayLike, way: Way = "aut
     _check_way(way)
     if way == "joint graph" or (way == "auto" and record.closed_form is None):
         return certified_assemblies(record, "direct", given, _method(record))
-    kernel = closed_form_of(record).direct
+    kernel = checked_form(record).direct
     if way == "boxes" or (way == "auto" and kernel is None):
         return direct_by_boxes(record, given)
     if kernel is None:
@@ -89,7 +90,7 @@ def certified_inverse(record: MechanismRecord, pose: ArrayLike, way: Way = "auto
         raise UsageError("only the direct problem is searched box by box", hint="leave the method out")
     if way == "joint graph" or (way == "auto" and record.closed_form is None):
         return certified_assemblies(record, "inverse", given, _method(record))
-    closed_form_of(record)
+    checked_form(record)
     return inverse_by_signs(record, given)
 
 

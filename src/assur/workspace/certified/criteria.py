@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.contract.check import checked_form
 from assur.kinematics.modes import mode_signs, sign_names
-from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import ClosedForm
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, QUATERNION, has_quaternion, is_angle
@@ -127,6 +127,7 @@ def criteria(
 
     Errors:
         UsageError: no closed form, an unknown mode, coordinate or input, a stroke that is none.
+        MechanismFileError: the closed form does not agree with the joint graph.
 
     Example: no margin of the paper's mechanism depends on y.
 
@@ -135,7 +136,7 @@ def criteria(
     >>> found.margins, found.slice.free, found.used
     (('n_alpha', 'n_beta', 'M12', 'M3'), ('x', 'y', 'z'), (True, False, True))
     """
-    form, poses, recorder = closed_form_of(record), slice_at(record, held), Recorder()
+    form, poses, recorder = checked_form(record), slice_at(record, held), Recorder()
     mode = mode or record.modes.default_working
     uniform: dict[str, Interval] = {}
 

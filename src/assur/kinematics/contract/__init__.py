@@ -1,0 +1,1 @@
+"""The contract between a closed form and its joint graph: what a kernel claims, held against the loops themselves."""

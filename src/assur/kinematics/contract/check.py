@@ -1,0 +1,88 @@
+"""Whether a closed form may be used: built in, or held against its joint graph here or earlier on this machine."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from assur.errors import MechanismFileError, Problem, cut
+from assur.kinematics.contract.dimensions import of_file
+from assur.kinematics.contract.held import AT_LOAD, Extent, at_other_dimensions, at_places
+from assur.kinematics.contract.kept import SCOPES, has_passed, keep_passed
+from assur.kinematics.contract.lines import line_of
+from assur.kinematics.contract.mismatch import Mismatch
+from assur.kinematics.status import closed_form_of
+from assur.model.closed_form import ClosedForm
+from assur.model.mechanism import MechanismRecord
+from assur.model.registry import CLOSED_FORM, is_built_in
+
+LONG = 600
+
+
+def check_closed_form(record: MechanismRecord, extent: Extent = AT_LOAD) -> None:
+    """Raise `MechanismFileError` where a closed form does not agree with its joint graph.
+
+    A mechanism without one, and one that is built in (its closed form is held to the same laws by the tests of assur),
+    pass at once; any other is checked on its first use, and what passed is kept in the user's cache. What holds with
+    dimensions changed by chance holds with any; else every choice of dimensions is checked by itself.
+
+    >>> from assur.model.registry import load_record
+    >>> check_closed_form(load_record("fivebar"))
+    """
+    found = closed_form_problems(record, extent)
+    if found:
+        raise MechanismFileError(found)
+
+
+def closed_form_problems(record: MechanismRecord, extent: Extent = AT_LOAD) -> tuple[Problem, ...]:
+    """The faults for which `check_closed_form` refuses a mechanism; what passes is kept.
+
+    >>> from assur.model.registry import load_record
+    >>> closed_form_problems(load_record("fivebar"))
+    ()
+    """
+    if record.closed_form is None or is_built_in(record) or any(has_passed(record, extent, item) for item in SCOPES):
+        return ()
+    found, general = problems(of_file(record), extent)
+    if not found and not general and record.overrides:
+        found, _ = problems(record, extent)
+    if not found:
+        keep_passed(record, extent, "any" if general else "own")
+    return found
+
+
+def checked_form(record: MechanismRecord, extent: Extent = AT_LOAD) -> ClosedForm:
+    """The closed form, once it has passed: what proofs are made with.
+
+    Errors:
+        UsageError: the mechanism has none. MechanismFileError: it does not agree with its joint graph.
+
+    >>> from assur.model.registry import load_record
+    >>> checked_form(load_record("fivebar")).complete_for
+    'joint_graph'
+    """
+    form = closed_form_of(record)
+    check_closed_form(record, extent)
+    return form
+
+
+@lru_cache(maxsize=64)
+def problems(record: MechanismRecord, extent: Extent = AT_LOAD) -> tuple[tuple[Problem, ...], bool]:
+    """What of a closed form does not agree with the joint graph, each part once, with its line in the file.
+
+    The second answer: whether that was seen with other dimensions too, so that it holds with any.
+
+    >>> from assur.model.registry import load_record
+    >>> problems(load_record("fivebar"))
+    ((), True)
+    """
+    found, general = at_places(record, extent), False
+    if not found:
+        found, general = at_other_dimensions(record, extent)
+    parts = {(item.part, item.name): item for item in reversed(found)}
+    return tuple(_problem(record, item) for item in reversed(parts.values())), general
+
+
+def _problem(record: MechanismRecord, mismatch: Mismatch) -> Problem:
+    path = record.file.parent / CLOSED_FORM
+    line = line_of(path, mismatch)
+    return Problem(str(path), line, mismatch.title, cut(mismatch.found, LONG), mismatch.allowed, mismatch.hint)

@@ -1,0 +1,63 @@
+"""The same mechanism with other dimensions: a closed form must hold there too, where there is a mechanism at all."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from assur.errors import MechanismFileError, UsageError
+from assur.kinematics.closure import RANK_GAP, characteristic_length
+from assur.kinematics.home import home_values
+from assur.kinematics.rates.motions import motions
+from assur.model.mechanism import MechanismRecord, Parameter
+from assur.model.registry import with_parameters
+
+SHARES = (0.15, 0.03)
+"""By how much dimensions are changed at most; by less where nothing closes."""
+
+
+def of_file(record: MechanismRecord) -> MechanismRecord:
+    """The mechanism with the dimensions of its file.
+
+    >>> from assur.model.registry import load_record
+    >>> of_file(load_record("fivebar", l1=130)).values.l1 == load_record("fivebar").values.l1
+    True
+    """
+    return with_parameters(dataclasses.replace(record, overrides={})) if record.overrides else record
+
+
+def changed(record: MechanismRecord, random: np.random.Generator) -> MechanismRecord | None:
+    """The mechanism with all dimensions changed, each by chance; None where it has no such neighbour.
+
+    A neighbour closes from home and has as many freedoms: a linkage that moves only by special dimensions has none.
+
+    >>> from assur.model.registry import load_record
+    >>> other = changed(load_record("fivebar"), np.random.default_rng(0))
+    >>> sorted(other.overrides) == sorted(other.parameters)
+    True
+    """
+    own = [item for item in record.parameters.values() if not item.drawn_only]
+    for share in SHARES:
+        values = {item.name: _value(record, item, share * random.uniform(-1, 1)) for item in own}
+        found = with_dimensions(record, values)
+        if found is not None:
+            return found
+    return None
+
+
+def with_dimensions(record: MechanismRecord, values: dict[str, float]) -> MechanismRecord | None:
+    """The mechanism with these dimensions; None where it does not close from home with as many freedoms."""
+    try:
+        found = with_parameters(record, **values)
+        ranks = [int(motions(item, home_values(item), RANK_GAP).ranks.closure) for item in (record, found)]
+    except (UsageError, MechanismFileError):
+        return None
+    return found if ranks[0] == ranks[1] else None
+
+
+def _value(record: MechanismRecord, item: Parameter, share: float) -> float:
+    """A changed value; what is zero grows to a share of the mechanism's length."""
+    if item.value:
+        return item.value * (1 + share)
+    return abs(share) * (characteristic_length(record) if item.unit == record.unit else 1.0)

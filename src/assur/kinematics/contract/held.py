@@ -1,0 +1,124 @@
+"""A closed form held against its joint graph: every law, at seeded places, with all that does not hold."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.closure import RANK_GAP
+from assur.kinematics.contract.borders import cut_short, ends, named_by_signs
+from assur.kinematics.contract.completeness import missing, random_assemblies
+from assur.kinematics.contract.determinants import wrong_factors
+from assur.kinematics.contract.dimensions import changed, with_dimensions
+from assur.kinematics.contract.mismatch import Mismatch
+from assur.kinematics.contract.places import inputs, poses
+from assur.kinematics.contract.positions import open_loops, other_questions
+from assur.kinematics.contract.rates import wrong_rates
+from assur.kinematics.contract.signs import wrong_signs
+from assur.kinematics.contract.solutions import Solutions, solutions, solves
+from assur.kinematics.modes import Problem
+from assur.kinematics.rates.motions import motions
+from assur.model.mechanism import MechanismRecord
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Extent:
+    """How much is looked at.
+
+    Attributes:
+        name: what the check is called.
+        poses: problems of each kind.
+        solutions: so many of them are held against every law.
+        motions: so many of these against motions of the joint graph.
+        assemblies: starts of the joint graph's own assemblies, beside home.
+    """
+
+    name: str
+    poses: int
+    solutions: int
+    motions: int
+    assemblies: int
+
+
+AT_LOAD = Extent("load", poses=50, solutions=400, motions=60, assemblies=0)
+SIZE = 40_000
+"""Of a mechanism of many joints fewer motions are looked at: so many numbers of their matrices in all."""
+FEWEST = 16
+
+
+def at_places(record: MechanismRecord, extent: Extent, seed: int = 0) -> list[Mismatch]:
+    """What of a closed form does not hold at so many places; the laws in their order, the first that is broken alone.
+
+    >>> from assur.model.registry import load_record
+    >>> at_places(load_record("fivebar"), AT_LOAD)
+    []
+    """
+    random = np.random.default_rng(seed)
+    drawn: dict[Problem, FloatArray] = {"inverse": poses(record, extent.poses, random)}
+    there = solutions(record, "inverse", drawn["inverse"]).spread(extent.solutions)
+    asked = [there]
+    if len(there) and solves(record, "direct"):
+        drawn["direct"] = inputs(record, there.inputs, extent.poses, random)
+        asked.append(solutions(record, "direct", drawn["direct"]).spread(extent.solutions))
+    near = {
+        problem: ends(record, problem, given, random)
+        for problem, given in drawn.items()
+        if named_by_signs(record, problem)
+    }
+    asked += [solutions(record, problem, reached.given).spread(extent.solutions) for problem, reached in near.items()]
+    broken = _first(_positions, asked) or _first(_motions(extent, there), asked[: len(drawn)])
+    if broken:
+        return broken
+    joints = random_assemblies(record, extent.assemblies, random)
+    cut = [item for problem, reached in near.items() for item in cut_short(record, problem, reached)]
+    return cut or missing(there, joints, motions(record, joints, RANK_GAP))
+
+
+def at_other_dimensions(record: MechanismRecord, extent: Extent, seed: int = 1) -> tuple[list[Mismatch], bool]:
+    """What does not hold with other dimensions, and whether there are any: else each choice is a question of its own.
+
+    >>> from assur.model.registry import load_record
+    >>> at_other_dimensions(load_record("fivebar"), AT_LOAD)
+    ([], True)
+    """
+    random = np.random.default_rng(seed)
+    other = changed(record, random)
+    if other is None:
+        return [], False
+    less = dataclasses.replace(extent, poses=extent.poses // 2, solutions=extent.solutions // 2, motions=FEWEST)
+    broken = at_places(other, less, seed)
+    if broken:
+        for name, value in other.overrides.items():  # one dimension at a time says more
+            alone = with_dimensions(record, {name: value})
+            own = at_places(alone, less, seed) if alone is not None else []
+            if own:
+                return own, True
+    return broken, True
+
+
+def _first(laws: Callable[[Solutions], list[Mismatch]], asked: Sequence[Solutions]) -> list[Mismatch]:
+    return next((broken for found in asked if (broken := laws(found))), [])
+
+
+def _positions(found: Solutions) -> list[Mismatch]:
+    return open_loops(found) or [*other_questions(found), *wrong_signs(found)]
+
+
+def _motions(extent: Extent, there: Solutions) -> Callable[[Solutions], list[Mismatch]]:
+    """The laws of motions, and whether what moves there is found from the other side; `there` are all that is known."""
+
+    def laws(found: Solutions) -> list[Mismatch]:
+        record = found.record
+        if not len(found):
+            return []
+        some = found.spread(int(np.clip(SIZE // len(record.coordinates) ** 2, FEWEST, extent.motions)))
+        motion = motions(record, some.joints, RANK_GAP)
+        return wrong_rates(some, motion) or wrong_factors(found) or missing(there, some.joints, motion)
+
+    return laws

@@ -1,0 +1,98 @@
+"""That a closed form has passed, kept in the user's cache: plain data, by what was checked and by what.
+
+The name of an entry is a digest of the folder's files, of the dimensions, of assur's version and of the code of this
+folder. An entry counts only where it says, word for word, what would be written there; anything else is computed again.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+import os
+import stat
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from functools import lru_cache
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, Literal, get_args
+
+from assur.errors import OutputError
+from assur.kinematics.contract.held import Extent
+from assur.model.mechanism import MechanismRecord
+from assur.numerics.recording.loops import cache_folder
+from assur.results.files import write_whole
+
+FOLDER = "closed_forms"
+ENDINGS = (".py", ".toml")
+"""What of a folder an answer may depend on."""
+LARGEST = 10_000
+"""Bytes of an entry; a larger one is none of ours."""
+WRITABLE_BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
+
+
+Scope = Literal["any", "own"]
+SCOPES: tuple[Scope, ...] = get_args(Scope)
+"""Whether an entry is about the dimensions of a record alone, or about any."""
+
+
+def has_passed(record: MechanismRecord, extent: Extent, scope: Scope) -> bool:
+    """Whether the cache says that this closed form passed a check of that extent."""
+    entry = _entry(record, extent, scope)
+    return bool(_content(_path(entry)) == entry)
+
+
+def keep_passed(record: MechanismRecord, extent: Extent, scope: Scope) -> None:
+    """Note it; a cache that cannot be written is no fault."""
+    entry = _entry(record, extent, scope)
+    path = _path(entry)
+    with suppress(OSError, OutputError):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(path, json.dumps(entry, indent=1, sort_keys=True) + "\n")
+
+
+def _entry(record: MechanismRecord, extent: Extent, scope: Scope) -> dict[str, Any]:
+    own = {name: float(value).hex() for name, value in sorted(record.overrides.items())}
+    return {
+        "mechanism": record.name,
+        "extent": dataclasses.asdict(extent),
+        "passed": True,
+        "assur": version("assur"),
+        "laws": _laws(),
+        "dimensions": "any" if scope == "any" else own,
+        "files": dict(_digests(record.file)),
+    }
+
+
+def _path(entry: Mapping[str, Any]) -> Path:
+    name = hashlib.sha256(json.dumps(entry, sort_keys=True).encode()).hexdigest()
+    return cache_folder() / FOLDER / f"{name}.json"
+
+
+def _content(path: Path) -> Any:
+    """What an entry says; nothing where it is damaged, or where others could have written it."""
+    try:
+        status = path.lstat()
+        own = not hasattr(os, "getuid") or status.st_uid == os.getuid()
+        plain = stat.S_ISREG(status.st_mode) and not status.st_mode & WRITABLE_BY_OTHERS
+        if not own or not plain or status.st_size > LARGEST:
+            return None
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return None
+
+
+def _digests(file: Path) -> Iterator[tuple[str, str]]:
+    """Name and digest of the mechanism's file and of all beside it that can be read with it."""
+    beside = [path for path in file.parent.iterdir() if path.suffix in ENDINGS]
+    for path in sorted({*beside, file}):
+        if path.is_file():
+            yield path.name, hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+@lru_cache(maxsize=1)
+def _laws() -> str:
+    """A digest of the code that checks: another law, another answer."""
+    texts = (path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py")))
+    return hashlib.sha256(b"\0".join(texts)).hexdigest()

@@ -1,0 +1,225 @@
+"""A kernel as its straight-line program, with all that is worked out from its branch: what depends on what."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from types import SimpleNamespace
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics import border
+from assur.kinematics.contract.solutions import Solutions
+from assur.kinematics.modes import Problem, sign_names
+from assur.kinematics.status import closed_form_of
+from assur.model.closed_form import Branch, Eliminant, Margin, PolynomialSystem
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import is_angle
+from assur.numerics.expanded import Expanded
+from assur.numerics.recording.tape import Recorded, Recorder, Tape
+
+FloatArray = NDArray[np.float64]
+Question = Literal["inverse", "direct", "self_motion"]
+
+
+class _Recorder(Recorder):
+    """A recorder beside which polynomials are multiplied out."""
+
+    def apply(self, name: str, *arguments: Any) -> Any:
+        if any(isinstance(item, Expanded) for item in arguments):
+            return NotImplemented  # a polynomial knows how to go on
+        return super().apply(name, *arguments)
+
+
+@dataclass(frozen=True, eq=False)
+class Kernel:
+    """One question of a mechanism, recorded.
+
+    Attributes:
+        tape: every number that the kernels of the question work out and that an answer needs, by "kind name".
+        given: name, and whether it is an angle, of what is given for each problem.
+        margins: those that the question judges.
+        outputs: "joint", "pose", "input", "margin", "factor", "jp", "jq", "quantity", "coefficient", "finite" -> name
+            -> its entries of the tape; an angle has two.
+    """
+
+    record: MechanismRecord
+    question: Question
+    tape: Tape
+    given: tuple[tuple[str, bool], ...]
+    margins: tuple[Margin, ...]
+    outputs: Mapping[str, Mapping[str, tuple[int, ...]]]
+
+    @cached_property
+    def needs(self) -> tuple[frozenset[int], ...]:
+        """For each entry all those that it is made of, itself among them."""
+        found: list[frozenset[int]] = []
+        for k, item in enumerate(self.tape.operations):
+            found.append(frozenset([k]).union(*(found[j] for j in item.arguments)))
+        return tuple(found)
+
+    @cached_property
+    def uniform(self) -> Mapping[str, int]:
+        """Dimension, or "sign.name" -> its entry of the tape."""
+        places = [k for k, item in enumerate(self.tape.operations) if item.name == "uniform"]
+        return dict(zip(self.tape.uniform, places, strict=True))
+
+    def values(self, found: Solutions) -> list[FloatArray]:
+        """Every entry of the tape (S,) at solutions that are named by signs."""
+        record = self.record
+        problem: Problem = "inverse" if self.question == "inverse" else "direct"
+        convert = border.pose_components if problem == "inverse" else border.input_components
+        varying = [part for item in convert(record, found.given) for part in _flat(item)]
+        known: dict[str, Any] = dict(vars(record.values))
+        known |= {f"sign.{name}": found.signs[:, k] for k, name in enumerate(sign_names(record, problem))}
+        everything = {str(k): k for k in range(len(self.tape.operations))}
+        whole = dataclasses.replace(self.tape, outputs=everything)
+        with np.errstate(all="ignore"):
+            answer = whole.evaluate(varying, [known[name] for name in self.tape.uniform])
+        return [np.broadcast_to(np.asarray(answer[name], dtype=float), (len(found),)) for name in everything]
+
+    @cached_property
+    def roots(self) -> tuple[int, ...]:
+        """Radicands: entries of which a root is drawn."""
+        return tuple(sorted({item.arguments[0] for item in self.tape.operations if item.name == "root"}))
+
+    @cached_property
+    def divisors(self) -> tuple[int, ...]:
+        """Entries by which something is divided."""
+        return tuple(sorted({item.arguments[1] for item in self.tape.operations if item.name == "/"}))
+
+
+def questions(record: MechanismRecord) -> tuple[Question, ...]:
+    """What the kernels of a closed form answer.
+
+    >>> from assur.model.registry import load_record
+    >>> questions(load_record("fivebar")), questions(load_record("three_rrrp4r"))
+    (('inverse', 'direct', 'self_motion'), ('inverse',))
+    """
+    form = closed_form_of(record)
+    there = {"inverse": True, "direct": form.direct is not None, "self_motion": form.self_motion is not None}
+    asked: tuple[Question, ...] = ("inverse", "direct", "self_motion")
+    return tuple(question for question in asked if there[question])
+
+
+def recorded(record: MechanismRecord, question: Question) -> Kernel:
+    """The program of one question.
+
+    >>> from assur.model.registry import load_record
+    >>> found = recorded(load_record("fivebar"), "inverse")
+    >>> [name for name, _ in found.given], len(found.roots), list(found.outputs["margin"])
+    (['x', 'y'], 2, ['distance1', 'distance2', 'reach1', 'reach2'])
+    """
+    return _Writer(record, question).kernel()
+
+
+class _Writer:
+    """Reads the kernels of a question over recorded numbers."""
+
+    def __init__(self, record: MechanismRecord, question: Question) -> None:
+        self.record, self.question, self.form, self.ns = record, question, closed_form_of(record), _Recorder()
+        self.p = SimpleNamespace(**{name: self.ns.uniform(name) for name in vars(record.values)})
+        self.given: list[tuple[str, bool]] = []
+        self.values: dict[str, dict[str, list[Any]]] = {}
+        self.margins: tuple[Margin, ...] = ()
+
+    def kernel(self) -> Kernel:
+        """Everything recorded, with a place for each output."""
+        {"inverse": self._inverse, "direct": self._direct, "self_motion": self._self_motion}[self.question]()
+        flat = {
+            f"{kind} {name} {k}": value
+            for kind, named in self.values.items()
+            for name, values in named.items()
+            for k, value in enumerate(values)
+        }
+        tape = self.ns.tape(flat)
+        outputs = {
+            kind: {
+                name: tuple(tape.outputs[f"{kind} {name} {k}"] for k in range(len(values)))
+                for name, values in named.items()
+            }
+            for kind, named in self.values.items()
+        }
+        return Kernel(self.record, self.question, tape, tuple(self.given), self.margins, outputs)
+
+    def _inverse(self) -> None:
+        pose = tuple(self._number(name, is_angle(name)) for name in self.record.platform.pose)
+        signs = self._signs(sign_names(self.record, "inverse"))
+        self._after(self.form.inverse(self.ns, self.p, pose, signs), self.form.inverse_margins)
+
+    def _direct(self) -> None:
+        direct, inputs, margins = self.form.direct, self._inputs(), self.form.direct_margins
+        if isinstance(direct, PolynomialSystem):
+            unknowns = tuple(self._number(name) for name in direct.unknowns)
+            for k, value in enumerate(direct.equations(self.ns, self.p, inputs, unknowns)):
+                self._put("equation", str(k), value)
+            self._put("finite", "finite", direct.finite(unknowns))
+            self._after(direct.back(self.ns, self.p, inputs, unknowns), margins)
+        elif isinstance(direct, Eliminant):
+            extra = (self._signs(direct.signs),) if direct.signs else ()
+            for k, value in enumerate(direct.coefficients(self.ns, self.p, inputs, *extra)):
+                self._put("coefficient", str(k), value)
+            root = self._number(direct.unknown, direct.kind == "angle")
+            self._after(direct.back(self.ns, self.p, inputs, root, *extra), margins)
+        elif direct is not None:
+            self._after(direct(self.ns, self.p, inputs, self._signs(sign_names(self.record, "direct"))), margins)
+
+    def _self_motion(self) -> None:
+        curve, inputs = self.form.self_motion, self._inputs()
+        if curve is None:
+            return
+        turn = self._number(curve.parameter, True)
+        branch = curve.kernel(self.ns, self.p, inputs, turn, self._signs(sign_names(self.record, "direct")))
+        self._after(branch, [item for item in self.form.direct_margins if item.name in branch.margins])
+
+    def _after(self, branch: Branch, margins: Sequence[Margin]) -> None:
+        """What is worked out from a branch."""
+        form, ns, p, core = self.form, self.ns, self.p, branch.core
+        self.margins = tuple(margins)
+        for item in margins:
+            self._put("margin", item.name, branch.margins[item.name])
+        for name, value in zip(self.record.platform.pose, branch.pose, strict=True):
+            self._put("pose", name, value)
+        for actuated, value in zip(self.record.inputs, branch.inputs, strict=True):
+            self._put("input", actuated.name, value)
+        for kind, named in (("joint", form.joints(ns, p, core)), ("factor", form.factors(ns, p, core))):
+            for name, value in named.items():
+                self._put(kind, name, value)
+        for kind, rows in zip(("jp", "jq"), form.jacobians(ns, p, core), strict=True):
+            for r, row in enumerate(rows):
+                self._put(kind, str(r), tuple(row))
+        self._quantities(branch)
+
+    def _quantities(self, branch: Branch) -> None:
+        """Those that the question is asked for: one of the direct problem need not exist in the inverse one."""
+        if self.form.quantities is None:
+            return
+        found = self.form.quantities(self.ns, self.p, branch.core)
+        own = "inverse" if self.question == "inverse" else "direct"
+        asked = {item.name for item in self.form.quantity_list if item.problem in (own, "both")}
+        for name, value in found.items():
+            if name in asked:
+                self._put("quantity", name, value)
+
+    def _put(self, kind: str, name: str, value: Any) -> None:
+        self.values.setdefault(kind, {})[name] = [part for part in _flat(value) if isinstance(part, Recorded)]
+
+    def _number(self, name: str, angle: bool = False) -> Any:
+        self.given.append((name, angle))
+        if angle:
+            return self.ns.varying(f"cos {name}"), self.ns.varying(f"sin {name}")
+        return self.ns.varying(name)
+
+    def _inputs(self) -> tuple[Any, ...]:
+        return tuple(self._number(item.name, item.coordinate.kind == "angle") for item in self.record.inputs)
+
+    def _signs(self, names: Sequence[str]) -> SimpleNamespace:
+        return SimpleNamespace(**{name: self.ns.uniform(f"sign.{name}") for name in names})
+
+
+def _flat(value: Any) -> list[Any]:
+    return [part for item in value for part in _flat(item)] if isinstance(value, (tuple, list)) else [value]

@@ -1,0 +1,108 @@
+"""The first law: every solution closes all loops, at the pose and the inputs that it is for."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics import border
+from assur.kinematics.closure import CLOSED, characteristic_length, residuals
+from assur.kinematics.contract.blame import blamed
+from assur.kinematics.contract.mismatch import Mismatch, place_text, quantity_text
+from assur.kinematics.contract.solutions import Solutions
+from assur.kinematics.pose import pose_error
+from assur.model.joint_graph import frames, joint_graph
+
+FloatArray = NDArray[np.float64]
+
+ROUNDING = 1e-13
+"""What rounding does where a margin is zero: its root, or a quotient by it, has lost as many digits as it is near."""
+ROOTS = 1e-7
+"""Gaps of poses from the roots of a polynomial: two that lie near each other have lost half of the digits."""
+TOLD = 3
+"""So many parts of a closed form are named; one wrong number often spoils several."""
+
+
+def gap_tolerance(found: Solutions) -> FloatArray:
+    """The gap (S,) that counts as closed, in length units."""
+    by_roots = found.problem == "direct" and not callable(_kernel(found))
+    least = ROOTS if by_roots else CLOSED
+    return np.asarray(found.size * (least + ROUNDING / np.maximum(found.near, ROUNDING)))
+
+
+def _kernel(found: Solutions) -> object:
+    form = found.record.closed_form
+    return form.direct if form else None
+
+
+def gaps(found: Solutions) -> FloatArray:
+    """Largest gap (S, cut joints), in length units; of joint values that are no numbers, infinite."""
+    pairs = residuals(found.record, found.joints).reshape(len(found), -1, 2, 3)
+    return np.asarray(np.nan_to_num(np.max(np.linalg.norm(pairs, axis=-1), axis=-1), nan=np.inf))
+
+
+def open_loops(found: Solutions) -> list[Mismatch]:
+    """Solutions that do not close the joint graph, by the parts of the closed form that are to blame."""
+    if not len(found):
+        return []
+    gap, tolerance = gaps(found), gap_tolerance(found)
+    share = np.max(gap, axis=-1, initial=0.0) / tolerance
+    told: dict[tuple[str, str], Mismatch] = {}
+    for row in _worst_of_each_mode(share, found.labels):
+        for part, name in blamed(found, row):
+            cut = joint_graph(found.record).cut[int(np.argmax(gap[row]))]
+            text = (
+                f"the branch {found.labels[row]} of the {found.problem} problem does not close at "
+                f"{place_text(found.record, found.problem, found.given[row])}: "
+                f"a gap of {quantity_text(found.record, float(np.max(gap[row])), 'length')} at joint {cut.name}"
+            )
+            told.setdefault(
+                (part, name), Mismatch(part, name, found.problem, text, "every branch must close all loops")
+            )
+        if len(told) >= TOLD:
+            break
+    named = [item for item in told.values() if item.part != "branch"]
+    return named or list(told.values())
+
+
+def other_questions(found: Solutions) -> list[Mismatch]:
+    """Solutions whose joint values put the platform elsewhere, or the inputs, than the solution says."""
+    if not len(found):
+        return []
+    record, tolerance = found.record, gap_tolerance(found)
+    asked = {"direct": (found.poses, found.given), "inverse": (found.given, found.inputs)}[found.problem]
+    length = characteristic_length(record)
+    away = pose_error(record, frames(record, found.joints), asked[0], length)
+    turned = border.inputs_of(record, found.joints) - asked[1]
+    angular = np.array([item.coordinate.kind == "angle" for item in record.inputs])
+    turned = np.where(angular, length * ((turned + np.pi) % (2 * np.pi) - np.pi), turned)
+    mismatches = []
+    for what, names, missed in (
+        ("coordinate", record.platform.pose, away),
+        ("input", tuple(item.name for item in record.inputs), turned),
+    ):
+        share = np.max(np.abs(missed), axis=-1) / tolerance
+        row = int(np.argmax(share))
+        if share[row] > 1:
+            k = int(np.argmax(np.abs(missed[row])))
+            name = names[k] if k < len(names) else "the orientation"
+            text = (
+                f"{what} {name} is {quantity_text(record, float(np.abs(missed[row, k])), 'length')} off what the joint "
+                f"values say, in the {found.problem} problem at {place_text(record, found.problem, found.given[row])}"
+            )
+            hint = "are they in the order of the file, and each of its own joint?"
+            mismatches.append(
+                Mismatch(
+                    "branch", str(found.labels[row]), found.problem, text, "pose, inputs and joints must agree", hint
+                )
+            )
+    return mismatches
+
+
+def _worst_of_each_mode(share: FloatArray, labels: NDArray[np.str_]) -> list[int]:
+    """Rows beyond tolerance: of each mode the worst, these by how bad they are."""
+    worst: dict[str, int] = {}
+    for row in np.argsort(-share, kind="stable"):
+        if share[row] > 1:
+            worst.setdefault(str(labels[row]), int(row))
+    return list(worst.values())
