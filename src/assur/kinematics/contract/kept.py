@@ -18,11 +18,9 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Literal, get_args
 
-from assur.errors import OutputError
+from assur.cache import cache_folder, keep
 from assur.kinematics.contract.held import Extent
 from assur.model.mechanism import MechanismRecord
-from assur.numerics.recording.loops import cache_folder
-from assur.results.files import write_whole
 
 FOLDER = "closed_forms"
 ENDINGS = (".py", ".toml")
@@ -46,10 +44,8 @@ def has_passed(record: MechanismRecord, extent: Extent, scope: Scope) -> bool:
 def keep_passed(record: MechanismRecord, extent: Extent, scope: Scope) -> None:
     """Note it; a cache that cannot be written is no fault."""
     entry = _entry(record, extent, scope)
-    path = _path(entry)
-    with suppress(OSError, OutputError):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(path, json.dumps(entry, indent=1, sort_keys=True) + "\n")
+    with suppress(OSError):
+        keep(FOLDER, _path(entry).name, (json.dumps(entry, indent=1, sort_keys=True) + "\n").encode())
 
 
 def _entry(record: MechanismRecord, extent: Extent, scope: Scope) -> dict[str, Any]:
