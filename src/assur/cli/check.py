@@ -18,11 +18,12 @@ if TYPE_CHECKING:
 def check(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> Outcome:
     """Every fault of a mechanism's file, each with its line.
 
-    Of the text: its form, names, numbers and formulas; and of the closed form
-    beside it. Where what the loops are made of is sound, of the joint graph
-    too: whether it closes and moves, whether its inputs determine it, whether
-    pose, orientation and limits are as stated. Last, a closed form of your own
-    is held against the joint graph. Exit code 3: there is a fault.
+    Of the text: its form, names, numbers, formulas and labels; and of the closed
+    form and the figures.toml beside it. Where what the loops are made of is
+    sound, of the joint graph too: whether it closes and moves, whether its
+    inputs determine it, whether pose, orientation and limits are as stated.
+    Last, a closed form of your own is held against the joint graph. Exit code
+    3: there is a fault.
 
     For example:
         assur check my.toml
@@ -30,14 +31,15 @@ def check(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> O
     """
     from assur.kinematics.soundness.check import doubts, faults
     from assur.model.registry import examine, load_record
+    from assur.report.labels import label_faults
 
     known, problems = examine(mechanism)
     if problems:
-        every = [*problems, *(faults(known) if known else ())]
-        every.sort(key=lambda item: (item.file.endswith(".py"), item.line or 0))
+        every = [*problems, *((*faults(known), *label_faults(known)) if known else ())]
+        every.sort(key=lambda item: (not item.file.endswith(".toml"), item.file, item.line or 0))
         return _outcome(mechanism, every, (), None)
     record = load_record(mechanism, **shared.dimensions)
-    found = faults(record) or _of_closed_form(record)
+    found = [*faults(record), *label_faults(record)] or _of_closed_form(record)
     facts = None if found else _summary(record)
     return _outcome(record.name, found, () if found else doubts(record), facts, _next(mechanism))
 

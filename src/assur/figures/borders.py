@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.figures.context import Context
-from assur.figures.letters import mathematics
+from assur.figures.labels import label
 from assur.kinematics.rates.velocity import branch_at
 from assur.kinematics.status import relative_factors, scale
 from assur.numerics.number_types import Floats
@@ -45,7 +45,7 @@ def vanishing(context: Context, margin: str, pose: FloatArray) -> list[str]:
         factors = form.factors(Floats(), context.record.values, branch.core)
         sizes = relative_factors(context.record, {name: np.ravel(value) for name, value in factors.items()})
     return [
-        item.latex or mathematics(item.name) or item.name
+        label(item.latex, item.name)
         for item in form.factor_list
         if item.kind != "other" and abs(float(sizes[item.name][0])) < VANISHES
     ]
@@ -71,7 +71,7 @@ def on_margin(context: Context, margin: str, pose: FloatArray) -> FloatArray:
 def border_words(context: Context, margin: str, pose: FloatArray) -> str:
     """E.g. "$M_1 = 0$ ($u_1$, $u_2$)": the margin, and in brackets the factors that vanish with it."""
     form = context.record.closed_form
-    latex = {item.name: item.latex or mathematics(item.name) for item in (form.inverse_margins if form else ())}
+    latex = {item.name: label(item.latex, item.name) for item in (form.inverse_margins if form else ())}
     name = f"${latex[margin]} = 0$" if latex.get(margin) else margin
     factors = ", ".join(f"${text}$" for text in vanishing(context, margin, pose))
     return f"{name} ({factors})" if factors else name

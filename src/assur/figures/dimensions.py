@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.figures.canvas import Canvas, View, guide
+from assur.figures.labels import is_settable, label
 from assur.figures.letters import mathematics
 from assur.figures.placing import Letters
 from assur.figures.style import BLUE, INK, RED, TEXT
@@ -55,10 +56,10 @@ def arcs(skeleton: Skeleton, radius: float) -> list[Arc]:
     record = skeleton.record
     form = record.closed_form
     latex = {item.name: item.latex for item in form.quantity_list} if form else {}
-    named = {name: (item, latex.get(name) or mathematics(name)) for name, item in record.angles.items()}
+    named = {name: (item, label(latex.get(name, ""), name)) for name, item in record.angles.items()}
     for item in record.inputs:
         if item.coordinate.kind == "angle" and item.coordinate not in record.angles.values():
-            named[item.name] = (item.coordinate, item.latex or mathematics(item.name))
+            named[item.name] = (item.coordinate, label(item.latex, item.name))
     marks = {mark.joint.name: mark for mark in skeleton.marks}
     found = []
     for name, (coordinate, text) in named.items():
@@ -138,7 +139,7 @@ def _end_on(page: Canvas, at: FloatArray, *, towards: bool) -> None:
 
 def draw_measures(page: Canvas, view: View, skeleton: Skeleton, letters: Letters) -> None:
     """The value of every driven slider, measured along its rail from where it is zero."""
-    latex = {item.coordinate.joint: item.latex or mathematics(item.name) for item in skeleton.record.inputs}
+    latex = {item.coordinate.joint: label(item.latex, item.name) for item in skeleton.record.inputs}
     for mark in skeleton.marks:
         if not (mark.driven and mark.slides):
             continue
@@ -162,9 +163,11 @@ def formula_text(formula: str) -> str:
     """
     named = re.sub(r"[A-Za-z]\w*", lambda found: mathematics(found[0]) or _indexed(found[0]), formula)
     rooted = re.sub(r"sqrt\(([^()]*)\)", r"\\sqrt{\1}", named)
-    return f"${rooted.replace('}*', '}' + chr(92) + ',').replace('*', '')}$"
+    whole = rooted.replace("}*", "}" + chr(92) + ",").replace("*", "")
+    return f"${whole}$" if is_settable(whole) else formula
 
 
 def _indexed(name: str) -> str:
     """A name of two letters as one with an index."""
-    return f"{name[0]}_{name[1]}" if len(name) == 2 else name
+    indexed = f"{name[0]}_{name[1]}" if len(name) == 2 else name
+    return label(indexed, name)

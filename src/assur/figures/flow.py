@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from assur.figures.canvas import POINTS, Canvas, canvas
 from assur.figures.context import Context
+from assur.figures.labels import is_settable, label
 from assur.figures.layers import Layout, layout, rows
-from assur.figures.letters import letter, mathematics, words
+from assur.figures.letters import letter
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import GREY, INK, LETTER, SMALL, new_figure
 from assur.model.closed_form import Eliminant, PolynomialSystem
@@ -57,26 +58,21 @@ def boxes(context: Context) -> dict[str, Box]:
     (('J1', 'J2', 'J3', 'closed'), '(17)')
     """
     record, plan = context.record, context.companion.flow
-    found = {item.name: Box(item.name, "input", item.latex or mathematics(item.name), ()) for item in record.inputs}
+    found = {item.name: Box(item.name, "input", label(item.latex, item.name), ()) for item in record.inputs}
     quantities = record.closed_form.quantity_list if record.closed_form else ()
     for item in quantities:
         if item.problem != "inverse" and item.name not in plan.leave_out:
             equation = item.equation.split(", ")[0]
-            latex = item.latex or _words(item.name)
+            latex = label(item.latex, item.name)
             found[item.name] = Box(item.name, "quantity", latex, item.needs, equation)
     for name, step in plan.steps.items():
         known = found.get(name)
         needs = tuple(step.needs if step.needs is not None else known.needs if known else ())
         kind: Kind = "condition" if step.condition else "pose" if name in record.platform.pose else "quantity"
-        latex = step.latex or (known.latex if known else _words(name))
+        latex = step.latex if is_settable(step.latex) else known.latex if known else label("", name)
         equation = step.equation or (known.equation if known else "")
         found[name] = Box(name, kind, latex, (*needs, *step.adds), equation, step.sign)
     return found
-
-
-def _words(name: str) -> str:
-    """A name as mathematics: a letter, or upright words."""
-    return mathematics(name) or r"\mathrm{" + words(name).replace(" ", r"\ ") + "}"
 
 
 def _missing(context: Context) -> str:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
 from assur.figures.context import Context
 from assur.figures.dimensions import Arc, arcs, draw_arcs, draw_frame, formula_text
+from assur.figures.labels import label
 from assur.figures.letters import letter
 from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, chain_colours, draw_bodies
@@ -202,7 +203,7 @@ def _measure(page: Canvas, view: View, skeleton: Skeleton, measure: Measure, let
         letters.avoid(np.array([end + 4 * way, foot]))
     page.arrow(feet[0], feet[1], INK, 0.6, 9, style="<|-|>", head=5)
     letters.avoid(feet)
-    letters.add_along(feet, f"${measure.latex}$", clear=1.5, fontsize=TEXT)
+    letters.add_along(feet, f"${label(measure.latex, measure.length or measure.along)}$", clear=1.5, fontsize=TEXT)
 
 
 def _data(part: Part) -> dict[str, Any]:

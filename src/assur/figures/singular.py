@@ -11,7 +11,7 @@ import numpy as np
 from assur.figures.canvas import POINTS, Canvas, canvas
 from assur.figures.configuration import Scene, draw_model, scene_of
 from assur.figures.context import Context
-from assur.figures.letters import mathematics
+from assur.figures.labels import label
 from assur.figures.meaning import typeset
 from assur.figures.solid import model_camera, triad
 from assur.figures.spec import Drawing, Entry
@@ -72,8 +72,7 @@ def condition(factor: Factor) -> str:
 
 def symbol_of(factor: Factor) -> str:
     """A factor as mathematics, e.g. "$u_3$"."""
-    words = rf"\mathrm{{{factor.name}}}".replace("_", r"\ ")
-    return f"${factor.latex or mathematics(factor.name) or words}$"
+    return f"${label(factor.latex, factor.name)}$"
 
 
 def _caption(kind: str, context: Context) -> str:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
 from assur.figures.context import Context
+from assur.figures.labels import label
 from assur.figures.letters import mathematics
 from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
@@ -72,7 +73,7 @@ def _missing(context: Context) -> str:
 def _caption(context: Context) -> str:
     found = context.assemblies
     names = ", ".join(
-        f"${item.latex or mathematics(item.name)}$ = {_printed(context, value, item.coordinate.kind)}"
+        f"${label(item.latex, item.name)}$ = {_printed(context, value, item.coordinate.kind)}"
         for item, value in zip(context.record.inputs, found.given, strict=True)
     )
     what = f"All {len(found)} real direct solutions" if found.complete else f"{len(found)} direct solutions"

@@ -55,8 +55,26 @@ def latex_mathml(source: str) -> str:
     """
     try:
         return _Reader(source).sequence()
-    except _UnreadableError:
+    except (_UnreadableError, RecursionError):
         return _as_it_stands(source)
+
+
+def symbol_mathml(latex: str, name: str) -> str:
+    r"""MathML of a symbol: of its LaTeX where that is understood, else of its name.
+
+    >>> symbol_mathml(r"\theta_1", "q") == latex_mathml(r"\theta_1"), symbol_mathml(r"\theta_{1", "q")
+    (True, '<mi>q</mi>')
+    """
+    return latex_mathml(latex) if is_understood(latex) else name_mathml(name)
+
+
+def is_understood(latex: str) -> bool:
+    r"""Whether a piece of LaTeX is within what is read here.
+
+    >>> is_understood("y_{A_1}"), is_understood(r"\theta_{1"), is_understood("")
+    (True, False, False)
+    """
+    return bool(latex.strip()) and "<merror" not in latex_mathml(latex)
 
 
 def name_mathml(name: str) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from assur.report.formulas.latex import latex_mathml, name_mathml
+from assur.report.formulas.latex import name_mathml, symbol_mathml
 from assur.report.formulas.trace import POINTS, Letter, Traced
 
 Number = Any
@@ -19,7 +19,7 @@ Named = tuple[Letter, Traced]
 
 def letters_of(name: str, latex: str, angle: bool) -> tuple[Letter, ...]:
     """The letter of a length, or cosine and sine of that of an angle."""
-    mathml = latex_mathml(latex) if latex else name_mathml(name)
+    mathml = symbol_mathml(latex, name)
     return (Letter(name, mathml, "cos"), Letter(name, mathml, "sin")) if angle else (Letter(name, mathml),)
 
 

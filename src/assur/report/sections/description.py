@@ -7,7 +7,7 @@ from assur.kinematics.answers.at_border import angle_at_border
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import Input, Joint, MechanismRecord
 from assur.report.findings import Findings
-from assur.report.formulas.latex import latex_mathml, name_mathml
+from assur.report.formulas.latex import name_mathml, symbol_mathml
 from assur.report.formulas.mathml import inline
 from assur.report.numbers import count, short, shown_unit
 from assur.results.kinds import EXACT, Formula, Result, Scalar, Section, Table
@@ -76,7 +76,7 @@ def _inputs(record: MechanismRecord) -> Table:
     rows = []
     for item in record.inputs:
         unit = record.angle if item.coordinate.kind == "angle" else shown_unit(record.unit)
-        symbol = Formula(inline(latex_mathml(item.latex), item.name)) if item.latex else _name(item.name)
+        symbol = Formula(inline(symbol_mathml(item.latex, item.name), item.name))
         joint = record.joints[item.coordinate.joint]
         rows.append((symbol, record.coordinate_label(item.coordinate), joint.type.name, unit, _stroke(record, item)))
     return Table("Inputs", ("symbol", "joint", "type", "unit", "stroke"), tuple(rows))

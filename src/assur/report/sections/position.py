@@ -12,7 +12,7 @@ from assur.kinematics.status import Status
 from assur.model.closed_form import Eliminant, Margin, PolynomialSystem, SelfMotion
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
-from assur.report.formulas.latex import latex_mathml, name_mathml
+from assur.report.formulas.latex import is_understood, latex_mathml, name_mathml
 from assur.report.formulas.mathml import equation, inline, letter_mathml, term_mathml
 from assur.report.formulas.normal import text
 from assur.report.formulas.reading import Line
@@ -212,7 +212,7 @@ def _margins(found: Findings, problem: Problem) -> Table:
 
 
 def _condition(margin: Margin, formula: str) -> Formula:
-    written = latex_mathml(margin.latex) if margin.latex else formula
+    written = latex_mathml(margin.latex) if is_understood(margin.latex) else formula
     relation, zero = ("≥", "not negative") if margin.zero == "merge" else ("≠", "not zero")
     return Formula(inline(f"{written}<mo>{relation}</mo><mn>0</mn>", f"{margin.name} {zero}"))
 

@@ -7,7 +7,7 @@ from assur.kinematics.closure import mobility
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.model.closed_form import Factor
 from assur.report.findings import Findings
-from assur.report.formulas.latex import latex_mathml, name_mathml
+from assur.report.formulas.latex import symbol_mathml
 from assur.report.formulas.mathml import inline
 from assur.report.numbers import input_angles, pose_angles, short, shown_unit
 from assur.results.kinds import FLOATING, RANK, Cell, Facts, Formula, Result, Scalar, Section, Table
@@ -167,4 +167,4 @@ def written(factor: Factor) -> Formula:
 
 
 def _mathml(factor: Factor) -> str:
-    return latex_mathml(factor.latex) if factor.latex else name_mathml(factor.name)
+    return symbol_mathml(factor.latex, factor.name)

@@ -10,7 +10,7 @@ from assur.model.mechanism import MechanismRecord
 from assur.model.pose import rate_names
 from assur.performance.scaling import is_mixed
 from assur.report.findings import Findings
-from assur.report.formulas.latex import bracket, latex_mathml, name_mathml
+from assur.report.formulas.latex import bracket, symbol_mathml
 from assur.report.formulas.mathml import APPLY, THIN, TIMES, display, equation, matrix_mathml
 from assur.report.numbers import pose_words, short
 from assur.results.kinds import FLOATING, Formula, Formulas, Matrix, Result, Scalar, Section
@@ -59,11 +59,7 @@ def velocity(found: Findings) -> Section:
 
 def _determinant(found: Findings, matrix: str, kind: str) -> Formula:
     """A determinant as the product of the factors of one kind, as the closed form claims."""
-    factors = [
-        latex_mathml(item.latex) if item.latex else name_mathml(item.name)
-        for item in found.form.factor_list
-        if item.kind == kind
-    ]
+    factors = [symbol_mathml(item.latex, item.name) for item in found.form.factor_list if item.kind == kind]
     written = [f"<mrow>{bracket('(')}{item}{bracket(')')}</mrow>" if _is_sum(item) else item for item in factors]
     left = f"<mrow><mi>det</mi>{APPLY}{matrix}</mrow>"
     return Formula(equation(left, f"{TIMES}{THIN}".join(written)), meaning=f"{kind} singularities")
