@@ -96,6 +96,10 @@ class UnknownNameError(UsageError):
         self.choices = tuple(ordered)
 
 
+class BatchError(UsageError, AttributeError):
+    """What only a single answer has, asked of a batch; so `hasattr` says no, and inspection passes over it."""
+
+
 class OutputError(UsageError):
     """A path that cannot be written; what was there before is unchanged."""
 

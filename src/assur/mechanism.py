@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics import closure, position
 from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.border import Named, checked_joints, joint_array
 from assur.kinematics.contract.check import check_closed_form
 from assur.kinematics.home import home_values
 from assur.kinematics.position import Method
@@ -50,7 +51,10 @@ FloatArray = NDArray[np.float64]
 
 
 class Mechanism(MechanismRecord):
-    """A mechanism, from `assur.load`. Poses are (..., m), inputs (..., n), lengths in its unit, angles in rad."""
+    """A mechanism, from `assur.load`. Poses are (..., m), inputs (..., n), lengths in its unit, angles in rad.
+
+    Values of joints, inputs and poses may be given by name as well, as `Solution.joints` has them.
+    """
 
     def with_parameters(self, /, **values: float) -> Self:
         """The same mechanism with other dimensions, checked as those of the file are."""
@@ -74,7 +78,7 @@ class Mechanism(MechanismRecord):
         """Jp and Jq at poses (..., m): see `assur.kinematics.rates.velocity.velocity_map`."""
         return velocity.velocity_map(self, poses, mode)
 
-    def velocity_map_at(self, joint_values: ArrayLike) -> velocity.VelocityMap:
+    def velocity_map_at(self, joint_values: Named) -> velocity.VelocityMap:
         """Jp and Jq from the joint graph at joint values (..., n): see `assur.kinematics.rates.velocity`."""
         return velocity.velocity_map_at(self, joint_values)
 
@@ -92,11 +96,11 @@ class Mechanism(MechanismRecord):
         """The verdict on one pose (m,): see `assur.singularity.verdict`."""
         return verdict(self, pose, mode)
 
-    def singularity_at(self, joint_values: ArrayLike) -> Verdict:
+    def singularity_at(self, joint_values: Named) -> Verdict:
         """The verdict on one configuration of the joint graph (n,): see `assur.singularity.verdict.verdict_at`."""
         return verdict_at(self, joint_values)
 
-    def instantaneous(self, joint_values: ArrayLike) -> Instant:
+    def instantaneous(self, joint_values: Named) -> Instant:
         """First-order motion at joint values (..., n): see `assur.kinematics.rates.instantaneous.instantaneous`."""
         return instantaneous(self, joint_values)
 
@@ -136,36 +140,36 @@ class Mechanism(MechanismRecord):
 
         return indices(self, poses, mode, characteristic_length)
 
-    def follow(self, joint_values: ArrayLike, **options: Any) -> Way:
+    def follow(self, joint_values: Named, **options: Any) -> Way:
         """The way from an assembly to inputs or to a pose, the mode kept: see `assur.kinematics.paths.following`."""
         from assur.kinematics.paths.following import follow
 
-        return follow(self, joint_values, **options)
+        return follow(self, checked_joints(self, joint_values), **options)
 
     def topology(self, actuate: Sequence[str] | None = None, mode: Mode | None = None) -> Topology:
         """POC sets, DOF, coupling degree and what follows from them: see `assur.topology`."""
         return topology(self, actuate=actuate, mode=mode)
 
-    def point(self, name: str, joint_values: FloatArray) -> FloatArray:
+    def point(self, name: str, joint_values: Named) -> FloatArray:
         """Position (..., 3) of a lettered point or of a joint: see `assur.model.points.point`."""
-        return point(self, name, joint_values)
+        return point(self, name, joint_array(self, joint_values))
 
     @property
     def home_values(self) -> FloatArray:
         """Joint values (n,) of the assembled home."""
         return home_values(self)
 
-    def frames(self, joint_values: FloatArray) -> dict[str, Frame]:
+    def frames(self, joint_values: Named) -> dict[str, Frame]:
         """Frame of every link, (..., 3, 3) and (..., 3) in the base frame, at joint values (..., n)."""
-        return frames(self, joint_values)
+        return frames(self, joint_array(self, joint_values))
 
-    def closure_error(self, joint_values: FloatArray) -> FloatArray:
+    def closure_error(self, joint_values: Named) -> FloatArray:
         """Largest gap (...) over the cut joints, in length units."""
-        return closure.closure_error(self, joint_values)
+        return closure.closure_error(self, joint_array(self, joint_values))
 
-    def mobility(self, joint_values: FloatArray) -> closure.Mobility:
+    def mobility(self, joint_values: Named) -> closure.Mobility:
         """Rank, freedoms and redundant constraints of the joint graph at joint values (..., n)."""
-        return closure.mobility(self, joint_values)
+        return closure.mobility(self, joint_array(self, joint_values))
 
 
 def load(name: str | Path, /, **parameters: Any) -> Mechanism:

@@ -8,6 +8,9 @@ import numpy as np
 import pytest
 
 import assur
+from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.answers.at_border import pose_from_border
+from assur.kinematics.border import checked_poses
 from assur.kinematics.closed_form.sweep import inverse_sweep
 
 ROW_3 = [-15.4714, 9.6849, 456.3315]
@@ -59,3 +62,37 @@ def test_a_sweep_prints_the_same(plain, printed):
     np.testing.assert_array_equal(swept["inputs"][:, 0], single.inputs[0])
     here = printed.velocity_map(pose(plain))
     assert swept["det_jq"][0] == pytest.approx(float(here.det_jq))
+
+
+def test_values_are_taken_by_name_as_the_answers_give_them():
+    mechanism = assur.load("zeng2019")
+    solution = next(iter(mechanism.inverse([-15.4714, 9.6849, 456.3315], "++-++")))
+    array = list(solution.joints.values())
+    shuffled = dict(reversed(solution.joints.items()))
+    for work in (mechanism.instantaneous, mechanism.velocity_map_at):
+        np.testing.assert_array_equal(work(shuffled).jp, work(array).jp)
+    assert mechanism.singularity_at(shuffled) == mechanism.singularity_at(array)
+    assert mechanism.closure_error(shuffled) == mechanism.closure_error(array)
+    np.testing.assert_array_equal(mechanism.point("O'", shuffled), mechanism.point("O'", np.array(array)))
+    assert mechanism.follow(shuffled, poses=[-15.0, 9.0, 450.0]).stopped is None
+    pose = dict(zip("zyx", solution.pose[::-1], strict=True))
+    np.testing.assert_array_equal(mechanism.inverse(pose).inputs, mechanism.inverse(solution.pose).inputs)
+    columns = {name: np.array([value, value]) for name, value in pose.items()}
+    assert mechanism.inverse(columns).batch_shape == (2,)
+    with pytest.raises(UnknownNameError, match="'w'"):
+        mechanism.inverse({**pose, "w": 0.0})
+    with pytest.raises(UsageError, match="no value for y"):
+        mechanism.inverse({"x": 0.0, "z": 0.0})
+
+
+def test_degrees_given_for_radians_are_told_of_radians():
+    record = assur.load("three_rps")
+    pose = [0.0] * len(record.platform.pose)
+    pose[record.platform.pose.index("theta")] = 30.0
+    with pytest.raises(UsageError, match=r"np\.radians\(30\)"):
+        checked_poses(record, pose)
+    checked_poses(record, pose_from_border(record, pose))
+    pose[record.platform.pose.index("theta")] = 95.0
+    with pytest.raises(UsageError, match="between -90 and 90 deg") as caught:
+        pose_from_border(record, pose)
+    assert "radians" not in caught.value.hint

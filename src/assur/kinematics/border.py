@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from assur.errors import UsageError
+from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.closure import characteristic_length
 from assur.kinematics.pose import pose_error
 from assur.model.joint_graph import frames
@@ -17,15 +18,17 @@ from assur.numerics import rotations
 from assur.topology.joints import SPHERICAL
 
 FloatArray = NDArray[np.float64]
+Named = ArrayLike | Mapping[str, ArrayLike]
+"""Numbers (..., k) in the order of k names, or the numbers (...) of each by name."""
 SHORTEST_QUATERNION = 1e-6
 LARGEST = 1e60
 """Beyond this the squares and products of a closed form overflow."""
 
 
-def checked(values: ArrayLike, names: tuple[str, ...], what: str) -> FloatArray:
-    """An array (..., k) of finite floats with one entry per name, or a clear refusal."""
+def checked(values: Named, names: tuple[str, ...], what: str) -> FloatArray:
+    """An array (..., k) of finite floats, one for each name, given in their order or by name; or a clear refusal."""
     try:
-        given = np.asarray(values)
+        given = np.asarray(_columns(values, names, what) if isinstance(values, Mapping) else values)
         numeric = given.dtype.kind in "iuf" and not isinstance(values, np.ma.MaskedArray)
     except ValueError:  # rows of unequal length
         numeric = False
@@ -42,13 +45,44 @@ def checked(values: ArrayLike, names: tuple[str, ...], what: str) -> FloatArray:
     return array
 
 
+def _columns(values: Mapping[str, ArrayLike], names: tuple[str, ...], what: str) -> NDArray[Any]:
+    """Values by name as an array (..., k) in the order of the names, if each is there and no other."""
+    for name in values:
+        if name not in names:
+            raise UnknownNameError(f"name in the {what}", str(name), names)
+    missing = [name for name in names if name not in values]
+    if missing:
+        raise UsageError(f"{what}: no value for {', '.join(missing)}", hint=f"give {', '.join(names)}")
+    return np.stack([np.asarray(values[name]) for name in names], axis=-1)
+
+
+def checked_joints(record: MechanismRecord, joints: Named) -> FloatArray:
+    """Joint values (..., n) as floats, from an array or from values by name; or a clear refusal."""
+    return checked(joints, joint_names(record), f"joint values of {record.name}")
+
+
+def joint_array(record: MechanismRecord, joints: Named) -> FloatArray:
+    """Joint values (..., n) as they are, NaN among them where there is no solution; those by name in their order."""
+    if isinstance(joints, Mapping):
+        joints = _columns(joints, joint_names(record), f"joint values of {record.name}")
+    return np.asarray(joints, dtype=float)
+
+
+def joint_names(record: MechanismRecord) -> tuple[str, ...]:
+    """Names of the joint values."""
+    return tuple(record.coordinate_label(item) for item in record.coordinates)
+
+
 def checked_poses(record: MechanismRecord, values: ArrayLike) -> FloatArray:
     """Poses (..., m) as `checked`; a quaternion is made a unit one."""
     poses = checked(values, record.platform.pose, f"pose of {record.name}")
     if "theta" in record.platform.pose:
         theta = poses[..., record.platform.pose.index("theta")]
         if np.any(np.abs(theta) > np.pi / 2):
-            raise UsageError(f"pose of {record.name}: theta is between -90 and 90 deg", hint="turn phi and psi instead")
+            raise UsageError(
+                f"pose of {record.name}: theta is between -90 and 90 deg",
+                hint="angles are in rad here: np.radians(30) is 30 deg; beyond 90 deg turn phi and psi instead",
+            )
     if not has_quaternion(record.platform.pose):
         return poses
     columns = [record.platform.pose.index(name) for name in QUATERNION]

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.kinematics import border
+from assur.kinematics.border import checked_joints
 from assur.kinematics.closure import assemble, characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import inverse
-from assur.kinematics.rates.motions import checked_joints
 from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, has_quaternion, is_angle

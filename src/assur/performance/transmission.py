@@ -23,8 +23,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from assur.kinematics.border import checked_joints
 from assur.kinematics.closure import CLOSED, characteristic_length, closure_error
-from assur.kinematics.rates.motions import checked_joints
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.performance.power import power_coefficient

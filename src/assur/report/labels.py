@@ -58,10 +58,10 @@ def _of_closed_form(record: MechanismRecord) -> Iterator[Problem]:
     form = record.closed_form
     if form is None:
         return
-    motion = [form.self_motion] if form.self_motion else []
-    margins = (*form.direct_margins, *form.inverse_margins)
-    labels = dict.fromkeys(item.latex for item in (*margins, *form.factor_list, *form.quantity_list, *motion))
-    wrong = [latex for latex in labels if latex and not is_label(latex)]
+    texts = [item.latex for item in (*form.direct_margins, *form.inverse_margins)]
+    texts += [item.latex for item in form.factor_list] + [item.latex for item in form.quantity_list]
+    texts += [form.self_motion.latex] if form.self_motion else []
+    wrong = [latex for latex in dict.fromkeys(texts) if latex and not is_label(latex)]
     if wrong:
         path = record.file.parent / CLOSED_FORM
         lines = _lines_of_texts(path)

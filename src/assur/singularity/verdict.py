@@ -11,11 +11,12 @@ from numpy.typing import ArrayLike
 
 from assur.errors import UsageError
 from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.border import Named, checked_joints
 from assur.kinematics.closure import mobility
 from assur.kinematics.position import inverse
 from assur.kinematics.rates.finite_motion import sides, status_of
 from assur.kinematics.rates.instantaneous import instantaneous
-from assur.kinematics.rates.motions import checked_joints, general
+from assur.kinematics.rates.motions import general
 from assur.kinematics.rates.velocity import VelocityMap, velocity_map
 from assur.kinematics.status import Status, closed_form_of, relative_factors
 from assur.model.mechanism import MechanismRecord
@@ -121,7 +122,7 @@ def verdict(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) -
     )
 
 
-def verdict_at(record: MechanismRecord, joints: ArrayLike) -> Verdict:
+def verdict_at(record: MechanismRecord, joints: Named) -> Verdict:
     """Judge one configuration of the joint graph, joint values (n,), of a mechanism with or without a closed form.
 
     >>> from assur.kinematics.home import home_values

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.errors import UsageError
 from assur.kinematics import border
 from assur.kinematics.answers.solution import Solution
 from assur.kinematics.answers.solution_set import SolutionSet
@@ -120,7 +121,11 @@ def pose_from_border(record: MechanismRecord, pose: Any) -> FloatArray:
     """Poses (..., m) in rad and lengths, from the mechanism's angle unit."""
     angular = np.array([is_angle(name) for name in record.platform.pose])
     factor = np.pi / 180 if record.angle == "deg" else 1.0
-    return np.asarray(np.asarray(pose, dtype=float) * np.where(angular, factor, 1.0))
+    given = np.asarray(pose, dtype=float)
+    theta = np.array([name == "theta" for name in record.platform.pose])
+    if given.shape[-1:] == theta.shape and np.any(np.abs(given[..., theta]) * factor > np.pi / 2):
+        raise UsageError(f"pose of {record.name}: theta is between -90 and 90 deg", hint="turn phi and psi instead")
+    return np.asarray(given * np.where(angular, factor, 1.0))
 
 
 def power(unit: str, exponent: int) -> str:

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.errors import UsageError
+from assur.errors import BatchError
 from assur.kinematics import border
 from assur.kinematics.answers.self_motion import SelfMotionCurve
 from assur.kinematics.answers.solution import Failure, Solution
@@ -178,7 +178,7 @@ class SolutionSet(ABC):
 
     def _only_one(self) -> None:
         if self.batch_shape != ():
-            raise UsageError(
+            raise BatchError(
                 f"this is a batch of shape {self.batch_shape}; iterate over one problem at a time",
                 hint="use the arrays .poses, .inputs, .labels, .status, .exists, .residuals",
             )

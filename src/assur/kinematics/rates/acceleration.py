@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.kinematics import border
+from assur.kinematics.border import checked_joints
 from assur.kinematics.closure import CLOSED, characteristic_length, closure_error
 from assur.kinematics.pose import LEAST_COSINE, platform_twists, pose_rates
 from assur.kinematics.rates.motions import (
     SINGULAR,
     Motion,
-    checked_joints,
     general,
     input_units,
     motions,

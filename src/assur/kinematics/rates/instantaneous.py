@@ -14,8 +14,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
+from assur.kinematics.border import Named, checked_joints
 from assur.kinematics.closure import CLOSED, characteristic_length, closure_error
 from assur.kinematics.pose import turning_matrix
 from assur.kinematics.rates.motions import (
@@ -23,7 +24,6 @@ from assur.kinematics.rates.motions import (
     IntArray,
     Motion,
     Ranks,
-    checked_joints,
     general,
     general_share,
     input_units,
@@ -114,8 +114,8 @@ class Instant:
             return np.asarray(self.closed & ((self.measures[name] <= SINGULAR) | lacking))
 
 
-def instantaneous(record: MechanismRecord, joints: ArrayLike) -> Instant:
-    """First-order motion at joint values (..., n), of a mechanism with or without a closed form.
+def instantaneous(record: MechanismRecord, joints: Named) -> Instant:
+    """First-order motion at joint values (..., n), or by name, of a mechanism with or without a closed form.
 
     Example: the five-bar's two inputs move its platform's point in two directions, and nothing is singular at home.
 

@@ -9,9 +9,8 @@ from dataclasses import dataclass, fields
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from assur.kinematics.border import checked
 from assur.kinematics.closure import RANK_GAP, assemble, characteristic_length, loop_twists
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import platform_twists, turning_rates
@@ -77,12 +76,6 @@ class Motion:
     gap: FloatArray
     related_left: FloatArray
     twists_left: FloatArray
-
-
-def checked_joints(record: MechanismRecord, joints: ArrayLike) -> FloatArray:
-    """Joint values (..., n) as floats, or a clear refusal."""
-    names = tuple(record.coordinate_label(item) for item in record.coordinates)
-    return checked(joints, names, f"joint values of {record.name}")
 
 
 def pose_units(record: MechanismRecord) -> FloatArray:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
 from assur.kinematics import border
+from assur.kinematics.border import Named
 from assur.kinematics.closed_form.existence import exists
 from assur.kinematics.modes import mode_kernel_signs
 from assur.kinematics.rates.instantaneous import Instant, instantaneous
@@ -121,8 +122,8 @@ def velocity_map(record: MechanismRecord, poses: ArrayLike, mode: str | None = N
     return _velocity_map(record, given.shape[:-1], branch, jp, jq)
 
 
-def velocity_map_at(record: MechanismRecord, joints: ArrayLike) -> VelocityMap:
-    """The velocity map at joint values (..., coordinates), from the joint graph alone: for any mechanism.
+def velocity_map_at(record: MechanismRecord, joints: Named) -> VelocityMap:
+    """The velocity map at joint values (..., coordinates), or by name, from the joint graph alone: for any mechanism.
 
     Jp and Jq are those of `assur.kinematics.rates.instantaneous`: the same relation as a closed form's, in other rows.
 
