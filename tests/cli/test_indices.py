@@ -117,3 +117,15 @@ def test_bad_words_are_refused(assur_cli, words, message):
     run = assur_cli("indices", *words.split(), *(() if "--p" in words else ("--resolution", "8")))
     assert run.code == 2
     assert message in run.err
+
+
+def test_the_condition_number_is_the_one_that_singularity_prints(assur_cli):
+    """Lengths and angles mix in this pose: both divide lengths by the characteristic length, and say so."""
+    words = ["planar_3rrr", "--pose", "0.1", "0.05", "3", "--mode", "+++"]
+    index = assur_cli("indices", *words, "--json").json
+    verdict = assur_cli("singularity", *words, "--json").json
+    assert index["condition_number"] == pytest.approx(verdict["condition"], rel=1e-9)
+    assert index["condition_number"] == pytest.approx(1 / index["condition"], rel=1e-12)
+    assert index["characteristic_length"] == verdict["characteristic_length"] > 1
+    said = " ".join(assur_cli("singularity", *words).out.split())
+    assert "condition number of J = Jp^-1 Jq, lengths over the characteristic length" in said

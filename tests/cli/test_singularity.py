@@ -25,7 +25,7 @@ def test_where_it_is_singular_the_condition_number_is_null(assur_cli):
     assert (run.code, run.json["kind"], run.json["condition"]) == (0, "self_motion", None)
     text = assur_cli("singularity", "zeng2019", "--pose", *POSE, "--mode", "+++++").out
     assert "singularity: self_motion" in text
-    assert "condition number of Jp^-1 Jq: none, singular" in text
+    assert "condition number of J = Jp^-1 Jq: none, singular" in text
 
 
 def test_a_pose_out_of_reach_exits_4_and_names_the_quantity(assur_cli):

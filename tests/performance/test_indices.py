@@ -9,10 +9,10 @@ import pytest
 
 import assur
 from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.rates.units import is_mixed, scaled
 from assur.kinematics.status import Status
 from assur.performance.dexterity import dexterity
 from assur.performance.indices import INDICES, indices, indices_at, maps
-from assur.performance.scaling import is_mixed, scaled
 
 ROW_3 = [-15.4714, 9.6849, 456.3315]
 UNMIXED = [name for name in assur.names() if not is_mixed(assur.load(name))]

@@ -10,7 +10,8 @@ import pytest
 import assur
 from assur.errors import UsageError
 from assur.kinematics.closure import characteristic_length
-from assur.performance.scaling import chosen_length, factor_unit, is_mixed, isotropic_length, scaled
+from assur.kinematics.rates.units import factor_unit, is_mixed, scaled
+from assur.performance.scaling import chosen_length, isotropic_length
 
 MIXED = {"gough_stewart", "h4_robot", "planar_3rpr", "planar_3rrr", "three_rps"}
 

@@ -25,7 +25,7 @@ def test_the_numbers_are_those_of_the_library(here):
         assert found[name] == f"{value:.4f} mm"
     for item, value in zip(here.record.inputs, here.inputs, strict=True):
         assert found[item.name] == f"{value:.4f} mm"
-    assert found["condition"] == f"{float(here.record.velocity_map(here.pose, '++-++').condition):.4g}"
+    assert found["condition number"] == f"{float(here.record.velocity_map(here.pose, '++-++').condition):.4g}"
     assert (found["working mode"], found["assembly mode"]) == ("++-++", "+++")
     assert float(found["residual"].split()[0]) < 1e-9
 
@@ -52,7 +52,7 @@ def test_without_a_closed_form_there_is_neither():
     found = _working(bare)
     assert closest_factor(bare, found) is None
     assert clearance(bare, found) is None
-    assert np.isfinite(float({item.name: item.text for item in readings(bare)}["condition"]))
+    assert np.isfinite(float({item.name: item.text for item in readings(bare)}["condition number"]))
 
 
 def test_what_a_file_says_is_text_in_the_page():

@@ -11,7 +11,7 @@ const PATIENCE = 3000; // and all together: what was found until then is said
 export const NUMBERS = {
   condition: [
     "condition number",
-    "of the map from the inputs' rates to the platform's, lengths in units of the mechanism's size; 1 is best, infinite at a singularity",
+    "of the map from the inputs' rates to the platform's, one over the local condition index; where lengths and angles mix, lengths are divided by the characteristic length L; 1 is best, infinite at a singularity",
   ],
   smallest: [
     "parallel measure",
@@ -43,6 +43,19 @@ export function distanceSaid({ amount, kind }, over, range, unit) {
   return over ? `none seen within ${figures(range, 3)} ${unit}` : "none seen yet";
 }
 
+/**
+ * The condition number, with its characteristic length where lengths and angles mix.
+ * @param {number} condition
+ * @param {{platform: {pose: string[]}, inputs: {kind: string}[], characteristicLength: number, unit: string}} scene
+ */
+export function conditionSaid(condition, { platform, inputs, characteristicLength, unit }) {
+  const mixed = (kinds) => new Set(kinds).size > 1;
+  const rates = platform.pose.map((name) => ["x", "y", "z"].includes(name));
+  const said = figures(condition, 3);
+  if (!mixed(rates) && !mixed(inputs.map(({ kind }) => kind))) return said;
+  return `${said}, L = ${figures(characteristicLength, 3)} ${unit}`;
+}
+
 /** @returns {{element: HTMLElement}} a list of numbers that follows the mechanism */
 export function readout(mechanism) {
   const { scene } = mechanism;
@@ -65,7 +78,7 @@ export function readout(mechanism) {
   };
   const show = () => {
     const state = mechanism.state();
-    rows.condition.textContent = figures(state.condition, 3);
+    rows.condition.textContent = conditionSaid(state.condition, scene);
     rows.smallest.textContent = figures(state.smallest, 3);
     rows.serial.textContent = figures(state.serial, 3);
     rows.smallest.parentElement.classList.toggle("near", state.smallest < 0.03);

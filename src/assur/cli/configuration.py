@@ -27,6 +27,7 @@ def outcome(record: Mechanism, pose: NDArray[Any], mode: str) -> Outcome:
 def verdict_data(record: Mechanism, pose: NDArray[Any], mode: str) -> dict[str, Any]:
     """The verdict as plain data; for a pose that the mode does not reach, which quantity is negative."""
     from assur.kinematics.answers.at_border import answer, pose_at_border
+    from assur.kinematics.rates.units import unit_length
     from assur.results.json_text import plain
 
     why_not = answer(record.inverse(pose, mode))["failures"]
@@ -39,6 +40,7 @@ def verdict_data(record: Mechanism, pose: NDArray[Any], mode: str) -> dict[str, 
         "pose": plain(pose_at_border(record, pose)),
         "mode": mode,
         **plain(verdict),
+        "characteristic_length": unit_length(record),
         "failures": why_not,
     }
 
@@ -83,7 +85,9 @@ def _factors(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType
     yield f"share: of the factor's scale; zero within {FACTOR_TOLERANCE:g}"
     yield f"det Jp = {short(data['det_jp'])} {units['parallel']}, det Jq = {short(data['det_jq'])} {units['serial']}"
     exists = data["condition"] is not None
-    yield f"condition number of Jp^-1 Jq: {short(data['condition']) if exists else 'none, singular'}"
+    length = data["characteristic_length"]
+    over = f", lengths over the characteristic length {short(length)} {record.unit}" if length else ""
+    yield f"condition number of J = Jp^-1 Jq{over}: {short(data['condition']) if exists else 'none, singular'}"
     yield f"by det Jp and det Jq alone: {data['reduced_kind']}"
     freedoms = count(data["freedoms"], "freedom")
     yield f"joint graph: rank {data['rank']} here, {data['generic_rank']} in general; {freedoms}"

@@ -47,7 +47,7 @@ def velocity(ledger: Ledger, record: Mechanism) -> None:
     for name, columns, matrix in (("Jp", record.platform.pose, here.jp), ("Jq", inputs, here.jq)):
         rows = [("", *(style.length(value) for value in row)) for row in matrix.tolist()]
         ledger.show([table((name, *columns), rows)])
-    ledger.show([f"condition number of Jp^-1 Jq: {float(here.condition):.4f}"])
+    ledger.show([f"condition number of J = Jp^-1 Jq: {float(here.condition):.4f}"])
     error, allowed = _difference(record, pose, mode, np.linalg.solve(here.jq, here.jp))
     ledger.claim(
         "Jq^-1 Jp is the derivative of the inverse problem",

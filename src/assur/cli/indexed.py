@@ -154,6 +154,7 @@ def _pose_shown(record: Mechanism, data: dict[str, Any], units: dict[str, str]) 
     factors = ", ".join(map(short, data["velocity_factors"]))
     if data["status"] == "undecided":
         yield "theta is a right angle: phi and psi have no rates of their own, so that J does not exist here"
+    yield f"condition number of J = Jp^-1 Jq, one over the local condition index: {short(data['condition_number'])}"
     yield f"velocity factors of J = Jp^-1 Jq: {factors} {data['velocity_factor_unit']}".rstrip()
     yield length_words(record, data["characteristic_length"])
 
@@ -194,7 +195,7 @@ def _overall_shown(record: Mechanism, data: dict[str, Any], found: OverallIndice
 
 def length_words(record: Mechanism, length: float | None) -> str:
     """What lengths are divided by, and why nothing where that is so."""
-    from assur.performance.scaling import is_mixed
+    from assur.kinematics.rates.units import is_mixed
 
     if length is not None:
         return f"lengths are divided by the characteristic length {length:.6g} {record.unit}"

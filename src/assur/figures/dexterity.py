@@ -19,8 +19,8 @@ from assur.figures.coordinates import drawn_span, dress, plane_words, symbol, va
 from assur.figures.plots import mode_words, no_workspace, outline
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import GREY, INK, PAGE, TEXT, new_figure
+from assur.kinematics.rates.units import factor_unit, is_mixed
 from assur.performance.indices import INDICES
-from assur.performance.scaling import factor_unit, is_mixed
 
 FloatArray = NDArray[np.float64]
 NODES = 160

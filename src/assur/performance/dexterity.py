@@ -2,8 +2,8 @@
 
 The local condition index is 1 / cond2(J), between 0 (singular) and 1 (isotropic); its mean over a region
 is the global one, eta = int (1 / cond2(J)) dW / int dW (Gosselin and Angeles 1991). Where inputs or pose
-coordinates mix lengths and angles the singular values mix units, and only their zeros mean anything:
-`assur.performance.indices` divides lengths by a characteristic length there.
+coordinates mix lengths and angles, lengths are divided by the characteristic length of the mechanism
+(`assur.kinematics.rates.units`), as by `assur.performance.indices`, which takes other lengths too.
 """
 
 from __future__ import annotations

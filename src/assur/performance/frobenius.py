@@ -22,12 +22,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from assur.kinematics import border
 from assur.kinematics.modes import mode_kernel_signs
+from assur.kinematics.rates.units import scaled
 from assur.kinematics.rates.velocity import velocity_map
 from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle, rate_names
 from assur.numerics.dual import Dual, Duals
-from assur.performance.scaling import Length, chosen_length, scaled
+from assur.performance.scaling import Length, chosen_length
 
 FloatArray = NDArray[np.float64]
 

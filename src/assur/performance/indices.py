@@ -25,10 +25,11 @@ from assur.errors import UnknownNameError
 from assur.kinematics import border
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.position import inverse
+from assur.kinematics.rates.units import factor_unit, scaled
 from assur.kinematics.rates.velocity import VelocityMap, velocity_map, velocity_map_at
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
-from assur.performance.scaling import Length, chosen_length, factor_unit, scaled
+from assur.performance.scaling import Length, chosen_length
 from assur.performance.transmission import Transmission, transmission_at
 from assur.results.json_text import plain
 
@@ -60,6 +61,15 @@ class Indices:
         """One index (...) by its name in `INDICES`."""
         return index_named(name).of(self)
 
+    @property
+    def condition_number(self) -> FloatArray:
+        """Condition number (...) of J_L in the 2-norm, one over the index "condition"; infinite where that is 0.
+
+        The same as `assur.kinematics.rates.velocity.VelocityMap.condition` where no other length is asked for.
+        """
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.asarray(1.0 / self["condition"])
+
     def to_json(self) -> dict[str, Any]:
         """Plain numbers, with None for what does not exist."""
         return {
@@ -71,6 +81,7 @@ class Indices:
             "input_transmission_indices": plain(self.transmission.inputs),
             "output_transmission_indices": plain(self.transmission.outputs),
             **{name: plain(self[name]) for name in INDICES},
+            "condition_number": plain(self.condition_number),
         }
 
 

@@ -36,7 +36,8 @@ class Verdict:
         closest: name of the factor that is closest to zero, relative to its scale.
         factors, relative: those of the closed form, and divided by their scales. Judged on the joint graph: its
             measures, output, input and closure (`assur.kinematics.rates.instantaneous.Instant`).
-        det_jp, det_jq, condition: of the regular form; the condition number is None where singular. On the joint graph
+        det_jp, det_jq, condition: of the regular form; the condition number is None where singular, with lengths
+            divided by the characteristic length where units mix (`assur.kinematics.rates.units`). On the joint graph
             the determinants are known up to a factor of both, and only the sign of their product means anything.
         rank, generic_rank: of the closure of the whole joint graph, here and in general.
         freedoms: mobility of the joint graph here, by that rank.
@@ -139,7 +140,7 @@ def verdict_at(record: MechanismRecord, joints: Named) -> Verdict:
     status = Status(int(status_of(record, values, instant)))
     if status == Status.unreachable:
         return _nothing(status)
-    here = VelocityMap.of(instant)
+    here = VelocityMap.of(record, instant)
     measures = {name: float(value) for name, value in instant.measures.items()}
     serial, parallel = sides(instant)
     return Verdict(

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from assur.errors import AssurError
 from assur.kinematics.postures import Postures
+from assur.kinematics.rates.units import unit_length
 from assur.kinematics.status import relative_factors
 from assur.model.pose import LENGTHS
 from assur.singularity.distance import distance
@@ -34,7 +35,7 @@ def readings(snapshot: Snapshot) -> tuple[Reading, ...]:
     >>> from assur.model.registry import load_record
     >>> from assur.view.snapshot import start
     >>> found = {item.name: item.text for item in readings(start(load_record("fivebar")))}
-    >>> found["y"], found["working mode"], found["condition"]
+    >>> found["y"], found["working mode"], found["condition number"]
     ('223.9241 mm', '-+', '1.107')
     """
     record = snapshot.record
@@ -50,7 +51,9 @@ def readings(snapshot: Snapshot) -> tuple[Reading, ...]:
     rows += [Reading(f"{kind} mode", text) for kind, text in modes if text]
     verdict = verdict_at(record, snapshot.values)
     condition = "infinite" if verdict.condition is None else f"{verdict.condition:.4g}"
-    rows.append(Reading("condition", condition, "of the map from inputs to pose"))
+    length = unit_length(record)
+    over = f", lengths over the characteristic length {length:.4g} {record.unit}" if length else ""
+    rows.append(Reading("condition number", condition, f"of the map from the inputs' rates to the platform's{over}"))
     least = verdict.closest
     if least:
         about = {"output": "parallel singularity at 0", "input": "serial singularity at 0"}.get(least, "of the closure")

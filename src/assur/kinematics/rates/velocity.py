@@ -16,6 +16,7 @@ from assur.kinematics.border import Named
 from assur.kinematics.closed_form.existence import exists
 from assur.kinematics.modes import mode_kernel_signs
 from assur.kinematics.rates.instantaneous import Instant, instantaneous
+from assur.kinematics.rates.units import scaled, unit_length
 from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of, relative_factors
 from assur.model.closed_form import Branch
 from assur.model.mechanism import MechanismRecord
@@ -36,8 +37,11 @@ class VelocityMap:
     is, judged by the factors of the closed form or by the ranks of the joint graph. Of a mechanism with more or fewer
     inputs than rates, Jq is not square: it has no determinant (NaN) and is solved by least squares. `no_rates` (...)
     marks where theta is a right angle, so that phi and psi have no rates of their own: J does not exist there, though
-    the mechanism need not be singular.
+    the mechanism need not be singular. `length` is the characteristic length that lengths are divided by in velocity
+    factors and condition number, None where units do not mix (`assur.kinematics.rates.units`).
     """
+
+    record: MechanismRecord
 
     jp: FloatArray
     jq: FloatArray
@@ -47,10 +51,15 @@ class VelocityMap:
     no_rates: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, instant: Instant) -> VelocityMap:
+    def of(cls, record: MechanismRecord, instant: Instant) -> VelocityMap:
         """The velocity map of a first-order motion on the joint graph."""
         singular = (instant.singular_output, instant.singular_input)
-        return cls(instant.jp, instant.jq, *singular, instant.closed, instant.no_rates)
+        return cls(record, instant.jp, instant.jq, *singular, instant.closed, instant.no_rates)
+
+    @property
+    def length(self) -> float | None:
+        """The characteristic length by which lengths are divided, in the mechanism's unit; None where nothing is."""
+        return unit_length(self.record)
 
     @cached_property
     def det_jp(self) -> FloatArray:
@@ -75,20 +84,21 @@ class VelocityMap:
 
     @cached_property
     def velocity_factors(self) -> FloatArray:
-        """Singular values of J (..., min(k, n)), largest first: how much faster than inputs; NaN where singular."""
+        """Singular values of J_L (..., min(k, n)), largest first: how much faster than inputs; NaN where singular.
+
+        Where all inputs have one unit and all rates have one unit J_L is J, and they have a unit, as mm/rad; elsewhere
+        lengths are divided by `length`, and they have none.
+        """
         unknown = self.singular_output | self.no_rates | ~self.exists
-        safe = np.where(unknown[..., None, None], 0.0, self.matrix)
+        safe = np.where(unknown[..., None, None], 0.0, scaled(self.record, self.matrix, self.length))
         factors: FloatArray = np.linalg.svd(safe, compute_uv=False)
         return np.where(unknown[..., None], np.nan, factors)
 
     @cached_property
     def condition(self) -> FloatArray:
-        """Condition number (...) of J in the 2-norm; inf where either matrix is singular, NaN out of reach.
+        """Condition number (...) of J_L in the 2-norm; inf where Jp or Jq is singular, NaN where it does not exist.
 
-        The quotient of the largest and the smallest velocity factor. It needs no unit where all inputs have one unit
-        and all rates have one unit. Where lengths and angles mix it compares the one with the other: it changes with
-        the unit of length and says nothing alone, only how it changes from pose to pose. `assur.performance.scaling`
-        divides the lengths by one that is named, and gives a number that can be compared.
+        The quotient of the largest and the smallest velocity factor, and one over the local condition index.
         """
         with np.errstate(divide="ignore", invalid="ignore"):
             ratio = self.velocity_factors[..., 0] / self.velocity_factors[..., -1]
@@ -136,7 +146,7 @@ def velocity_map_at(record: MechanismRecord, joints: Named) -> VelocityMap:
     >>> velocity_map_at(record, found.joints[0]).output([1.0, 1.0, 1.0]).round(9) + 0.0
     array([0., 1., 0.])
     """
-    return VelocityMap.of(instantaneous(record, joints))
+    return VelocityMap.of(record, instantaneous(record, joints))
 
 
 def printed_velocity_map(record: MechanismRecord, poses: ArrayLike, mode: str | None = None) -> VelocityMap:
@@ -228,6 +238,7 @@ def _velocity_map(
     inputs = np.any([zero[item.name] for item in form.factor_list if item.kind == "serial"], axis=0)
     there = real.reshape(batch)
     return VelocityMap(
+        record,
         np.where(there[..., None, None], _matrix(jp, batch), np.nan),
         np.where(there[..., None, None], _matrix(jq, batch) * _input_signs(record), np.nan),
         (np.asarray(output) & real).reshape(batch),

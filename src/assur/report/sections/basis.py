@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from assur.figures import left_out
 from assur.kinematics.closure import CLOSED, RANK_GAP, characteristic_length
+from assur.kinematics.rates.units import is_mixed
 from assur.kinematics.status import FACTOR_TOLERANCE, MARGIN_TOLERANCE, NEAR_SINGULAR, Status
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
@@ -68,12 +69,13 @@ def _by_reason(missing: Mapping[str, str]) -> tuple[tuple[str, str], ...]:
 def _conventions(record: MechanismRecord) -> tuple[tuple[str, str], ...]:
     angles = "degrees" if record.angle == "deg" else "rad"
     length = f"{short(characteristic_length(record))} {record.unit}"
+    over = f", lengths divided by the characteristic length {length}" if is_mixed(record) else ""
     statuses = ", ".join(status.name.replace("_", " ") for status in Status)
     return (
         ("frames", "right-handed, Z up; all link frames are parallel to the base’s when every joint value is zero"),
         ("units", f"lengths in {record.unit}, angles in {angles} in this report"),
         ("inputs", "printed value = sign · joint value + offset, in the order of the file"),
-        ("velocity", "Jp v = Jq q̇; the condition number is that of Jp⁻¹ Jq in the 2-norm"),
+        ("velocity", "Jp v = Jq q̇; the condition number is that of J = Jp⁻¹ Jq in the 2-norm" + over),
         ("modes", "rows of signs in the order that the file declares; 0 where two branches have merged"),
         ("residual", f"largest gap over the cut joints; a rotation counts times {length}"),
         ("status", f"{statuses}: the most severe is reported"),

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from assur.model.mechanism import MechanismRecord
-from assur.model.pose import LENGTHS
+from assur.kinematics.rates.units import unit_length
 from assur.performance.dexterity import dexterity
 from assur.performance.indices import INDICES, indices_at
 from assur.report.findings import Findings
@@ -31,8 +30,9 @@ def performance(found: Findings) -> Section:
         "(isotropic); the velocity factors are the singular values of J: by how much the inputs’ speed is multiplied "
         "in the fastest and in the slowest direction. The global index is the mean over the workspace."
     )
-    if mixed_units(record):
-        said += " Lengths and angles are mixed here, so these numbers depend on the unit of length."
+    length = unit_length(record)
+    if length is not None:
+        said += f" Lengths are divided by the characteristic length {short(length)} {record.unit}."
     factors = here.velocity_factors
     left_out = f"; {index.singular} left out as singular" if index.singular else ""
     points = f"{index.points} quasi-random points{left_out}"
@@ -65,12 +65,6 @@ def _of_the_joint_graph(found: Findings) -> Section:
         for name, item in INDICES.items()
     ]
     return Section("Dexterity", said, [*scalars, *found.picture(*PICTURES)])
-
-
-def mixed_units(record: MechanismRecord) -> bool:
-    """Whether rates of lengths and of angles stand beside one another in the pose or among the inputs."""
-    inputs = {item.coordinate.kind for item in record.inputs}
-    return len(inputs) > 1 or len({name in LENGTHS for name in record.platform.pose}) > 1
 
 
 def _spread(found: Findings) -> list[Table]:

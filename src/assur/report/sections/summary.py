@@ -8,9 +8,10 @@ from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.closure import mobility
 from assur.kinematics.modes import Problem
 from assur.kinematics.rates.instantaneous import instantaneous
+from assur.kinematics.rates.units import is_mixed
 from assur.report.findings import Findings
 from assur.report.numbers import count
-from assur.report.sections.performance import SPREAD, mixed_units
+from assur.report.sections.performance import SPREAD
 from assur.report.sections.position import how_found, noun
 from assur.report.sections.proved import right
 from assur.report.sections.reach import extents, held_words, share
@@ -64,8 +65,8 @@ def _workspace(found: Findings) -> list[Scalar]:
 
 
 def _dexterity(found: Findings) -> list[Scalar]:
-    if mixed_units(found.record):
-        return []  # a number that depends on the unit of length is nobody's first question
+    if is_mixed(found.record):
+        return []  # a number that depends on a characteristic length is nobody's first question
     index = found.global_index
     of_what = "mean of 1/cond over the workspace"
     return [Scalar("global condition index", index.value, "", SPREAD, index.error, note=of_what)]

@@ -6,9 +6,9 @@ import math
 import re
 
 from assur.kinematics.answers.at_border import pose_at_border
+from assur.kinematics.rates.velocity import VelocityMap
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import rate_names
-from assur.performance.scaling import is_mixed
 from assur.report.findings import Findings
 from assur.report.formulas.latex import bracket, symbol_mathml
 from assur.report.formulas.mathml import APPLY, THIN, TIMES, display, equation, matrix_mathml
@@ -85,14 +85,16 @@ def _here(found: Findings, record: MechanismRecord) -> Section:
     scalars = [
         Scalar("det Jp", float(here.det_jp), "", FLOATING, note=_product(found, "parallel")),
         Scalar("det Jq", float(here.det_jq), "", FLOATING, note=_product(found, "serial")),
-        Scalar("condition number", condition if math.isfinite(condition) else None, "", FLOATING, note=_norm(record)),
+        Scalar("condition number", condition if math.isfinite(condition) else None, "", FLOATING, note=_norm(here)),
     ]
     return Section("In numbers", said, [*matrices, *scalars])
 
 
-def _norm(record: MechanismRecord) -> str:
-    mixed = f"; lengths and angles mix: with lengths in {record.unit}" if is_mixed(record) else ""
-    return f"2-norm of Jp⁻¹ Jq{mixed}"
+def _norm(here: VelocityMap) -> str:
+    divided = (
+        f"; lengths divided by the characteristic length {short(here.length)} {here.record.unit}" if here.length else ""
+    )
+    return f"κ(J) = s₁/sᵣ of J = Jp⁻¹ Jq in the 2-norm{divided}"
 
 
 def _product(found: Findings, kind: str) -> str:
