@@ -63,7 +63,7 @@ format: $(VENV)/installed-dev ## put the code into the form that `check` asks fo
 
 constraints: ## pin every package anew, each at its newest version that pyproject.toml allows
 	rm -rf build/pins && $(PYTHON) -m venv build/pins
-	build/pins/bin/python -m pip install --quiet --editable '.[dev,sim,view,cad,movie,docs,bench]' hatchling editables
+	build/pins/bin/python -m pip install --quiet --editable '.[dev,sim,view,cad,movie,cluster,docs,bench]' hatchling editables
 	sed -n '/^#/p' constraints.txt > build/constraints.txt
 	build/pins/bin/python -m pip list --format=freeze --exclude pip --exclude setuptools --exclude assur \
 	    >> build/constraints.txt
@@ -95,5 +95,5 @@ $(VENV)/installed-docs: pyproject.toml constraints.txt | $(VENV)/made
 	@touch $(VENV)/installed $@
 
 $(VENV)/installed-all: pyproject.toml constraints.txt | $(VENV)/made
-	$(INSTALL) '.[dev,sim,view,cad,movie,docs]'
+	$(INSTALL) '.[dev,sim,view,cad,movie,cluster,docs]'
 	@touch $(VENV)/installed $(VENV)/installed-dev $(VENV)/installed-docs $@

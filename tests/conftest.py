@@ -48,6 +48,7 @@ NEEDS = {
     "sim": (installed("mujoco"), "MuJoCo: pip install '.[sim]'"),
     "view": (installed("viser"), "viser: pip install '.[view]'"),
     "cad": (installed("OCP"), "Open CASCADE: pip install '.[cad]'"),
+    "cluster": (installed("distributed"), "Dask: pip install '.[cluster]'"),
     "movie": (installed("imageio_ffmpeg"), "ffmpeg: pip install '.[movie]'"),
     "site": (installed("sphinx") and installed("myst_parser"), "Sphinx: pip install '.[docs]'"),
     "browser": (chromium() and installed("playwright"), "Chromium: apt install chromium, and pip install playwright"),

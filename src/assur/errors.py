@@ -125,13 +125,21 @@ class Problem:
         return f"{text}\n    hint: {self.hint}" if self.hint else text
 
 
-class MechanismFileError(AssurError):
-    """A mechanism file that cannot be used: every problem in it, at once."""
+class FileError(AssurError):
+    """Files that cannot be used: every problem in them, at once."""
 
     exit_code = 3
 
-    def __init__(self, problems: Sequence[Problem]) -> None:
+    def __init__(self, problems: Sequence[Problem], *, hint: str = "") -> None:
         count = len(problems)
         head = "1 problem" if count == 1 else f"{count} problems"
-        super().__init__(f"{head}:\n" + "\n".join(str(problem) for problem in problems))
+        super().__init__(f"{head}:\n" + "\n".join(str(problem) for problem in problems), hint=hint)
         self.problems = tuple(problems)
+
+
+class MechanismFileError(FileError):
+    """A mechanism file that cannot be used."""
+
+
+class DamagedStoreError(FileError):
+    """A store whose files are not what was written; the path of a problem is that of its blocks."""

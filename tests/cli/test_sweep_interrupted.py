@@ -12,19 +12,19 @@ from pathlib import Path
 
 import pytest
 
-from assur.kinematics.closed_form import streamed
+from assur.results.disk import Disk
 
 COMMAND = Path(sys.executable).with_name("assur")
 PLANE = ("--along", "x=-120:120:9", "--along", "z=250:550:11", "--at", "y=10")
 
 
 def files_of(folder):
-    return {path.name: path.read_bytes() for path in folder.iterdir() if path.suffix == ".npy"}
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
 @pytest.fixture
 def small_blocks(monkeypatch):
-    monkeypatch.setattr("assur.kinematics.closed_form.stored.BLOCK", 1024)
+    monkeypatch.setattr("assur.results.store.layout.NUMBER_OF_BLOCKS", 10_000)  # as short as they may be
 
 
 @pytest.fixture
@@ -33,34 +33,37 @@ def words(tmp_path):
     return lambda name: ("sweep", "zeng2019", *grid, "--threads", "1", "-o", str(tmp_path / name))
 
 
-def stopped_after(monkeypatch, writes):
-    """Ctrl-C once so many pieces of files are written; a block is four of them here."""
-    write, left = streamed.RowsFile.write, [writes]
+def stopped_after(monkeypatch, blocks):
+    """Ctrl-C in the middle of a block, once so many are written."""
+    write, left = Disk.write, [blocks * 4]
 
-    def stopping(*given):
-        if not left[0]:
-            raise KeyboardInterrupt
-        left[0] -= 1
-        write(*given)
+    def stopping(disk, path, pieces):
+        if path.name.endswith(".npy.part"):
+            if not left[0]:
+                raise KeyboardInterrupt
+            left[0] -= 1
+        write(disk, path, pieces)
 
-    monkeypatch.setattr(streamed.RowsFile, "write", stopping)
+    monkeypatch.setattr(Disk, "write", stopping)
 
 
 @pytest.mark.usefixtures("small_blocks")
 def test_it_goes_on_and_ends_with_the_same_files(assur_cli, tmp_path, words, monkeypatch):
     whole = assur_cli(*words("whole"), "--json").json
     with monkeypatch.context() as patched:
-        stopped_after(patched, 14)
+        stopped_after(patched, 3)
         run = assur_cli(*words("parts"))
     assert (run.code, run.out) == (130, "")
-    assert "stopped at 3072 of 9240; the same command goes on from there\ninterrupted\n" in run.err
+    stopped = f"interrupted: stopped at 3072 of 9240, in {tmp_path / 'parts'}"
+    assert f"{stopped}\nhint: the same command goes on from there\n" in run.err
     assert files_of(tmp_path / "parts") != files_of(tmp_path / "whole")
     again = assur_cli(*words("parts"))
     assert (again.code, "9240 poses, of which 3072 are done" in again.err) == (0, True)
     assert files_of(tmp_path / "parts") == files_of(tmp_path / "whole")
     notes = [(tmp_path / name / "sweep.json").read_text() for name in ("parts", "whole")]
     assert notes[0] == notes[1]
-    assert json.loads(notes[0]) == {key: value for key, value in whole.items() if key != "folder"}
+    assert json.loads(notes[0]) == {key: whole[key] for key in json.loads(notes[0])}
+    assert whole.keys() - json.loads(notes[0]).keys() == {"folder", "repaired"}
     assert sum(whole["counts"]["by_status"].values()) == 9240
 
 
@@ -75,17 +78,19 @@ def test_a_finished_sweep_answers_again(assur_cli, words, monkeypatch):
 def test_a_disk_that_fills_up_is_told_and_loses_nothing(assur_cli, tmp_path, words, monkeypatch):
     assur_cli(*words("whole"))
     with monkeypatch.context() as patched:
-        write = streamed.RowsFile.write
+        write, written = Disk.write, []
 
-        def full(file, start, rows):
-            if start >= 2048:
-                raise OSError(28, "No space left on device")
-            write(file, start, rows)
+        def full(disk, path, pieces):
+            written.extend([path] if path.name == "status.npy.part" else [])
+            if len(written) > 2 and path.name.endswith(".npy.part"):
+                raise OSError(28, "No space left on device", str(path))
+            write(disk, path, pieces)
 
-        patched.setattr(streamed.RowsFile, "write", full)
+        patched.setattr(Disk, "write", full)
         run = assur_cli(*words("parts"))
     assert run.code == 2
-    assert "No space left on device; 2048 of 9240 are done" in run.err
+    assert "No space left on device" in run.err
+    assert "status.npy.part); 2048 of 9240 are done\nhint: the same command goes on from there, once" in run.err
     assert assur_cli(*words("parts")).code == 0
     assert files_of(tmp_path / "parts") == files_of(tmp_path / "whole")
 
@@ -120,4 +125,4 @@ def test_ctrl_c_from_a_keyboard(tmp_path):
     done = json.loads(state.read_text())["done"]
     assert (process.returncode, out) == (130, "")
     assert 0 < done < 9_000_000
-    assert f"stopped at {done} of 9000000" in err
+    assert f"interrupted: stopped at {done} of 9000000, in {tmp_path}\nhint: the same command goes on" in err

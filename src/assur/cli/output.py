@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Literal
 
-from assur.errors import AssurError, MechanismFileError, OutputError, visible
+from assur.errors import AssurError, FileError, OutputError, visible
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
@@ -109,7 +109,7 @@ def complain(error: AssurError, *, json: bool = False) -> None:
     if json:
         from assur.results.json_text import json_text
 
-        problems = [asdict(item) for item in error.problems] if isinstance(error, MechanismFileError) else []
+        problems = [asdict(item) for item in error.problems] if isinstance(error, FileError) else []
         said = {"message": error.message, "hint": error.hint, "exit_code": error.exit_code, "problems": problems}
         with contextlib.suppress(OSError):  # the error is that nothing can be written there
             sys.stdout.write(json_text({"error": said}) + "\n")

@@ -7,10 +7,11 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
+from assur.errors import UsageError
 
 
 def sweep(
-    mechanism: MechanismName,
+    mechanism: MechanismName | None = None,
     /,
     *,
     output: Annotated[
@@ -23,7 +24,7 @@ def sweep(
             metavar="NAME=LOW:HIGH:COUNT,..",
             help="Places along one coordinate, both ends too; NAME=COUNT takes the file's box or stroke.",
         ),
-    ],
+    ] = (),
     at: Annotated[tuple[str, ...], Parameter(metavar="NAME=VALUE,..", help="Hold coordinates.")] = (),
     problem: Annotated[
         Literal["inverse", "direct"], Parameter(help="The grid is one of poses (inverse) or of inputs (direct).")
@@ -37,16 +38,35 @@ def sweep(
         Parameter(metavar="NAME,..", help="What to keep; inputs,status (inverse) or poses,exists (direct)."),
     ] = (),
     threads: Annotated[str, Parameter(metavar="COUNT", help="How many work on it; as many as cores.")] = "0",
+    shard: Annotated[
+        str | None,
+        Parameter(metavar="I/N", help="Work out the I-th of N parts of the grid alone, I from 1 on."),
+    ] = None,
+    merge: Annotated[
+        tuple[str, ...],
+        Parameter(metavar="DIR..", consume_multiple=True, help="Join the shards in these folders; alone, with -o."),
+    ] = (),
+    scheduler: Annotated[
+        str | None,
+        Parameter(metavar="ADDRESS", help="Let the workers of a Dask cluster do it, as tcp://localhost:8786."),
+    ] = None,
+    repair: Annotated[bool, Parameter(help="Compute again what is damaged in the folder.")] = False,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     r"""Solve a grid of poses or inputs in closed form, into files.
 
     Any number of poses, 10^9 too: memory is that of a few blocks, and what the
-    files will take is told before. After Ctrl-C (exit code 130) the same command
-    goes on where it stopped; a folder of another grid is refused. --along and
-    --at are given once per coordinate, or with commas between; lengths and angles
-    are in the mechanism's units, in the files too. Where there is no solution the
-    numbers are NaN.
+    files will take is told before. After Ctrl-C (exit code 130), or a kill, the
+    same command goes on where it stopped, to the same bytes; until all is done
+    the arrays end in .part. Every block has a checksum: what is damaged is told
+    (exit code 3), and --repair computes it again. A folder of another grid is
+    refused. --along and --at are given once per coordinate, or with commas
+    between; lengths and angles are in the mechanism's units, in the files too.
+    Where there is no solution the numbers are NaN.
+
+    Beyond one machine: --shard 2/7 works out a part, --merge joins the parts to
+    the bytes of a single run; --scheduler uses a Dask cluster (pip install
+    '.[cluster]').
 
     To keep: inputs or poses, exists, status; of the inverse problem in one mode
     also det_jp, det_jq, factors, condition_index (1/cond of Jp^-1 Jq) and
@@ -59,12 +79,22 @@ def sweep(
             --keep inputs,condition_index -o out/plane
         assur sweep fivebar --problem direct --along theta1=0:180:361 \
             --along theta2=0:180:361 -o out/poses
+        assur sweep --merge out/part-1 out/part-2 -o out/whole
     """
-    record = shared.mechanism(mechanism)
     from assur.cli import sweep_answer, sweep_grid
     from assur.cli.numbers import whole_number
+    from assur.results.store.layout import Shard
 
     workers = whole_number(threads, "--threads")
+    part = Shard.read(shard) if shard is not None else None
+    request = sweep_answer.Request(output, workers, part, scheduler, repair)
+    if merge:
+        if mechanism or along or at or mode or keep or shard or scheduler:
+            raise UsageError("--merge stands alone, with -o and --repair", hint="the shards know of what they are")
+        return sweep_answer.merged(merge, request, shared)
+    if mechanism is None:
+        raise UsageError("no mechanism to sweep", hint="name one, or give the folders of shards to --merge")
+    record = shared.mechanism(mechanism)
     grid = sweep_grid.asked(record, problem, along, at)
     kept = tuple(name.strip() for text in keep for name in text.split(","))
-    return sweep_answer.outcome(record, grid, problem, mode, kept, output, workers, shared)
+    return sweep_answer.outcome(record, mechanism, grid, problem, mode, kept, request, shared)

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from assur.cli.numbers import assignments, interval, number, whole_number
-from assur.cli.quantities import is_length
 from assur.errors import UnknownNameError, UsageError
 
 if TYPE_CHECKING:
@@ -21,6 +20,7 @@ Place = tuple[float, float, int]
 
 def asked(record: MechanismRecord, problem: Problem, along: Sequence[str], at: Sequence[str]) -> Grid:
     """The grid of a problem: every coordinate of the pose, or every input, varies or is held; angles in rad."""
+    from assur.kinematics.closed_form.about import coordinates, factor
     from assur.kinematics.closed_form.grids import Grid
     from assur.kinematics.status import NO_CLOSED_FORM
     from assur.model.pose import has_quaternion
@@ -48,26 +48,9 @@ def asked(record: MechanismRecord, problem: Problem, along: Sequence[str], at: S
     for name in ("theta",) if problem == "inverse" and "theta" in kinds else ():
         if max(map(abs, places[name][:2])) * factor(record, "angle") > math.pi / 2:
             raise UsageError(f"{name} is between -90 and 90 deg", hint="turn phi and psi instead")
-    scales = [factor(record, kind) for kind in kinds.values()]
-    lows, highs = (tuple(places[n][k] * scale for n, scale in zip(kinds, scales, strict=True)) for k in (0, 1))
-    return Grid(tuple(kinds), lows, highs, tuple(places[name][2] for name in kinds))
-
-
-def coordinates(record: MechanismRecord, problem: Problem) -> dict[str, str]:
-    """What a grid runs over: name -> "length" or "angle", in the file's order.
-
-    >>> from assur.mechanism import load
-    >>> coordinates(load("fivebar"), "direct")
-    {'theta1': 'angle', 'theta2': 'angle'}
-    """
-    if problem == "direct":
-        return {item.name: item.coordinate.kind for item in record.inputs}
-    return {name: "length" if is_length(name) else "angle" for name in record.platform.pose}
-
-
-def factor(record: MechanismRecord, kind: str) -> float:
-    """From the mechanism's unit of a length or an angle to the length or rad."""
-    return math.pi / 180 if kind == "angle" and record.angle == "deg" else 1.0
+    lows, highs = (tuple(places[name][k] for name in kinds) for k in (0, 1))
+    scales = tuple(factor(record, kind) for kind in kinds.values())
+    return Grid(tuple(kinds), lows, highs, tuple(places[name][2] for name in kinds), scales)
 
 
 def _along(record: MechanismRecord, problem: Problem, texts: Sequence[str], kinds: dict[str, str]) -> dict[str, Place]:
@@ -94,6 +77,8 @@ def _known(record: MechanismRecord, name: str, kinds: dict[str, str]) -> None:
 
 def _of_file(record: MechanismRecord, problem: Problem, name: str, kind: str) -> tuple[float, float]:
     """The box or the stroke of the mechanism's file."""
+    from assur.kinematics.closed_form.about import factor
+
     if problem == "inverse":
         found = record.box.get(name)
     else:

@@ -60,9 +60,11 @@ def test_a_stored_sweep_is_not_carried_on_with_other_formulas(tmp_path, problem)
     own, other = assur.load("fivebar"), changed(tmp_path / "other", LINE, LINE.replace("sign", "-sign"))
     names = own.platform.pose if problem == "inverse" else tuple(item.name for item in own.inputs)
     grid = Grid(names, (0.1, 0.2), (0.9, 1.1), (3, 2))
-    stored_sweep(own, problem, grid).begin(tmp_path / "kept")
-    with pytest.raises(UsageError, match="another question; it differs in formulas"):
-        stored_sweep(other, problem, grid).begin(tmp_path / "kept")
+    with stored_sweep(own, problem, grid).store(tmp_path / "kept") as store:
+        store.open()
+    kept = stored_sweep(other, problem, grid).store(tmp_path / "kept")
+    with kept, pytest.raises(UsageError, match="another question; it differs in formulas"):
+        kept.open()
 
 
 def test_nor_with_another_version(tmp_path, monkeypatch):

@@ -7,13 +7,14 @@ import pytest
 
 from assur.errors import UsageError
 from assur.kinematics.closed_form.grids import Grid, grid_over
+from exact_grids import exact_axis
 
 COUNTS = (7, 5, 11)
 
 
 @pytest.mark.parametrize("part", [slice(0, 385), slice(0, 1), slice(10, 12), slice(9, 300), slice(384, 385)])
 def test_poses_of_a_part_are_those_of_the_whole(zeng, part):
-    axes = [np.linspace(*zeng.box[name], count) for name, count in zip(zeng.platform.pose, COUNTS, strict=True)]
+    axes = [exact_axis(*zeng.box[name], count) for name, count in zip(zeng.platform.pose, COUNTS, strict=True)]
     poses = np.array([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")])
     np.testing.assert_array_equal(grid_over(zeng, COUNTS).poses(part), poses[:, part])
 

@@ -116,9 +116,12 @@ def test_size_and_shapes_are_those_of_the_files(tmp_path):
     grid = Grid(("x", "y", "z"), (-100.0, 5.0, 250.0), (90.0, 5.0, 500.0), (4, 1, 3))
     for mode, keep in (("", ("inputs", "exists", "status", "factors", "smallest")), (ALL, ("inputs", "exists"))):
         sweep, folder = stored_sweep(record, "inverse", grid, mode, keep), tmp_path / (mode or "one")
-        found = sweep.run(sweep.begin(folder), folder)
-        assert {name: values.shape for name, values in found.items()} == sweep.shapes
-        assert sum(values.nbytes for values in found.values()) == sweep.size
+        with sweep.store(folder) as store:
+            store.open()
+            sweep.fill(store)
+            found = store.finish()
+        assert {name: values.shape for name, values in found.items()} == {one.name: one.shape for one in sweep.arrays}
+        assert sum(values.nbytes for values in found.values()) == sweep.plan().bytes
         np.testing.assert_array_equal(np.isnan(found["inputs"]).any(axis=-3), ~found["exists"])
 
 

@@ -14,11 +14,12 @@ import numpy as np
 import pytest
 
 import assur
-from assur.errors import UnknownNameError, UsageError
-from assur.kinematics.closed_form import streamed
+from assur.errors import DamagedStoreError, UnknownNameError, UsageError
 from assur.kinematics.closed_form.grids import grid_over
-from assur.kinematics.closed_form.streamed import STATE, reduce_grid, sweep_grid
+from assur.kinematics.closed_form.streamed import reduce_grid, sweep_grid
 from assur.kinematics.closed_form.sweep import inverse_sweep
+from assur.results.store.store import STATE
+from exact_grids import exact_axis
 
 COUNTS = (7, 5, 11)
 WANT = ("inputs", "exists", "condition_index")
@@ -29,8 +30,8 @@ class StoppedError(Exception):
 
 
 def everything(zeng, counts=COUNTS):
-    """The same grid in memory, by numpy's own meshgrid."""
-    axes = [np.linspace(*zeng.box[name], count) for name, count in zip(zeng.platform.pose, counts, strict=True)]
+    """The same grid in memory, by fractions and numpy's own meshgrid."""
+    axes = [exact_axis(*zeng.box[name], count) for name, count in zip(zeng.platform.pose, counts, strict=True)]
     poses = np.array([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")])
     return poses, inverse_sweep(zeng, poses, want=WANT, engine="numpy")
 
@@ -65,16 +66,18 @@ def test_an_interrupted_sweep_goes_on_where_it_stopped(zeng, tmp_path, threads):
         COUNTS,
         tmp_path,
         want=WANT,
-        block=100,
+        block=40,
         threads=threads,
         progress=lambda done, total: told.append((done, total)),
     )
-    assert told == [(220, 385), (320, 385), (385, 385)]
+    assert told == [(done, 385) for done in (160, 200, 240, 280, 320, 360, 385)]
     for name, values in everything(zeng)[1].items():
         np.testing.assert_array_equal(found[name].reshape(values.shape), values)
     told.clear()
-    sweep_grid(zeng, COUNTS, tmp_path, want=WANT, progress=lambda *done: told.append(done))
+    sweep_grid(zeng, COUNTS, tmp_path, want=WANT, block=40, progress=lambda *done: told.append(done))
     assert told == []
+    with pytest.raises(UsageError, match="differs in block"):
+        sweep_grid(zeng, COUNTS, tmp_path, want=WANT, block=50)
 
 
 def test_a_killed_process_loses_nothing_that_it_noted(zeng, tmp_path):
@@ -82,7 +85,8 @@ def test_a_killed_process_loses_nothing_that_it_noted(zeng, tmp_path):
     code = (
         "import sys, time, assur\n"
         "from assur.kinematics.closed_form import streamed\n"
-        "streamed.SAVED = 0.0\n"
+        "from assur.results.store import store\n"
+        "store.SAVED = store.SHARE = 0.0\n"
         "def slowly(done, total):\n"
         "    time.sleep(0.02)\n"
         "streamed.sweep_grid(assur.load('zeng2019'), (60, 60, 60), sys.argv[1], "
@@ -100,8 +104,8 @@ def test_a_killed_process_loses_nothing_that_it_noted(zeng, tmp_path):
     done = json.loads(state.read_text())["done"]
     assert 5000 <= done < 216_000
     told = []
-    found = sweep_grid(zeng, counts, tmp_path, want=WANT, progress=lambda done, _: told.append(done))
-    assert told[0] == done + min(streamed.BLOCK, 216_000 - done)
+    found = sweep_grid(zeng, counts, tmp_path, want=WANT, block=1000, progress=lambda done, _: told.append(done))
+    assert told[0] == done + 1000
     for name, values in everything(zeng, counts)[1].items():
         np.testing.assert_array_equal(found[name].reshape(values.shape), values)
 
@@ -127,6 +131,9 @@ def test_a_total_goes_on_where_it_stopped_and_counts_nothing_twice(zeng, tmp_pat
     assert whole["count"] == real.sum()
     np.testing.assert_allclose(whole["sums"][:3], poses[:, real].sum(axis=1), rtol=1e-12)
     np.testing.assert_allclose(whole["sums"][3], wanted["condition_index"][real].sum(), rtol=1e-12)
+    keep.write_text(keep.read_text().replace('"done": 385', '"done": -5'))
+    with pytest.raises(DamagedStoreError, match=r"total\.json: is not what was written"):
+        reduce_grid(zeng, COUNTS, add, start, keep=keep, **options)
 
 
 def test_memory_is_that_of_a_block(zeng, tmp_path):
@@ -173,7 +180,7 @@ def test_files_without_a_note_and_notes_that_are_none_are_left_alone(zeng, tmp_p
         sweep_grid(zeng, COUNTS, tmp_path)
     assert (tmp_path / "exists.npy").read_bytes() == b"mine"
     (tmp_path / STATE).write_text("{}")
-    with pytest.raises(UsageError, match="not a note"):
+    with pytest.raises(DamagedStoreError, match="is not what was written"):
         sweep_grid(zeng, COUNTS, tmp_path)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import TypeVar
 
@@ -17,6 +17,7 @@ Components = Sequence[ArrayLike] | NDArray[np.float64]
 """One array (N,) per component, as a sequence or as the rows of one array."""
 
 Progress = Callable[[int, int], None]
+P = TypeVar("P")
 T = TypeVar("T")
 
 NOT_FINITE = "every component must be finite, not NaN or infinite"
@@ -58,7 +59,7 @@ def each_block(
             progress(done, count)
 
 
-def in_order(one: Callable[[slice], T], parts: Iterator[slice], threads: int) -> Iterator[T]:
+def in_order(one: Callable[[P], T], parts: Iterable[P], threads: int) -> Iterator[T]:
     """Results in the order of the parts; no more than two parts per thread are begun ahead."""
     if threads <= 1:
         yield from map(one, parts)

@@ -124,6 +124,15 @@ def chosen(engine: Engine, count: int, record: Callable[[], Recording]) -> Recor
     return found if engine == "compiled" or count >= REPAID or found.loop.loaded else None
 
 
+def engine_for(count: int) -> Literal["numpy", "compiled"]:
+    """The engine of a grid that is worked out in parts: by its size alone, so that every part has the same one.
+
+    >>> engine_for(10**4), engine_for(10**9)
+    ('numpy', 'compiled')
+    """
+    return "compiled" if count >= REPAID else "numpy"
+
+
 def run(
     filler: Filler,
     components: Components,

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -11,6 +13,7 @@ from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.closed_form.blocks import FloatArray
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import has_quaternion
+from assur.numerics.regular_places import regular_places
 
 Box = Mapping[str, tuple[float, float]]
 
@@ -23,6 +26,7 @@ class Grid:
         names: coordinates of the pose.
         low, high: the box; both ends belong to the grid, a coordinate with one place has its middle.
         counts: places along each coordinate.
+        scales: from the units of the box to those of the poses, one per coordinate; the same units where empty.
 
     Example:
         >>> Grid(("x", "y"), (0.0, 5.0), (2.0, 7.0), (3, 1)).poses(slice(1, 3))
@@ -34,20 +38,18 @@ class Grid:
     low: tuple[float, ...]
     high: tuple[float, ...]
     counts: tuple[int, ...]
+    scales: tuple[float, ...] = ()
 
     @property
     def size(self) -> int:
         """Number of poses."""
-        total = 1
-        for count in self.counts:
-            total *= count
-        return total
+        return math.prod(self.counts)
 
-    def axis(self, k: int) -> FloatArray:
-        """Places along coordinate k."""
-        if self.counts[k] == 1:
-            return np.array([0.5 * (self.low[k] + self.high[k])])
-        return np.linspace(self.low[k], self.high[k], self.counts[k])
+    @cached_property
+    def axes(self) -> tuple[FloatArray, ...]:
+        """Places along each coordinate, in the units of the poses."""
+        places = tuple(map(regular_places, self.low, self.high, self.counts))
+        return tuple(map(np.multiply, places, self.scales)) if self.scales else places
 
     def poses(self, part: slice) -> FloatArray:
         """Components (m, b) of the poses from part.start to part.stop; the same bits whatever the part."""
@@ -55,8 +57,8 @@ class Grid:
         first, rows = part.start // last, -(-part.stop // last) - part.start // last
         within = slice(part.start - first * last, part.stop - first * last)
         places = np.unravel_index(np.arange(first, first + rows), self.counts[:-1]) if self.counts[:-1] else ()
-        columns = [np.repeat(self.axis(k)[place], last)[within] for k, place in enumerate(places)]
-        return np.stack([*columns, np.tile(self.axis(len(self.counts) - 1), rows)[within]])
+        columns = [np.repeat(self.axes[k][place], last)[within] for k, place in enumerate(places)]
+        return np.stack([*columns, np.tile(self.axes[-1], rows)[within]])
 
 
 def grid_over(record: MechanismRecord, counts: Sequence[int], box: Box | None = None) -> Grid:

@@ -6,7 +6,6 @@ works out; a status is that of the answer to the single problem.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,20 +17,23 @@ from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics import border
+from assur.kinematics.closed_form.about import about, told
 from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep
 from assur.kinematics.closed_form.blocks import FloatArray, Progress
-from assur.kinematics.closed_form.filling import chosen
+from assur.kinematics.closed_form.filling import engine_for
 from assur.kinematics.closed_form.formulas import formulas
 from assur.kinematics.closed_form.grids import Grid
-from assur.kinematics.closed_form.kept import KINDS, State
-from assur.kinematics.closed_form.recorded import recording
-from assur.kinematics.closed_form.streamed import BLOCK, begun_grid, write_grid
+from assur.kinematics.closed_form.streamed import BLOCK, KINDS, fill
 from assur.kinematics.closed_form.sweep import Want, inverse_sweep
 from assur.kinematics.modes import Problem, all_modes, mode_signs
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.status import Status, branch_kernel, classify, closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
+from assur.results.disk import DISK, Disk
+from assur.results.store.layout import Array, Plan, Shard, block_length
+from assur.results.store.note import Counts
+from assur.results.store.store import Solved, Store
 
 Found = Mapping[str, NDArray[Any]]
 
@@ -71,44 +73,37 @@ class StoredSweep:
     keep: tuple[str, ...]
 
     @property
+    def every(self) -> bool:
+        """Whether all modes are swept, which then have an axis of their own, K."""
+        return self.mode == ALL
+
+    @property
     def modes(self) -> tuple[str, ...]:
-        """The modes, in the order of the axis K, which files have where all of them are swept."""
-        return all_modes(self.record, self.problem) if self.mode == ALL else (self.mode,)
+        """The modes, in the order of the axis K."""
+        return all_modes(self.record, self.problem) if self.every else (self.mode,)
 
     @cached_property
-    def shapes(self) -> dict[str, tuple[int, ...]]:
-        """File -> shape: (K,) in all modes, then its rows, then the places along each coordinate that is not held."""
+    def arrays(self) -> tuple[Array, ...]:
+        """What is kept: (K,) in all modes, then its rows, then the places along each coordinate that is not held."""
         rows = {
             "inputs": len(self.record.inputs),
             "poses": len(self.record.platform.pose),
             "factors": len(closed_form_of(self.record).factor_list),
         }
-        first = (len(self.modes),) if self.mode == ALL else ()
+        first = (len(self.modes),) if self.every else ()
         places = tuple(count for count in self.grid.counts if count > 1)
-        return {name: first + ((rows[name],) if name in rows else ()) + places for name in self.keep}
-
-    @property
-    def size(self) -> int:
-        """Bytes of all files."""
-        return sum(
-            int(np.prod(shape, dtype=object)) * np.dtype(KINDS.get(name, float)).itemsize
-            for name, shape in self.shapes.items()
+        return tuple(
+            Array(name, KINDS.get(name, "float64"), first + ((rows[name],) if name in rows else ()), places)
+            for name in self.keep
         )
 
-    @cached_property
+    @property
     def compiled(self) -> bool:
         """Whether compiled loops work on it, rather than NumPy; the bits are the same."""
-        if self.mode == ALL or self.problem == "direct":
-            return chosen("auto", self.grid.size, lambda: recording(self.record, self.problem, every=True)) is not None
-        wanted = tuple(dict.fromkeys(self._wanted))
-        return chosen("auto", self.grid.size, lambda: recording(self.record, "inverse", wanted)) is not None
+        return engine_for(self.grid.size) == "compiled"
 
-    def begin(self, folder: Path) -> State:
-        """The note of what is done in a folder, and its files where they are new.
-
-        Errors:
-            UsageError: another question's folder, other files of these names, a disk that is too small.
-        """
+    def plan(self, shard: Shard | None = None) -> Plan:
+        """What is to be in a store, of the whole grid or of a shard."""
         names, low, high = self.grid.names, self.grid.low, self.grid.high
         question = {
             "kind": "stored sweep",
@@ -121,27 +116,21 @@ class StoredSweep:
             "counts": list(self.grid.counts),
             "keep": list(self.keep),
         }
-        return begun_grid(question, self.shapes, folder)
+        longest = BLOCK // (len(all_modes(self.record, self.problem)) if self.every else 1)
+        return Plan(question, self.arrays, block_length(self.grid.size, longest), shard, about(self))
 
-    def run(self, state: State, folder: Path, *, progress: Progress | None = None, threads: int = 0) -> Found:
-        """Work out what is left, into the files of `begin`; what is found is counted in the note (`counts`).
+    def store(self, folder: Path, shard: Shard | None = None, disk: Disk = DISK) -> Store:
+        """The store of a folder, not open yet, with a note for people (`sweep.json`)."""
+        return Store(folder, self.plan(shard), told, disk)
 
-        Returns:
-            What is kept, by name, as read-only memory maps; angles in the unit of the mechanism's file.
-        """
-        block = max(BLOCK // (len(all_modes(self.record, self.problem)) if self.mode == ALL else 1), 1024)
-        return write_grid(
-            state,
-            self.solve,
-            self.shapes,
-            self.grid,
-            folder,
-            _counted,
-            {"modes": {}, "status": {}},
-            block=block,
-            progress=progress,
-            threads=threads,
-        )
+    def fill(self, store: Store, *, progress: Progress | None = None, threads: int = 0) -> None:
+        """Work out what a store lacks, in this process, which may be interrupted."""
+        fill(store, self.block, self.grid, progress=progress, threads=threads)
+
+    def block(self, given: FloatArray) -> Solved:
+        """What is kept of the problems (m, b) of a block, and what is counted in it."""
+        found = self.solve(given)
+        return Solved({name: found[name] for name in self.keep}, _counted(found))
 
     def solve(self, given: FloatArray) -> Found:
         """What is kept of problems (m, b), and whether each exists: exists and status (K, b) or (b,), and so on."""
@@ -150,6 +139,7 @@ class StoredSweep:
             found["status"] = self._status(given, found)
         for values in found.values():
             if values.dtype == float:
+                values += 0.0  # a zero has no sign, whichever engine it is of
                 values[~np.broadcast_to(_over(found["exists"], values), values.shape)] = np.nan
         self._to_file_angles(found)
         return found
@@ -161,13 +151,13 @@ class StoredSweep:
         return cast("tuple[Want, ...]", (*names, *(["factors"] if "status" in self.keep else [])))
 
     def _found(self, given: FloatArray) -> dict[str, NDArray[Any]]:
-        record, engine = self.record, "compiled" if self.compiled else "numpy"
-        if self.problem == "inverse" and self.mode != ALL:
+        record, engine = self.record, engine_for(self.grid.size)
+        if self.problem == "inverse" and not self.every:
             wanted = tuple(dict.fromkeys(self._wanted))
-            return inverse_sweep(record, given, self.mode, wanted, engine=engine, threads=1)  # type: ignore[arg-type]  # engine is one of them
-        values, exists = all_modes_sweep(record, self.problem, given, engine=engine, threads=1)  # type: ignore[arg-type]  # the same
+            return inverse_sweep(record, given, self.mode, wanted, engine=engine, threads=1)
+        values, exists = all_modes_sweep(record, self.problem, given, engine=engine, threads=1)
         name = "poses" if self.problem == "direct" else "inputs"
-        if self.mode == ALL:
+        if self.every:
             return {name: values, "exists": exists}
         place = all_modes(record, self.problem).index(self.mode)
         return {name: values[place], "exists": exists[place]}
@@ -188,7 +178,7 @@ class StoredSweep:
     def _answered(self, given: FloatArray) -> NDArray[np.int8]:
         """Status (K, b) of the answers to single problems, all at once."""
         solve = direct if self.problem == "direct" else inverse
-        answer = solve(self.record, given.T, None if self.mode == ALL else self.mode)
+        answer = solve(self.record, given.T, None if self.every else self.mode)
         status = np.array(answer.status)
         status[(answer.overall_status == Status.unreachable)] = Status.unreachable
         return status.T
@@ -228,10 +218,11 @@ def stored_sweep(
         >>> from assur.model.registry import load_record
         >>> grid = Grid(("x", "y", "z"), (-15.0, 9.0, 300.0), (-15.0, 9.0, 600.0), (1, 1, 4))
         >>> sweep = stored_sweep(load_record("zeng2019"), "inverse", grid)
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     state = sweep.begin(Path(folder))
-        ...     found = sweep.run(state, Path(folder))
-        ...     found["inputs"].shape, found["status"].tolist(), state.total["status"]
+        >>> with tempfile.TemporaryDirectory() as folder, sweep.store(Path(folder)) as store:
+        ...     faults = store.open()
+        ...     sweep.fill(store)
+        ...     found = store.finish()
+        ...     found["inputs"].shape, found["status"].tolist(), store.counts["status"]
         ((3, 4), [0, 0, 7, 7], {'regular': 2, 'unreachable': 2})
     """
     closed_form_of(record)
@@ -261,11 +252,10 @@ def _over(exists: NDArray[np.bool_], values: NDArray[Any]) -> NDArray[np.bool_]:
     return exists[..., None, :] if values.ndim > exists.ndim else exists
 
 
-def _counted(total: Mapping[str, Any], found: Found) -> dict[str, Any]:
-    """Problems by the number of modes that solve them, and branches by status, with those of a block."""
+def _counted(found: Found) -> Counts:
+    """Problems by the number of modes that solve them, and branches by status."""
     modes = np.bincount(np.atleast_2d(found["exists"]).sum(axis=0))
-    first = Counter({str(k): int(n) for k, n in enumerate(modes) if n})
-    second: Counter[str] = Counter()
+    counts = {"modes": {str(k): int(n) for k, n in enumerate(modes) if n}}
     if "status" in found:
-        second.update({Status(k).name: int(n) for k, n in enumerate(np.bincount(found["status"].ravel())) if n})
-    return {"modes": dict(Counter(total["modes"]) + first), "status": dict(Counter(total["status"]) + second)}
+        counts["status"] = {Status(k).name: int(n) for k, n in enumerate(np.bincount(found["status"].ravel())) if n}
+    return counts

@@ -1,32 +1,32 @@
 """Grids of any size, 10^9 poses too: worked through in blocks, never held, and resumed where they were interrupted.
 
-A grid is its axes; its poses are made block by block. `sweep_grid` writes what is wanted into `.npy` files, one per
-quantity; `reduce_grid` adds each block to a total. Both keep a small JSON file that says which question it is and how
-much of it is done: after Ctrl-C the same call goes on from there, and another question is refused.
+A grid is its axes; its poses are made block by block. `sweep_grid` writes what is wanted into a store
+(`results/store`), a `.npy` file per quantity; `reduce_grid` adds each block to a total. Both keep a note that says
+which question it is and how much of it is done: after Ctrl-C the same call goes on from there, and another question
+is refused.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, TypeVar
 
-import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.closed_form.blocks import FloatArray, Progress, in_order, parts_of
-from assur.kinematics.closed_form.filling import Engine, chosen, threads_of
+from assur.kinematics.closed_form.filling import Engine, engine_for, threads_of
 from assur.kinematics.closed_form.formulas import formulas
 from assur.kinematics.closed_form.grids import Box, Grid, grid_over
-from assur.kinematics.closed_form.kept import RowsFile, State, make_files
-from assur.kinematics.closed_form.recorded import recording
 from assur.kinematics.closed_form.sweep import ALL_WANTED, Want, inverse_sweep
 from assur.kinematics.modes import mode_signs
 from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
+from assur.results.store.layout import Array, Plan
+from assur.results.store.store import Solved, Store
+from assur.results.store.total import KeptTotal
 
 T = TypeVar("T")
 Solve = Callable[[FloatArray], Mapping[str, NDArray[Any]]]
@@ -36,7 +36,8 @@ BLOCK = 65536
 """Poses that are in memory at a time, per thread."""
 SAVED = 2.0
 """Seconds between two notes of what is done."""
-STATE = "state.json"
+KINDS: Mapping[str, str] = {"exists": "bool", "status": "int8"}
+"""Numbers of an answer that are no floats, as NumPy names them."""
 
 
 def sweep_grid(
@@ -61,7 +62,8 @@ def sweep_grid(
         box: limits of coordinates; the file's where not given.
         mode: the working mode; the file's default where none is given.
         want: quantities of `inverse_sweep`.
-        block: poses that one thread works on at a time: memory is a few times that, whatever the grid.
+        block: poses that one thread works on at a time: memory is a few times that, whatever the grid. It belongs to
+            the question: files are checked block by block.
         progress: called after every block with the poses done and all.
         engine: as for `inverse_sweep`.
         threads: how many work on it; as many as there are cores where 0.
@@ -72,6 +74,7 @@ def sweep_grid(
     Errors:
         UsageError: a grid that is refused (`grid_over`), a folder that holds another question or other files of these
             names, a disk that is too small.
+        DamagedStoreError: files that are not what was written.
 
     Example:
         >>> import tempfile
@@ -81,76 +84,42 @@ def sweep_grid(
         ...     found.shape, int(found.sum())
         ((5, 4, 3), 32)
     """
+    if block < 1:
+        raise UsageError(f"a block of {block} poses; it needs at least 1")
     grid, names = grid_over(record, counts, box), tuple(dict.fromkeys(want))
     solve, question = _question(record, grid, mode, names, engine)
-    folder = Path(into)
     rows = {"inputs": len(record.inputs), "factors": len(closed_form_of(record).factor_list)}
-    shapes: dict[str, tuple[int, ...]] = {name: ((rows[name],) if name in rows else ()) + grid.counts for name in names}
-    state = begun_grid({**question, "kind": "sweep"}, shapes, folder)
-    return write_grid(
-        state, solve, shapes, grid, folder, lambda *_: None, None, block=block, progress=progress, threads=threads
+    arrays = tuple(
+        Array(name, KINDS.get(name, "float64"), (rows[name],) if name in rows else (), grid.counts) for name in names
     )
+    with Store(Path(into), Plan({"kind": "sweep", **question}, arrays, block)) as store:
+        store.open()
+        fill(store, lambda poses: Solved(solve(poses), {}), grid, progress=progress, threads=threads)
+        return store.finish()
 
 
-def begun_grid(question: Mapping[str, Any], shapes: Mapping[str, tuple[int, ...]], folder: Path) -> State:
-    """The note of a grid that is written into a folder: that of before, or a new one beside new files.
-
-    Args:
-        question: all that the answer depends on.
-        shapes: what is written -> the shape of its file; its last axes are those of the grid.
-        folder: where.
-
-    Errors:
-        UsageError: the folder holds another question, or other files of these names; the disk is too small.
-    """
-    state = State(folder / STATE, question)
-    if not state.known:
-        make_files({name: folder / f"{name}.npy" for name in shapes}, shapes)
-        state.save(0, None)
-    return state
-
-
-def write_grid(
-    state: State,
-    solve: Solve,
-    shapes: Mapping[str, tuple[int, ...]],
+def fill(
+    store: Store,
+    solve: Callable[[FloatArray], Solved],
     grid: Grid,
-    folder: Path,
-    add: Callable[[T, Mapping[str, NDArray[Any]]], T],
-    start: T,
     *,
-    block: int = BLOCK,
     progress: Progress | None = None,
     threads: int = 0,
-) -> dict[str, NDArray[Any]]:
-    """Work out what is left of a grid, into the files of `begun_grid`; the note counts what is done.
+) -> None:
+    """Work out the blocks that a store lacks, in this process.
 
     Args:
-        state: what is done; its `total` holds what `add` makes of it.
-        solve: problems (m, b) -> found by name (..., b), of which the names in `shapes` are written.
-        shapes: as for `begun_grid`.
-        grid: the problems.
-        folder: as for `begun_grid`.
-        add: (total, found) -> the total with this block; of numbers, texts, lists and dicts.
-        start: the total of nothing.
-        block: problems that one thread works on at a time.
+        store: open.
+        solve: problems (m, b) -> the numbers of their block.
+        grid: all problems.
         progress: called after every block.
-        threads: how many work on it.
-
-    Returns:
-        What was written by name, as read-only memory maps.
+        threads: how many work on it; as many as there are cores where 0.
     """
-    files = {name: folder / f"{name}.npy" for name in shapes}
-    with ExitStack() as stack:
-        places = {name: RowsFile(stack.enter_context(path.open("r+b")), grid.size) for name, path in files.items()}
 
-        def keep(first: int, found: Mapping[str, NDArray[Any]], _poses: FloatArray, total: T) -> T:
-            for name, place in places.items():
-                place.write(first, found[name].reshape(-1, found[name].shape[-1]))
-            return add(total, found)
+    def one(number: int) -> tuple[int, Solved]:
+        return number, solve(grid.poses(store.plan.part(number)))
 
-        _work(solve, grid, state, keep, state.total if state.done else start, block, threads_of(threads), progress)
-    return {name: np.load(path, mmap_mode="r") for name, path in files.items()}
+    store.fill(in_order(one, store.missing, threads_of(threads)), progress)
 
 
 def reduce_grid(
@@ -195,13 +164,30 @@ def reduce_grid(
     """
     grid, names = grid_over(record, counts, box), tuple(dict.fromkeys(want))
     solve, question = _question(record, grid, mode, names, engine)
-    state = State(None if keep is None else Path(keep), {**question, "kind": "total", "block": block})
-    total: T = state.total if state.known else start
+    question = {**question, "kind": "total", "block": block}
+    kept = KeptTotal(None if keep is None else Path(keep), question, start)
+    if block < 1:
+        raise UsageError(f"a block of {block} poses; it needs at least 1")
+    total: T = kept.total
+    begun = done = kept.done
+    saved = time.monotonic()
 
-    def one(_: int, found: Mapping[str, NDArray[Any]], poses: FloatArray, total: T) -> T:
-        return add(total, poses, found)
+    def one(part: slice) -> tuple[int, FloatArray, Mapping[str, NDArray[Any]]]:
+        poses = grid.poses(part)
+        return part.stop, poses, solve(poses)
 
-    return _work(solve, grid, state, one, total, block, threads_of(threads), progress)
+    left = (slice(begun + part.start, begun + part.stop) for part in parts_of(grid.size - begun, block))
+    try:
+        for stop, poses, found in in_order(one, left, threads_of(threads)):
+            total, done = add(total, poses, found), stop
+            if time.monotonic() - saved > SAVED:
+                kept.save(done, total)
+                saved = time.monotonic()
+            if progress is not None:
+                progress(done, grid.size)
+    finally:
+        kept.save(done, total)
+    return total
 
 
 def _question(
@@ -213,10 +199,10 @@ def _question(
             raise UnknownNameError("quantity of a sweep", name, ALL_WANTED)
     asked = mode or record.modes.default_working
     mode_signs(record, "inverse", asked)
-    compiled = chosen(engine, grid.size, lambda: recording(record, "inverse", want)) is not None
+    taken = engine_for(grid.size) if engine == "auto" else engine
 
     def solve(poses: FloatArray) -> Mapping[str, NDArray[Any]]:
-        return inverse_sweep(record, poses, asked, want, engine="compiled" if compiled else "numpy", threads=1)
+        return inverse_sweep(record, poses, asked, want, engine=taken, threads=1)
 
     return solve, {
         "mechanism": record.name,
@@ -227,37 +213,3 @@ def _question(
         "counts": list(grid.counts),
         "want": list(want),
     }
-
-
-def _work(
-    solve: Solve,
-    grid: Grid,
-    state: State,
-    keep: Callable[[int, Mapping[str, NDArray[Any]], FloatArray, T], T],
-    total: T,
-    block: int,
-    threads: int,
-    progress: Progress | None,
-) -> T:
-    """Every block that is not done, in order; what is done is noted now and then, and at the end however it comes."""
-    if block < 1:
-        raise UsageError(f"a block of {block} poses; it needs at least 1")
-    begun = state.done
-
-    def one(part: slice) -> tuple[int, int, FloatArray, Mapping[str, NDArray[Any]]]:
-        poses = grid.poses(part)
-        return part.start, part.stop, poses, solve(poses)
-
-    done, saved = begun, time.monotonic()
-    shifted = (slice(begun + part.start, begun + part.stop) for part in parts_of(grid.size - begun, block))
-    try:
-        for start, stop, poses, found in in_order(one, shifted, threads):
-            total, done = keep(start, found, poses, total), stop
-            if time.monotonic() - saved > SAVED:
-                state.save(done, total)
-                saved = time.monotonic()
-            if progress is not None:
-                progress(done, grid.size)
-    finally:
-        state.save(done, total)
-    return total
