@@ -17,6 +17,7 @@ from assur.kinematics.closed_form.stored import stored_sweep
 from assur.kinematics.closed_form.streamed import reduce_grid, sweep_grid
 
 LINE = "across = sign * ns.sqrt(reach)"
+OTHER = LINE.replace("reach", "reach * 1.0")  # as right, and another formula
 
 
 def changed(folder, old, new):
@@ -29,10 +30,10 @@ def changed(folder, old, new):
     return assur.load(str(folder / "mechanism.toml"))
 
 
-def test_a_sign_counts_and_a_comment_does_not(tmp_path):
+def test_a_formula_counts_and_a_comment_does_not(tmp_path):
     own = assur.load("fivebar")
     told = changed(tmp_path / "told", LINE, f"{LINE}  # to one side")
-    other = changed(tmp_path / "other", LINE, LINE.replace("sign", "-sign"))
+    other = changed(tmp_path / "other", LINE, OTHER)
     for problem in ("inverse", "direct"):
         assert formulas(told, problem) == formulas(own, problem)
         assert formulas(other, "inverse")["formulas"] != formulas(own, "inverse")["formulas"]
@@ -46,7 +47,7 @@ def test_a_size_that_zero_is_judged_against_counts(tmp_path):
 
 
 def test_a_sweep_is_not_carried_on_with_other_formulas(tmp_path):
-    own, other = assur.load("fivebar"), changed(tmp_path / "other", LINE, LINE.replace("sign", "-sign"))
+    own, other = assur.load("fivebar"), changed(tmp_path / "other", LINE, OTHER)
     sweep_grid(own, (6, 5), tmp_path / "streamed", want=("inputs",))
     with pytest.raises(UsageError, match="another question; it differs in formulas"):
         sweep_grid(other, (6, 5), tmp_path / "streamed", want=("inputs",))
@@ -57,7 +58,7 @@ def test_a_sweep_is_not_carried_on_with_other_formulas(tmp_path):
 
 @pytest.mark.parametrize("problem", ["inverse", "direct"])
 def test_a_stored_sweep_is_not_carried_on_with_other_formulas(tmp_path, problem):
-    own, other = assur.load("fivebar"), changed(tmp_path / "other", LINE, LINE.replace("sign", "-sign"))
+    own, other = assur.load("fivebar"), changed(tmp_path / "other", LINE, OTHER)
     names = own.platform.pose if problem == "inverse" else tuple(item.name for item in own.inputs)
     grid = Grid(names, (0.1, 0.2), (0.9, 1.1), (3, 2))
     with stored_sweep(own, problem, grid).store(tmp_path / "kept") as store:
