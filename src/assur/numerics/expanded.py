@@ -79,6 +79,16 @@ def unknowns(count: int) -> tuple[Expanded, ...]:
     return tuple(Expanded({tuple(int(k == j) for j in range(count)): 1}) for k in range(count))
 
 
+def coefficients_of(polynomial: Expanded, count: int) -> tuple[Any, ...]:
+    """The first coefficients of a polynomial in one unknown, the constant term first; a plain 0 where there is none.
+
+    >>> (t,) = unknowns(1)
+    >>> coefficients_of((t + 1) * (t - 2), 4)
+    (-2, -1, 1, 0)
+    """
+    return tuple(polynomial.terms.get((power,), 0) for power in range(count))
+
+
 @dataclass(frozen=True, eq=False)
 class System:
     """A family of homogeneous systems H(x, t) = 0 of E equations in n = E + 1 unknowns, for P problems.

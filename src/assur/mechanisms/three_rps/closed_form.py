@@ -19,7 +19,7 @@ from types import SimpleNamespace
 
 from assur.model.closed_form import Branch, ClosedForm, Eliminant, Factor, Margin, Quantity, Sign
 from assur.numerics import vectors
-from assur.numerics.expanded import unknowns
+from assur.numerics.expanded import coefficients_of, unknowns
 from assur.numerics.meetings import linear_in_three
 from assur.numerics.vectors import add, dot, product, scaled, triple
 
@@ -57,7 +57,7 @@ def coefficients(ns, p, inputs, sign):
     total = t * triple(*columns)
     for k, share in enumerate(AWRY):
         total = total + share * triple(*columns[:k], constant, *columns[k + 1 :])
-    return [total.terms.get((power,), 0) for power in range(5)]
+    return coefficients_of(total, 5)
 
 
 def _times_t(p, inputs, sign):

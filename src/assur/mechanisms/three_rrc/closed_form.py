@@ -91,7 +91,7 @@ def _rods(ns, ends, point):
 def _nearer(ns, ends, point):
     """A damped step of least squares towards rods of length 1."""
     rods = _rods(ns, ends, point)
-    normal = tuple(tuple(dot(a, b) + DAMPING * (a is b) for b in rods) for a in rods)
+    normal = tuple(tuple(dot(a, b) + DAMPING * (i == k) for k, b in enumerate(rods)) for i, a in enumerate(rods))
     weights, _ = linear_in_three(normal, tuple((dot(rod, rod) - 1) / 2 for rod in rods))
     return subtract(point, apply(transposed(rods), weights))
 

@@ -1,0 +1,123 @@
+"""Functions of a kernel's text: how they are called, by each other and from outside."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from assur.errors import MechanismFileError, Problem
+from assur.model.kernels.faults import KernelFault, LimitFault
+from assur.model.kernels.library import numeric
+from assur.model.kernels.limits import Meter
+from assur.model.kernels.values import Function, Named, Value, kind_of
+
+UNSET: Any = object()
+"""Stands for a name that has no value yet."""
+ARITHMETIC = (TypeError, ValueError, ZeroDivisionError, OverflowError, RecursionError, AttributeError, LookupError)
+"""What goes wrong between numbers: no fault of ours, but of the kernel's text, which is told its line."""
+
+
+class Frame:
+    """The names of one call, by their places, and what is left of the budget."""
+
+    __slots__ = ("meter", "values")
+
+    def __init__(self, size: int, meter: Meter) -> None:
+        self.values: list[Value] = [UNSET] * size
+        self.meter = meter
+
+
+Run = Callable[[Frame], Value]
+"""What an expression or a statement became: work on a frame. A statement that returns gives its value, else UNSET."""
+
+
+@dataclass(frozen=True, eq=False)
+class KernelFunction(Function):
+    """A function of a kernel's text. It can be called like any other, and keeps nothing from one call to the next.
+
+    Attributes:
+        name, line, file: where it is defined.
+        parameters: names of its arguments.
+        defaults: what the last arguments are where they are not given.
+        size: places of its frame.
+        body: its statements.
+
+    Errors of a call:
+        MechanismFileError: the text cannot be worked out with these arguments, or takes too long.
+    """
+
+    name: str
+    line: int
+    file: Path
+    parameters: tuple[str, ...]
+    defaults: Mapping[str, Value]
+    size: int
+    body: Run
+
+    def __call__(self, *arguments: Any, **named: Any) -> Any:
+        """The value at given arguments, with a budget of its own."""
+        meter = Meter()
+        meter.line = self.line
+        return guarded(self.file, meter, lambda: self.run(arguments, named, meter))
+
+    def run(self, arguments: Sequence[Value], named: Mapping[str, Value], meter: Meter) -> Value:
+        """The value at given arguments, within the budget of a call that is under way."""
+        frame = Frame(self.size, meter)
+        self._bind(frame, arguments, named)
+        line, meter.calls = meter.line, meter.calls - 1
+        if meter.calls < 0:
+            raise LimitFault("functions that call each other too deep", "straight-line algebra, without recursion")
+        value = self.body(frame)
+        meter.line, meter.calls = line, meter.calls + 1
+        return None if value is UNSET else value
+
+    def _bind(self, frame: Frame, arguments: Sequence[Value], named: Mapping[str, Value]) -> None:
+        names = self.parameters
+        if len(arguments) > len(names):
+            raise KernelFault(f"{self.name} is given {len(arguments)} arguments", f"{len(names)}: {', '.join(names)}")
+        frame.values[: len(arguments)] = arguments
+        for name, value in named.items():
+            place = names.index(name) if name in names else -1
+            if place < len(arguments):
+                raise KernelFault(f"{self.name} is given '{name[:40]}'", f"each of {', '.join(names)} once")
+            frame.values[place] = value
+        for place, name in enumerate(names):
+            if frame.values[place] is UNSET:
+                if name not in self.defaults:
+                    raise KernelFault(f"{self.name} is not given '{name}'", f"its arguments: {', '.join(names)}")
+                frame.values[place] = self.defaults[name]
+
+
+def called(function: Value, arguments: Sequence[Value], named: Mapping[str, Value], meter: Meter) -> Value:
+    """What a call inside a kernel's text gives."""
+    if isinstance(function, KernelFunction):
+        return function.run(arguments, named, meter)
+    if isinstance(function, Named):
+        if function.takes == "numbers":
+            meter.spend(sum(map(numeric, arguments)) + sum(map(numeric, named.values())))
+        return function.function(*arguments, **named)
+    raise KernelFault(f"{kind_of(function)} is called", "functions of this file, of the imports and of Python's own")
+
+
+def guarded(file: Path, meter: Meter, work: Callable[[], Value]) -> Value:
+    """What work gives; its faults as faults of the file, with the line.
+
+    Errors:
+        MechanismFileError: a fault.
+    """
+    try:
+        return work()
+    except KernelFault as fault:
+        raise problem_of(file, fault, meter.line) from fault
+    except ARITHMETIC as error:
+        reason = "too deep" if isinstance(error, RecursionError) else f"{type(error).__name__}: {error}"[:300]
+        fault = KernelFault(reason, "straight-line algebra that works over every number type")
+        raise problem_of(file, fault, meter.line) from error
+
+
+def problem_of(file: Path, fault: KernelFault, line: int | None = None) -> MechanismFileError:
+    """The error that a user sees."""
+    allowed = f"allowed: {fault.allowed}" if fault.allowed else "a kernel's text must be read without this"
+    return MechanismFileError([Problem(str(file), fault.line or line, "", fault.reason, allowed, fault.hint)])
