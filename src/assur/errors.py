@@ -104,6 +104,10 @@ class OutputError(UsageError):
     """A path that cannot be written; what was there before is unchanged."""
 
 
+class CodeNotRunWarning(UserWarning):
+    """Python in a mechanism's folder was not run, since nobody gave leave (`assur.model.consent`)."""
+
+
 @dataclass(frozen=True)
 class Problem:
     """One fault in a file: where it is, what was found, what is allowed."""

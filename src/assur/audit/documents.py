@@ -53,7 +53,7 @@ def _entry(found: Audit, item: Erratum) -> str:
         f"- **Printed:** {item.printed}",
         f"- **Finding:** {item.finding}",
         f"- **Evidence** (`{item.evidence_name}`): {item.evidence.text}",
-        f"- **It holds:** {'yes' if item.evidence.holds else 'NO'}",
+        f"- **It holds:** {item.evidence.word}",
     ]
     if item.not_computed:
         lines.append(f"- **Read, not computed:** {item.not_computed}")

@@ -1,13 +1,12 @@
 """Errata of a source: each stands with evidence that is computed anew whenever it is asked for.
 
 `reference/errata.toml` has a table for every erratum. Its `evidence`, as "direct.false_root", names a function
-of `reference/evidence/direct.py`, which takes the record and returns an `Evidence`; the file is loaded by path,
-as `closed_form.py` is.
+of `reference/evidence/direct.py`, which takes the record and returns an `Evidence`. Evidence is Python: that of a
+mechanism which is not built in runs with leave only (`assur.model.consent`).
 """
 
 from __future__ import annotations
 
-import importlib.util
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
@@ -18,12 +17,15 @@ from pydantic import RootModel
 from assur.audit.reference import ERRATA, checked, reference_folder
 from assur.audit.rows import Erratum, Evidence
 from assur.errors import MechanismFileError, Problem, UnknownNameError
+from assur.model.consent import may_run
+from assur.model.file.reader import file_text
 from assur.model.file.schema import Entry
 from assur.model.file.toml_source import read_toml
 from assur.model.mechanism import MechanismRecord
 from assur.results.reading import file_text
 
 EVIDENCE = "evidence"
+NOT_RUN = Evidence(None, "not run: it is Python that came with the mechanism's file")
 
 
 class ErratumEntry(Entry):
@@ -73,8 +75,9 @@ def _entries(path: Path) -> dict[str, ErratumEntry]:
 
 
 def _erratum(record: MechanismRecord, name: str, entry: ErratumEntry, path: Path) -> Erratum:
-    found = _function(record, name, entry.evidence, path)(record)
-    if not isinstance(found, Evidence) or not isinstance(found.holds, bool):
+    function = _function(record, name, entry.evidence, path)
+    found = NOT_RUN if function is None else function(record)
+    if not isinstance(found, Evidence) or (function and not isinstance(found.holds, bool)):
         raise _fault(
             path,
             name,
@@ -93,24 +96,28 @@ def _erratum(record: MechanismRecord, name: str, entry: ErratumEntry, path: Path
     )
 
 
-def _function(record: MechanismRecord, name: str, evidence: str, path: Path) -> Callable[[MechanismRecord], object]:
-    """The function that an erratum names, from a file of the evidence folder."""
+def _function(
+    record: MechanismRecord, name: str, evidence: str, path: Path
+) -> Callable[[MechanismRecord], object] | None:
+    """The function that an erratum names, from a file of the evidence folder; None where it may not run."""
     stem, _, function = evidence.partition(".")
     file = path.parent / EVIDENCE / f"{stem}.py"
-    found = (
-        getattr(_module(file, f"assur_evidence_of_{record.name}_{stem}"), function, None) if file.is_file() else None
-    )
+    allowed = f"file.function of the folder '{EVIDENCE}'"
+    if not stem.isidentifier() or not function.isidentifier() or not file.is_file():
+        raise _fault(path, name, f"no function '{evidence}'", allowed)
+    text = file_text(file)
+    if not may_run(file, text.encode(), "evidence is Python", "nothing is said of the erratum"):
+        return None
+    found = vars(_module(file, text, f"assur_evidence_of_{record.name}_{stem}")).get(function)
     if not callable(found):
-        raise _fault(path, name, f"no function '{evidence}'", f"file.function of the folder '{EVIDENCE}'")
+        raise _fault(path, name, f"no function '{evidence}'", allowed)
     return cast("Callable[[MechanismRecord], object]", found)
 
 
-def _module(file: Path, name: str) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(name, file)
-    if spec is None or spec.loader is None:
-        raise _fault(file, "", "no Python file", "a Python file")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+def _module(file: Path, text: str, name: str) -> ModuleType:
+    module = ModuleType(name)
+    module.__file__ = str(file)
+    exec(compile(text, str(file), "exec"), vars(module))  # built in, or with leave
     return module
 
 

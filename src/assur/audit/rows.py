@@ -42,11 +42,23 @@ class Row:
 
 @dataclass(frozen=True)
 class Evidence:
-    """What the evidence function of an erratum computed: whether the erratum holds, in words and in numbers."""
+    """What the evidence function of an erratum computed: whether the erratum holds, in words and in numbers.
 
-    holds: bool
+    `holds` is None where the function was not run, since nobody gave leave (`assur.model.consent`).
+    """
+
+    holds: bool | None
     text: str
     values: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def word(self) -> str:
+        """Whether it holds, in a word.
+
+        >>> Evidence(True, "").word
+        'yes'
+        """
+        return {True: "yes", False: "NO", None: "not run"}[self.holds]
 
 
 @dataclass(frozen=True)
@@ -102,7 +114,7 @@ class Audit:
     @property
     def claims_hold(self) -> bool:
         """Whether all that we claim holds: every erratum by its evidence, and every row of derived data."""
-        holds = all(erratum.evidence.holds for erratum in self.errata)
+        holds = all(erratum.evidence.holds is not False for erratum in self.errata)
         return holds and (self.origin == "printed" or len(self.rows) == self.ok)
 
     def data(self) -> dict[str, Any]:

@@ -20,11 +20,13 @@ class Statement(Entry):
 
 
 def statement_rows(record: MechanismRecord, entry: Statement, errata: Sequence[Erratum]) -> list[Row]:
-    """One row: wrong where the evidence of the statement's erratum holds, else ok."""
+    """One row: wrong where the evidence of the statement's erratum holds, else ok; none where it was not run."""
     by_id = {erratum.id: erratum for erratum in errata}
     if entry.erratum not in by_id:
         raise UnknownNameError(f"erratum of {record.name}", entry.erratum, by_id)
     holds = by_id[entry.erratum].evidence.holds
+    if holds is None:
+        return []
     return [
         Row(
             source=entry.source,

@@ -50,11 +50,11 @@ def _shown(found: Audit, written: Sequence[Path]) -> Iterable[RenderableType]:
         yield table(
             ("id", "holds", "finding"),
             [
-                (item.id, "yes" if item.evidence.holds else "NO", f"{item.where}: {item.finding}\n{item.evidence.text}")
+                (item.id, item.evidence.word, f"{item.where}: {item.finding}\n{item.evidence.text}")
                 for item in found.errata
             ],
             left=("id", "holds", "finding"),
-            styles=["" if item.evidence.holds else "red" for item in found.errata],
+            styles=["red" if item.evidence.holds is False else "" for item in found.errata],
         )
     if not found.claims_hold:
         yield "A claim of ours does not hold."

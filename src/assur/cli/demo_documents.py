@@ -35,7 +35,7 @@ def audit(ledger: Ledger, findings: Findings, shared: Plain) -> None:
     ledger.show([rows_table(differing), "", f"{summary(found)} (the ones that agree: assur audit {record.name})", ""])
     ledger.show(["Errata of the source; a check mark says that our evidence for it, computed just now, holds"])
     for erratum in found.errata:
-        ledger.claim(f"{erratum.id}, {erratum.where}", erratum.evidence.holds, erratum.finding)
+        ledger.claim(f"{erratum.id}, {erratum.where}", erratum.evidence.holds is True, erratum.finding)
 
 
 def figures(ledger: Ledger, findings: Findings, folder: Path, shared: Plain) -> list[Path]:

@@ -11,6 +11,7 @@ from cyclopts import App, CycloptsError, Group, Parameter
 
 import assur
 from assur.cli import parsing
+from assur.cli.code import leave_by, told
 from assur.cli.exit_codes import BROKEN_PIPE, BUG
 from assur.cli.numbers import shielded
 from assur.cli.options import PLAIN
@@ -120,8 +121,10 @@ def _run(words: Sequence[str]) -> int:
         with written():  # help or version, printed by the parser
             command(*bound.args, **bound.kwargs)
         return 0
-    outcome = command(*bound.args, **bound.kwargs)
-    emit(outcome, json=bound.arguments.get("shared", PLAIN).json)
+    shared = bound.arguments.get("shared", PLAIN)
+    with leave_by(shared) as not_run:
+        outcome = command(*bound.args, **bound.kwargs)
+        emit(told(outcome, not_run), json=shared.json)
     return int(outcome.exit_code)
 
 

@@ -1,47 +1,65 @@
-"""The Python file beside a mechanism's file: it is run, and what it claims is compared with what the mechanism says."""
+"""The kernels beside a mechanism's file: they are read, and what they claim is compared with the mechanism's words."""
 
 from __future__ import annotations
 
 import contextlib
-import importlib.util
 import sys
 import traceback
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from types import ModuleType
+from typing import Any
 
 from assur.errors import MechanismFileError, Problem, UsageError
 from assur.model.closed_form import ClosedForm
+from assur.model.consent import may_run
 from assur.model.file.faults import listed
+from assur.model.file.reader import file_text
 from assur.model.formula import parse
+from assur.model.kernels.faults import FormFault
+from assur.model.kernels.reading import names_of
 from assur.model.mechanism import MechanismRecord
 
 
-def read_closed_form(path: Path, name: str) -> ClosedForm:
-    """CLOSED_FORM of a Python file, which is run.
+def read_closed_form(path: Path, name: str) -> ClosedForm | None:
+    """CLOSED_FORM of a file of kernels, which is read and not run (`assur.model.kernels`).
 
     Args:
         path: the file.
-        name: the mechanism, after which the module is called.
+        name: the mechanism, after which a module that has to run is called.
+
+    Returns:
+        None where the file is Python beyond that form, and nobody gave leave to run it (`assur.model.consent`).
 
     Errors:
-        MechanismFileError: it does not run, or defines no CLOSED_FORM.
+        MechanismFileError: it cannot be worked out, or defines no CLOSED_FORM.
     """
-    module_name = f"assur_closed_form_of_{name}"
-    spec = importlib.util.spec_from_file_location(module_name, path)
-    if spec is None or spec.loader is None:
-        raise MechanismFileError([_problem(path, "no Python file", "allowed: a Python file")])
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[module_name] = module
+    text = file_text(path)
     try:
-        with contextlib.redirect_stdout(sys.stderr):  # what it prints must not mix with an answer
-            spec.loader.exec_module(module)
-    except (Exception, SystemExit) as error:
-        found = f"{type(error).__name__}: {error}"
-        raise MechanismFileError([_problem(path, found, "it must run", line=_line(error, path))]) from error
-    form = getattr(module, "CLOSED_FORM", None)
+        names = names_of(text, path)
+    except FormFault as fault:
+        reason = f"{fault.reason} (allowed: {fault.allowed})" if fault.allowed else fault.reason
+        if not may_run(path, text.encode(), reason, "the joint graph answers alone", fault.line):
+            return None
+        names = _run(text, path, name)
+    form = names.get("CLOSED_FORM")
     if not isinstance(form, ClosedForm):
         raise MechanismFileError([_problem(path, "no CLOSED_FORM", "it must define CLOSED_FORM = ClosedForm(...)")])
     return form
+
+
+def _run(text: str, path: Path, name: str) -> Mapping[str, Any]:
+    """Names of a file that is run."""
+    module = ModuleType(f"assur_closed_form_of_{name}")
+    module.__file__ = str(path)
+    sys.modules[module.__name__] = module
+    try:
+        with contextlib.redirect_stdout(sys.stderr):  # what it prints must not mix with an answer
+            exec(compile(text, str(path), "exec"), vars(module))  # with leave
+    except (Exception, SystemExit) as error:
+        what = f"{type(error).__name__}: {error}"
+        raise MechanismFileError([_problem(path, what, "it must run", line=_line(error, path))]) from error
+    return vars(module)
 
 
 def disagreements(

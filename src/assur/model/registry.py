@@ -235,7 +235,7 @@ def _closed_form(record: MechanismRecord, path: Path) -> ClosedForm | None:
     if not path.is_file():
         return None
     form = read_closed_form(path, record.name)
-    problems = disagreements(record, form, path)
+    problems = disagreements(record, form, path) if form else ()
     if problems:
         raise MechanismFileError(problems)
     return form

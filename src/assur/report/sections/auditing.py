@@ -83,7 +83,7 @@ CELLS: dict[str, Callable[[Row], str]] = {
 
 def _errata(audit: Audit) -> Section:
     entries = [_erratum(audit, item) for item in audit.errata]
-    holds = sum(item.evidence.holds for item in audit.errata)
+    holds = sum(item.evidence.holds is True for item in audit.errata)
     said = (
         f"{len(entries)} entries; the evidence of {holds} holds. Evidence is a function that runs with every audit: "
         "the findings are ours, and who disagrees can run them."
@@ -97,7 +97,7 @@ def _erratum(audit: Audit, item: Erratum) -> Facts:
         ("printed", item.printed),
         ("finding", item.finding),
         ("evidence", item.evidence.text),
-        ("it holds", "yes" if item.evidence.holds else "NO"),
+        ("it holds", item.evidence.word),
         ("read, not computed", item.not_computed),
         ("rows", ", ".join(rows)),
         ("status", item.status),

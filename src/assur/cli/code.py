@@ -1,0 +1,53 @@
+"""Python in a mechanism's folder: a person is asked at a terminal whether it may run, and told where it did not."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, replace
+from typing import TYPE_CHECKING
+
+from assur.cli.options import Outcome, Plain
+from assur.errors import CodeNotRunWarning
+
+if TYPE_CHECKING:
+    from assur.model.consent import NotRun
+
+
+@contextmanager
+def leave_by(shared: Plain) -> Iterator[list[NotRun]]:
+    """Leave as the command line and the person at the terminal give it; what was not run is told on standard error.
+
+    Yields what was not run.
+    """
+    from assur.model.consent import hint, leave
+
+    at_terminal = sys.stdin is not None and sys.stdin.isatty() and sys.stderr.isatty() and not shared.json
+    with warnings.catch_warnings(), leave(given=shared.run_code, ask=asked if at_terminal else None) as not_run:
+        warnings.simplefilter("ignore", CodeNotRunWarning)  # told below, in its own form
+        try:
+            yield not_run
+        finally:
+            for code in not_run:
+                sys.stderr.write(f"note: {code}\n")
+            if not_run:
+                sys.stderr.write(f"hint: {hint()}\n")
+
+
+def asked(code: NotRun) -> bool:
+    """Whether the person at the terminal lets a file run; no is the answer where none is given."""
+    place = f"{code.file}:{code.line}" if code.line else code.file
+    sys.stderr.write(
+        f"{place}: {code.reason}.\nIt would have to run as Python, which may do all that you may. Run it? [y/N] "
+    )
+    sys.stderr.flush()
+    return sys.stdin.readline().strip().lower() in ("y", "yes")
+
+
+def told(outcome: Outcome, not_run: Sequence[NotRun]) -> Outcome:
+    """An outcome whose JSON object says as `code_not_run` what was not run."""
+    if not not_run:
+        return outcome
+    return replace(outcome, data={**outcome.data, "code_not_run": [asdict(code) for code in not_run]})

@@ -1,0 +1,150 @@
+"""Leave to run Python that came with a mechanism's file: what the evaluator of kernels does not read, and evidence.
+
+Python may do anything that its user may. So what stands in the folder of a mechanism that is not built in runs only
+with leave, which is asked for once for each content of a file. What was not run is kept in `refused` and warned of.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import warnings
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from importlib.resources import files
+from pathlib import Path
+from typing import Literal
+
+from assur.errors import CodeNotRunWarning, UsageError
+
+VARIABLE = "ASSUR_RUN_CODE"
+Policy = Literal["always", "never", "ask"]
+POLICIES: tuple[Policy, ...] = ("always", "never", "ask")
+KEPT = "consent"
+
+
+@dataclass(frozen=True)
+class NotRun:
+    """Python that was not run: where it is, why it would have had to run, and what answers instead."""
+
+    file: str
+    line: int | None
+    reason: str
+    instead: str
+
+    def __str__(self) -> str:
+        place = f"{self.file}:{self.line}" if self.line else self.file
+        return f"{place}: {self.reason}; not run: {self.instead}"
+
+
+@dataclass
+class _Process:
+    """What this process was told."""
+
+    given: bool = False
+    forbidden: bool = False
+    ask: Callable[[NotRun], bool] | None = None
+    answers: dict[str, bool] = field(default_factory=dict)
+    refused: list[NotRun] = field(default_factory=list)
+
+
+_process = _Process()
+
+
+def policy() -> Policy:
+    """What the environment says: ASSUR_RUN_CODE is always, never or ask, which it is where nothing is said.
+
+    Errors:
+        UsageError: it says something else.
+    """
+    value = os.environ.get(VARIABLE, "") or "ask"
+    for known in POLICIES:
+        if value == known:
+            return known
+    raise UsageError(f"{VARIABLE} is {value[:40]!r}", hint=f"it may be {', '.join(POLICIES)}")
+
+
+def built_in(path: Path) -> bool:
+    """Whether a file is one of the mechanisms that come with assur.
+
+    >>> built_in(Path("my_mechanism/closed_form.py"))
+    False
+    """
+    home = Path(str(files("assur"))).resolve() / "mechanisms"
+    return path.resolve().is_relative_to(home)
+
+
+def may_run(path: Path, content: bytes, reason: str, instead: str, line: int | None = None) -> bool:
+    """Whether a file of Python may run. Where it may not, that is kept and warned of.
+
+    Args:
+        path: the file.
+        content: what was read of it, and will run: leave is for this content alone.
+        reason: why it would have to run.
+        instead: what happens where it does not.
+        line: where in the file the reason stands.
+
+    Errors:
+        UsageError: ASSUR_RUN_CODE says what it may not.
+    """
+    if built_in(path):
+        return True
+    rule, code = policy(), NotRun(str(path), line, reason, instead)
+    if not _process.forbidden and (rule == "always" or (rule == "ask" and (_process.given or _agreed(code, content)))):
+        return True
+    if code not in _process.refused:
+        _process.refused.append(code)
+    warnings.warn(f"{code}\nhint: {hint()}", CodeNotRunWarning, stacklevel=2)
+    return False
+
+
+def hint() -> str:
+    """How code that was not run could be."""
+    if _process.forbidden:
+        return "this command runs no code of others, with leave or without"
+    if policy() == "never":
+        return f"{VARIABLE}=never forbids it"
+    return f"look at it first; --run-code, or {VARIABLE}=always, runs it"
+
+
+def _agreed(code: NotRun, content: bytes) -> bool:
+    """Leave that was given before, or is given now, at a terminal."""
+    name = hashlib.sha256(content).hexdigest()
+    from assur.numerics.recording.loops import cache_folder
+
+    kept = cache_folder() / KEPT / name
+    if kept.is_file():
+        return True
+    if _process.ask is None:
+        return False
+    if name not in _process.answers:
+        _process.answers[name] = _process.ask(code)
+        if _process.answers[name]:
+            with contextlib.suppress(OSError):  # it is asked again next time
+                kept.parent.mkdir(parents=True, exist_ok=True)
+                kept.touch()
+    return _process.answers[name]
+
+
+@contextlib.contextmanager
+def leave(
+    *, given: bool = False, forbidden: bool = False, ask: Callable[[NotRun], bool] | None = None
+) -> Iterator[list[NotRun]]:
+    """What may run meanwhile: all where leave is given, none where that is forbidden, else what a person agrees to.
+
+    Yields what was not run.
+
+    Example: nothing of a stranger's runs, and nobody is asked.
+
+        >>> with leave() as refused:
+        ...     pass
+        >>> refused
+        []
+    """
+    global _process
+    before, _process = _process, _Process(given, forbidden, ask)
+    try:
+        yield _process.refused
+    finally:
+        _process = before
