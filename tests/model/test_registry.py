@@ -7,6 +7,7 @@ import pytest
 
 from assur.errors import MechanismFileError, UnknownNameError, UsageError
 from assur.model.closed_form import Sign
+from assur.model.consent import leave
 from assur.model.registry import (
     left_out,
     load_record,
@@ -18,14 +19,9 @@ from assur.model.registry import (
 )
 
 FORM = """
-from dataclasses import dataclass
 from assur.model.closed_form import ClosedForm, Sign
 
-@dataclass
-class Own:
-    number: int
-
-def nothing(*_):
+def nothing(ns, p, given, sign):
     return {}
 
 CLOSED_FORM = ClosedForm(
@@ -71,9 +67,12 @@ def test_the_closed_form_beside_a_file_belongs_to_it(folder: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("x = 1\ny = x +", ":2: SyntaxError: invalid syntax (closed_form.py, line 2); it must run"),
-        ("x = 1\n\ny = 1 / 0", ":3: ZeroDivisionError: division by zero; it must run"),
-        ("import assur.nothing", ":1: ModuleNotFoundError: No module named 'assur.nothing'; it must run"),
+        ("x = 1\ny = x +", ":2: SyntaxError: invalid syntax; allowed: Python"),
+        ("x = 1\n\ny = 1 / 0", ":3: ZeroDivisionError: division by zero; allowed: see docs/closed-form.md"),
+        (
+            FORM.replace("inverse=nothing", "inverse=3"),
+            ":7: inverse of ClosedForm is a number; allowed: inverse: a function of this file",
+        ),
         ("x = 1", ": no CLOSED_FORM; it must define CLOSED_FORM = ClosedForm(...)"),
         ("CLOSED_FORM = 3", ": no CLOSED_FORM; it must define CLOSED_FORM = ClosedForm(...)"),
         (
@@ -88,15 +87,33 @@ def test_the_closed_form_beside_a_file_belongs_to_it(folder: Path) -> None:
             FORM.replace("factor_list=()", 'factor_list=(), constraint_singular=(("v",),)'),
             ": the group ('v',); names of factor_list: none",
         ),
-        ("raise SystemExit(0)", ":1: SystemExit: 0; it must run"),
     ],
 )
 def test_a_broken_closed_form_is_a_fault_of_its_file(folder: Path, text: str, expected: str) -> None:
-    path = folder / "closed_form.py"
-    path.write_text(text, encoding="utf-8")
+    assert faults(folder, text) == [f"{folder / 'closed_form.py'}{expected}"]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("import assur.nothing", ":1: ModuleNotFoundError: No module named 'assur.nothing'; it must run"),
+        ("raise SystemExit(0)", ":1: SystemExit: 0; it must run"),
+        ("import math\n\ny = 1 / 0", ":3: ZeroDivisionError: division by zero; it must run"),
+    ],
+)
+def test_what_goes_wrong_where_a_closed_form_has_to_run_is_its_fault_too(
+    folder: Path, text: str, expected: str
+) -> None:
+    with leave(given=True):
+        assert faults(folder, text) == [f"{folder / 'closed_form.py'}{expected}"]
+
+
+def faults(folder: Path, text: str) -> list[str]:
+    """What is said of a closed form."""
+    (folder / "closed_form.py").write_text(text, encoding="utf-8")
     with pytest.raises(MechanismFileError) as caught:
         load_record(folder)
-    assert [str(problem) for problem in caught.value.problems] == [f"{path}{expected}"]
+    return [str(problem) for problem in caught.value.problems]
 
 
 def test_an_unknown_name_is_answered_with_the_near_ones() -> None:

@@ -63,6 +63,7 @@ def _summary(record: Any) -> dict[str, Any]:
         "internal_freedoms": int(usual.internal),
         "closed_form": record.closed_form is not None,
         "closed_form_checked": record.closed_form is not None and not is_built_in(record),
+        "closed_form_not_run": record.closed_form_not_run,
     }
 
 
@@ -98,7 +99,9 @@ def _shown(data: dict[str, Any], problems: list[Any], notes: list[Any], then: st
     spins = f" and {count(internal, 'internal freedom')}" if internal else ""
     bodies = f"{count(facts['links'], 'link')}, {count(facts['joints'], 'joint')}"
     yield f"{bodies}; {count(facts['freedoms'], 'freedom')}{spins}"
-    if facts["closed_form_checked"]:
+    if facts["closed_form_not_run"]:
+        yield "its closed form is Python that assur cannot read as formulas, and was not run: the joint graph answers"
+    elif facts["closed_form_checked"]:
         yield "a closed form stands beside it, and agrees with the joint graph"
     elif facts["closed_form"]:
         yield "a closed form stands beside it"

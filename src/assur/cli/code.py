@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from dataclasses import asdict, replace
 from typing import TYPE_CHECKING
 
-from assur.cli.options import Outcome, Plain
+from assur.cli.options import Outcome, Plain, Shared
 from assur.errors import CodeNotRunWarning
 
 if TYPE_CHECKING:
@@ -20,12 +20,16 @@ if TYPE_CHECKING:
 def leave_by(shared: Plain) -> Iterator[list[NotRun]]:
     """Leave as the command line and the person at the terminal give it; what was not run is told on standard error.
 
+    A command that is not about one mechanism, as `verify`, has no option for leave, and runs nothing.
+
     Yields what was not run.
     """
     from assur.model.consent import hint, leave
 
+    about_one = isinstance(shared, Shared)
     at_terminal = sys.stdin is not None and sys.stdin.isatty() and sys.stderr.isatty() and not shared.json
-    with warnings.catch_warnings(), leave(given=shared.run_code, ask=asked if at_terminal else None) as not_run:
+    given, ask = isinstance(shared, Shared) and shared.run_code, asked if at_terminal else None
+    with warnings.catch_warnings(), leave(given=given, forbidden=not about_one, ask=ask) as not_run:
         warnings.simplefilter("ignore", CodeNotRunWarning)  # told below, in its own form
         try:
             yield not_run

@@ -14,7 +14,6 @@ from assur.cli import parsing
 from assur.cli.code import leave_by, told
 from assur.cli.exit_codes import BROKEN_PIPE, BUG
 from assur.cli.numbers import shielded
-from assur.cli.options import PLAIN
 from assur.cli.output import InterruptedByUserError, complain, console, emit, written
 from assur.cli.spelling import as_typed
 from assur.errors import AssurError
@@ -121,7 +120,7 @@ def _run(words: Sequence[str]) -> int:
         with written():  # help or version, printed by the parser
             command(*bound.args, **bound.kwargs)
         return 0
-    shared = bound.arguments.get("shared", PLAIN)
+    shared = bound.arguments.get("shared", bound.signature.parameters["shared"].default)
     with leave_by(shared) as not_run:
         outcome = command(*bound.args, **bound.kwargs)
         emit(told(outcome, not_run), json=shared.json)

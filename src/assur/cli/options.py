@@ -61,13 +61,6 @@ class Plain:
         Parameter(help="Print one JSON object and nothing else, an error too. Numbers that do not exist are null."),
     ] = False
     debug: Annotated[bool, Parameter(help="Show the traceback of an error.")] = False
-    run_code: Annotated[
-        bool,
-        Parameter(
-            help="Let Python in the mechanism's folder run that assur cannot read as formulas. It may do all that you "
-            "may; look at it first. ASSUR_RUN_CODE=always or never says so for all commands."
-        ),
-    ] = False
 
 
 @Parameter(name="*", group=SHARED)
@@ -83,6 +76,13 @@ class Shared(Plain):
             help="Another value for a dimension, in the file's unit, as --set l2=300. May be repeated.",
         ),
     ] = ()
+    run_code: Annotated[
+        bool,
+        Parameter(
+            help="Let Python in the mechanism's folder run that assur cannot read as formulas. It may do all that you "
+            "may; look at it first. ASSUR_RUN_CODE=always or never says so for all commands."
+        ),
+    ] = False
 
     def mechanism(self, name: str) -> Mechanism:
         """The mechanism of that name or file, with the dimensions of `--set`."""

@@ -96,6 +96,7 @@ def description(record: Mechanism) -> dict[str, Any]:
             "rank": int(free.rank),
             "redundant": int(free.redundant),
         },
+        "closed_form_not_run": record.closed_form_not_run,
         "closed_form": None
         if form is None
         else {"complete_for": form.complete_for, "reduced_because": form.reduced_because},
@@ -126,7 +127,7 @@ def _shown(data: dict[str, Any], style: Style) -> Iterable[RenderableType]:
         f"rank {free['rank']} of the closure of the whole joint graph, "
         f"{count(free['redundant'], 'redundant constraint')}"
     )
-    yield _form_line(form)
+    yield _form_line(form, bool(data["closed_form_not_run"]))
     yield ""
     yield table(
         ("dimension", "value", "unit", "meaning"),
@@ -147,9 +148,12 @@ def _shown(data: dict[str, Any], style: Style) -> Iterable[RenderableType]:
         yield f"box: {name} from {low:g} to {high:g} {style.coordinate_unit(name)}"
 
 
-def _form_line(form: dict[str, Any] | None) -> str:
+NOT_RUN = "what stands beside the file is Python beyond formulas, and was not run"
+
+
+def _form_line(form: dict[str, Any] | None, not_run: bool) -> str:
     if form is None:
-        return "closed   no closed form: none beside the file"
+        return f"closed   {'not read: ' + NOT_RUN if not_run else 'no closed form: none beside the file'}"
     because = f" ({form['reduced_because']})" if form["reduced_because"] else ""
     return f"closed   closed form, complete for the {form['complete_for'].replace('_', ' ')} model{because}"
 

@@ -28,7 +28,7 @@ NEAR_SINGULAR = 1e-3
 """A factor within this share of its scale makes a solution near_singular."""
 
 NO_CLOSED_FORM = (
-    "proofs over regions and sweeps need one, written in Python beside the file (assur.model.closed_form says how); "
+    "proofs over regions and sweeps need one beside the file (docs/closed-form.md says how it is written); "
     "direct, inverse, singularity, follow and workspace without a proof work on the joint graph"
 )
 """What to do where a mechanism has none."""
@@ -108,13 +108,14 @@ def _any_group(groups: Sequence[tuple[str, ...]], zero: Mapping[str, BoolArray])
     return _any([np.logical_and.reduce([zero[name] for name in group]) for group in groups], zero)
 
 
+def _not_run(record: MechanismRecord) -> str:
+    return " that assur can read: the one beside its file is Python, and was not run" * record.closed_form_not_run
+
+
 def closed_form_of(record: MechanismRecord) -> ClosedForm:
     """The closed form, or a clear refusal where the mechanism has none."""
     if record.closed_form is None:
-        raise UsageError(
-            f"{record.name} has no closed form",
-            hint=NO_CLOSED_FORM,
-        )
+        raise UsageError(f"{record.name} has no closed form{_not_run(record)}", hint=NO_CLOSED_FORM)
     return record.closed_form
 
 

@@ -133,7 +133,9 @@ def load_record(name_or_path: str | Path, /, **overrides: Any) -> MechanismRecor
     """
     path = _find(name_or_path, (FILE, TOPOLOGY))
     record = read_mechanism(path)
-    record = dataclasses.replace(record, closed_form=_closed_form(record, path.parent / CLOSED_FORM))
+    beside = path.parent / CLOSED_FORM
+    form = _closed_form(record, beside)
+    record = dataclasses.replace(record, closed_form=form, closed_form_not_run=form is None and beside.is_file())
     return with_parameters(record, **overrides) if overrides else record
 
 
@@ -161,7 +163,7 @@ def with_parameters(record: Record, /, **overrides: Any) -> Record:
         place = f"{problem.path}: {problem.found}; {problem.allowed}"
         raise UsageError(f"{record.name} cannot be with {given}: {place}", hint=problem.hint) from None
     parts = {item.name: getattr(changed, item.name) for item in dataclasses.fields(MechanismRecord)}
-    kept = {"closed_form": record.closed_form, "thickness": record.thickness}
+    kept = {name: getattr(record, name) for name in ("closed_form", "closed_form_not_run", "thickness")}
     return dataclasses.replace(record, **{**parts, **kept})
 
 

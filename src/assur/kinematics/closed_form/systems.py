@@ -75,7 +75,7 @@ def solutions_of(
     blocks = [ends(record, system, flat[start : start + AT_ONCE]) for start in range(0, len(flat), AT_ONCE)]
     empty = np.zeros((0, system.degree, len(system.unknowns)), dtype=complex), np.zeros((0, system.degree), np.int8)
     x, end = (np.concatenate([empty[k], *(block[k] for block in blocks)]) for k in (0, 1))
-    infinite = np.abs(system.finite(np.moveaxis(x, -1, 0))) <= INFINITE  # (N, K)
+    infinite = np.abs(system.finite(tuple(np.moveaxis(x, -1, 0)))) <= INFINITE  # (N, K)
     gap = np.where(infinite | (end == End.lost), 1.0, np.max(np.abs(x.imag), axis=-1))
     gap = np.where(gap <= REAL, 0.0, gap)
     real = x.real * characteristic_length(record) ** np.array(system.units)

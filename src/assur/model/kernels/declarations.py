@@ -62,7 +62,7 @@ def _fits(value: Value, kind: Any) -> bool:
         return isinstance(value, TABLES) and all(
             _fits(key, str) and _fits(part, arguments[1]) for key, part in value.items()
         )
-    if origin in (Callable, typing.get_origin(Callable[..., Any])):
+    if origin is Callable:
         return isinstance(value, Function)
     if kind is str:
         return type(value) is str and len(value) <= LONGEST_TEXT and value.isprintable()
@@ -82,5 +82,5 @@ def _word(kind: Any) -> str:
         return f"a table of names, each {_word(arguments[1])}"
     if origin is not None:
         return "a function of this file"
-    words = {str: "a printable text", int: "a whole number", type(None): "None"}
-    return words.get(kind, kind.__name__)
+    words: dict[Any, str] = {str: "a printable text", int: "a whole number", type(None): "None"}
+    return words.get(kind) or str(kind.__name__)

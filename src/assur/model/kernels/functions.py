@@ -113,8 +113,8 @@ def guarded(file: Path, meter: Meter, work: Callable[[], Value]) -> Value:
         raise problem_of(file, fault, meter.line) from fault
     except ARITHMETIC as error:
         reason = "too deep" if isinstance(error, RecursionError) else f"{type(error).__name__}: {error}"[:300]
-        fault = KernelFault(reason, "straight-line algebra that works over every number type")
-        raise problem_of(file, fault, meter.line) from error
+        wrong = KernelFault(reason, "straight-line algebra that works over every number type")
+        raise problem_of(file, wrong, meter.line) from error
 
 
 def problem_of(file: Path, fault: KernelFault, line: int | None = None) -> MechanismFileError:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 from importlib import import_module
 from typing import Any
@@ -186,21 +186,19 @@ def _no_magnitude(_: Value) -> Value:
     raise KernelFault("abs of a number", "+ - * / and ns.sqrt", "a magnitude is ns.sqrt(x*x)")
 
 
-BUILTINS: Mapping[str, Value] = {
-    name: Named(name, function)
-    for name, function in {
-        "abs": _no_magnitude,
-        "dict": _dict,
-        "enumerate": _enumerate,
-        "getattr": _getattr,
-        "len": _len,
-        "list": lambda values=(): list(entries(values)),
-        "range": _range,
-        "reversed": lambda values: entries(values)[::-1],
-        "str": text_of,
-        "sum": _sum,
-        "tuple": lambda values=(): entries(values),
-        "zip": _zip,
-    }.items()
+_OF_PYTHON: Mapping[str, Callable[..., Value]] = {
+    "abs": _no_magnitude,
+    "dict": _dict,
+    "enumerate": _enumerate,
+    "getattr": _getattr,
+    "len": _len,
+    "list": lambda values=(): list(entries(values)),
+    "range": _range,
+    "reversed": lambda values: entries(values)[::-1],
+    "str": text_of,
+    "sum": _sum,
+    "tuple": lambda values=(): entries(values),
+    "zip": _zip,
 }
+BUILTINS: Mapping[str, Value] = {name: Named(name, function) for name, function in _OF_PYTHON.items()}
 """Functions of Python that the form knows; what they make is at once a tuple, a list or a table."""

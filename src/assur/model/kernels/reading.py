@@ -11,9 +11,9 @@ from assur.model.kernels import values as data
 from assur.model.kernels.expressions import FORM
 from assur.model.kernels.faults import FormFault, KernelFault
 from assur.model.kernels.functions import UNSET, Frame, problem_of
-from assur.model.kernels.library import BUILTINS, imported
+from assur.model.kernels.library import imported
 from assur.model.kernels.limits import BYTES, NODES, Meter
-from assur.model.kernels.scope import Scope, checked_name
+from assur.model.kernels.scope import Scope, checked_name, known
 from assur.model.kernels.statements import function, statement
 
 
@@ -48,11 +48,9 @@ def names_of(text: str, file: Path) -> Mapping[str, data.Value]:
         except KernelFault as fault:
             raise problem_of(file, fault, meter.line) from fault
         except (TypeError, ValueError, ArithmeticError, LookupError, AttributeError, RecursionError) as error:
-            fault = KernelFault(f"{type(error).__name__}: {error}"[:300], "see docs/closed-form.md")
-            raise problem_of(file, fault, meter.line) from error
-    for name, line in scope.asked.items():
-        if name not in shared and name not in BUILTINS:
-            raise FormFault(f"the name '{name[:60]}'", f"names of this file, and {', '.join(BUILTINS)}", line=line)
+            wrong = KernelFault(f"{type(error).__name__}: {error}"[:300], "see docs/closed-form.md")
+            raise problem_of(file, wrong, meter.line) from error
+    known(scope)
     return shared
 
 
@@ -81,12 +79,13 @@ def _defined(node: ast.stmt, scope: Scope, file: Path, meter: Meter) -> Iterator
     elif isinstance(node, ast.Import):
         raise FormFault(f"import {node.names[0].name[:60]}", "from ... import ...", line=node.lineno)
     elif isinstance(node, ast.FunctionDef):
-        yield node.name, function(node, Scope(scope.shared, scope.asked), file, meter)
+        yield node.name, function(node, Scope(scope.shared), scope.asked, file, meter)
     elif isinstance(node, ast.Return):
         raise FormFault("return outside a function", FORM, line=node.lineno)
     else:
-        own = Scope(scope.shared, scope.asked)
+        own = Scope(scope.shared)
         run = statement(node, own, 0)
+        known(own)
         frame = Frame(own.size, meter)
         for name, place in own.places.items():  # what the statement may read before it gives it a new value
             if name in scope.shared:

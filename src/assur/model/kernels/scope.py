@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from assur.model.kernels.faults import FormFault
+from assur.model.kernels.library import BUILTINS
 from assur.model.kernels.values import Value
 
 
@@ -54,6 +55,17 @@ def checked_name(name: str, line: int) -> str:
     if name.startswith("__"):
         raise FormFault(f"the name '{name[:60]}'", "names that do not begin with two underscores", line=line)
     return name
+
+
+def known(scope: Scope) -> None:
+    """Check that every name that is asked for is one of the file, so far, or one of Python's that the form has.
+
+    Errors:
+        FormFault: it is another one.
+    """
+    for name, line in scope.asked.items():
+        if name not in scope.shared and name not in BUILTINS:
+            raise FormFault(f"the name '{name[:60]}'", f"names of this file, and {', '.join(BUILTINS)}", line=line)
 
 
 def assigned_names(body: list[ast.stmt]) -> Iterator[str]:

@@ -13,11 +13,19 @@ from assur.model.kernels.faults import FormFault
 from assur.model.kernels.functions import UNSET, Frame, KernelFunction, Run
 from assur.model.kernels.limits import NESTING, Meter
 from assur.model.kernels.operations import BINARY
-from assur.model.kernels.scope import Scope, assigned_names, checked_name
+from assur.model.kernels.scope import Scope, assigned_names, checked_name, known
 
 
-def function(node: ast.FunctionDef, around: Scope, file: Path, meter: Meter) -> KernelFunction:
-    """A function of the file."""
+def function(node: ast.FunctionDef, around: Scope, asked: dict[str, int], file: Path, meter: Meter) -> KernelFunction:
+    """A function of the file.
+
+    Args:
+        node: its text.
+        around: the names that its defaults may use.
+        asked: the names of the file that its body asks for are added to these.
+        file: its path, which errors name.
+        meter: what its defaults may spend.
+    """
     arguments = node.args
     if node.decorator_list:
         raise FormFault("a decorator", "functions without", line=node.lineno)
@@ -25,11 +33,12 @@ def function(node: ast.FunctionDef, around: Scope, file: Path, meter: Meter) -> 
         raise FormFault(f"stars among the arguments of {node.name}", "a plain list of names", line=node.lineno)
     names = [checked_name(item.arg, node.lineno) for item in arguments.args]
     given = [expression(default, around) for default in arguments.defaults]
+    known(around)
     frame = Frame(around.size, meter)
     defaults = {
         name: data.frozen(default(frame)) for name, default in zip(names[len(names) - len(given) :], given, strict=True)
     }
-    scope = Scope(around.shared, around.asked)
+    scope = Scope(around.shared, asked)
     for name in (*names, *assigned_names(node.body)):
         scope.named(checked_name(name, node.lineno))
     body = block(node.body, scope)
