@@ -17,6 +17,7 @@ from assur.storage import replace_file
 KINDS = {
     "loops": "formulas as machine code",
     "closed_forms": "closed forms that have passed",
+    "consent": "Python of mechanisms that may run",
 }
 """Folder of what is kept -> what that is. Nothing else in the cache's folder is ever touched."""
 

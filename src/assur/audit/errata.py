@@ -18,7 +18,6 @@ from assur.audit.reference import ERRATA, checked, reference_folder
 from assur.audit.rows import Erratum, Evidence
 from assur.errors import MechanismFileError, Problem, UnknownNameError
 from assur.model.consent import may_run
-from assur.model.file.reader import file_text
 from assur.model.file.schema import Entry
 from assur.model.file.toml_source import read_toml
 from assur.model.mechanism import MechanismRecord

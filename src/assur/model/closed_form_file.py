@@ -14,11 +14,11 @@ from assur.errors import MechanismFileError, Problem, UsageError
 from assur.model.closed_form import ClosedForm
 from assur.model.consent import may_run
 from assur.model.file.faults import listed
-from assur.model.file.reader import file_text
 from assur.model.formula import parse
 from assur.model.kernels.faults import FormFault
 from assur.model.kernels.reading import names_of
 from assur.model.mechanism import MechanismRecord
+from assur.results.reading import file_text
 
 
 def read_closed_form(path: Path, name: str) -> ClosedForm | None:

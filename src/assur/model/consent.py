@@ -111,7 +111,7 @@ def hint() -> str:
 def _agreed(code: NotRun, content: bytes) -> bool:
     """Leave that was given before, or is given now, at a terminal."""
     name = hashlib.sha256(content).hexdigest()
-    from assur.numerics.recording.loops import cache_folder
+    from assur.cache import cache_folder
 
     kept = cache_folder() / KEPT / name
     if kept.is_file():

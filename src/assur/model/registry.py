@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 from assur.errors import MechanismFileError, Problem, UnknownNameError, UsageError
 from assur.model.closed_form import ClosedForm
 from assur.model.closed_form_file import disagreements, read_closed_form
+from assur.model.consent import built_in
 from assur.model.file.build import build
 from assur.model.file.faults import Faults
 from assur.model.file.parameters import checked_overrides
@@ -59,7 +60,7 @@ def is_built_in(record: MechanismRecord) -> bool:
     >>> is_built_in(load_record("fivebar"))
     True
     """
-    return _folder().resolve() in record.file.resolve().parents
+    return built_in(record.file)
 
 
 @dataclasses.dataclass(frozen=True)
