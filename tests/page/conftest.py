@@ -11,10 +11,8 @@ import numpy as np
 import pytest
 
 from assur.cli.main import main
-from assur.mechanism import load
-from assur.page.page import page_html, scene
-
-READY = "html[data-ready='1']"
+from pages import page_of
+from tabs import as_it_opened, listened, load_page, look
 
 
 @pytest.fixture(scope="session")
@@ -64,40 +62,66 @@ def restored():
     return read
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def address(tmp_path_factory):
     """The address of the page of a mechanism, with other dimensions if so asked."""
-    folder, known = tmp_path_factory.mktemp("controls"), {}
+    folder, known = tmp_path_factory.mktemp("pages"), {}
 
     def made(name, **given):
         key = (name, *sorted(given.items()))
         if key not in known:
             path = folder / f"{len(known)}.html"
-            path.write_text(page_html(scene(load(name, **given), resolution=12)), encoding="utf-8")
+            path.write_text(page_of(name, **given), encoding="utf-8")
             known[key] = path.as_uri()
         return known[key]
 
     return made
 
 
+@pytest.fixture(scope="session")
+def standing(browser, address):
+    """A page that stays open from one test to the next, as it opens: put back, or loaded anew where that is not enough.
+
+    Gives the tab, and what it has complained of so far, by mechanism, size of the window, darkness and dimensions.
+    """
+    tabs, before = {}, {}
+
+    def stand(name, width, height, dark=False, **given):
+        key = (name, width, height, dark, *sorted(given.items()))
+        if key not in tabs:
+            tabs[key] = listened(browser, width, height, dark)
+        tab, said = tabs[key]
+        if key not in before or not as_it_opened(tab, before[key]):
+            load_page(tab, address(name, **given))
+            before[key] = look(tab)
+        return tab, said
+
+    yield stand
+    for tab, _ in tabs.values():
+        tab.context.close()
+
+
 @pytest.fixture
-def opened(browser, address):
-    """Open a page in a window of a size; whatever it complains of fails the test."""
-    tabs, said = [], []
+def opened(browser, address, standing):
+    """Open a page in a window of a size; whatever it complains of fails the test.
+
+    A link (`at`), and a page that the test has open already, come in a window of their own.
+    """
+    own, heard, used = [], [], []
 
     def open_(name, *, width=1300, height=800, dark=False, at="", **given):
-        context = browser.new_context(
-            viewport={"width": width, "height": height}, color_scheme="dark" if dark else "light"
-        )
-        tab = context.new_page()
-        tabs.append(context)
-        tab.on("console", lambda message: said.append(f"{message.type}: {message.text}"))
-        tab.on("pageerror", lambda error: said.append(f"error: {error}"))
-        tab.goto(at if at.startswith("file:") else address(name, **given) + at, wait_until="commit")
-        tab.wait_for_selector(READY, state="attached", timeout=60_000)
+        if at or (name, width, height, dark, given) in used:
+            tab, said = listened(browser, width, height, dark)
+            own.append(tab)
+            load_page(tab, at if at.startswith("file:") else address(name, **given) + at)
+            heard.append((said, 0))
+        else:
+            used.append((name, width, height, dark, given))
+            tab, said = standing(name, width, height, dark, **given)
+            heard.append((said, len(said)))
         return tab
 
     yield open_
-    for context in tabs:
-        context.close()
-    assert said == []
+    for tab in own:
+        tab.context.close()
+    assert [word for said, before in heard for word in said[before:]] == []

@@ -14,12 +14,13 @@ from assur.results.json_text import json_text
 from assur.scene.companion import companion
 from assur.scene.parts import parts
 from assur.scene.skeleton import skeleton
+from pages import content_of
 
 
 @pytest.mark.parametrize("name", names())
 def test_it_is_json_and_loses_no_bit_of_what_is_computed_from(name):
     record = load(name)
-    found = json.loads(json_text(content(record, [])))
+    found = json.loads(json_text(content_of(name)))
     assert found["home"] == record.home_values.tolist()
     assert float(closure_error(record, np.array(found["home"]))) < 1e-11 * found["characteristicLength"]
     for joint in found["graph"]["joints"]:
@@ -30,7 +31,7 @@ def test_it_is_json_and_loses_no_bit_of_what_is_computed_from(name):
 @pytest.mark.parametrize("name", names())
 def test_printed_inputs_follow_from_joint_values_as_it_says(name):
     record = load(name)
-    found = content(record, [])
+    found = content_of(name)
     printed = [item["sign"] * found["home"][item["index"]] + item["offset"] for item in found["inputs"]]
     answer = record.inverse(pose_of(record, record.home_values))
     assert np.min(np.max(np.abs(np.sin((answer.inputs[answer.exists] - printed) / 2)), axis=1)) < 1e-6
@@ -41,7 +42,7 @@ def test_parts_are_those_of_the_scene_rounded(name):
     record = load(name)
     drawn = companion(record)
     body = skeleton(record, drawn, record.home_values)
-    found = content(record, [])
+    found = content_of(name)
     whole = parts(body, drawn)
     assert [item["name"] for item in found["parts"]] == [item.name for item in whole]
     for ours, theirs in zip(found["parts"], whole, strict=True):
@@ -55,14 +56,14 @@ def test_factors_come_with_the_scale_that_python_divides_by():
     record = load("zeng2019")
     answer = record.inverse([-15.4714, 9.6849, 456.3315], "++-++")
     relative = relative_factors(record, {name: value[0] for name, value in answer.factors.items()})
-    for item in content(record, [])["factors"]:
+    for item in content_of("zeng2019")["factors"]:
         assert item["kind"] in ("serial", "parallel")
         assert float(answer.factors[item["name"]][0] / item["scale"]) == pytest.approx(float(relative[item["name"]]))
 
 
 def test_parameters_are_shown_in_the_files_unit_and_computed_with_in_rad():
     record = load("linear_delta_4r")
-    found = content(record, [])
+    found = content_of("linear_delta_4r")
     assert {item["name"]: item["value"] for item in found["parameters"]} == {
         name: item.value for name, item in record.parameters.items()
     }

@@ -15,13 +15,13 @@ from assur.kinematics.pose import pose_of
 from assur.mechanism import load
 from assur.model.joint_graph import frames
 from assur.model.pose import is_angle
-from assur.page.page import page_html, scene
+from pages import page_of, scene_of
+from tabs import as_it_opened, load_page, look
 
-pytestmark = [pytest.mark.browser, pytest.mark.slow]
+pytestmark = pytest.mark.browser
 
 NAMES = ("zeng2019", "linear_delta_4r", "fivebar", "planar_3rrr", "gough_stewart", "orthoglide")
-MOVES = 8
-READY = "html[data-ready='1']"
+MOVES = 3
 SHARE = 0.15
 """How far an input or the platform is moved from home, as a share of its slider."""
 
@@ -36,15 +36,17 @@ class Shown:
     address: str
     said: list[str] = field(default_factory=list)
     asked: list[str] = field(default_factory=list)
+    opened: str | None = None
 
     def call(self, name: str, *values: Any) -> dict[str, Any]:
         return self.tab.evaluate(f"(values) => window.assur.{name}(...values)", [list(map(float, v)) for v in values])
 
     def open(self) -> None:
-        """Load the page, until its first picture has been drawn."""
-        self.tab.goto("about:blank")
-        self.tab.goto(self.address, wait_until="commit")
-        self.tab.wait_for_selector(READY, state="attached", timeout=60_000)
+        """The page as it opens: by going back to home, where that leaves what was loaded, else loaded anew."""
+        if self.opened is not None and as_it_opened(self.tab, self.opened):
+            return
+        load_page(self.tab, self.address)
+        self.opened = look(self.tab)
 
     def home(self) -> None:
         """Back to home by the way that it came, else by loading the page anew."""
@@ -63,9 +65,9 @@ def shown(browser, tmp_path_factory):
     def open_(name):
         if name not in tabs:
             record = load(name)
-            found = scene(record, resolution=12)
+            found = scene_of(name)
             path = folder / f"{record.name}.html"
-            path.write_text(page_html(found), encoding="utf-8")
+            path.write_text(page_of(name), encoding="utf-8")
             tab = browser.new_page(viewport={"width": 640, "height": 480})
             here = tabs[name] = Shown(record, found, tab, path.as_uri())
             tab.on("console", lambda message: here.said.append(f"{message.type}: {message.text}"))
@@ -123,7 +125,7 @@ def test_poses_at_random_inputs_are_those_of_direct_in_the_same_mode(shown, name
             assert np.allclose(path.poses[-1], state["pose"], rtol=0, atol=1e-8 * length)
         signs = here.scene["branches"]["assembly"][0]["label"].partition("/")[0]
         assert str(found.labels[nearest]).startswith(signs if set(signs) <= {"+", "-"} else "")
-    assert compared >= MOVES // 4
+    assert compared >= 1
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -148,7 +150,7 @@ def test_inputs_at_random_poses_are_those_of_inverse_in_the_same_mode(shown, nam
         gaps = np.array(state["inputs"]) - wanted.inputs[wanted.exists]
         gaps[:, turned] = (gaps[:, turned] + np.pi) % (2 * np.pi) - np.pi
         assert np.min(np.max(np.abs(gaps), axis=1)) < 1e-9 * length
-    assert compared >= MOVES // 4
+    assert compared >= 1
 
 
 def test_what_it_shows_is_what_python_says_there(shown):

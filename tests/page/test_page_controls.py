@@ -10,7 +10,7 @@ import pytest
 
 from assur.mechanism import load
 
-pytestmark = [pytest.mark.browser, pytest.mark.slow]
+pytestmark = pytest.mark.browser
 
 MINUS = "\N{MINUS SIGN}"
 SLIDERS = """() => [...document.querySelectorAll(".slider")].map((row) => {

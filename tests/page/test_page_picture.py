@@ -12,9 +12,10 @@ from PIL import Image
 
 from assur.mechanism import load
 from assur.model.joint_graph import frames
-from assur.page.page import page_html, scene
+from pages import scene_of
+from tabs import load_page
 
-pytestmark = [pytest.mark.browser, pytest.mark.slow]
+pytestmark = pytest.mark.browser
 
 WIDTH, HEIGHT = 1000, 640
 FIELD = np.tan(np.radians(15.0))
@@ -25,28 +26,15 @@ REST = 700
 """Milliseconds without a change after which the picture stands, and after which the address is written."""
 
 
-@pytest.fixture(scope="module")
-def opened(browser, tmp_path_factory):
-    """Open a mechanism's page; a second time it is opened anew."""
-    folder, pages = tmp_path_factory.mktemp("pictures"), {}
+@pytest.fixture
+def opened(standing, address):
+    """A mechanism's page as it opens."""
 
     def open_(name):
-        if name not in pages:
-            record = load(name)
-            found = scene(record, resolution=8)
-            path = folder / f"{name}.html"
-            path.write_text(page_html(found), encoding="utf-8")
-            tab = browser.new_page(viewport={"width": WIDTH, "height": HEIGHT})
-            pages[name] = SimpleNamespace(record=record, scene=found, address=path.as_uri(), tab=tab)
-        here = pages[name]
-        here.tab.goto("about:blank")
-        here.tab.goto(here.address)
-        here.tab.wait_for_selector("html[data-ready='1']", state="attached", timeout=60_000)
-        return here
+        tab, _ = standing(name, WIDTH, HEIGHT)
+        return SimpleNamespace(record=load(name), scene=scene_of(name), address=address(name), tab=tab)
 
-    yield open_
-    for item in pages.values():
-        item.tab.close()
+    return open_
 
 
 def move(here, name, values):
@@ -190,9 +178,7 @@ def test_a_link_to_a_view_of_everything_goes_on_following(opened):
     move(here, "toInputs", np.add(here.tab.evaluate("window.assur.state().inputs"), 5.0))
     camera(here)
     address = here.tab.evaluate("location.href")
-    here.tab.goto("about:blank")
-    here.tab.goto(address)
-    here.tab.wait_for_selector("html[data-ready='1']", state="attached", timeout=60_000)
+    load_page(here.tab, address)
     home = here.tab.evaluate("window.assur.state().inputs")
     move(here, "toInputs", np.add(home, 400.0))
     assert inside(here, joints(here)).all()
@@ -202,9 +188,7 @@ def test_ghosts_that_lie_in_one_plane_do_not_flicker(opened):
     """Where two surfaces fight for a pixel, the least turn of the view gives it to the other one."""
     here, pictures = opened("planar_3rpr"), []
     for azimuth in (-52.0, -51.99):
-        here.tab.goto("about:blank")
-        here.tab.goto(f"{here.address}#view={azimuth},24,1.6,0,0,0")
-        here.tab.wait_for_selector("html[data-ready='1']", state="attached", timeout=60_000)
+        load_page(here.tab, f"{here.address}#view={azimuth},24,1.6,0,0,0")
         pictures.append(still(here))
     changed = np.abs(pictures[0] - pictures[1]).max(axis=2) > 14
     assert changed.mean() < 0.004  # 0.010 where ghosts are at one depth; 0.0014 are edges

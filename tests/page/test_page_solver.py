@@ -16,7 +16,7 @@ from assur.kinematics.closure import characteristic_length, closing_system
 from assur.kinematics.paths.following import mode_names
 from assur.kinematics.pose import pose_of
 from assur.mechanism import load, names
-from assur.page.content import content
+from pages import content_of
 
 WEB = Path(__file__).parents[2] / "web"
 STORED = WEB / "test" / "numbers.json"
@@ -49,7 +49,7 @@ def numbers(name: str) -> dict[str, Any]:
     """What the page is given of a mechanism, and what Python finds: gaps, derivatives, moved inputs, measures."""
     record = load(name)
     rng = np.random.default_rng(7)
-    whole = content(record, [])
+    whole = content_of(name)
     home, length = record.home_values, whole["characteristicLength"]
     scale = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
     loose = home + 0.3 * scale * rng.normal(size=len(home))
@@ -125,12 +125,14 @@ def test_the_pages_own_tests_pass(node):
 
 
 @pytest.mark.node
-@pytest.mark.slow
 @pytest.mark.parametrize("name", names())
-def test_no_stop_is_a_trap_and_every_reason_is_true(name):
+@pytest.mark.parametrize(
+    ("moves", "seed"), [(20, 12), *(pytest.param(120, seed, marks=pytest.mark.deep) for seed in (11, 13))]
+)
+def test_no_stop_is_a_trap_and_every_reason_is_true(name, moves, seed):
     """Random moves of every mechanism: from a stop the way back is free, and the measures are as the reason says."""
-    whole = content(load(name), [])
-    given = {"scene": {key: whole[key] for key in WALKED}, "moves": 60, "seed": 11}
+    whole = content_of(name)
+    given = {"scene": {key: whole[key] for key in WALKED}, "moves": moves, "seed": seed}
     command = [str(shutil.which("node")), "--input-type=module", "-e", WALK, str(WEB)]
     done = subprocess.run(command, input=json.dumps(given), capture_output=True, text=True, timeout=240, check=False)
     assert done.returncode == 0, done.stderr[-2000:]
