@@ -148,7 +148,7 @@ def test_without_closed_form_few_figures_are_missing():
     record = dataclasses.replace(known.record, closed_form=None)
     bare = figures.Context(record, workspace(record, resolution=16))
     missing = set(figures.left_out(record, bare)) - set(figures.left_out(known.record, known))
-    assert missing <= {"flow", "aspects", "parallel", "singular"}  # no path from home meets another singularity
+    assert missing <= {"flow", "aspects", "parallel", "singular"}  # no path meets another singularity
     for name in figures.names(record, bare):
         assert figures.encoded(figures.draw(record, name, bare), "pdf").startswith(b"%PDF")
     for spec in figures.catalogue(record, bare):

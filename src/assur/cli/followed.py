@@ -102,7 +102,10 @@ def _shown(record: Mechanism, path: Path) -> Iterable[RenderableType]:
     if stop is not None:
         yield _stop(stop, style)
     else:
-        yield "No singularity was crossed."
+        yield (
+            f"No singularity was seen at its {count(len(path), 'point')}, and no determinant changed its sign between"
+            " them; one that is passed and passed back within a step is not seen."
+        )
     if path.remark:
         yield f"At the end {path.remark}."
     yield ""

@@ -156,7 +156,7 @@ def _unlimited(data: dict[str, Any]) -> str:
     """What limits a region that fills its box."""
     if not data["strokes"]:
         return "no stroke limits it; --stroke LOW:HIGH does"
-    return "no limit is met in it; a larger --box may show one"
+    return "no limit was seen in it; a larger --box may show one"
 
 
 def _intervals(record: Mechanism, pairs: dict[str, Sequence[float]]) -> str:

@@ -25,11 +25,12 @@ def outcome(record: Mechanism, mode: str, shared: Shared) -> Outcome:
     """The outcome for a whole mechanism, its loci being those of one working mode."""
     from assur.singularity.examples import singular_examples
     from assur.workspace.region import workspace
+    from assur.workspace.sign_changes import ways_across
 
     with progress("loci in the workspace", shared) as step:
         region = workspace(record, mode, resolution=RESOLUTION if record.closed_form else None, progress=step)
     with progress("example configurations", shared) as step:
-        examples = [_example(record, item) for item in singular_examples(record, progress=step)]
+        examples = [_example(record, item) for item in singular_examples(record, 0, step, lambda: ways_across(region))]
     data = {
         "mechanism": record.name,
         "unit": record.unit,

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -24,11 +26,11 @@ from assur.model.pose import is_angle
 from assur.model.registry import with_parameters
 from assur.performance.dexterity import GlobalIndex, global_condition_index
 from assur.performance.indices import Indices, indices, indices_at
-from assur.results.attempt import attempt
+from assur.results.attempt import REFUSED, attempt
 from assur.scene.camera import Camera, plane
 from assur.scene.companion import Companion, companion
 from assur.scene.skeleton import Skeleton, skeleton
-from assur.singularity.examples import SingularExample, brought_to, singular_examples
+from assur.singularity.examples import SingularExample, Way, brought_to, singular_examples
 from assur.topology.facts import Topology
 from assur.workspace.aspects.aspects import KINDS, Aspects, aspects
 from assur.workspace.certified.criteria import criteria
@@ -36,6 +38,7 @@ from assur.workspace.certified.region import CertifiedWorkspace
 from assur.workspace.certified.volume_bounds import volume_bounds
 from assur.workspace.domain import box_of
 from assur.workspace.region import Workspace, workspace
+from assur.workspace.sign_changes import ways_across
 from assur.workspace.slices import MOST, slice_at
 
 FloatArray = NDArray[np.float64]
@@ -149,8 +152,13 @@ class Context:
     @cached_property
     def examples(self) -> tuple[SingularExample, ...]:
         """One singular configuration for each factor that has one."""
-        found = singular_examples(self.record)
+        found = singular_examples(self.record, ways=self._ways)
         return tuple(brought_to(self.record, self.pose, item) for item in found)
+
+    def _ways(self) -> Iterator[Way]:
+        """Ways on which the map of the workspace shows that something vanishes; none where there is no workspace."""
+        with contextlib.suppress(*REFUSED):
+            yield from ways_across(self.workspace)
 
     @cached_property
     def topology(self) -> Topology:

@@ -153,7 +153,7 @@ def present(found: Workspace) -> list[Locus]:
 def legend_of(context: Context, *, near: bool = True, loci: bool = True) -> list[Patch | Line2D]:
     """Handles for the areas and the curves of a workspace figure."""
     found = context.workspace
-    words = "non-singular" if nearness(context) or not present(found) else "workspace"
+    words = "farther away" if near and nearness(context) else "workspace"
     handles: list[Patch | Line2D] = [Patch(facecolor=FREE, label=words)]
     if near and nearness(context):
         handles.append(Patch(facecolor=CLOSE, label=near_words(context)))
@@ -185,7 +185,8 @@ def near_words(context: Context) -> str:
 def mode_words(context: Context) -> str:
     """The working mode for a caption."""
     mode = minus(context.workspace.mode)
-    return (f"working mode {mode}" if mode else "every mode") + held_words(context)
+    only = "its only working mode" if context.record.closed_form else "the working mode of home"
+    return (f"working mode {mode}" if mode else only) + held_words(context)
 
 
 def locus_words(context: Context) -> str:

@@ -20,7 +20,7 @@ from assur.figures.written import minus
 from assur.model.closed_form import Factor
 from assur.model.pose import LENGTHS, is_angle
 from assur.scene.skeleton import skeleton
-from assur.singularity.examples import SingularExample
+from assur.singularity.examples import AGAIN_SAMPLES, SAMPLES, SingularExample
 
 COLUMNS = 3
 HEAD, LINE = 3.9, 3.2
@@ -53,16 +53,29 @@ def _missing(kind: str, context: Context) -> str:
     if _nowhere_to_look(context) or example_of(context, kind):
         return _nowhere_to_look(context)
     if context.record.closed_form is None:
-        return f"no path from home met a {kind} singularity in or near the file's workspace box"
-    return f"no {kind} factor vanishes in or near the file's workspace box"
+        return f"no {kind} singularity was met: {_looked(context)}"
+    return f"no {kind} factor was seen to vanish: {_looked(context)}"
 
 
 def _missing_further(context: Context) -> str:
     if _nowhere_to_look(context) or further(context):
         return _nowhere_to_look(context)
     if context.record.closed_form is None:
-        return "no path from home met a further kind of singularity in or near the file's box"
-    return "no further factor vanishes in or near the file's box"
+        return f"no further kind of singularity was met: {_looked(context)}"
+    return f"no further factor was seen to vanish: {_looked(context)}"
+
+
+def _looked(context: Context) -> str:
+    """Where singular configurations were looked for: a sample, which proves nothing."""
+    if context.record.closed_form is None:
+        return (
+            "some paths from home to poses by chance, in the file's box and in one three times as wide, were followed,"
+            " and ways across what the map of the workspace shows"
+        )
+    return (
+        f"{SAMPLES} poses by chance in the file's box and {SAMPLES} in one three times as wide, in every working mode,"
+        f" and {AGAIN_SAMPLES} in the box in the default mode were looked at"
+    )
 
 
 def condition(factor: Factor) -> str:
@@ -79,7 +92,7 @@ def _caption(kind: str, context: Context) -> str:
     example = example_of(context, kind)
     if example is None:
         return ""
-    of_path = "" if context.record.closed_form else ", at which a path from home stops"
+    of_path = "" if context.record.closed_form else ", at which a path that began at home stops"
     return (
         f"Example of a {kind} singularity{of_path}: {condition(example.factor)}, {_geometry(context, example.factor)}."
         f" {_where(context, example)}"
@@ -88,7 +101,7 @@ def _caption(kind: str, context: Context) -> str:
 
 def _caption_further(context: Context) -> str:
     if context.record.closed_form is None:
-        return "One configuration of each further kind of singularity at which a path from home stops."
+        return "One configuration of each further kind of singularity at which a path that began at home stops."
     return (
         "Configurations in which the further factors vanish, in the file's workspace box or near it, with what each"
         " factor means and, in brackets, the status there, of several the most severe. Factors that vanish in the"

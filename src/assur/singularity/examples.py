@@ -2,12 +2,13 @@
 
 A factor that changes sign in a working mode is followed to its zero between two poses; one that is the
 root of a margin is met where that margin ends the mode. So are factors that divide neither determinant where they
-alone make a constraint singularity. Without a closed form paths from home are followed until they stop.
+alone make a constraint singularity. Without a closed form paths from home are followed until they stop, then ways on
+which a map of the workspace shows that something vanishes.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from itertools import combinations
 
@@ -32,6 +33,9 @@ from assur.singularity.loci import OUTPUT
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 SAMPLES = 400
+AGAIN_SAMPLES = 2**14
+"""Poses in the box at which a factor that has no example yet is looked at once more, in the default mode."""
+
 SEGMENTS = 60
 BISECTIONS = 70
 GROWTH = 3.0
@@ -80,15 +84,24 @@ class _Samples:
         return np.asarray(np.sum(rest, axis=0))
 
 
+Way = tuple[FloatArray, FloatArray]
+"""Joint values (n,) of home's mode, and a pose (m,) to which they are followed."""
+
+
 def singular_examples(
-    record: MechanismRecord, seed: int = 0, progress: Callable[[int, int], None] | None = None
+    record: MechanismRecord,
+    seed: int = 0,
+    progress: Callable[[int, int], None] | None = None,
+    ways: Callable[[], Iterable[Way]] | None = None,
 ) -> tuple[SingularExample, ...]:
     """One example per factor: the pose at its zero at which the fewest others vanish, the default mode first.
 
-    Poses are drawn from the workspace box of the file, and where a factor never vanishes there, from a box
-    three times as wide. A factor that vanishes in neither has no example. Without a closed form there is one example
-    per kind that is met (input, output, closure) on straight paths from home to such poses, and `progress`, where
-    given, is called with (paths done, paths at most).
+    Poses are drawn from the workspace box of the file, where a factor has no zero between these from a box three
+    times as wide, and more of them from the first in the default mode. A factor that vanishes between none of these
+    has no example: that proves nothing. Without a closed form there is one example per kind that is met (input, output,
+    closure) on straight paths from home to such poses, then on `ways`, which are only asked for where the paths met no
+    serial or no parallel singularity (`assur.workspace.sign_changes`); `progress`, where given, is called with (paths
+    done, paths at most).
 
     >>> from assur.model.registry import load_record
     >>> [example.factor.name for example in singular_examples(load_record("zeng2019"))][:4]
@@ -103,16 +116,17 @@ def singular_examples(
     low, high = np.array([record.box[name] for name in record.platform.pose]).T
     rng = np.random.default_rng(seed)
     if record.closed_form is None:
-        return _met_on_paths(record, low, high, rng, progress)
+        return _met_on_ways(record, _met_on_paths(record, low, high, rng, progress), ways)
     middle, half = (low + high) / 2, (high - low) / 2
     spans = [(middle - grown * half, middle + grown * half) for grown in (1, GROWTH)]
     boxes = [in_range(record, rng.uniform(*span, (SAMPLES, len(low)))) for span in spans]
     factors = _sought(record.closed_form)
     modes = list(dict.fromkeys([record.modes.default_working, *all_modes(record, "inverse")]))
+    more = in_range(record, rng.uniform(*spans[0], (AGAIN_SAMPLES, len(low))))
     best: dict[str, _Candidate] = {}
-    for poses in boxes:
+    for poses, among in ((boxes[0], modes), (boxes[1], modes), (more, modes[:1])):
         missing = [factor for factor in factors if factor.name not in best]
-        for mode in modes:
+        for mode in among:
             unclear = [factor.name for factor in missing if factor.name not in best or best[factor.name].others]
             for candidate in _zeros_in_mode(record, mode, poses, unclear):
                 if candidate.name not in best or candidate.others < best[candidate.name].others:
@@ -160,7 +174,7 @@ def _met_on_paths(
     high: FloatArray,
     rng: np.random.Generator,
     progress: Callable[[int, int], None] | None,
-) -> tuple[SingularExample, ...]:
+) -> dict[str, SingularExample]:
     """The first configuration of each kind before which a path from home to a pose by chance stops."""
     home = home_values(record)
     middle, half = (low + high) / 2, (high - low) / 2
@@ -173,17 +187,36 @@ def _met_on_paths(
         if progress is not None:
             progress(k, 2 * PATHS)
         target = in_range(record, rng.uniform(middle - grown * half, middle + grown * half))
-        stop = follow(record, home, poses=target, use_limits=False, tolerance=STOPPED).stopped
-        if stop is None or stop.kind not in MET or stop.kind in best:
-            continue
-        status = Status(int(classify_at(record, stop.joints)))
-        if status not in (Status.regular, Status.near_singular):
-            mode, last[grown] = record.modes.default_working, k
-            inside = _in_box(record, stop.pose)
-            best[stop.kind] = SingularExample(MET[stop.kind], mode, stop.pose, stop.inputs, stop.joints, status, inside)
+        if _meet(record, best, home, target):
+            last[grown] = k
         if len(best) == len(MET):
             break
+    return best
+
+
+def _met_on_ways(
+    record: MechanismRecord, best: dict[str, SingularExample], ways: Callable[[], Iterable[Way]] | None
+) -> tuple[SingularExample, ...]:
+    """Those and the first of each further kind that the ways meet; no way says anything of the closure."""
+    if ways is not None and not {"serial", "parallel"} <= set(best):
+        for joints, target in ways():
+            _meet(record, best, joints, target)
+            if {"serial", "parallel"} <= set(best):
+                break
     return tuple(best[kind] for kind in MET if kind in best)
+
+
+def _meet(record: MechanismRecord, best: dict[str, SingularExample], joints: FloatArray, target: FloatArray) -> bool:
+    """Whether a path from joint values (n,) to a pose (m,) stops before a singularity of a new kind, which is kept."""
+    stop = follow(record, joints, poses=target, use_limits=False, tolerance=STOPPED).stopped
+    if stop is None or stop.kind not in MET or stop.kind in best:
+        return False
+    status = Status(int(classify_at(record, stop.joints)))
+    if status in (Status.regular, Status.near_singular):
+        return False
+    mode, inside = record.modes.default_working, _in_box(record, stop.pose)
+    best[stop.kind] = SingularExample(MET[stop.kind], mode, stop.pose, stop.inputs, stop.joints, status, inside)
+    return True
 
 
 @dataclass(frozen=True, eq=False)

@@ -108,7 +108,7 @@ class Path:
         head = f"path of {self.record.name} along {self.prescribed}, {len(self)} points"
         if self.stopped is not None:
             return f"{head}; {self.stopped}"
-        return f"{head}, no singularity crossed{'; ' + self.remark if self.remark else ''}"
+        return f"{head}, no singularity seen{'; ' + self.remark if self.remark else ''}"
 
     @property
     def closed(self) -> bool:

@@ -142,7 +142,7 @@ def _examples(found: Findings) -> Table:
     how = (
         "Found by following a factor to its zero, not written down; the kind is the most severe of what all factors say"
         if record.closed_form
-        else "Paths from home to poses in and about the file's box stop there; the kind is what the joint graph says"
+        else "Paths that began at home stop there; the kind is what the joint graph says"
     )
     caption = f"{how} there. A rank below {general} is a constraint singularity of the joint graph.{_without(found)}"
     return Table("Example configurations", columns, tuple(rows), caption, known_by=f"{FLOATING}; {RANK}")
