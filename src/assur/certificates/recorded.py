@@ -14,6 +14,7 @@ from assur.certificates.certificate import file_hashes
 from assur.certificates.formulas import CONSTANT, GROUPS, formulas
 from assur.errors import UsageError
 from assur.kinematics.contract.check import check_closed_form
+from assur.kinematics.contract.held import IN_FULL
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import load_record, names, with_parameters
 
@@ -29,7 +30,7 @@ def at_hand(document: Mapping[str, Any], name_or_path: str | Path | None = None)
     if name_or_path is None and own not in names():  # a path in a certificate must not make anyone run what is there
         return None
     record = load_record(own if name_or_path is None else name_or_path)
-    check_closed_form(record)
+    check_closed_form(record, IN_FULL)
     return record
 
 
@@ -44,7 +45,7 @@ def with_dimensions(document: Mapping[str, Any], record: MechanismRecord) -> Mec
     changed = {name: float.fromhex(value) for name, value in document["statement"]["parameters"].items()}
     if changed:
         record = with_parameters(record, **changed)
-        check_closed_form(record)
+        check_closed_form(record, IN_FULL)
     return record
 
 

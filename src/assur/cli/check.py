@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Parameter
 
 from assur.cli import exit_codes
 from assur.cli.called import called
@@ -15,15 +17,25 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
 
-def check(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> Outcome:
+def check(
+    mechanism: MechanismName,
+    /,
+    *,
+    deep: Annotated[
+        bool, Parameter(help="Hold the closed form against the joint graph at thousands of places, built in or not.")
+    ] = False,
+    shared: Shared = SHARED_DEFAULTS,
+) -> Outcome:
     """Every fault of a mechanism's file, each with its line.
 
     Of the text: its form, names, numbers, formulas and labels; and of the closed
     form and the figures.toml beside it. Where what the loops are made of is
     sound, of the joint graph too: whether it closes and moves, whether its
     inputs determine it, whether pose, orientation and limits are as stated.
-    Last, a closed form of your own is held against the joint graph. Exit code
-    3: there is a fault.
+    Last, a closed form of your own is held against the joint graph: loops,
+    velocities, factors, names of modes, ends of branches, completeness at a few
+    problems, what it divides by and draws roots of. Exit code 3: there is a
+    fault.
 
     For example:
         assur check my.toml
@@ -39,16 +51,26 @@ def check(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> O
         every.sort(key=lambda item: (not item.file.endswith(".toml"), item.file, item.line or 0))
         return _outcome(mechanism, every, (), None)
     record = load_record(mechanism, **shared.dimensions)
-    found = [*faults(record), *label_faults(record)] or _of_closed_form(record)
+    found = [*faults(record), *label_faults(record)] or _of_closed_form(record, deep)
     facts = None if found else _summary(record)
     return _outcome(record.name, found, () if found else doubts(record), facts, _next(mechanism))
 
 
-def _of_closed_form(record: Any) -> tuple[Any, ...]:
+def _of_closed_form(record: Any, deep: bool) -> tuple[Any, ...]:
     """What a closed form claims and the joint graph denies; one that is built in is held to the same by the tests."""
     from assur.kinematics.contract.check import closed_form_problems
+    from assur.kinematics.contract.held import DEEP, IN_FULL
 
-    return closed_form_problems(record)
+    return closed_form_problems(record, DEEP if deep else IN_FULL, built_in=deep)
+
+
+def _unproved(record: Any) -> list[str]:
+    """What a closed form of one's own leaves to be believed."""
+    from assur.kinematics.contract.check import unproved
+    from assur.model.registry import is_built_in
+
+    own = record.closed_form is not None and not is_built_in(record)
+    return list(unproved(record)) if own else []
 
 
 def _summary(record: Any) -> dict[str, Any]:
@@ -64,6 +86,7 @@ def _summary(record: Any) -> dict[str, Any]:
         "closed_form": record.closed_form is not None,
         "closed_form_checked": record.closed_form is not None and not is_built_in(record),
         "closed_form_not_run": record.closed_form_not_run,
+        "unproved": _unproved(record),
     }
 
 
@@ -107,6 +130,11 @@ def _shown(data: dict[str, Any], problems: list[Any], notes: list[Any], then: st
         yield "a closed form stands beside it"
     else:
         yield "no closed form: it is solved on its joint graph"
+    if facts["unproved"]:
+        yield Verbatim(
+            f"note: by the way it is made it is not known of {count(len(facts['unproved']), 'divisor or radicand')} "
+            f"that it means something everywhere; no place was found where it does not: {facts['unproved'][0]}"
+        )
     yield from (Verbatim(f"note: {note}") for note in notes)
     if then:
         yield Verbatim(then)

@@ -11,6 +11,7 @@ from typing import Any
 
 import assur
 from assur.kinematics.contract.check import check_closed_form
+from assur.kinematics.contract.held import IN_FULL
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
 from assur.report.render import Page, page_html
@@ -84,7 +85,7 @@ def report_html(
 
 def report_page(findings: Findings, progress: Progress | None = None) -> Page:
     """The report as sections of results, before it is rendered; one that is refused is told of among the basis."""
-    check_closed_form(findings.record)
+    check_closed_form(findings.record, IN_FULL)
     tick = _ticker(len(ANALYSES) + len(SECTIONS), progress)
     for analysis in ANALYSES:
         with contextlib.suppress(*REFUSED):  # the sections that need it say why

@@ -6,12 +6,36 @@ import pytest
 
 import assur
 from assur.kinematics.contract.check import problems
+from assur.kinematics.contract.held import DEEP, IN_FULL
 from assur.model.registry import load_record
 
 
 @pytest.mark.parametrize("name", [*assur.names(), "biglide"])
 def test_a_right_form_passes_with_any_dimensions(copied, name):
     assert problems(load_record(copied(name))) == ((), True)
+
+
+@pytest.mark.parametrize("name", ["zeng2019", "fivebar", "planar_3rpr", "biglide"])
+def test_a_right_form_passes_in_full(copied, name):
+    assert problems(load_record(copied(name)), IN_FULL) == ((), True)
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("extent", [IN_FULL, DEEP], ids=["full", "deep"])
+def test_every_right_form_passes_every_check(copied, name, extent):
+    assert problems(load_record(copied(name)), extent) == ((), True)
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("seed", range(20))
+def test_a_right_form_passes_at_other_places(copied, name, seed):
+    from assur.kinematics.contract.held import AT_LOAD, at_other_dimensions, at_places
+
+    record = load_record(copied(name))
+    assert at_places(record, AT_LOAD, seed) == []
+    assert at_other_dimensions(record, AT_LOAD, seed)[0] == []
 
 
 def test_a_form_for_special_dimensions_passes_with_these(copied):

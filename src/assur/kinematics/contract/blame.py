@@ -63,7 +63,7 @@ def _wrong_joints(found: Solutions, row: int) -> set[str]:
 def _negative(kernel: Kernel, found: Solutions, row: int) -> str:
     """The margin of a radicand that is negative though the branch is listed: what it says is not what it is."""
     with np.errstate(all="ignore"):
-        values = kernel.values(found.at([row]))
+        values = kernel.values(found.given[[row]], found.signs[[row]])
     below = {k for k in kernel.roots if float(values[k][0]) < -TINY * float(np.max(np.abs(values[k]) + 1))}
     if not below:
         return ""

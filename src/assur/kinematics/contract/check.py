@@ -6,10 +6,20 @@ from functools import lru_cache
 
 from assur.errors import MechanismFileError, Problem, cut
 from assur.kinematics.contract.dimensions import of_file
-from assur.kinematics.contract.held import AT_LOAD, Extent, at_other_dimensions, at_places
+from assur.kinematics.contract.held import (
+    AT_LOAD,
+    EXTENTS,
+    IN_FULL,
+    Extent,
+    at_other_dimensions,
+    at_places,
+    of_formulas,
+)
 from assur.kinematics.contract.kept import SCOPES, has_passed, keep_passed
+from assur.kinematics.contract.kernel import questions, recorded
 from assur.kinematics.contract.lines import line_of
 from assur.kinematics.contract.mismatch import Mismatch
+from assur.kinematics.contract.undeclared import in_doubt
 from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import ClosedForm
 from assur.model.mechanism import MechanismRecord
@@ -33,14 +43,23 @@ def check_closed_form(record: MechanismRecord, extent: Extent = AT_LOAD) -> None
         raise MechanismFileError(found)
 
 
-def closed_form_problems(record: MechanismRecord, extent: Extent = AT_LOAD) -> tuple[Problem, ...]:
+def closed_form_problems(
+    record: MechanismRecord, extent: Extent = AT_LOAD, *, built_in: bool = False
+) -> tuple[Problem, ...]:
     """The faults for which `check_closed_form` refuses a mechanism; what passes is kept.
+
+    Args:
+        record: the mechanism.
+        extent: how much is looked at; what passed a wider check has passed.
+        built_in: whether one that is built in is looked at as well.
 
     >>> from assur.model.registry import load_record
     >>> closed_form_problems(load_record("fivebar"))
     ()
     """
-    if record.closed_form is None or is_built_in(record) or any(has_passed(record, extent, item) for item in SCOPES):
+    trusted = record.closed_form is None or (is_built_in(record) and not built_in)
+    wider = EXTENTS[EXTENTS.index(extent) :]
+    if trusted or any(has_passed(record, item, scope) for item in wider for scope in SCOPES):
         return ()
     found, general = problems(of_file(record), extent)
     if not found and not general and record.overrides:
@@ -50,8 +69,18 @@ def closed_form_problems(record: MechanismRecord, extent: Extent = AT_LOAD) -> t
     return found
 
 
-def checked_form(record: MechanismRecord, extent: Extent = AT_LOAD) -> ClosedForm:
-    """The closed form, once it has passed: what proofs are made with.
+def unproved(record: MechanismRecord) -> tuple[str, ...]:
+    """Divisors and radicands of which the way they are made does not show that they mean something.
+
+    >>> from assur.model.registry import load_record
+    >>> unproved(load_record("fivebar"))
+    ()
+    """
+    return tuple(dict.fromkeys(text for question in questions(record) for text in in_doubt(recorded(record, question))))
+
+
+def checked_form(record: MechanismRecord, extent: Extent = IN_FULL) -> ClosedForm:
+    """The closed form, once it has passed in full: what proofs are made with.
 
     Errors:
         UsageError: the mechanism has none. MechanismFileError: it does not agree with its joint graph.
@@ -78,11 +107,13 @@ def problems(record: MechanismRecord, extent: Extent = AT_LOAD) -> tuple[tuple[P
     found, general = at_places(record, extent), False
     if not found:
         found, general = at_other_dimensions(record, extent)
+    if not found and extent.formulas:
+        found = of_formulas(record, extent)
     parts = {(item.part, item.name): item for item in reversed(found)}
     return tuple(_problem(record, item) for item in reversed(parts.values())), general
 
 
 def _problem(record: MechanismRecord, mismatch: Mismatch) -> Problem:
     path = record.file.parent / CLOSED_FORM
-    line = line_of(path, mismatch)
+    line = mismatch.line or line_of(path, mismatch)
     return Problem(str(path), line, mismatch.title, cut(mismatch.found, LONG), mismatch.allowed, mismatch.hint)

@@ -14,12 +14,16 @@ from assur.kinematics.contract.borders import cut_short, ends, named_by_signs
 from assur.kinematics.contract.completeness import missing, random_assemblies
 from assur.kinematics.contract.determinants import wrong_factors
 from assur.kinematics.contract.dimensions import changed, with_dimensions
+from assur.kinematics.contract.kernel import recorded
 from assur.kinematics.contract.mismatch import Mismatch
 from assur.kinematics.contract.places import inputs, poses
 from assur.kinematics.contract.positions import open_loops, other_questions
 from assur.kinematics.contract.rates import wrong_rates
 from assur.kinematics.contract.signs import wrong_signs
 from assur.kinematics.contract.solutions import Solutions, solutions, solves
+from assur.kinematics.contract.solvers import lacking
+from assur.kinematics.contract.undeclared import undeclared
+from assur.kinematics.contract.zeros import false_zeros
 from assur.kinematics.modes import Problem
 from assur.kinematics.rates.motions import motions
 from assur.model.mechanism import MechanismRecord
@@ -34,21 +38,32 @@ class Extent:
     Attributes:
         name: what the check is called.
         poses: problems of each kind.
-        solutions: so many of them are held against every law.
+        solutions: so many of them are held against the laws of single solutions.
         motions: so many of these against motions of the joint graph.
         assemblies: starts of the joint graph's own assemblies, beside home.
+        problems: so many are given to the joint graph's own solvers.
+        formulas: whether divisors, radicands and zeros of factors are looked at.
     """
 
     name: str
     poses: int
     solutions: int
     motions: int
-    assemblies: int
+    assemblies: int = 0
+    problems: int = 0
+    formulas: bool = False
 
 
-AT_LOAD = Extent("load", poses=50, solutions=400, motions=60, assemblies=0)
-SIZE = 40_000
-"""Of a mechanism of many joints fewer motions are looked at: so many numbers of their matrices in all."""
+AT_LOAD = Extent("load", poses=50, solutions=400, motions=60)
+"""On the first use: a few tenths of a second."""
+IN_FULL = Extent("full", poses=200, solutions=2000, motions=120, assemblies=32, problems=5, formulas=True)
+"""Of `assur check`, and before anything is proved: some seconds."""
+DEEP = Extent("deep", poses=4000, solutions=40_000, motions=1000, assemblies=400, problems=30, formulas=True)
+"""Of `assur check --deep`: some minutes."""
+EXTENTS = (AT_LOAD, IN_FULL, DEEP)
+"""Each looks at all that those before it look at, and more."""
+SIZE = 700
+"""Of a mechanism of many joints fewer motions are looked at: its number of joint values, squared, over this many."""
 FEWEST = 16
 
 
@@ -77,7 +92,25 @@ def at_places(record: MechanismRecord, extent: Extent, seed: int = 0) -> list[Mi
         return broken
     joints = random_assemblies(record, extent.assemblies, random)
     cut = [item for problem, reached in near.items() for item in cut_short(record, problem, reached)]
-    return cut or missing(there, joints, motions(record, joints, RANK_GAP))
+    broken = cut or missing(there, joints, motions(record, joints, RANK_GAP))
+    return broken or lacking(there, extent.problems, random)
+
+
+def of_formulas(record: MechanismRecord, extent: Extent, seed: int = 0) -> list[Mismatch]:
+    """Divisors and radicands that nothing declares, and zeros of factors at which nothing is singular.
+
+    >>> from assur.model.registry import load_record
+    >>> of_formulas(load_record("fivebar"), IN_FULL)
+    []
+    """
+    random = np.random.default_rng(seed)
+    there = solutions(record, "inverse", poses(record, extent.poses, random))
+    kernel = recorded(record, "inverse")
+    found = undeclared(kernel, there)
+    if len(there) and solves(record, "direct") and named_by_signs(record, "direct"):
+        back = solutions(record, "direct", inputs(record, there.inputs, extent.poses, random))
+        found += undeclared(recorded(record, "direct"), back)
+    return found or false_zeros(kernel, there)
 
 
 def at_other_dimensions(record: MechanismRecord, extent: Extent, seed: int = 1) -> tuple[list[Mismatch], bool]:
@@ -91,7 +124,9 @@ def at_other_dimensions(record: MechanismRecord, extent: Extent, seed: int = 1) 
     other = changed(record, random)
     if other is None:
         return [], False
-    less = dataclasses.replace(extent, poses=extent.poses // 2, solutions=extent.solutions // 2, motions=FEWEST)
+    less = dataclasses.replace(
+        extent, poses=extent.poses // 2, solutions=extent.solutions // 2, motions=FEWEST, problems=0
+    )
     broken = at_places(other, less, seed)
     if broken:
         for name, value in other.overrides.items():  # one dimension at a time says more
@@ -117,7 +152,8 @@ def _motions(extent: Extent, there: Solutions) -> Callable[[Solutions], list[Mis
         record = found.record
         if not len(found):
             return []
-        some = found.spread(int(np.clip(SIZE // len(record.coordinates) ** 2, FEWEST, extent.motions)))
+        share = min(1.0, SIZE / len(record.coordinates) ** 2)
+        some = found.spread(max(FEWEST, int(share * extent.motions)))
         motion = motions(record, some.joints, RANK_GAP)
         return wrong_rates(some, motion) or wrong_factors(found) or missing(there, some.joints, motion)
 

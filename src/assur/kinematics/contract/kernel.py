@@ -3,36 +3,51 @@
 from __future__ import annotations
 
 import dataclasses
+import traceback
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.errors import MechanismFileError
 from assur.kinematics import border
-from assur.kinematics.contract.solutions import Solutions
 from assur.kinematics.modes import Problem, sign_names
 from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import Branch, Eliminant, Margin, PolynomialSystem
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
+from assur.model.registry import CLOSED_FORM
 from assur.numerics.expanded import Expanded
-from assur.numerics.recording.tape import Recorded, Recorder, Tape
+from assur.numerics.recording.tape import Operation, Recorded, Recorder, Tape, pruned
 
 FloatArray = NDArray[np.float64]
 Question = Literal["inverse", "direct", "self_motion"]
 
 
 class _Recorder(Recorder):
-    """A recorder beside which polynomials are multiplied out."""
+    """A recorder beside which polynomials are multiplied out; it can stop at an operation, which tells its line."""
+
+    def __init__(self, stop: Operation | None = None) -> None:
+        super().__init__()
+        self._stop = stop
 
     def apply(self, name: str, *arguments: Any) -> Any:
         if any(isinstance(item, Expanded) for item in arguments):
             return NotImplemented  # a polynomial knows how to go on
-        return super().apply(name, *arguments)
+        found = super().apply(name, *arguments)
+        if self._operations[found.index] == self._stop:
+            raise ZeroDivisionError(name)
+        return found
+
+    def whole(self, outputs: Mapping[str, Any]) -> Tape:
+        """Everything recorded, what no output needs too: entries keep their places."""
+        places = {name: self._number(value).index for name, value in outputs.items()}
+        return Tape(tuple(self._operations), tuple(self._varying), tuple(self._uniform), places)
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +55,7 @@ class Kernel:
     """One question of a mechanism, recorded.
 
     Attributes:
-        tape: every number that the kernels of the question work out and that an answer needs, by "kind name".
+        tape: every number that the kernels of the question work out.
         given: name, and whether it is an angle, of what is given for each problem.
         margins: those that the question judges.
         outputs: "joint", "pose", "input", "margin", "factor", "jp", "jq", "quantity", "coefficient", "finite" -> name
@@ -68,29 +83,58 @@ class Kernel:
         places = [k for k, item in enumerate(self.tape.operations) if item.name == "uniform"]
         return dict(zip(self.tape.uniform, places, strict=True))
 
-    def values(self, found: Solutions) -> list[FloatArray]:
-        """Every entry of the tape (S,) at solutions that are named by signs."""
+    def values(self, given: FloatArray, signs: NDArray[Any]) -> list[FloatArray]:
+        """Every entry of the tape (S,) at problems (S, k) and branches of these signs (S, s)."""
         record = self.record
         problem: Problem = "inverse" if self.question == "inverse" else "direct"
         convert = border.pose_components if problem == "inverse" else border.input_components
-        varying = [part for item in convert(record, found.given) for part in _flat(item)]
-        known: dict[str, Any] = dict(vars(record.values))
-        known |= {f"sign.{name}": found.signs[:, k] for k, name in enumerate(sign_names(record, problem))}
+        varying = [part for item in convert(record, given) for part in _flat(item)]
+        return self.evaluated(varying, {name: signs[:, k] for k, name in enumerate(sign_names(record, problem))})
+
+    def evaluated(self, varying: Sequence[FloatArray], signs: Mapping[str, FloatArray]) -> list[FloatArray]:
+        """Every entry of the tape (S,) at given components (S,) and signs (S,), plus where none is given."""
+        known: dict[str, Any] = dict(vars(self.record.values))
+        known |= {f"sign.{name}": value for name, value in signs.items()}
         everything = {str(k): k for k in range(len(self.tape.operations))}
         whole = dataclasses.replace(self.tape, outputs=everything)
         with np.errstate(all="ignore"):
-            answer = whole.evaluate(varying, [known[name] for name in self.tape.uniform])
-        return [np.broadcast_to(np.asarray(answer[name], dtype=float), (len(found),)) for name in everything]
+            answer = whole.evaluate(varying, [known.get(name, 1.0) for name in self.tape.uniform])
+        shape = np.shape(varying[0])
+        return [np.broadcast_to(np.asarray(answer[name], dtype=float), shape) for name in everything]
+
+    def entry(self, k: int) -> Kernel:
+        """The kernel with what one entry needs alone; `tape.outputs["entry"]` is its place."""
+        tape = pruned(self.tape.operations, self.tape.varying, self.tape.uniform, {"entry": k})
+        return dataclasses.replace(self, tape=tape, outputs={})
+
+    @cached_property
+    def used(self) -> frozenset[int]:
+        """Entries that an answer needs."""
+        places = [k for named in self.outputs.values() for entries in named.values() for k in entries]
+        return frozenset().union(*(self.needs[k] for k in places))
 
     @cached_property
     def roots(self) -> tuple[int, ...]:
         """Radicands: entries of which a root is drawn."""
-        return tuple(sorted({item.arguments[0] for item in self.tape.operations if item.name == "root"}))
+        operations = self.tape.operations
+        return tuple(sorted({operations[k].arguments[0] for k in self.used if operations[k].name == "root"}))
 
     @cached_property
     def divisors(self) -> tuple[int, ...]:
         """Entries by which something is divided."""
-        return tuple(sorted({item.arguments[1] for item in self.tape.operations if item.name == "/"}))
+        operations = self.tape.operations
+        return tuple(sorted({operations[k].arguments[1] for k in self.used if operations[k].name == "/"}))
+
+    def text(self, k: int, depth: int = 4) -> str:
+        """An entry as a formula, cut off where it goes deep."""
+        item = self.tape.operations[k]
+        if item.name in ("varying", "uniform"):
+            names = self.tape.varying if item.name == "varying" else self.tape.uniform
+            return names[[j for j, other in enumerate(self.tape.operations) if other.name == item.name].index(k)]
+        if item.name == "number" or depth == 0:
+            return f"{item.number:g}" if item.name == "number" else ".."
+        parts = [self.text(part, depth - 1) for part in item.arguments]
+        return f"({f' {item.name} '.join(parts)})" if len(parts) == 2 else f"{item.name}({parts[0]})"
 
 
 def questions(record: MechanismRecord) -> tuple[Question, ...]:
@@ -117,11 +161,26 @@ def recorded(record: MechanismRecord, question: Question) -> Kernel:
     return _Writer(record, question).kernel()
 
 
+def line_where(kernel: Kernel, name: str, place: int, number: int) -> int | None:
+    """The line of the file at which an operation of that name first has an entry as an argument, by its number."""
+    stop = next(
+        item for item in kernel.tape.operations if item.name == name and item.arguments[number : number + 1] == (place,)
+    )
+    try:
+        _Writer(kernel.record, kernel.question, stop).kernel()
+    except MechanismFileError as error:  # a text that is read tells the line itself
+        return error.problems[0].line
+    except ZeroDivisionError as error:
+        frames = traceback.extract_tb(error.__traceback__)
+        return next((frame.lineno for frame in reversed(frames) if Path(frame.filename).name == CLOSED_FORM), None)
+    return None
+
+
 class _Writer:
     """Reads the kernels of a question over recorded numbers."""
 
-    def __init__(self, record: MechanismRecord, question: Question) -> None:
-        self.record, self.question, self.form, self.ns = record, question, closed_form_of(record), _Recorder()
+    def __init__(self, record: MechanismRecord, question: Question, stop: Operation | None = None) -> None:
+        self.record, self.question, self.form, self.ns = record, question, closed_form_of(record), _Recorder(stop)
         self.p = SimpleNamespace(**{name: self.ns.uniform(name) for name in vars(record.values)})
         self.given: list[tuple[str, bool]] = []
         self.values: dict[str, dict[str, list[Any]]] = {}
@@ -136,7 +195,7 @@ class _Writer:
             for name, values in named.items()
             for k, value in enumerate(values)
         }
-        tape = self.ns.tape(flat)
+        tape = self.ns.whole(flat)
         outputs = {
             kind: {
                 name: tuple(tape.outputs[f"{kind} {name} {k}"] for k in range(len(values)))

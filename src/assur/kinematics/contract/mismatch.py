@@ -29,6 +29,7 @@ class Mismatch:
         found: what is wrong, where and by how much.
         allowed: what the claim is.
         hint: what to look at.
+        line: of the file, where it is known; else it is looked up by the name.
     """
 
     part: Part
@@ -37,6 +38,7 @@ class Mismatch:
     found: str
     allowed: str
     hint: str = ""
+    line: int | None = None
 
     def __str__(self) -> str:
         return f"{self.title}: {self.found}; {self.allowed}"

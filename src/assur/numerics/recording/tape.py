@@ -151,7 +151,7 @@ class Recorder:
     def tape(self, outputs: Mapping[str, Any]) -> Tape:
         """What was recorded, with the numbers that are wanted of it; what these do not need is left out."""
         wanted = {name: self._number(value).index for name, value in outputs.items()}
-        return _pruned(self._operations, tuple(self._varying), tuple(self._uniform), wanted)
+        return pruned(self._operations, tuple(self._varying), tuple(self._uniform), wanted)
 
     def number(self, value: float) -> Recorded:
         """A number that is written into the program."""
@@ -227,7 +227,7 @@ class Recorded:
         return self.recorder.apply("not", self)
 
 
-def _pruned(
+def pruned(
     operations: Sequence[Operation], varying: tuple[str, ...], uniform: tuple[str, ...], outputs: Mapping[str, int]
 ) -> Tape:
     """The entries that the outputs need, and those that are given, in their order."""
