@@ -25,7 +25,7 @@ WRONG = {
          ('"arm1": core.arm1,', '"arm1": core.arm1 * (core.x - 30),')),
         "factor gap", '"gap"'),
     "a divisor of a joint value": (
-        "biglide", (('"S2": core.q2,', '"S2": core.q2 / (core.x - 11) * (core.x - 11),'),), "divisor", '"S2"'),
+        "biglide", (('"S2": core.q2,', '"S2": core.q2 / (core.x - 11) * (core.x - 11),'),), "divisor", "return {"),
 }  # fmt: skip
 
 
