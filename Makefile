@@ -11,7 +11,7 @@ INSTALL := PIP_CONSTRAINT=constraints.txt PIP_BUILD_CONSTRAINT=constraints.txt P
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help demo test test-deep mutations check figures report docs bench format constraints clean
+.PHONY: help demo test test-deep test-engines mutations check figures report docs bench format constraints clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\): .*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
@@ -26,6 +26,9 @@ test: $(VENV)/installed-$(if $(ALL),all,dev) ## set up, then every test; ALL=yes
 SEED ?= $(shell date +%Y%m%d)
 test-deep: $(VENV)/installed-$(if $(ALL),all,dev) ## the long walks, real kills and thousands of mutations that `test` leaves out; SEED=20260101 draws its examples again
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 --dist worksteal -m "deep or hypothesis" --hypothesis-profile=deep --hypothesis-seed=$(SEED) $(ARGS)
+
+test-engines: $(VENV)/installed-engines ## MuJoCo, Newton, Drake and Pinocchio read our exports; installs them, 1 GB, and Newton compiles for a minute at first
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 --dist worksteal -m engines tests/export $(ARGS)
 
 mutations: $(VENV)/installed-dev ## put faults into a copy of the source, one by one: the test named for each notices it (needs Node)
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 -m mutation tests/test_mutations.py
@@ -63,7 +66,7 @@ format: $(VENV)/installed-dev ## put the code into the form that `check` asks fo
 
 constraints: ## pin every package anew, each at its newest version that pyproject.toml allows
 	rm -rf build/pins && $(PYTHON) -m venv build/pins
-	build/pins/bin/python -m pip install --quiet --editable '.[dev,sim,view,cad,movie,cluster,docs,bench]' hatchling editables
+	build/pins/bin/python -m pip install --quiet --editable '.[dev,sim,view,cad,movie,cluster,engines,docs,bench]' hatchling editables
 	sed -n '/^#/p' constraints.txt > build/constraints.txt
 	build/pins/bin/python -m pip list --format=freeze --exclude pip --exclude setuptools --exclude assur \
 	    >> build/constraints.txt
@@ -97,3 +100,7 @@ $(VENV)/installed-docs: pyproject.toml constraints.txt | $(VENV)/made
 $(VENV)/installed-all: pyproject.toml constraints.txt | $(VENV)/made
 	$(INSTALL) '.[dev,sim,view,cad,movie,cluster,docs]'
 	@touch $(VENV)/installed $(VENV)/installed-dev $(VENV)/installed-docs $@
+
+$(VENV)/installed-engines: pyproject.toml constraints.txt | $(VENV)/made
+	$(INSTALL) '.[dev,engines]'
+	@touch $(VENV)/installed $(VENV)/installed-dev $@

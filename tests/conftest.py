@@ -3,7 +3,8 @@
 Tests whose need is not met are left out, and the end of the run says which; ASSUR_EXTRAS=required, as in continuous
 integration, makes that an error before anything runs, and makes a run fail in which a test was skipped. What takes
 minutes is left out unless `-m` asks for it, and the end of the run says how: `deep`, long walks, real kills and
-thousands of mutations, and `mutation`, faults put into the source. The end of a run also names its slowest files.
+thousands of mutations, `mutation`, faults put into the source, and `engines`, what other simulators read. The end of
+a run also names its slowest files.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import importlib.util
 import os
 import shutil
 from collections import Counter
+from ctypes.util import find_library
 from pathlib import Path
 
 import pytest
@@ -53,12 +55,13 @@ NEEDS = {
     "site": (installed("sphinx") and installed("myst_parser"), "Sphinx: pip install '.[docs]'"),
     "browser": (chromium() and installed("playwright"), "Chromium: apt install chromium, and pip install playwright"),
     "node": (shutil.which("node"), "Node: apt install nodejs"),
+    "sdf": (find_library("sdformat12"), "libsdformat 12: apt install libsdformat12-12"),
 }
 """Marker -> whether what its tests need is there, and what that is."""
 
 MISSING = {marker: what for marker, (present, what) in NEEDS.items() if not present}
 REQUIRED = os.environ.get("ASSUR_EXTRAS") == "required"
-ASKED = {"mutation": "make mutations", "deep": "make test-deep"}
+ASKED = {"mutation": "make mutations", "deep": "make test-deep", "engines": "make test-engines"}
 """Marker -> the command that runs its tests, which are left out unless `-m` names the marker."""
 SLOWEST = 10
 """So many files are named at the end of a run of more than these."""

@@ -1,16 +1,21 @@
-"""Mechanisms to export: the built-in ones, and one with a joint of every type, seen from every link as its base."""
+"""Mechanisms to export: the built-in ones, one with a joint of every type, seen from every link as its base, and others
+that strangers write: two screws in one line, a spherical one with all joints in one point, drafts of chains."""
 
 from __future__ import annotations
 
 import re
 from functools import lru_cache
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import assur
 from assur.kinematics.closure import assemble, characteristic_length
+from assur.model.file.reader import read_text
 from assur.model.registry import load_record
+from assur.synthesis.drafting.drafting import drafted
+from assur.topology.notation import parse_chains
 
 LINKS = ("world", "a", "b", "c", "d", "e", "f")
 EVERY_TYPE = """
@@ -59,6 +64,62 @@ J6 = [5, 6, 7]
 J7 = 0
 """
 CASES = [f"{base}/{driven}" for base in LINKS for driven in ("J1", "J2")]
+WRITTEN = {
+    "screws": """
+format = 1
+name = "screws"
+title = "a differential screw"
+unit = "mm"
+angle = "deg"
+base = "base"
+platform = { link = "nut", pose = ["z"] }
+[links]
+base = {}
+spindle = {}
+nut = {}
+[joints]
+H1 = { type = "helical", parent = "base", child = "spindle", axis = "z", pitch = 5 }
+H2 = { type = "helical", parent = "spindle", child = "nut", axis = "z", pitch = -3 }
+P = { type = "prismatic", parent = "base", child = "nut", axis = "z" }
+[inputs]
+H1 = { name = "q", offset = 90, sign = -1, stroke = [-2000, 2000] }
+[home]
+H1 = 30
+H2 = -30
+P = 0.5
+""",
+    "spherical": """
+format = 1
+name = "spherical"
+title = "spherical 3-RRR"
+unit = "m"
+angle = "deg"
+base = "base"
+platform = { link = "platform", pose = ["phi", "theta", "psi"] }
+[links]
+base = {}
+platform = {}
+[limbs.leg]
+repeat = { about = [1, 1, 1], count = 3 }
+[limbs.leg.links]
+near = {}
+far = {}
+[limbs.leg.joints]
+A = { type = "revolute", parent = "base", child = "near", axis = "x" }
+B = { type = "revolute", parent = "near", child = "far", axis = "z" }
+C = { type = "revolute", parent = "far", child = "platform", axis = "y" }
+[limbs.leg.inputs]
+A = { name = "q" }
+[limbs.leg.home]
+A = 0
+B = 0
+C = 0
+""",
+}
+DRAFTED = {
+    "draft": ("{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", "R[z] R[z] C[z]"),
+    "planar draft": ("R[z] R[z] R[z]", "P[x] R[z] R[z]", "R[z] P[x] R[z]"),
+}
 
 
 @lru_cache
@@ -66,9 +127,18 @@ def _built_in(name):
     return assur.load(name)
 
 
-@pytest.fixture(params=[*assur.names(), *CASES])
+@lru_cache
+def _own(name):
+    text = WRITTEN.get(name) or drafted(parse_chains(DRAFTED[name]), Path("my.toml")).text
+    return read_text(text, Path("my.toml"))
+
+
+@pytest.fixture(params=[*assur.names(), *CASES, *WRITTEN, *DRAFTED])
 def record(request, tmp_path):
-    """A built-in mechanism, or the one of every type with a base and an input: each of its joints is cut in turn."""
+    """A built-in mechanism, the one of every type with a base and an input (each of its joints is cut in turn), or an
+    own one."""
+    if request.param in (*WRITTEN, *DRAFTED):
+        return _own(request.param)
     if request.param not in CASES:
         return _built_in(request.param)
     base, driven = request.param.split("/")

@@ -110,9 +110,8 @@ def _tree(record: MechanismRecord, model: Bodies, world: Element) -> None:
             quat=quaternion(body.orientation),
         )
         made[body.name] = element
-        if body.parent:
-            inertia = numbers([body.inertia] * 3)
-            child(element, "inertial", pos=numbers(body.centre), mass=number(body.mass), diaginertia=inertia)
+        inertia = numbers([body.inertia] * 3)
+        child(element, "inertial", pos=numbers(body.centre), mass=number(body.mass), diaginertia=inertia)
         _joints(element, body)
         _shapes(element, body, model)
     _sites(record, model, made)
