@@ -22,10 +22,12 @@ BROKEN_PIPE = 141
 def of_status(status: str) -> int:
     """The code of a `Status` by name: there is a solution, singular or not, or there is none, or that is undecided.
 
-    >>> of_status("parallel"), of_status("unreachable"), of_status("undecided")
-    (0, 4, 5)
+    A solution that is not closed is one of a file whose formulas are wrong.
+
+    >>> of_status("parallel"), of_status("unreachable"), of_status("undecided"), of_status("not_closed")
+    (0, 4, 5, 3)
     """
-    return {"unreachable": NO, "undecided": UNDECIDED}.get(status, FINE)
+    return {"unreachable": NO, "undecided": UNDECIDED, "not_closed": BAD_FILE}.get(status, FINE)
 
 
 def of_answers(answers: Iterable[str]) -> int:

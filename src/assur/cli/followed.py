@@ -82,12 +82,13 @@ def _nearest_home(record: Mechanism, found: SolutionSet, default: str) -> int | 
     """The listed solution of the default mode that is nearest to home; None where there is none."""
     import numpy as np
 
+    from assur.model.turns import periodic
+
     rows = [k for k in np.flatnonzero(found.exists) if not default or str(found.labels[k]).partition("/")[0] == default]
     if not rows:
         return None
-    angular = np.array([item.kind == "angle" for item in record.coordinates])
     change = found.joints[rows] - record.home_values
-    turned = np.where(angular, 1 - np.cos(change), 0.0)
+    turned = np.where(periodic(record), 1 - np.cos(change), 0.0)
     return int(rows[int(np.argmin(np.sum(turned, axis=-1)))])
 
 

@@ -18,8 +18,14 @@ if TYPE_CHECKING:
     from assur.mechanism import Mechanism
 
 
+NO_LIMITS = "No limits are stated"
+
+
 def outcome(record: Mechanism, found: SolutionSet) -> Outcome:
-    """The outcome of one problem: exit code 4 where it is proved that no solution exists, 5 where undecided."""
+    """The outcome of one problem.
+
+    Exit code 4 where it is proved that no solution exists, 5 where that is undecided, 3 where one is not closed.
+    """
     from assur.kinematics.answers.at_border import answer
 
     data = answer(found)
@@ -36,23 +42,30 @@ def lines(record: Mechanism, found: SolutionSet) -> Iterable[RenderableType]:
 def _shown(record: Mechanism, data: dict[str, Any], branches: int) -> Iterable[RenderableType]:
     style = style_of(record)
     problem = "direct" if "inputs" in data else "inverse"
-    yield heading(f"{data['mechanism']}, {problem}: {_headline(data, branches)}")
+    yield heading(f"{data['mechanism']}, {problem}: {_headline(record, data, branches)}")
     yield _given(record, data, style)
     yield ""
     if data["solutions"]:
         yield _solutions(record, data, style)
+        yield from _exceeded(data)
+        yield from _open_loops(data)
         yield from parasitic.shown_solutions(record, data["solutions"])
     if data["curves"]:
         yield from _curves(data, style)
     if data["failures"]:
         yield failures(data["failures"])
     yield _completeness(record, data)
+    if data["solutions"] and not data["limits_stated"]:
+        yield f"{NO_LIMITS}."
     yield from _modes(record, data)
 
 
-def _headline(data: dict[str, Any], branches: int) -> str:
+def _headline(record: Mechanism, data: dict[str, Any], branches: int) -> str:
+    """What the rows that answer say, that of home or of the file's own mode first."""
     among = f"among {count(branches, 'branch')}" if branches > 1 else "in this mode"
     found = count(len(data["solutions"]), "solution")
+    if data["right"].startswith("not proved") and not data["solutions"] and not data["curves"]:
+        return "nothing was found, not proved"
     if data["status"] == "unreachable":
         return f"unreachable, no solution {among}"
     if data["curves"]:
@@ -61,7 +74,17 @@ def _headline(data: dict[str, Any], branches: int) -> str:
     if len(listed) == 1 or not listed:
         return f"{status}, {found} {among}"
     each = ", ".join(f"{number} {name}" for name, number in listed.most_common())
-    return f"{status} at worst, {found} ({each}) {among}"
+    own = _own_row(record, data)
+    first = f"{own['status']} in mode {own['mode']}, " if own and own["status"] != status else ""
+    return f"{first}{status} at worst, {found} ({each}) {among}"
+
+
+def _own_row(record: Mechanism, data: dict[str, Any]) -> dict[str, Any] | None:
+    """The solution that is home, else that of the file's own mode; None where there is neither."""
+    modes = record.modes
+    default = modes.default_assembly if "inputs" in data else modes.default_working
+    rows = {item["mode"]: item for item in data["solutions"]}
+    return next((rows[mode] for mode in (*data["home"], default) if mode in rows), None)
 
 
 def _given(record: Mechanism, data: dict[str, Any], style: Style) -> str:
@@ -90,12 +113,60 @@ def _solutions(record: Mechanism, data: dict[str, Any], style: Style) -> Rendera
         return [style.kind(*pair) for pair in zip(kinds, item["inputs"], strict=True)]
 
     rows = [
-        (item["mode"], *values(item), item[other], item["status"], tiny(item["residual"])) for item in data["solutions"]
+        (item["mode"], *values(item), item[other], item["status"], tiny(item["residual"]), _limits(item))
+        for item in data["solutions"]
     ]
-    marks = ["" if item["status"] == "regular" else "yellow" for item in data["solutions"]]
-    columns = ("mode", *titles, other.partition("_")[0], "status", f"gap [{style.unit}]")
-    kept = [k for k in range(len(columns)) if k != len(columns) - 3 or any(row[k] for row in rows)]
-    return table([columns[k] for k in kept], [[row[k] for k in kept] for row in rows], left=("status",), styles=marks)
+    usual = [item["status"] == "regular" and not item["limits"]["outside"] for item in data["solutions"]]
+    columns = ("mode", *titles, other.partition("_")[0], "status", f"gap [{style.unit}]", "limits")
+    told = [any(row[k] for row in rows) for k in range(len(columns))]
+    told[-1] = data["limits_stated"]
+    kept = [k for k in range(len(columns)) if told[k] or columns[k] not in ("working", "assembly", "limits")]
+    return table(
+        [columns[k] for k in kept],
+        [[row[k] for k in kept] for row in rows],
+        left=("status", "limits"),
+        styles=["" if same else "yellow" for same in usual],
+    )
+
+
+def _limits(item: dict[str, Any]) -> str:
+    """The first limit that a solution exceeds, by how much, and how many more."""
+    outside = item["limits"]["outside"]
+    if not outside:
+        return "within"
+    first = f"{outside[0]['joint']} {short(outside[0]['by'])} {outside[0]['unit']}"
+    return f"{first} +{len(outside) - 1}" if len(outside) > 1 else first
+
+
+def _exceeded(data: dict[str, Any]) -> Iterable[str | RenderableType]:
+    """Which limits the solutions exceed, and by how much; once for all that do so alike."""
+    modes: dict[tuple[str, ...], list[str]] = {}
+    for item in data["solutions"]:
+        for each in item["limits"]["outside"]:
+            allowed = f"{short(each['low'])} .. {short(each['high'])}"
+            by = f"{short(each['by'])} {each['unit']}"
+            modes.setdefault((each["limit"], short(each["value"]), allowed, by), []).append(item["mode"])
+    if modes:
+        yield "Outside the limits of the file, which the equations do not know:"
+        rows = [(*row, _listed(names, data)) for row, names in modes.items()]
+        yield table(("limit", "value", "allowed", "outside by", "modes"), rows, left=("limit", "modes"))
+
+
+def _open_loops(data: dict[str, Any]) -> Iterable[str]:
+    """Which loop solutions leave open, and by how much; once for all that do so alike."""
+    modes: dict[str, list[str]] = {}
+    for item in data["solutions"]:
+        if item["status"] == "not_closed":
+            loop = item["open_loop"]
+            where = f"{loop['loop']} stays open at {loop['joint']}" if loop else "they answer another question"
+            gap = loop["gap"] if loop else item["residual"]
+            modes.setdefault(f"{where}, by {short(gap)} {data['unit']}", []).append(item["mode"])
+    for text, names in modes.items():
+        yield f"Not closed, so no solutions: {_listed(names, data)}: {text}"
+
+
+def _listed(modes: list[str], data: dict[str, Any]) -> str:
+    return "all" if len(modes) == len(data["solutions"]) else ", ".join(modes)
 
 
 def _curves(data: dict[str, Any], style: Style) -> Iterable[RenderableType]:
@@ -134,6 +205,8 @@ def _completeness(record: Mechanism, data: dict[str, Any]) -> str:
     because = f" ({form.reduced_because})" if form is not None and form.reduced_because else ""
     reduced = data["complete_for"] == "reduced"
     model = f"the reduced model{because}" if reduced else "the joint graph"
+    if data["status"] == "not_closed":
+        return f"The formulas of {model} are wrong here: they give what the loops of the file do not allow."
     if data["status"] == "undecided" and form is not None and data["right"].startswith("closed form"):
         return f"Undecided: the closed form of {model} degenerates here, and no curve of poses is known to it."
     right = data["right"]

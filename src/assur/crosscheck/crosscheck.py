@@ -23,6 +23,7 @@ from assur.kinematics.status import Status
 from assur.model.joint_graph import Frame, frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
+from assur.model.turns import periodic_inputs
 
 FloatArray = NDArray[np.float64]
 EngineName = Literal["mujoco"]
@@ -192,12 +193,12 @@ def _apart(engine: Engine, ours: Frame, theirs: Frame) -> float:
 
 
 def _inputs_apart(engine: Engine, item: Configuration) -> float:
-    """Largest difference of the printed inputs; angles that differ by whole turns are the same."""
+    """Largest difference of the printed inputs; angles whose turns do not count are the same after whole ones."""
     metre, size = engine.bodies.metre, engine.bodies.size
     angular = np.array([one.coordinate.kind == "angle" for one in engine.record.inputs])
     gap = engines.printed_inputs(engine) - np.where(angular, 1.0, metre) * item.inputs
-    turned = (gap + np.pi) % (2 * np.pi) - np.pi
-    return float(np.max(np.abs(np.where(angular, turned, gap / size)), initial=0.0))
+    gap = np.where(periodic_inputs(engine.record), (gap + np.pi) % (2 * np.pi) - np.pi, gap)
+    return float(np.max(np.abs(np.where(angular, gap, gap / size)), initial=0.0))
 
 
 def _jacobians(record: MechanismRecord, item: Configuration) -> dict[str, FloatArray]:

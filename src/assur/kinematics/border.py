@@ -14,6 +14,7 @@ from assur.kinematics.pose import pose_error
 from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
+from assur.model.turns import periodic_inputs
 from assur.numerics import rotations
 from assur.topology.joints import SPHERICAL
 
@@ -109,11 +110,11 @@ def input_names(record: MechanismRecord) -> tuple[str, ...]:
 
 
 def input_components(record: MechanismRecord, inputs: FloatArray) -> tuple[Any, ...]:
-    """Kernel inputs from printed ones (N, n): a length as it is, an angle as (cosine, sine)."""
+    """Kernel inputs from printed ones (N, n): an angle as (cosine, sine), a length or counted turns as they are."""
     values = [(inputs[:, k] - item.offset) * item.sign for k, item in enumerate(record.inputs)]
     return tuple(
-        (np.cos(value), np.sin(value)) if item.coordinate.kind == "angle" else value
-        for value, item in zip(values, record.inputs, strict=True)
+        (np.cos(value), np.sin(value)) if same else value
+        for value, same in zip(values, periodic_inputs(record), strict=True)
     )
 
 
@@ -185,9 +186,11 @@ def distance(record: MechanismRecord, joints: FloatArray, poses: FloatArray, inp
     """
     length = characteristic_length(record)
     gaps = np.max(np.abs(pose_error(record, frames(record, joints), poses, length)), axis=-1)
-    for k, item in enumerate(record.inputs):
+    for k, (item, same) in enumerate(zip(record.inputs, periodic_inputs(record), strict=True)):
         gap = np.abs(item.sign * joints[:, item.coordinate.index] + item.offset - inputs[:, k])
+        if same:
+            gap = np.abs((gap + np.pi) % (2 * np.pi) - np.pi)
         if item.coordinate.kind == "angle":
-            gap = length * np.abs((gap + np.pi) % (2 * np.pi) - np.pi)
+            gap = length * gap
         gaps = np.maximum(gaps, gap)
     return np.asarray(gaps)

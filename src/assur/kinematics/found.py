@@ -95,11 +95,15 @@ class Found(SolutionSet):
     def status(self) -> NDArray[np.int8]:
         """`Status` (..., K) of every row, from the joint graph's Jacobians."""
         found = status_of(self.record, self.assemblies[self._there], self._instant)
-        return np.where(self._there, np.nan_to_num(self._spread(found)), Status.unreachable).astype(np.int8)
+        status = np.where(self._there, np.nan_to_num(self._spread(found)), Status.unreachable)
+        return self._closed(status.astype(np.int8))
 
     @cached_property
     def overall_status(self) -> NDArray[np.int8]:
-        """`Status` (...) of the answer: the most severe among the listed solutions; undecided where none was found."""
+        """`Status` (...) of the answer: the most severe among the listed solutions; undecided where none was found.
+
+        Only where all are known is a problem without solution `unreachable`: a search proves nothing.
+        """
         listed = np.where(self.exists, self.status, -1).max(axis=-1, initial=-1)
         nothing = Status.unreachable if self.all_known else Status.undecided
         return np.asarray(np.where(listed >= 0, listed, nothing), dtype=np.int8)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.model.mechanism import MechanismRecord
+from assur.model.turns import periodic
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
@@ -51,12 +53,26 @@ class Limit:
 def limits(record: MechanismRecord, joints: FloatArray) -> tuple[Limit, ...]:
     """Every bound of the file, for motions that begin at joint values (n,).
 
-    An angle is counted from there on without jumps; whole turns are added so that it begins as near to the middle of
-    its bounds as it can.
+    An angle is counted from there on without jumps; where a whole turn leaves it as it was, turns are added so that it
+    begins as near to the middle of its bounds as it can.
 
     >>> from assur.model.registry import load_record
     >>> limits(load_record("fivebar"), np.zeros(5))
     ()
+    """
+    return tuple(
+        replace(limit, offset=limit.offset + float(turns_to(record, limit, limit.value(joints))))
+        for limit in stated_limits(record)
+    )
+
+
+@lru_cache(maxsize=64)
+def stated_limits(record: MechanismRecord) -> tuple[Limit, ...]:
+    """Every bound as the file states it: strokes of inputs, limits of joint values, cones.
+
+    >>> from assur.model.registry import load_record
+    >>> [item.name for item in stated_limits(load_record("three_rps"))]
+    ['stroke of rho1', 'stroke of rho2', 'stroke of rho3']
     """
     found = []
     for item in record.inputs:
@@ -76,20 +92,14 @@ def limits(record: MechanismRecord, joints: FloatArray) -> tuple[Limit, ...]:
         if joint.cone is not None and joint.cone_axis is not None:
             index = record.joint_coordinates(joint.name)[0].index
             found.append(Limit(f"cone of {joint.name}", index, 0.0, joint.cone, True, axis=joint.cone_axis))
-    return tuple(_begun(limit, joints) for limit in found)
+    return tuple(found)
 
 
-def _begun(limit: Limit, joints: FloatArray) -> Limit:
-    if not limit.angular or limit.axis is not None:
-        return limit
-    middle = (limit.low + limit.high) / 2
-    turns = np.round((middle - float(limit.value(joints))) / (2 * np.pi))
-    return Limit(
-        limit.name,
-        limit.index,
-        limit.low,
-        limit.high,
-        True,
-        limit.sign,
-        limit.offset + 2 * np.pi * float(turns),
-    )
+def turns_to(record: MechanismRecord, limit: Limit, value: FloatArray) -> FloatArray:
+    """Angles (...) to add to values of a limit that bring them as near to the middle of its bounds as whole turns can.
+
+    Zero for a length, a tilt, and an angle whose turns count (`assur.model.turns`).
+    """
+    if limit.axis is not None or not periodic(record)[limit.index]:
+        return np.zeros(np.shape(value))
+    return np.asarray(2 * np.pi * np.round(((limit.low + limit.high) / 2 - value) / (2 * np.pi)))

@@ -16,7 +16,7 @@ from assur.kinematics.position import direct, inverse
 from assur.kinematics.search import SAME, places
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
-from assur.topology.joints import SPHERICAL
+from assur.model.turns import periodic
 
 FloatArray = NDArray[np.float64]
 
@@ -102,14 +102,11 @@ def postures(record: MechanismRecord, values: FloatArray, problem: Problem) -> P
 
 
 def unwound(record: MechanismRecord, values: FloatArray, near: FloatArray) -> FloatArray:
-    """Joint values (n,) whose angles are within half a turn of others'; rotation vectors of S joints stay.
+    """Joint values (n,) whose periodic angles are within half a turn of others'; screws and balls stay as they are.
 
     >>> from assur.model.registry import load_record
     >>> record = load_record("fivebar")
     >>> unwound(record, np.full(5, 7.0), np.zeros(5)).round(4).tolist()
     [0.7168, 0.7168, 0.7168, 0.7168, 0.7168]
     """
-    turns = np.array(
-        [item.kind == "angle" and record.joints[item.joint].type is not SPHERICAL for item in record.coordinates]
-    )
-    return np.where(turns, values - 2 * np.pi * np.round((values - near) / (2 * np.pi)), values)
+    return np.where(periodic(record), values - 2 * np.pi * np.round((values - near) / (2 * np.pi)), values)

@@ -7,16 +7,22 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.border import held_inputs
+from assur.kinematics.border import held_inputs, inputs_of
 from assur.kinematics.closure import Assembly, assemble, characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
+from assur.kinematics.pose import pose_of
+from assur.kinematics.turns import counts_turns, near_turns_of_home, with_turns_of_home
 from assur.model.joint_graph import frames
-from assur.model.mechanism import MechanismRecord
+from assur.model.mechanism import Coordinate, MechanismRecord
+from assur.model.pose import is_angle
+from assur.model.turns import counted, periodic_inputs
 
 FloatArray = NDArray[np.float64]
 STARTS = 192
 MOST = 8 * STARTS
+WAY = 16
+"""Starts on the way from home, where turns count."""
 AGAIN = 8
 """A search ends when so many assemblies in a row, for each that is known, were known already; or after MOST starts."""
 
@@ -43,8 +49,10 @@ class Search:
 def search(record: MechanismRecord, problem: Problem, given: FloatArray, seed: int = 0) -> Search:
     """Assemblies at printed inputs (n,) or at a pose (m,), from home and from starts by chance.
 
-    Angles start anywhere on the circle, lengths within twice the characteristic length of home. The search ends when
-    it has met what it knows `AGAIN` times as often as it has met anything new, or after `MOST` starts.
+    Angles start anywhere on the circle, lengths within twice the characteristic length of home, screws where they
+    advance as far. Where turns count, starts and assemblies have as many as motions from home
+    (`assur.kinematics.turns`), and some starts lie on the way from home to what is asked for. The search ends when it
+    has met what it knows `AGAIN` times as often as it has met anything new, or after `MOST` starts.
 
     >>> from assur.model.registry import load_record
     >>> len(search(load_record("fivebar"), "direct", np.radians([127.0, 53.0])).joints)
@@ -54,9 +62,13 @@ def search(record: MechanismRecord, problem: Problem, given: FloatArray, seed: i
     known = np.empty((0, len(record.coordinates)))
     starts, last, nearest, again = 0, 0, np.inf, 0
     while starts < MOST and again < AGAIN * max(len(known), 1):
-        found = _assembled(record, problem, given, _starts(record, STARTS, rng, with_home=starts == 0))
-        closed = np.flatnonzero(found.closed)
-        joints = np.concatenate([known, in_one_turn(record, found.values[closed])])
+        begun = _starts(record, STARTS, rng, with_home=starts == 0)
+        if starts == 0 and counts_turns(record):
+            begun[1 : 1 + WAY] = _on_the_way(record, problem, given)
+        found = _assembled(record, problem, given, begun)
+        counted, same = with_turns_of_home(record, found.values, _held(record, problem))
+        closed = np.flatnonzero(found.closed & same)
+        joints = np.concatenate([known, counted[closed]])
         kept = distinct(record, joints)
         again += len(closed)
         if len(kept) > len(known):
@@ -67,9 +79,28 @@ def search(record: MechanismRecord, problem: Problem, given: FloatArray, seed: i
 
 
 def _assembled(record: MechanismRecord, problem: Problem, given: FloatArray, start: FloatArray) -> Assembly:
+    held = _held(record, problem)
     if problem == "direct":
-        return assemble(record, held_inputs(record, start, given), held=record.input_indices)
-    return assemble(record, start, poses=given)
+        return assemble(record, near_turns_of_home(record, held_inputs(record, start, given), held), held=held)
+    return assemble(record, near_turns_of_home(record, start, held), poses=given)
+
+
+def _held(record: MechanismRecord, problem: Problem) -> tuple[int, ...]:
+    return record.input_indices if problem == "direct" else ()
+
+
+def _on_the_way(record: MechanismRecord, problem: Problem, given: FloatArray) -> FloatArray:
+    """Joint values (WAY, n) on the straight way from home to inputs (k,) or a pose (m,), each closed from the last."""
+    values, on = home_values(record), []
+    direct = problem == "direct"
+    begun = inputs_of(record, values) if direct else pose_of(record, values)
+    angular = periodic_inputs(record) if direct else np.array([is_angle(name) for name in record.platform.pose])
+    change = given - begun
+    change = np.where(angular, np.remainder(change + np.pi, 2 * np.pi) - np.pi, change)
+    for share in np.arange(1, WAY + 1) / WAY:
+        values = _assembled(record, problem, begun + share * change, values[None]).values[0]
+        on.append(values)
+    return np.array(on)
 
 
 def distinct(record: MechanismRecord, joints: FloatArray) -> NDArray[np.intp]:
@@ -86,18 +117,8 @@ def distinct(record: MechanismRecord, joints: FloatArray) -> NDArray[np.intp]:
     return np.array(kept, dtype=np.intp)
 
 
-def in_one_turn(record: MechanismRecord, joints: FloatArray) -> FloatArray:
-    """Joint values (..., coordinates) with the angle of every axis between -pi and pi."""
-    turning = [
-        item.index for item in record.coordinates if item.kind == "angle" and record.joints[item.joint].type.axes > 0
-    ]
-    answer = np.array(joints)
-    answer[..., turning] = (answer[..., turning] + np.pi) % (2 * np.pi) - np.pi
-    return answer
-
-
 def places(record: MechanismRecord, joints: FloatArray) -> FloatArray:
-    """Places (N, k) of all joints and of the platform in units of the characteristic length, and the inputs."""
+    """Places (N, k) of all joints and of the platform in units of the characteristic length, inputs, counted turns."""
     placed, length = frames(record, joints), characteristic_length(record)
     columns = []
     for joint in record.joints.values():
@@ -105,18 +126,26 @@ def places(record: MechanismRecord, joints: FloatArray) -> FloatArray:
         columns.append((rotation @ joint.at + origin) / length)
     rotation, origin = placed[record.platform.link]
     columns += [(rotation @ record.platform.point + origin) / length, rotation.reshape(len(joints), 9)]
-    for item in record.inputs:
+    for item, same in zip(record.inputs, periodic_inputs(record), strict=True):
         value = joints[:, item.coordinate.index]
-        angular = item.coordinate.kind == "angle"
-        columns += [np.cos(value)[:, None], np.sin(value)[:, None]] if angular else [value[:, None] / length]
+        unit = length if item.coordinate.kind == "length" else 1.0
+        columns += [np.cos(value)[:, None], np.sin(value)[:, None]] if same else [value[:, None] / unit]
+    columns.append(joints[:, counted(record)])
     return np.concatenate(columns, axis=-1)
 
 
 def _starts(record: MechanismRecord, count: int, rng: np.random.Generator, *, with_home: bool) -> FloatArray:
     """Joint values (count, coordinates) by chance, the first of them home where that is wanted."""
     home, length = home_values(record), characteristic_length(record)
-    angular = np.array([item.kind == "angle" for item in record.coordinates])
     spread = rng.uniform(-1.0, 1.0, size=(count, len(home)))
     if with_home:
         spread[0] = 0.0
-    return np.asarray(np.where(angular, home + np.pi * spread, home + 2.0 * length * spread))
+    return np.asarray(home + spread * [_reach(record, item, length) for item in record.coordinates])
+
+
+def _reach(record: MechanismRecord, item: Coordinate, length: float) -> float:
+    """How far from home a joint value starts: half a turn, twice the characteristic length, or turns for as much."""
+    if item.kind == "length":
+        return 2.0 * length
+    pitch = abs(record.joints[item.joint].pitch)
+    return np.pi * max(1.0, 4.0 * length / pitch) if pitch else np.pi

@@ -47,8 +47,9 @@ class Status(IntEnum):
     comprehensive = 4
     constraint = 5
     self_motion = 6
-    unreachable = 7
-    undecided = 8
+    not_closed = 7
+    unreachable = 8
+    undecided = 9
 
 
 @lru_cache(maxsize=256)

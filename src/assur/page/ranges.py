@@ -12,6 +12,7 @@ from assur.kinematics.pose import pose_of
 from assur.kinematics.position import inverse
 from assur.model.mechanism import Input, MechanismRecord
 from assur.model.pose import LENGTHS, QUATERNION
+from assur.model.turns import counted, turn_relations
 
 FloatArray = NDArray[np.float64]
 SAMPLES = 2000
@@ -89,11 +90,23 @@ def _needed(record: MechanismRecord, home: FloatArray) -> FloatArray:
 def _range(record: MechanismRecord, item: Input, here: float, needed: FloatArray) -> list[float]:
     if item.stroke is not None:
         return [min(item.stroke[0], here), max(item.stroke[1], here)]
+    if counted(record)[item.coordinate.index]:
+        half = 2 * np.pi * _turns(record, item)
+        return [here - half, here + half]
     if item.coordinate.kind == "angle":
         return list(whole_turn(here))
     low, high = float(np.min(needed)), float(np.max(needed))
     half = PAD * (high - low) or characteristic_length(record)
     return list(_outward(low - half, high + half))
+
+
+def _turns(record: MechanismRecord, item: Input) -> int:
+    """Whole turns of a driven screw, or of a shaft that drives one, that advance it by the characteristic length."""
+    index = item.coordinate.index
+    together = [row for row in turn_relations(record) if row[index]]
+    screws = {record.coordinates[k].joint for row in together for k in np.flatnonzero(row)} | {item.coordinate.joint}
+    pitch = max(abs(record.joints[name].pitch) for name in screws)
+    return max(1, round(characteristic_length(record) / pitch))
 
 
 def _outward(low: float, high: float) -> tuple[float, float]:

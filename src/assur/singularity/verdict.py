@@ -30,7 +30,7 @@ class Verdict:
 
     Attributes:
         kind: regular, serial, parallel, comprehensive, constraint or self_motion; unreachable where the
-            mode does not reach the pose, or the joint values do not close the loops.
+            mode does not reach the pose; not_closed where the joint values do not close the loops.
         near: whether a factor is within `NEAR_SINGULAR` of zero without being zero.
         reduced_kind: the kind by the factors of det Jp and det Jq alone (serial, parallel, comprehensive).
         closest: name of the factor that is closest to zero, relative to its scale.
@@ -96,7 +96,7 @@ def verdict(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) -
     if record.closed_form is None:
         return _of_the_one(record, found)
     status = Status(int(found.status[0]))
-    if status in (Status.unreachable, Status.undecided):
+    if status in (Status.not_closed, Status.unreachable, Status.undecided):
         return _nothing(status)
     free = mobility(record, found.joints[0])
     general = max(generic_rank(record), int(free.rank))
@@ -138,7 +138,7 @@ def verdict_at(record: MechanismRecord, joints: Named) -> Verdict:
         raise UsageError(f"one configuration is judged at a time, not a batch of shape {values.shape[:-1]}")
     instant = instantaneous(record, values)
     status = Status(int(status_of(record, values, instant)))
-    if status == Status.unreachable:
+    if status == Status.not_closed:
         return _nothing(status)
     here = VelocityMap.of(record, instant)
     measures = {name: float(value) for name, value in instant.measures.items()}

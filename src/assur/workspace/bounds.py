@@ -1,7 +1,8 @@
 """Bounds: strokes of inputs, limits of joints and cones as margins, one rule for closed forms and followed modes.
 
-A length gives two margins, value - low and high - value; an angle one, cos(value - middle) - cos(half the interval),
-which knows no turns; a cone one, the cosine of the tilt less that of the largest.
+A length, or an angle whose turns count, gives two margins, value - low and high - value; any other angle one,
+cos(value - middle) - cos(half the interval), which knows no turns; a cone one, the cosine of the tilt less that of
+the largest.
 """
 
 from __future__ import annotations
@@ -9,20 +10,25 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
 from assur.model.mechanism import Coordinate, Input, Joint, MechanismRecord
+from assur.model.turns import periodic
 from assur.numerics.intervals.functions import cosine_sine, from_degrees
 from assur.numerics.intervals.interval import Interval
 
 FloatArray = NDArray[np.float64]
 Stroke = tuple[float, float]
+Kind = Literal["turn", "value"]
+"""An angle that is the same after a whole turn, or a number."""
+
 Values = Mapping[str, Any]
-"""By joint or joint.component: a length, an angle as (cosine, sine), a spherical joint as three rows of a rotation."""
+"""By joint or joint.component: a length, an angle as (cosine, sine) or, where its turns count, in rad, a spherical
+joint as three rows of a rotation."""
 
 Bound = Callable[[Values], Any]
 """A margin of joint values, of their number type."""
@@ -53,15 +59,17 @@ def bounds(
     ['yA1 >= -300', 'yA1 <= 300', 'yA2 <= 5']
     """
     found: dict[str, Bound] = {}
+    same = periodic(record)
     for item, stroke in _strokes(record, strokes):
         if stroke is not None:
             key = record.coordinate_label(item.coordinate)
-            found |= _interval(item.name, key, item.coordinate.kind, stroke, constant, item.sign, item.offset)
+            kind: Kind = "turn" if same[item.coordinate.index] else "value"
+            found |= _interval(item.name, key, kind, stroke, constant, item.sign, item.offset)
     for coordinate in record.coordinates:
         limit = _limit(record, coordinate)
         if limit is not None:
             key = record.coordinate_label(coordinate)
-            found |= _interval(key, key, coordinate.kind, limit, constant)
+            found |= _interval(key, key, "turn" if same[coordinate.index] else "value", limit, constant)
     for joint in record.joints.values():
         if joint.cone is not None and joint.cone_axis is not None:
             found[f"tilt of {joint.name} <= {joint.cone:g}"] = partial(_cone, joint, constant)
@@ -97,11 +105,17 @@ def _checked(name: str, stroke: Any) -> Stroke:
 
 
 def _interval(
-    name: str, key: str, kind: str, interval: Stroke, constant: Constant, sign: float = 1.0, offset: float = 0.0
+    name: str,
+    key: str,
+    kind: Kind,
+    interval: Stroke,
+    constant: Constant,
+    sign: float = 1.0,
+    offset: float = 0.0,
 ) -> dict[str, Bound]:
     """Margins of low <= sign * value + offset <= high."""
     low, high = interval
-    if kind == "angle":
+    if kind == "turn":
         if high - low >= 2 * math.pi:
             return {}
         first, last = from_degrees(low), from_degrees(high)
@@ -110,13 +124,13 @@ def _interval(
         return {f"{low:g} <= {name} <= {high:g}": partial(_angle, key, *map(constant, circle))}
     found: dict[str, Bound] = {}
     if math.isfinite(low):
-        found[f"{name} >= {low:g}"] = partial(_length, key, sign, constant(Interval.of(offset) - low))
+        found[f"{name} >= {low:g}"] = partial(_value, key, sign, constant(Interval.of(offset) - low))
     if math.isfinite(high):
-        found[f"{name} <= {high:g}"] = partial(_length, key, -sign, constant(Interval.of(high) - offset))
+        found[f"{name} <= {high:g}"] = partial(_value, key, -sign, constant(Interval.of(high) - offset))
     return found
 
 
-def _length(key: str, slope: float, start: Any, values: Values) -> Any:
+def _value(key: str, slope: float, start: Any, values: Values) -> Any:
     return slope * values[key] + start
 
 

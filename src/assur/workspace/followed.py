@@ -32,6 +32,7 @@ from assur.kinematics.position import inverse
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
+from assur.model.turns import periodic
 from assur.numerics import rotations
 from assur.singularity.loci import OUTPUT
 from assur.topology.joints import SPHERICAL
@@ -289,9 +290,9 @@ def _of_joints(record: MechanismRecord, bound: Bound) -> Callable[[Followed], Fl
 def _values(record: MechanismRecord, joints: FloatArray) -> Values:
     """Joint values (N, n) as bounds take them."""
     values: dict[str, object] = {}
-    for item in record.coordinates:
+    for item, same in zip(record.coordinates, periodic(record), strict=True):
         value = joints[:, item.index]
-        values[record.coordinate_label(item)] = (np.cos(value), np.sin(value)) if item.kind == "angle" else value
+        values[record.coordinate_label(item)] = (np.cos(value), np.sin(value)) if same else value
     for name, joint in record.joints.items():
         if joint.type is SPHERICAL:
             turn = rotations.from_vector(joints[:, joint_graph(record).slices[name]])

@@ -44,7 +44,7 @@ def test_two_different_poses_are_two(found):
 )
 def test_two_roots_of_one_pose_are_one_if_it_is_singular(found, status, open_question):
     changed(found, "joints", found.joints[0, 2], 3)
-    changed(found, "status", status, 2)
+    changed(found, "formula_status", status, 2)
     dropped, unsure = decided(found, counts(2, 3))
     assert np.flatnonzero(dropped[0]).tolist() == [3]
     assert np.flatnonzero(unsure[0]).tolist() == ([3] if open_question else [])
@@ -73,7 +73,7 @@ def test_an_open_loop_that_cannot_be_closed_is_no_pose():
 
 def test_three_together_must_all_be_poses_that_are_not_singular(found):
     assert not np.any(decided(found, counts(1, 2, 3, number=3))[1])
-    changed(found, "status", Status.parallel, 2)
+    changed(found, "formula_status", Status.parallel, 2)
     assert np.flatnonzero(decided(found, counts(1, 2, 3, number=3))[1][0]).tolist() == [2]
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.kinematics import border
+from assur.kinematics.answers.excess import limits_stated
 from assur.kinematics.answers.solution import Solution
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.near_home import is_home
@@ -44,6 +45,7 @@ def answer(found: SolutionSet) -> dict[str, Any]:
         "complete": found.complete,
         "complete_for": found.complete_for,
         "right": found.right,
+        "limits_stated": limits_stated(record),
         "solutions": [_solution(record, found, item) for item in found],
         "home": [str(label) for label in found.labels[found.exists][is_home(record, found.joints[found.exists])]],
         "curves": [
@@ -81,8 +83,25 @@ def _solution(record: MechanismRecord, found: SolutionSet, item: Solution) -> di
         **other,
         "residual": plain(item.residual),
         "status": item.status.name,
+        "open_loop": None if item.open_loop is None else plain(item.open_loop),
+        "limits": limits_at_border(record, item),
         "parasitic": _parasitic(record, item),
     }
+
+
+def limits_at_border(record: MechanismRecord, item: Solution) -> dict[str, Any]:
+    """Whether a solution keeps the limits of the file (None where it states none), and each that it does not keep."""
+    outside = []
+    for each in item.excesses:
+        value, low, high, by = (
+            plain(angle_at_border(record, number) if each.angular else number)
+            for number in (each.value, each.low, each.high, each.by)
+        )
+        unit = record.angle if each.angular else record.unit
+        outside.append(
+            {"limit": each.limit, "joint": each.joint, "value": value, "low": low, "high": high, "by": by, "unit": unit}
+        )
+    return {"within": item.within_limits, "outside": outside}
 
 
 def _parasitic(record: MechanismRecord, item: Solution) -> dict[str, Any]:

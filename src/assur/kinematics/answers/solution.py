@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.answers.excess import Excess, OpenLoop
 from assur.kinematics.status import Status
 
 FloatArray = NDArray[np.float64]
@@ -39,6 +40,9 @@ class Solution:
         residual: closure error of the full joint graph, in length units.
         factors: factors of det Jp and det Jq by name.
         quantities: what the source names on its way, angles in rad.
+        within_limits: whether it keeps every stroke, joint limit and cone of the file; None where none is stated.
+        excesses: the limits that it does not keep, and by how much.
+        open_loop: of a solution that is `not_closed`, the loop that stays open most.
     """
 
     pose: FloatArray
@@ -51,3 +55,6 @@ class Solution:
     status: Status
     factors: Mapping[str, float]
     quantities: Mapping[str, float]
+    within_limits: bool | None = None
+    excesses: tuple[Excess, ...] = ()
+    open_loop: OpenLoop | None = None

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from assur.errors import BatchError
 from assur.kinematics import border
+from assur.kinematics.answers.excess import beyond, excesses, limits_stated, open_loop, within
 from assur.kinematics.answers.self_motion import SelfMotionCurve
 from assur.kinematics.answers.solution import Failure, Solution
-from assur.kinematics.closure import closure_error
+from assur.kinematics.closure import CLOSED, characteristic_length, closure_error
 from assur.kinematics.modes import Problem
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
@@ -77,7 +78,7 @@ class SolutionSet(ABC):
     @property
     @abstractmethod
     def overall_status(self) -> NDArray[np.int8]:
-        """`Status` (...) of the answer: the most severe among the listed solutions, or why there is none."""
+        """`Status` (...) of the answer: the most severe among the solutions that answer, or why there is none."""
 
     @property
     @abstractmethod
@@ -140,6 +141,25 @@ class SolutionSet(ABC):
             error[block] = np.maximum(closure_error(self.record, joints[block]), self._miss(joints[block], block))
         return error.reshape(self.joints.shape[:-1])
 
+    @cached_property
+    def within_limits(self) -> NDArray[np.bool_]:
+        """Whether a solution (..., K) keeps every stroke, joint limit and cone of the file; false where there is none.
+
+        True for every solution where the file states no limits.
+        """
+        joints = self.joints.reshape(-1, self.joints.shape[-1])
+        rows = np.flatnonzero(np.all(np.isfinite(joints), axis=-1))
+        given = np.repeat(self.given.reshape(-1, self.given.shape[-1]), self.candidates, axis=0)
+        kept = np.zeros(len(joints), dtype=bool)
+        kept[rows] = within(self.record, beyond(self.record, self.problem, given[rows], joints[rows]))
+        return kept.reshape(self.joints.shape[:-1])
+
+    def _closed(self, status: NDArray[np.int8]) -> NDArray[np.int8]:
+        """A status (..., K) of candidates, `not_closed` where what answers keeps a gap."""
+        with np.errstate(invalid="ignore"):
+            gap = self.residuals > CLOSED * characteristic_length(self.record)
+        return np.where(gap & (status < Status.not_closed), Status.not_closed, status).astype(np.int8)
+
     def _miss(self, joints: FloatArray, rows: NDArray[np.intp]) -> FloatArray:
         """How far joint values (N, coordinates) are from the poses and inputs of flat rows, in length units."""
         poses = self._asked(self.poses, "inverse").reshape(-1, self.poses.shape[-1])[rows]
@@ -157,7 +177,8 @@ class SolutionSet(ABC):
         quantities = self.named_quantities
         for k in np.flatnonzero(self.exists):
             mode, other = str(self.labels[k]), str(self.other_labels[k])
-            direct = self.problem == "direct"
+            direct, status = self.problem == "direct", Status(int(self.status[k]))
+            exceeded = excesses(self.record, self.problem, self.given, self.joints[k])
             yield Solution(
                 pose=self.poses[k],
                 inputs=self.inputs[k],
@@ -166,9 +187,12 @@ class SolutionSet(ABC):
                 assembly_mode=mode if direct else other,
                 joints=dict(zip(names, self.joints[k].tolist(), strict=True)),
                 residual=float(self.residuals[k]),
-                status=Status(int(self.status[k])),
+                status=status,
                 factors={name: float(value[k]) for name, value in self.factors.items()},
                 quantities={name: float(value[k]) for name, value in quantities.items()},
+                within_limits=not exceeded if limits_stated(self.record) else None,
+                excesses=exceeded,
+                open_loop=open_loop(self.record, self.joints[k]) if status == Status.not_closed else None,
             )
 
     def __len__(self) -> int:
@@ -180,5 +204,5 @@ class SolutionSet(ABC):
         if self.batch_shape != ():
             raise BatchError(
                 f"this is a batch of shape {self.batch_shape}; iterate over one problem at a time",
-                hint="use the arrays .poses, .inputs, .labels, .status, .exists, .residuals",
+                hint="use the arrays .poses, .inputs, .labels, .status, .exists, .residuals, .within_limits",
             )

@@ -24,9 +24,11 @@ from assur.kinematics.certified.result import CertifiedSolutions, Doubt, ProvedS
 from assur.kinematics.closure import characteristic_length, closing_system
 from assur.kinematics.modes import Problem
 from assur.kinematics.position import Method
-from assur.kinematics.search import distinct, in_one_turn
+from assur.kinematics.search import distinct
+from assur.kinematics.turns import in_one_turn
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
+from assur.model.turns import periodic
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.krawczyk import Equations, image, parts, proves, stacked
 from assur.topology.joints import SPHERICAL
@@ -64,10 +66,10 @@ class _Assemblies:
 
     @property
     def told(self) -> tuple[list[int], BoolArray]:
-        """Which unknowns do not count from where they are thought to be, and whether each is an angle."""
+        """Which unknowns do not count from where they are thought to be, and whether each is the same after a turn."""
         items = [self.record.coordinates[k] for k in self.unknown]
         told = [k for k, item in enumerate(items) if self.record.joints[item.joint].type is not SPHERICAL]
-        return told, np.array([items[k].kind == "angle" for k in told], dtype=bool)
+        return told, periodic(self.record)[np.array([self.unknown[k] for k in told], dtype=int)]
 
     def of(self, rows: NDArray[np.intp]) -> _Assemblies:
         """Some of them."""

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
+from assur.model.turns import periodic_inputs
 from assur.numerics.dual import Dual
 from assur.numerics.intervals.functions import ERROR, TURN, cosine_sine, from_degrees
 from assur.numerics.intervals.interval import Interval, as_interval
@@ -53,9 +54,10 @@ def _meant(record: MechanismRecord, values: FloatArray, angular: list[bool]) -> 
 def joint_inputs(record: MechanismRecord, inputs: FloatArray) -> tuple[Any, ...]:
     """A kernel's inputs at printed ones (n,): an interval, or a pair of them (cosine, sine)."""
     found: list[Any] = []
-    for item, value in zip(record.inputs, parts(inputs_meant(record, inputs)), strict=True):
+    meant = zip(record.inputs, periodic_inputs(record), parts(inputs_meant(record, inputs)), strict=True)
+    for item, same, value in meant:
         joint = (value - item.offset) * item.sign
-        found.append(cosine_sine(joint) if item.coordinate.kind == "angle" else joint)
+        found.append(cosine_sine(joint) if same else joint)
     return tuple(found)
 
 

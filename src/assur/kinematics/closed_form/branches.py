@@ -44,7 +44,9 @@ class Branches(SolutionSet):
     def complete(self) -> bool:
         """Whether these are all solutions of the model `complete_for`, by right of the closed form."""
         every = 2 ** len(sign_names(self.record, self.problem))
-        return len(self.modes_asked) == every and not bool(np.any(self.overall_status == Status.undecided))
+        return len(self.modes_asked) == every and not bool(
+            np.any(np.isin(self.overall_status, (Status.not_closed, Status.undecided)))
+        )
 
     @property
     def complete_for(self) -> str:
@@ -130,6 +132,11 @@ class Branches(SolutionSet):
     @cached_property
     def status(self) -> NDArray[np.int8]:
         """`Status` (..., K) of every branch."""
+        return self._closed(self.formula_status)
+
+    @cached_property
+    def formula_status(self) -> NDArray[np.int8]:
+        """The same by margins and factors alone, as sweeps want it: the loops of the joint graph are not asked."""
         with np.errstate(invalid="ignore"):
             status = classify(self.record, self.factors)
         status[~self._real] = Status.unreachable
@@ -148,15 +155,26 @@ class Branches(SolutionSet):
 
     @cached_property
     def overall_status(self) -> NDArray[np.int8]:
-        """`Status` (...) of the answer: the most severe among the listed solutions, or why there is none."""
-        listed = np.where(self.exists, self.status, -1).max(axis=-1)
-        overall: NDArray[np.int8] = np.where(listed >= 0, listed, self.status.min(axis=-1)).astype(np.int8)
+        """`Status` (...) of the answer: the most severe among the listed solutions, or why there is none.
+
+        An undecided branch makes all undecided, unless a listed solution is not closed: then the formulas are wrong.
+        """
+        return self._overall(self.status)
+
+    @property
+    def formula_overall_status(self) -> NDArray[np.int8]:
+        """The same (...) of `formula_status`."""
+        return self._overall(self.formula_status)
+
+    def _overall(self, status: NDArray[np.int8]) -> NDArray[np.int8]:
+        listed = np.where(self.exists, status, -1).max(axis=-1)
+        overall: NDArray[np.int8] = np.where(listed >= 0, listed, status.min(axis=-1)).astype(np.int8)
         for index in np.argwhere((listed < 0) & (overall == Status.self_motion)):
             place = tuple(index)
             if not has_self_motion(self.record, self.given[place]):
                 overall[place] = Status.unreachable
-        undecided = np.any(self.status == Status.undecided, axis=-1)
-        overall[undecided] = Status.undecided
+        undecided = np.any(status == Status.undecided, axis=-1)
+        overall[undecided & (overall != Status.not_closed)] = Status.undecided
         return overall
 
     @cached_property

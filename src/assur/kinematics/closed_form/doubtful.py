@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from assur.kinematics.closed_form.branches import Branches
 from assur.kinematics.closed_form.existence import vanishes
 from assur.kinematics.closure import CLOSED, assemble, characteristic_length
-from assur.kinematics.search import distinct, in_one_turn
+from assur.kinematics.search import distinct
 from assur.kinematics.status import Status, scale
+from assur.kinematics.turns import in_one_turn
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -45,7 +46,7 @@ def decided(found: Branches, count: IntArray) -> tuple[BoolArray, BoolArray]:
         else:
             forbidden |= value < -BEYOND_DOUBT * scale(found.record, margin.scale)
     count = np.where(forbidden, 0, count)
-    joints, residuals, status = found.joints, found.residuals, found.status
+    joints, residuals, status = found.joints, found.residuals, found.formula_status
     dropped, unsure = np.zeros(count.shape, dtype=bool), (count > 1) & degenerate
     for row in range(len(count)):
         one = _Problem(found.record, joints[row], residuals[row], status[row], count[row])

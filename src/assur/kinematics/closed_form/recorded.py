@@ -24,6 +24,7 @@ from assur.kinematics.status import branch_kernel, closed_form_of
 from assur.model.closed_form import Branch, Margin
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
+from assur.model.turns import periodic_inputs
 from assur.numerics.recording.loops import Loop, compiled
 from assur.numerics.recording.tape import Recorded, Recorder, Tape
 from assur.numerics.singular_values import SIZES, condition_index
@@ -170,7 +171,9 @@ class _Writer:
         if self.problem == "inverse":
             return tuple(self._varying(name, is_angle(name)) for name in self.record.platform.pose)
         items = self.record.inputs
-        raw = tuple(self._varying(item.name, item.coordinate.kind == "angle") for item in items)
+        raw = tuple(
+            self._varying(item.name, bool(same)) for item, same in zip(items, periodic_inputs(self.record), strict=True)
+        )
         if _has_angles(self.record, "direct"):  # NumPy prepares them all
             return raw
         return tuple((value - item.offset) * item.sign for value, item in zip(raw, items, strict=True))
@@ -245,7 +248,7 @@ def _bound(record: MechanismRecord, margin: Margin) -> float:
 def _has_angles(record: MechanismRecord, problem: Problem) -> bool:
     if problem == "inverse":
         return any(map(is_angle, record.platform.pose))
-    return any(item.coordinate.kind == "angle" for item in record.inputs)
+    return bool(np.any(periodic_inputs(record)))
 
 
 def _flat(values: Sequence[Any]) -> list[FloatArray]:

@@ -52,7 +52,7 @@ class RootBranches(Branches):
     @property
     def complete(self) -> bool:
         """Whether these are all solutions: every root of a polynomial that does not vanish, none of them in doubt."""
-        return not self.only and not bool(np.any(self.overall_status == Status.undecided))
+        return not self.only and not bool(np.any(np.isin(self.overall_status, (Status.not_closed, Status.undecided))))
 
     @property
     def right(self) -> str:
@@ -65,9 +65,9 @@ class RootBranches(Branches):
         return f"closed form, all roots of {which} of degree {self.sign_shape[-1]}{twice}"
 
     @cached_property
-    def status(self) -> NDArray[np.int8]:
+    def formula_status(self) -> NDArray[np.int8]:
         """`Status` (..., K) of every root; undecided where rounding hides it, or the polynomial vanishes."""
-        status = super().status
+        status = super().formula_status
         status[self.unsure] = Status.undecided
         return status
 

@@ -20,6 +20,7 @@ from assur.kinematics import border
 from assur.kinematics.closed_form.about import about, told
 from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep
 from assur.kinematics.closed_form.blocks import FloatArray, Progress
+from assur.kinematics.closed_form.branches import Branches
 from assur.kinematics.closed_form.filling import engine_for
 from assur.kinematics.closed_form.formulas import formulas
 from assur.kinematics.closed_form.grids import Grid
@@ -179,8 +180,10 @@ class StoredSweep:
         """Status (K, b) of the answers to single problems, all at once."""
         solve = direct if self.problem == "direct" else inverse
         answer = solve(self.record, given.T, None if self.every else self.mode)
-        status = np.array(answer.status)
-        status[(answer.overall_status == Status.unreachable)] = Status.unreachable
+        if not isinstance(answer, Branches):
+            raise AssertionError("a sweep has a closed form by signs")
+        status = np.array(answer.formula_status)
+        status[(answer.formula_overall_status == Status.unreachable)] = Status.unreachable
         return status.T
 
     def _to_file_angles(self, found: Found) -> None:
@@ -223,7 +226,7 @@ def stored_sweep(
         ...     sweep.fill(store)
         ...     found = store.finish()
         ...     found["inputs"].shape, found["status"].tolist(), store.counts["status"]
-        ((3, 4), [0, 0, 7, 7], {'regular': 2, 'unreachable': 2})
+        ((3, 4), [0, 0, 8, 8], {'regular': 2, 'unreachable': 2})
     """
     closed_form_of(record)
     if problem == "direct":

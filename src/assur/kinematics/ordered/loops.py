@@ -17,10 +17,12 @@ from assur.kinematics.ordered.circles import System, joint_values, system
 from assur.kinematics.ordered.hinges import NoAssemblyError, NotCirclesError, middle
 from assur.kinematics.ordered.orientations import Turning, turnings
 from assur.kinematics.ordered.solving import DOUBTFUL, CurveError, Solved, solve
-from assur.kinematics.search import SAME, distinct, in_one_turn, search
+from assur.kinematics.search import SAME, distinct, search
+from assur.kinematics.turns import told_by_turns, with_turns_of_home
 from assur.model.mechanism import MechanismRecord
 from assur.model.points import point
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion
+from assur.model.turns import turn_relations
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
@@ -95,7 +97,8 @@ class _Question:
         if self.problem == "inverse":
             return {}
         held = border.held_inputs(self.record, self.record.home, self.given)
-        return {index: float(held[index]) for index in self.record.input_indices}
+        inputs = {index: float(held[index]) for index in self.record.input_indices}
+        return inputs | told_by_turns(self.record, inputs)
 
     @property
     def place(self) -> dict[str, float]:
@@ -142,9 +145,10 @@ class _Question:
         return self.once(found.values[found.closed])
 
     def once(self, joints: FloatArray) -> FloatArray:
-        """Joint values (N, n) without repetition, angles within one turn."""
-        turned = in_one_turn(self.record, joints)
-        return turned[distinct(self.record, turned)]
+        """Joint values (N, n) without repetition, angles within one turn where turns do not count."""
+        held = self.record.input_indices if self.problem == "direct" else ()
+        turned, same = with_turns_of_home(self.record, joints, held)
+        return turned[same][distinct(self.record, turned[same])]
 
 
 def _at_once(question: _Question, parallel: frozenset[str]) -> LoopSolutions:
@@ -173,6 +177,8 @@ def _at_once(question: _Question, parallel: frozenset[str]) -> LoopSolutions:
     joints = question.closed(starts)
     kept = [name for name in record.generalised if name in parallel]
     note = f"; {' and '.join(kept)} stay{'s' if len(kept) == 1 else ''} parallel" if kept else ""
+    if len(turn_relations(record)):
+        note += "; screws have the turns of home"
     right = _right(equations, found) + note
     if question.tilt_open:
         return LoopSolutions(

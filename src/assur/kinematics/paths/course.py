@@ -13,6 +13,7 @@ from assur.kinematics.border import checked, checked_poses, input_names
 from assur.kinematics.rates.motions import input_units, pose_units
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
+from assur.model.turns import periodic_inputs
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
@@ -71,7 +72,8 @@ def course(
     """The way from `start` to wanted inputs (n,) or a wanted pose (m,), or along several, (k, n) or (k, m).
 
     With turns = "short" every angle goes the short way from vertex to vertex; "given" takes the numbers as they
-    stand. Quaternions always go the short way. Vertices that repeat the one before are left out.
+    stand, as inputs whose turns count always do. Quaternions always go the short way. Vertices that repeat the one
+    before are left out.
 
     >>> from assur.model.registry import load_record
     >>> way = course(load_record("fivebar"), "inputs", np.radians([170.0, 10.0]), np.radians([-170.0, 10.0]))
@@ -85,14 +87,14 @@ def course(
     given = checked(wanted, names, what) if prescribed == "inputs" else checked_poses(record, wanted)
     if given.ndim > 2:
         raise UsageError(f"{what}: shape {given.shape}; one target or a row of them is wanted")
-    angular = _angular(record, prescribed)
+    turning = _turning(record, prescribed)
     sizes = _sizes(record, prescribed)
     vertices, changes, lengths = [np.asarray(start, dtype=float)], [], []
     for target in np.atleast_2d(given):
         here = vertices[-1]
         there = target.copy()
         if turns == "short":
-            there[angular] = here[angular] + _short(there[angular] - here[angular])
+            there[turning] = here[turning] + _short(there[turning] - here[turning])
         change = _change(names, prescribed, here, there)
         if np.linalg.norm(change / sizes) <= LEAST:
             continue
@@ -105,9 +107,9 @@ def course(
     return Course(prescribed, names, np.array(vertices), shares, all_changes, sizes)
 
 
-def _angular(record: MechanismRecord, prescribed: Prescribed) -> NDArray[np.bool_]:
+def _turning(record: MechanismRecord, prescribed: Prescribed) -> NDArray[np.bool_]:
     if prescribed == "inputs":
-        return np.array([item.coordinate.kind == "angle" for item in record.inputs])
+        return periodic_inputs(record)
     return np.array([is_angle(name) for name in record.platform.pose])
 
 

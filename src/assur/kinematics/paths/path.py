@@ -14,6 +14,7 @@ from assur.kinematics.closure import characteristic_length
 from assur.kinematics.paths.course import Prescribed
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
+from assur.model.turns import periodic_inputs
 from assur.results.json_text import plain
 
 FloatArray = NDArray[np.float64]
@@ -138,6 +139,7 @@ class Path:
         if what == "inputs":
             change = self.inputs[-1] - self.inputs[0]
             angular = np.array([item.coordinate.kind == "angle" for item in self.record.inputs])
+            turning = periodic_inputs(self.record)
         else:
             names = self.record.platform.pose
             first, last = self.poses[0].copy(), self.poses[-1].copy()
@@ -145,11 +147,11 @@ class Path:
                 columns = [names.index(name) for name in QUATERNION]
                 last[columns] *= np.sign(first[columns] @ last[columns])
             change = last - first
-            angular = np.array([is_angle(name) for name in names])
+            turning = angular = np.array([is_angle(name) for name in names])
             length_like = np.array([name not in QUATERNION for name in names])
             change = np.where(length_like, change, change * length)
-        turned = (change + np.pi) % (2 * np.pi) - np.pi
-        return float(np.max(np.abs(np.where(angular, turned, change / length))))
+        change = np.where(turning, (change + np.pi) % (2 * np.pi) - np.pi, change)
+        return float(np.max(np.abs(np.where(angular, change, change / length))))
 
     def to_json(self) -> dict[str, Any]:
         """Plain data: angles of poses and inputs in the mechanism's angle unit, joint values in rad."""

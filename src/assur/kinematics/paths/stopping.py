@@ -18,6 +18,7 @@ from assur.kinematics.position import direct, inverse
 from assur.kinematics.status import closed_form_of, relative_factors
 from assur.model.closed_form import ClosedForm
 from assur.model.mechanism import MechanismRecord
+from assur.model.turns import unwrapped
 
 FloatArray = NDArray[np.float64]
 SINGULAR = 1e-6
@@ -144,9 +145,7 @@ def _factors(record: MechanismRecord, way: Course, joints: FloatArray) -> dict[s
     listed = np.flatnonzero(found.exists)
     if not len(listed):
         return {}
-    angular = np.array([item.kind == "angle" for item in record.coordinates])
-    change = found.joints[listed] - joints
-    turned = np.where(angular, (change + np.pi) % (2 * np.pi) - np.pi, change)
-    nearest = listed[np.argmin(np.linalg.norm(turned, axis=-1))]
+    away = unwrapped(record, found.joints[listed] - joints)
+    nearest = listed[np.argmin(np.linalg.norm(away, axis=-1))]
     relative = relative_factors(record, {name: value[nearest] for name, value in found.factors.items()})
     return {name: float(value) for name, value in relative.items()}

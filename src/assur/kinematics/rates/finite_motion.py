@@ -27,8 +27,8 @@ def classify_at(record: MechanismRecord, joints: ArrayLike) -> NDArray[np.int8]:
     parallel: the inputs can stand while the platform moves (RO), or cannot be chosen freely (II); serial: the pose can
     stand while inputs move (RI), or not move in every direction (IO); comprehensive: both; constraint: more freedoms
     than in general (IIM); self_motion: the platform moves by a finite amount while every input stands, shown by steps
-    of `STEPS`; near_singular: a measure is at most `NEAR_SINGULAR` and none of these holds; unreachable: the loops are
-    not closed. For the letters see `Instant.types`.
+    of `STEPS`; near_singular: a measure is at most `NEAR_SINGULAR` and none of these holds; not_closed: the loops are
+    not. For the letters see `Instant.types`.
 
     >>> from assur.kinematics.home import home_values
     >>> from assur.model.registry import load_record
@@ -59,7 +59,7 @@ def status_of(record: MechanismRecord, values: FloatArray, here: Instant) -> NDA
         moves = np.zeros(loose.shape, dtype=bool)
         moves[loose] = has_finite_motion(record, values[loose])
         status = np.where(moves, np.int8(Status.self_motion), status)
-    return np.asarray(np.where(here.closed, status, np.int8(Status.unreachable)), dtype=np.int8)
+    return np.asarray(np.where(here.closed, status, np.int8(Status.not_closed)), dtype=np.int8)
 
 
 def sides(here: Instant) -> tuple[BoolArray, BoolArray]:

@@ -19,6 +19,7 @@ from assur.model.file.place import input_place, place, problem, table_place
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
+from assur.model.turns import periodic, unwrapped
 
 SMALLEST, LARGEST = 1e-3, 50.0
 """A mechanism smaller or larger than this, in metres, has probably its lengths in another unit."""
@@ -118,7 +119,7 @@ def _tiny(record: MechanismRecord) -> list[Problem]:
 def _turns(record: MechanismRecord) -> list[Problem]:
     found: list[Problem] = []
     for item in record.coordinates:
-        if item.kind == "angle" and abs(record.home[item.index]) > 4 * np.pi:
+        if periodic(record)[item.index] and abs(record.home[item.index]) > 4 * np.pi:
             turns = record.home[item.index] / (2 * np.pi)
             hint = "are the angles in deg?" if record.angle == "rad" else ""
             text = f"{record.coordinate_label(item)} begins at {turns:.3g} turns"
@@ -132,8 +133,7 @@ def _away(record: MechanismRecord) -> list[Problem]:
         return []
     home, length = home_values(record), characteristic_length(record)
     angular = np.array([item.kind == "angle" for item in record.coordinates])
-    change = home - record.home
-    turned = np.where(angular, np.remainder(change + np.pi, 2 * np.pi) - np.pi, change)  # whole turns change nothing
+    turned = unwrapped(record, home - record.home)
     share = np.abs(turned) / np.where(angular, AWAY, AWAY_OF_LENGTH * length)
     largest = [int(index) for index in np.argsort(-share, kind="stable") if share[index] > 1][:MOST_AWAY]
     if not largest:

@@ -15,6 +15,7 @@ from assur.kinematics.soundness.axes import axes_hint
 from assur.model.file.place import place, problem, table_place
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import Coordinate, Joint, MechanismRecord
+from assur.model.turns import unwrapped
 from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC
 
 FloatArray = NDArray[np.float64]
@@ -190,8 +191,6 @@ def _other_home(record: MechanismRecord) -> FloatArray | int:
     if not found.closed.any():
         return count
     closed = found.values[found.closed]
-    turning = np.array([item.kind == "angle" for item in record.coordinates])
-    away = (closed - record.home) / scale
-    away = np.where(turning, np.remainder(away + np.pi, 2 * np.pi) - np.pi, away)
+    away = unwrapped(record, closed - record.home) / scale
     nearest = away[np.argmin(np.linalg.norm(away, axis=-1))]
     return np.asarray(record.home + nearest * scale)

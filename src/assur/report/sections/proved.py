@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 from assur.kinematics.certified.result import CertifiedSolutions, ProvedSolution
 from assur.kinematics.modes import Problem
 from assur.model.pose import QUATERNION
+from assur.model.turns import periodic_inputs
 from assur.report.findings import Findings
-from assur.report.numbers import input_angles, pose_angles, short, shown_unit
+from assur.report.numbers import pose_angles, short, shown_unit
 from assur.results.kinds import FLOATING, PROVED
 
 FloatArray = NDArray[np.float64]
@@ -66,7 +67,7 @@ def _apart(found: Findings, problem: Problem, values: FloatArray, proved: Proved
     """How far values (k,) lie outside proved bounds; angles but for whole turns, quaternions but for their sign."""
     record = found.record
     bounds = proved.pose if problem == "direct" else proved.inputs
-    angles = np.array(pose_angles(record) if problem == "direct" else input_angles(record))
+    angles = np.array(pose_angles(record)) if problem == "direct" else periodic_inputs(record)
     middle, half = 0.5 * (bounds.low + bounds.high), 0.5 * bounds.width
     names = record.platform.pose if problem == "direct" else ()
     turned = np.array([-1.0 if name in QUATERNION else 1.0 for name in names]) if names else np.ones(len(values))
