@@ -1,12 +1,15 @@
 from __future__ import annotations
 
 import math
+import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import assur
 from assur.kinematics.answers.at_border import answer
+from screw_mechanisms import DIFFERENTIAL, FIVEBAR, loaded
 
 INPUTS = ["162.6907", "-143.3209", "-24.6776"]
 POSE = ["-15.4714", "9.6849", "456.3315"]
@@ -127,3 +130,82 @@ def test_a_search_leaves_crossed_parallelograms_out_unless_asked(assur_cli):
     text = " ".join(run.out.split())
     assert "regular, 4 solutions" in text
     assert "28 with crossed parallelograms were left out" in text
+
+
+@pytest.fixture
+def differential(tmp_path):
+    loaded(tmp_path, DIFFERENTIAL)
+    return str(tmp_path / "differential.toml")
+
+
+@pytest.mark.parametrize(("degrees", "height"), [("114.591559", 2.546479), ("720", 16.0), ("-36000", -800.0)])
+def test_a_screw_answers_for_every_number_of_turns(assur_cli, differential, degrees, height):
+    run = assur_cli("direct", differential, degrees, "--json")
+    assert (run.code, run.json["status"]) == (0, "regular")
+    assert [item["pose"] for item in run.json["solutions"]] == [[pytest.approx(height, abs=1e-6)]]
+    assert [item["status"] for item in run.json["solutions"]] == ["regular"]
+
+
+def test_the_inverse_of_a_screw_is_in_real_turns(assur_cli, differential):
+    run = assur_cli("inverse", differential, "12", "--json")
+    assert (run.code, run.json["status"]) == (0, "regular")
+    assert [pytest.approx(540.0)] in [item["inputs"] for item in run.json["solutions"]]
+
+
+def test_a_search_that_finds_nothing_proves_nothing(assur_cli, tmp_path):
+    """Rods of 130 mm whose sliders stand 300 mm apart do not meet; a search cannot know that."""
+    loaded(tmp_path, FIVEBAR)
+    words = ("direct", str(tmp_path / "driven.toml"), "7200", "0")
+    searched = assur_cli(*words, "--method", "search")
+    assert searched.code == 5
+    assert searched.out.splitlines()[0] == "driven, direct: nothing was found, not proved"
+    proved = assur_cli(*words)
+    assert (proved.code, proved.out.splitlines()[0][:28]) == (4, "driven, direct: unreachable,")
+
+
+def test_solutions_outside_the_limits_are_listed_with_what_they_exceed(assur_cli):
+    run = assur_cli("direct", "three_rps", "400", "400", "400")
+    assert run.code == 0
+    assert "within" not in run.out
+    titles = run.out.splitlines()[3].split()
+    assert titles[-1] == "limits"
+    rows = [line.split() for line in run.out.splitlines() if line.startswith("stroke of")]
+    assert rows == [["stroke", "of", f"rho{k}", "400", "160", "..", "320", "80", "mm", "all"] for k in (1, 2, 3)]
+    data = assur_cli("direct", "three_rps", "400", "400", "400", "--json").json
+    assert data["limits_stated"] is True
+    for item in data["solutions"]:
+        assert item["limits"]["within"] is False
+        assert [(each["joint"], each["by"], each["unit"]) for each in item["limits"]["outside"]] == [
+            (f"rho{k}", pytest.approx(80.0), "mm") for k in (1, 2, 3)
+        ]
+    inside = assur_cli("direct", "three_rps", "200", "200", "200", "--json").json
+    assert all(item["limits"] == {"within": True, "outside": []} for item in inside["solutions"])
+
+
+def test_where_no_limits_are_stated_it_is_said(assur_cli):
+    assert "No limits are stated." in assur_cli("direct", "zeng2019", *INPUTS).out
+    data = assur_cli("direct", "zeng2019", *INPUTS, "--json").json
+    assert data["limits_stated"] is False
+    assert {item["limits"]["within"] for item in data["solutions"]} == {None}
+
+
+def test_a_closed_form_that_leaves_loops_open_exits_3(assur_cli, tmp_path):
+    copy = tmp_path / "bad"
+    shutil.copytree(Path(assur.__file__).parent / "mechanisms" / "zeng2019", copy)
+    form = copy / "closed_form.py"
+    form.write_text(form.read_text(encoding="utf-8").replace("m3 = p.l6", "m3 = 1.2 * p.l6"), encoding="utf-8")
+    run = assur_cli("inverse", str(copy), "0", "0", "400")
+    assert run.code == 3
+    assert "regular" not in run.out
+    text = " ".join(run.out.split())
+    assert text.startswith("zeng2019, inverse: not_closed, 8 rows, none of them a solution")
+    assert "C1, B1 stays open at E3a, by 21.9524 mm" in text
+    data = assur_cli("inverse", str(copy), "0", "0", "400", "--json").json
+    assert (data["status"], data["complete"]) == ("not_closed", False)
+    assert {item["open_loop"]["joint"] for item in data["solutions"]} == {"E3a"}
+    assert all(item["open_loop"]["gap"] == pytest.approx(21.9524, abs=1e-4) for item in data["solutions"])
+
+
+def test_the_headline_names_the_row_of_the_own_mode_first(assur_cli):
+    head = " ".join(assur_cli("inverse", "zeng2019", "0", "0", "300").out.split())
+    assert head.startswith("zeng2019, inverse: regular in mode ++-++, self_motion at worst, 8 solutions (4 ")

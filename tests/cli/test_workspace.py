@@ -138,3 +138,22 @@ def test_a_region_that_the_cells_miss_is_not_said_to_be_proved_empty(assur_cli):
     assert "proved" not in run.out
     assert assur_cli("workspace", "fivebar", *thin, "--json").json["empty"] == "sampled"
     assert assur_cli("workspace", "fivebar", *COARSE, "--json").json["empty"] is None
+
+
+@pytest.mark.parametrize("words", [("--resolution", "8"), ("--certify",), ("--prove", "x=-40:0,y=-50:50,z=380:400")])
+def test_where_no_limits_are_stated_every_claim_of_reach_says_so(assur_cli, words):
+    run = assur_cli("workspace", "zeng2019", *words)
+    assert "limits: no limits are stated" in run.out
+    assert "within limits" not in run.out
+    assert assur_cli("workspace", "zeng2019", *words, "--json").json["limits_stated"] is False
+    given = assur_cli("workspace", "zeng2019", *words, "--stroke", "-900:900")
+    assert "no limits are stated" not in given.out
+
+
+def test_the_largest_cylinder_says_so_too(assur_cli):
+    words = ("workspace", "delta_4s", "--largest", "cylinder", "--around", "x=0,y=0,z=-1")
+    run = assur_cli(*words)
+    assert run.out.splitlines()[2:4] == [
+        "limits: no limits are stated",
+        "inside: every pose is reached, and none is singular",
+    ]

@@ -9,7 +9,10 @@ from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import characteristic_length
 from assur.kinematics.pose import pose_of
 from assur.mechanism import load, names
+from assur.model.turns import counted
+from assur.page.graph import coordinates
 from assur.page.ranges import input_ranges, pose_ranges, whole_turn
+from screw_mechanisms import FIVEBAR, loaded
 
 
 @pytest.mark.parametrize("name", names())
@@ -78,3 +81,10 @@ def test_without_a_box_lengths_lie_around_home(drafted):
     length = characteristic_length(record)
     assert np.all((home - low >= length) & (high - home >= length))
     assert np.all((home - low < 1.2 * length) & (high - home < 1.2 * length))
+
+
+def test_the_slider_of_a_screw_covers_turns(tmp_path):
+    """130 mm, the longest link, is 13 turns of 10 mm, and 26 of 5 mm."""
+    record = loaded(tmp_path, FIVEBAR)
+    assert np.allclose(input_ranges(record), 2 * np.pi * np.array([[-13.0, 13.0], [-26.0, 26.0]]))
+    assert [item["counted"] for item in coordinates(record)] == [bool(item) for item in counted(record)]

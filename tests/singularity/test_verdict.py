@@ -127,7 +127,7 @@ def test_constraint_singularity_of_a_3_upu():
 
 def test_joint_values_that_do_not_close_are_a_verdict_too(paper):
     verdict = verdict_at(paper, paper.home_values + 0.1)
-    assert (verdict.kind, verdict.condition, verdict.rank) == ("unreachable", None, None)
+    assert (verdict.kind, verdict.condition, verdict.rank) == ("not_closed", None, None)
 
 
 def test_one_configuration_at_a_time(paper):

@@ -139,7 +139,7 @@ export function controls(mechanism) {
   const angles = degrees ? { unit: "°", factor: DEGREE, places: 2 } : { unit: "rad", factor: 1, places: 4 };
   const places = Math.min(6, Math.max(0, 3 - Math.floor(Math.log10(scene.extent))));
   const scaled = (length) => (length ? { unit: scene.unit, factor: 1, places } : angles);
-  const winds = ({ kind, index }) => kind !== "length" && !model.joints.some((it) => it.type === "H" && it.first === index);
+  const winds = ({ kind, counted }) => kind !== "length" && !counted; // a screw's turns are never wound back
   let last = null;
   const inputs = scene.inputs.map((item, k) => {
     const length = item.kind === "length";

@@ -2,6 +2,7 @@
 
 import { residual } from "./solver/closure.js";
 import { frames, modelOf } from "./solver/frames.js";
+import { exceeded, limitsOf } from "./solver/limits.js";
 import { inputsOf, toInputs, toPose } from "./solver/motion.js";
 import { closestApproach } from "./solver/newton.js";
 import { poseOf } from "./solver/pose.js";
@@ -216,13 +217,14 @@ export class Mechanism {
     return first.every((value, k) => Math.abs(value - second[k]) < SAME);
   }
 
-  /** Points of all joints in units of the model's length, on both links, and the platform's orientation. */
+  /** Points of all joints in units of the model's length, on both links, the platform's orientation, counted turns. */
   places(values) {
     const placed = frames(this.model, values);
     const on = (link, at) =>
       times(1 / this.model.length, add(apply(placed[link].turn, at), placed[link].origin));
     const points = this.model.joints.flatMap((item) => [on(item.parent, item.at), on(item.child, item.childAt)]);
-    return [...points.flat(), ...placed[this.model.platform].turn];
+    const counted = values.filter((_, k) => this.model.coordinates[k].counted);
+    return [...points.flat(), ...placed[this.model.platform].turn, ...counted];
   }
 
   /**
@@ -253,16 +255,17 @@ export class Mechanism {
   factors() {
     const [pose, inputs] = [this.pose, this.inputs];
     const away = (found) =>
-      Math.max(...found.inputs.map((value, k) => this.apart(value - inputs[k], this.model.inputs[k].kind)));
+      Math.max(...found.inputs.map((value, k) => this.apart(value - inputs[k], this.model.inputs[k])));
     const found = this.scene.modes.working.all
       .map((signs) => this.kernel(pose, this.scene.kernelParameters, signs))
       .filter((item) => away(item) < SAME);
     return found.length ? found[0].factors : {};
   }
 
-  /** Of two inputs, without dimensions and whole turns. */
-  apart(difference, kind) {
-    return kind === "length" ? Math.abs(difference) / this.model.length : Math.abs(nearestTurn(difference));
+  /** Of two inputs, without dimensions, and without whole turns where these do not count. */
+  apart(difference, { kind, counted }) {
+    if (kind === "length") return Math.abs(difference) / this.model.length;
+    return Math.abs(counted ? difference : nearestTurn(difference));
   }
 
   /** The factor of the closed form that is nearest to zero, as a share of its scale. */
@@ -287,6 +290,7 @@ export class Mechanism {
         assembly: this.assembly[this.branch]?.label ?? null,
         status: this.status,
         reason: this.reason,
+        limits: { stated: limitsOf(this.model).length > 0, exceeded: exceeded(this.model, this.values) },
         condition,
         smallest: parallel,
         serial,

@@ -24,6 +24,7 @@ export const NUMBERS = {
   ],
   factor: ["closest factor", "the factor of the closed form that is nearest to zero, as a share of its own scale"],
   residual: ["residual", "largest gap of the loops"],
+  limits: ["limits", "strokes, limits of joints and cones of the file: which are exceeded here, and by how much"],
 };
 
 /** A factor as a share of its own scale. */
@@ -56,6 +57,20 @@ export function conditionSaid(condition, { platform, inputs, characteristicLengt
   return `${said}, L = ${figures(characteristicLength, 3)} ${unit}`;
 }
 
+/**
+ * Whether the file's limits are kept, else the one that is exceeded most.
+ * @param {{stated: boolean, exceeded: {name: string, angle: boolean, by: number}[]}} found
+ * @param {{unit: string, angleUnit: string}} scene
+ */
+export function limitsSaid({ stated, exceeded }, { unit, angleUnit }) {
+  if (!stated) return "no limits are stated";
+  if (!exceeded.length) return "within";
+  const [{ name, angle, by }] = exceeded;
+  const factor = angle && angleUnit === "deg" ? 180 / Math.PI : 1;
+  const more = exceeded.length > 1 ? `, ${exceeded.length - 1} more` : "";
+  return `${name} outside by ${figures(by * factor, 3)} ${angle ? angleUnit : unit}${more}`;
+}
+
 /** @returns {{element: HTMLElement}} a list of numbers that follows the mechanism */
 export function readout(mechanism) {
   const { scene } = mechanism;
@@ -84,6 +99,8 @@ export function readout(mechanism) {
     rows.smallest.parentElement.classList.toggle("near", state.smallest < 0.03);
     rows.serial.parentElement.classList.toggle("near", state.serial < 0.03);
     rows.residual.textContent = `${figures(state.residual, 2)} ${scene.unit}`;
+    rows.limits.textContent = limitsSaid(state.limits, scene);
+    rows.limits.parentElement.classList.toggle("near", state.limits.exceeded.length > 0);
     if (rows.factor)
       rows.factor.replaceChildren(
         ...(state.factor ? [spelt(state.factor.name), ` ${figures(signed(state.factor), 3)}`] : ["–"]),

@@ -11,6 +11,7 @@ from fractions import Fraction
 from typing import Any
 
 from assur.kinematics.answers.at_border import power
+from assur.kinematics.limits import NO_LIMITS, limits_stated
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 
@@ -39,6 +40,8 @@ def statement_lines(document: Mapping[str, Any], record: MechanismRecord | None 
         lines.append(f"dimensions: {', '.join(changed)}")
     if statement["strokes"]:
         lines.append(f"strokes: {', '.join(_stroke(*item) for item in statement['strokes'].items())}")
+    if record is not None and not limits_stated(record, statement["strokes"]):
+        lines.append(f"limits: {NO_LIMITS}")
     return lines
 
 

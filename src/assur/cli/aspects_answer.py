@@ -226,6 +226,8 @@ def _modes(record: Mechanism, found: Sequence[Aspects]) -> Iterable[RenderableTy
 
 
 def _mode(record: Mechanism, found: Aspects, data: Mapping[str, Any]) -> Iterable[RenderableType]:
+    from assur.kinematics.limits import limits_note
+
     of_mode = f" of working mode {found.mode}" if found.mode else ""
     yield heading(f"{record.name}, aspects{of_mode}: {len(found)}")
     parts = [
@@ -236,6 +238,8 @@ def _mode(record: Mechanism, found: Aspects, data: Mapping[str, Any]) -> Iterabl
     if data["held"]:
         held = (f"{name} = {value:g} {_unit(record, name)}" for name, value in data["held"].items())
         yield f"held: {', '.join(held)}"
+    if limits := limits_note(record, found.strokes):
+        yield f"limits: {limits}"
     if not len(found):
         yield "none: no box of this size is reached and free of singularities"
     else:

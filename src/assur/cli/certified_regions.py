@@ -79,7 +79,7 @@ def _volume(record: Mechanism, question: Question, asked: Asked, shared: Shared)
         found = certified_workspace(
             record, question.mode, question.box, question.strokes, question.held, gap, question.sections, finest, step
         )
-    data = {"mechanism": record.name, **_outside(record, found.to_json())}
+    data = _data(record, question, found.to_json())
     return Outcome(data, lambda: _shown_volume(record, found, data))
 
 
@@ -88,6 +88,7 @@ def _shown_volume(record: Mechanism, found: CertifiedWorkspace, data: Mapping[st
     yield f"box: {_pairs(record, data['coordinates'], data['box'])}"
     if data["held"]:
         yield f"held: {_values(record, data['held'])}"
+    yield from _limits(data)
     what = ("length", "area", "volume")[len(found.box.names) - 1]
     low, high = outward(*found.volume)
     yield f"{what}: {low} .. {high} {found.unit}"
@@ -122,7 +123,7 @@ def _box(record: Mechanism, question: Question, text: str, shared: Shared) -> Ou
     box = outer_box(record, box, question.held)
     with progress("proof", shared) as step:
         found = prove_box(record, box, question.mode, question.strokes, held=question.held, progress=step)
-    data = {"mechanism": record.name, **_outside(record, found.to_json())}
+    data = _data(record, question, found.to_json())
     code = exit_codes.of_answers([{"proved": "yes", "refuted": "no", "undecided": "open"}[found.status]])
     return Outcome(data, lambda: _shown_box(record, found, data), exit_code=code)
 
@@ -153,7 +154,8 @@ def _shown_box(record: Mechanism, found: ProvedBox, data: Mapping[str, Any]) -> 
     yield f"box: {_pairs(record, data['coordinates'], data['box'])}"
     if data["held"]:
         yield f"held: {_values(record, data['held'])}"
-    yield "question: is every pose reached within limits, and none singular?"
+    yield from _limits(data)
+    yield f"question: is every pose {_reached(data)}, and none singular?"
     yield f"answer: {found.status}"
     if found.status != "proved":
         yield f"proved for {_floored(100 * found.share)} % of it"
@@ -188,7 +190,7 @@ def _largest(record: Mechanism, question: Question, asked: Asked, shape: ShapeNa
         found = largest(
             record, shape, centre, ratio, question.mode, question.strokes, held=question.held, progress=step
         )
-    data = {"mechanism": record.name, **_outside(record, found.to_json())}
+    data = _data(record, question, found.to_json())
     code = exit_codes.of_answers(["yes" if found.size > 0 else "no" if found.witness is not None else "open"])
     return Outcome(data, lambda: _shown_largest(record, found, data), exit_code=code)
 
@@ -199,7 +201,8 @@ def _shown_largest(record: Mechanism, found: LargestShape, data: Mapping[str, An
     yield f"around: {_values(record, data['centre'])}"
     if data["held"]:
         yield f"held: {_values(record, data['held'])}"
-    yield "inside: every pose is reached within limits, and none is singular"
+    yield from _limits(data)
+    yield f"inside: every pose is {_reached(data)}, and none is singular"
     side = "edge" if name == "cube" else "diameter"
     more = "" if found.height is None else f", height {_floored(found.height)} {record.unit}"
     yield f"proved up to: {side} {_floored(found.size)} {record.unit}{more}"
@@ -232,6 +235,25 @@ def _known(record: Mechanism, name: str) -> None:
 
     if name not in coordinates(record):
         raise UnknownNameError(f"pose coordinate of {record.name}", name, coordinates(record))
+
+
+def _data(record: Mechanism, question: Question, found: dict[str, Any]) -> dict[str, Any]:
+    from assur.kinematics.limits import limits_stated
+
+    stated = limits_stated(record, question.strokes)
+    return {"mechanism": record.name, **_outside(record, found), "limits_stated": stated}
+
+
+def _limits(data: Mapping[str, Any]) -> Iterable[str]:
+    """What is to be said beside a claim of reach where there are no limits."""
+    from assur.kinematics.limits import NO_LIMITS
+
+    if not data["limits_stated"]:
+        yield f"limits: {NO_LIMITS}"
+
+
+def _reached(data: Mapping[str, Any]) -> str:
+    return "reached within limits" if data["limits_stated"] else "reached"
 
 
 def _factor(record: Mechanism, name: str) -> float:

@@ -18,9 +18,6 @@ if TYPE_CHECKING:
     from assur.mechanism import Mechanism
 
 
-NO_LIMITS = "No limits are stated"
-
-
 def outcome(record: Mechanism, found: SolutionSet) -> Outcome:
     """The outcome of one problem.
 
@@ -49,6 +46,7 @@ def _shown(record: Mechanism, data: dict[str, Any], branches: int) -> Iterable[R
         yield _solutions(record, data, style)
         yield from _exceeded(data)
         yield from _open_loops(data)
+        yield from _remarks(data)
         yield from parasitic.shown_solutions(record, data["solutions"])
     if data["curves"]:
         yield from _curves(data, style)
@@ -56,7 +54,7 @@ def _shown(record: Mechanism, data: dict[str, Any], branches: int) -> Iterable[R
         yield failures(data["failures"])
     yield _completeness(record, data)
     if data["solutions"] and not data["limits_stated"]:
-        yield f"{NO_LIMITS}."
+        yield "No limits are stated."
     yield from _modes(record, data)
 
 
@@ -70,6 +68,8 @@ def _headline(record: Mechanism, data: dict[str, Any], branches: int) -> str:
         return f"unreachable, no solution {among}"
     if data["curves"]:
         return f"self_motion, {count(len(data['curves']), 'curve')} of poses {among}"
+    if data["status"] == "not_closed" and all(item["status"] == "not_closed" for item in data["solutions"]):
+        return f"not_closed, {count(len(data['solutions']), 'row')}, none of them a solution"
     status, listed = data["status"], Counter(item["status"] for item in data["solutions"])
     if len(listed) == 1 or not listed:
         return f"{status}, {found} {among}"
@@ -163,6 +163,17 @@ def _open_loops(data: dict[str, Any]) -> Iterable[str]:
             modes.setdefault(f"{where}, by {short(gap)} {data['unit']}", []).append(item["mode"])
     for text, names in modes.items():
         yield f"Not closed, so no solutions: {_listed(names, data)}: {text}"
+
+
+def _remarks(data: dict[str, Any]) -> Iterable[str]:
+    """Rows that are one double solution, and angles of which only a sum or a difference counts."""
+    for pair in data["doubles"]:
+        first, second = pair["modes"]
+        yield f"double: {first} and {second} are {tiny(pair['apart'])} apart, one solution or two too near to tell"
+    texts = list(dict.fromkeys(item["angles"] for item in data["solutions"] if item["angles"]))
+    for text in texts:
+        modes = [item["mode"] for item in data["solutions"] if item["angles"] == text]
+        yield f"{_listed(modes, data)}: {text}; phi and psi are one choice of many"
 
 
 def _listed(modes: list[str], data: dict[str, Any]) -> str:

@@ -56,6 +56,7 @@ def outcome(record: Mechanism, asked: Question, written: Path | None, shared: Sh
 
 def _data(record: Mechanism, asked: Question, found: Workspace) -> dict[str, Any]:
     """The answer as plain data; angles in the mechanism's angle unit."""
+    from assur.kinematics.limits import limits_stated
     from assur.workspace.region import default_resolution
 
     names = found.box.names
@@ -72,6 +73,7 @@ def _data(record: Mechanism, asked: Question, found: Workspace) -> dict[str, Any
         "sections": [{**item, last: item[last] / factor} for item in data["sections"]],
         "resolution": asked.resolution or default_resolution(record, found.slice),
         "strokes": {name: _outside(record, pair, lengths[name]) for name, pair in limits.items()},
+        "limits_stated": limits_stated(record, asked.strokes),
         "parasitic": parasitic.largest(record, found),
         "nowhere": _nowhere(record, asked, found),
         "empty": _empty(record, asked, found),
@@ -117,6 +119,8 @@ def _content(path: Path, found: Workspace, data: dict[str, Any]) -> str:
 
 
 def _shown(record: Mechanism, data: dict[str, Any], written: Path | None) -> Iterable[RenderableType]:
+    from assur.kinematics.limits import NO_LIMITS
+
     dimension = len(data["coordinates"])
     yield heading(f"{data['mechanism']}, workspace of {mode_words(record, data['mode'])}")
     yield f"how: {data['how']}"
@@ -125,6 +129,8 @@ def _shown(record: Mechanism, data: dict[str, Any], written: Path | None) -> Ite
         yield f"held: {', '.join(_value(record, name, value) for name, value in data['held'].items())}"
     if data["strokes"]:
         yield f"strokes: {_intervals(record, data['strokes'])}"
+    if not data["limits_stated"]:
+        yield f"limits: {NO_LIMITS}"
     what = "volume" if dimension == 3 else "area"
     size = f"{with_error(data['volume'], data['volume_error'])} {data['unit']}"
     if data["empty"] == "proved":
@@ -154,7 +160,7 @@ def _whole(record: Mechanism, data: dict[str, Any]) -> bool:
 
 def _unlimited(data: dict[str, Any]) -> str:
     """What limits a region that fills its box."""
-    if not data["strokes"]:
+    if not data["limits_stated"]:
         return "no stroke limits it; --stroke LOW:HIGH does"
     return "no limit was seen in it; a larger --box may show one"
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.figures.context import Context
 from assur.figures.coordinates import angle_ticks, axis_title, symbol, value_words
-from assur.figures.plots import no_workspace
+from assur.figures.plots import limits_words, no_workspace
 from assur.figures.singular import symbol_of
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import INK, PALE, PAPER, SERIES, SMALL, TEXT, new_figure
@@ -106,7 +106,7 @@ def caption(context: Context, found: Aspects) -> str:
     )
     return (
         f"Aspects{of_mode}{f' with {held}' if held else ''} inside the box of the mechanism's file: parts without a"
-        f" parallel or serial singularity, named by the signs of {signs}. {_parts(found)}"
+        f" parallel or serial singularity, named by the signs of {signs}.{limits_words(context)} {_parts(found)}"
     )
 
 

@@ -19,6 +19,7 @@ from assur.figures.coordinates import held_words
 from assur.figures.singular import condition
 from assur.figures.style import BLUE, GREEN, ORANGE, PINK, RED
 from assur.figures.written import minus
+from assur.kinematics.limits import limits_note
 from assur.model.closed_form import Factor
 from assur.singularity.loci import Locus, parallel_factors
 from assur.workspace.region import Workspace
@@ -175,6 +176,12 @@ def nearness(context: Context) -> bool:
     """Whether something is near a parallel singularity and can be told: not where lengths and angles mix."""
     found = context.workspace
     return found.share is not None and bool(present(found) or any(locus.everywhere for locus in found.loci))
+
+
+def limits_words(context: Context) -> str:
+    """A sentence for what is said of reach where the file states no limits; else nothing."""
+    note = limits_note(context.record)
+    return f" {note[0].upper()}{note[1:]}." if note else ""
 
 
 def near_words(context: Context) -> str:

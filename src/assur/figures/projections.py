@@ -15,6 +15,7 @@ from assur.figures.plots import (
     curves,
     fill,
     legend_of,
+    limits_words,
     mode_words,
     near_words,
     nearness,
@@ -39,7 +40,8 @@ def _caption(context: Context) -> str:
     near = f"Coloured as singular is what has a pose {near_words(context)} on its line of sight; "
     lines = "lines are the rims of the singular surfaces."
     rest = near + lines if nearness(context) else lines.capitalize() if present(context.workspace) else ""
-    return f"Projections of the workspace ({mode_words(context)}) on the planes {names}. {rest}".strip()
+    said = f"Projections of the workspace ({mode_words(context)}) on the planes {names}.{limits_words(context)} {rest}"
+    return said.strip()
 
 
 def _draw(context: Context) -> Drawing:

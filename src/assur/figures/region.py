@@ -21,6 +21,7 @@ from assur.figures.plots import (
     factor_of,
     fill,
     legend_of,
+    limits_words,
     locus_words,
     mode_words,
     near_words,
@@ -52,7 +53,7 @@ def _caption(context: Context) -> str:
     share = "" if found.share is None else f", {100 * found.share:.1f} % of it {near_words(context)}"
     return (
         f"Workspace in {mode_words(context)} inside the box of the mechanism's file. {what} {size_words(found)} by"
-        f" solids at two resolutions{share}. {locus_words(context)}"
+        f" solids at two resolutions{share}.{limits_words(context)} {locus_words(context)}"
     )
 
 

@@ -21,6 +21,7 @@ from assur.figures.plots import (
     free_coordinates,
     in_plane,
     legend_of,
+    limits_words,
     mode_words,
     no_solid_workspace,
     present,
@@ -61,6 +62,7 @@ def _caption(context: Context) -> str:
     return (
         f"Sections of the workspace ({mode_words(context)}) at {symbol(name)} = {values};"
         f" areas {areas} {_unit(context)}, {_known_by(context)}."
+        f"{limits_words(context)}"
         " Borders are named by the margin that is zero there, with the factors that vanish with it in brackets."
         f"{rest}"
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -13,6 +14,7 @@ from assur.model.turns import periodic
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
+NO_LIMITS = "no limits are stated"
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,6 +95,30 @@ def stated_limits(record: MechanismRecord) -> tuple[Limit, ...]:
             index = record.joint_coordinates(joint.name)[0].index
             found.append(Limit(f"cone of {joint.name}", index, 0.0, joint.cone, True, axis=joint.cone_axis))
     return tuple(found)
+
+
+def limits_stated(record: MechanismRecord, strokes: Mapping[str, object] | None = None) -> bool:
+    """Whether the file states any stroke, joint limit or cone; `strokes` of inputs stand for those of the file.
+
+    >>> from assur.model.registry import load_record
+    >>> limits_stated(load_record("fivebar")), limits_stated(load_record("three_rps"))
+    (False, True)
+    >>> limits_stated(load_record("fivebar"), {"theta1": (0.0, 1.0)})
+    True
+    """
+    given = dict(strokes or {})
+    driven = any(given.get(item.name, item.stroke) is not None for item in record.inputs)
+    return driven or any(not item.name.startswith("stroke of ") for item in stated_limits(record))
+
+
+def limits_note(record: MechanismRecord, strokes: Mapping[str, object] | None = None) -> str:
+    """What is to be said beside a claim of reach: that no limits are stated, where none are; else nothing.
+
+    >>> from assur.model.registry import load_record
+    >>> limits_note(load_record("fivebar")), limits_note(load_record("three_rps"))
+    ('no limits are stated', '')
+    """
+    return "" if limits_stated(record, strokes) else NO_LIMITS
 
 
 def turns_to(record: MechanismRecord, limit: Limit, value: FloatArray) -> FloatArray:

@@ -12,6 +12,7 @@ from assur.kinematics.closure import characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.status import scale
 from assur.model.mechanism import MechanismRecord
+from assur.model.turns import counted
 from assur.page import kernel
 from assur.page.branches import branches, modes
 from assur.page.facts import errata, errata_note, facts
@@ -108,6 +109,7 @@ def _inputs(record: MechanismRecord) -> list[dict[str, Any]]:
             "sign": item.sign,
             "offset": item.offset,
             "kind": item.coordinate.kind,
+            "counted": bool(counted(record)[item.coordinate.index]),
             "stroke": None if item.stroke is None else list(item.stroke),
             "range": ranges[k],
         }

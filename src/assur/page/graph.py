@@ -6,6 +6,7 @@ from typing import Any
 
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import Joint, MechanismRecord
+from assur.model.turns import counted
 
 
 def graph(record: MechanismRecord) -> dict[str, Any]:
@@ -27,9 +28,12 @@ def graph(record: MechanismRecord) -> dict[str, Any]:
     }
 
 
-def coordinates(record: MechanismRecord) -> list[dict[str, str]]:
-    """Name and kind of each joint value, in their order."""
-    return [{"label": record.coordinate_label(item), "kind": item.kind} for item in record.coordinates]
+def coordinates(record: MechanismRecord) -> list[dict[str, str | bool]]:
+    """Name and kind of each joint value, and whether its whole turns count, in their order."""
+    return [
+        {"label": record.coordinate_label(item), "kind": item.kind, "counted": bool(turns)}
+        for item, turns in zip(record.coordinates, counted(record), strict=True)
+    ]
 
 
 def _joint(joint: Joint, first: int) -> dict[str, Any]:

@@ -22,8 +22,9 @@ import {
  * @typedef {{joints: Joint[], links: string[], base: number, tree: {joint: number, forward: boolean}[], cut: number[],
  *   loops: Map<number, number>[], pathToPlatform: Map<number, number>, platform: number, point: number[],
  *   pose: string[], count: number, length: number, scale: number[],
- *   inputs: {name: string, index: number, sign: number, offset: number, kind: string, stroke: number[]|null,
- *   range: number[]}[], unit: string, home: number[]}} Model
+ *   coordinates: {label: string, kind: string, counted: boolean}[],
+ *   inputs: {name: string, index: number, sign: number, offset: number, kind: string, counted: boolean,
+ *   stroke: number[]|null, range: number[]}[], unit: string, home: number[]}} Model
  */
 
 /** The scene's joint graph, its links as numbers. @returns {Model} */
@@ -56,6 +57,7 @@ export function modelOf(scene) {
     count: scene.home.length,
     length: scene.characteristicLength,
     scale: scene.coordinates.map((item) => (item.kind === "length" ? scene.characteristicLength : 1)),
+    coordinates: scene.coordinates,
     inputs: scene.inputs,
     unit: scene.unit,
     home: scene.home,

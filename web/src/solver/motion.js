@@ -8,10 +8,10 @@
 
 import { gaps, largestGap } from "./closure.js";
 import { frames } from "./frames.js";
+import { tilt } from "./limits.js";
 import { closestApproach, nearAssembly } from "./newton.js";
 import { between, poseOf } from "./pose.js";
 import { looseInput, looseJoint, measuresAt, passage } from "./rates.js";
-import { apply, cross, dot, fromVector, norm } from "./rotation.js";
 
 /** Of the way that is done: no step is shorter, so a motion may stop that far before an end. */
 export const LEAST_STEP = 1 / 8192;
@@ -74,7 +74,7 @@ export function toPose(model, values, target, options = {}) {
 }
 
 function followed(model, start, attempt, ask, { side, limits = true, through = false }) {
-  const guard = limits ? limitsOf(model, start) : [];
+  const guard = limits ? guardsOf(model, start) : [];
   const borders = { parallel: !through, serial: side === "pose", passive: true };
   const forbidden = regularKinds(model).filter((kind) => borders[kind]);
   const serial = side === "inputs" && regularKinds(model).includes("serial");
@@ -161,7 +161,7 @@ function why(model, values, measured, crossed, ask, side) {
 export const said = (value) => (value === 0 ? "0" : String(Number(value.toPrecision(value >= 1000 ? 4 : 3))));
 
 /** Strokes and joint limits, each with its margin (negative outside); what is outside at the start may not get worse. */
-function limitsOf(model, start) {
+function guardsOf(model, start) {
   const found = [];
   const bound = (kind, name, value, low, high) => {
     for (const [end, margin] of [
@@ -192,12 +192,6 @@ function limitsOf(model, start) {
     });
   }
   return found;
-}
-
-/** How far a ball joint tilts the axis of its cone. */
-function tilt(joint, values) {
-  const tilted = apply(fromVector(values.slice(joint.first, joint.first + 3)), joint.coneAxis);
-  return Math.atan2(norm(cross(tilted, joint.coneAxis)), dot(tilted, joint.coneAxis));
 }
 
 /** Rotation vectors of ball joints kept well below a whole turn, where their rates have no bound; frames stay the same. */

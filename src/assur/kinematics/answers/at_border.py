@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.kinematics import border
-from assur.kinematics.answers.excess import limits_stated
+from assur.kinematics.answers.remarks import angles_remark, doubles
 from assur.kinematics.answers.solution import Solution
 from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.limits import limits_stated
 from assur.kinematics.near_home import is_home
 from assur.kinematics.parasitic import all_coordinates, moving
 from assur.kinematics.status import Status
@@ -32,6 +33,8 @@ def answer(found: SolutionSet) -> dict[str, Any]:
     ('regular', True, '+++')
     """
     record = found.record
+    listed = list(found)
+    pairs = doubles(record, found.joints[found.exists])
     asked = "inputs" if found.problem == "direct" else "pose"
     to_border = inputs_at_border if found.problem == "direct" else pose_at_border
     return {
@@ -46,7 +49,8 @@ def answer(found: SolutionSet) -> dict[str, Any]:
         "complete_for": found.complete_for,
         "right": found.right,
         "limits_stated": limits_stated(record),
-        "solutions": [_solution(record, found, item) for item in found],
+        "solutions": [_solution(record, found, item) for item in listed],
+        "doubles": [{"modes": [listed[a].mode, listed[b].mode], "apart": apart} for a, b, apart in pairs],
         "home": [str(label) for label in found.labels[found.exists][is_home(record, found.joints[found.exists])]],
         "curves": [
             {
@@ -85,6 +89,7 @@ def _solution(record: MechanismRecord, found: SolutionSet, item: Solution) -> di
         "status": item.status.name,
         "open_loop": None if item.open_loop is None else plain(item.open_loop),
         "limits": limits_at_border(record, item),
+        "angles": angles_remark(record, item.pose),
         "parasitic": _parasitic(record, item),
     }
 

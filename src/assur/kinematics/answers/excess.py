@@ -53,16 +53,6 @@ class OpenLoop:
     gap: float
 
 
-def limits_stated(record: MechanismRecord) -> bool:
-    """Whether the file states any stroke, joint limit or cone.
-
-    >>> from assur.model.registry import load_record
-    >>> limits_stated(load_record("fivebar")), limits_stated(load_record("three_rps"))
-    (False, True)
-    """
-    return bool(stated_limits(record))
-
-
 def beyond(record: MechanismRecord, problem: Problem, given: FloatArray, joints: FloatArray) -> FloatArray:
     """How far (N, l) solutions with joint values (N, n) lie beyond each of the l stated limits; negative within them.
 

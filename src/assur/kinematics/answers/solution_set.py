@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from assur.errors import BatchError
 from assur.kinematics import border
-from assur.kinematics.answers.excess import beyond, excesses, limits_stated, open_loop, within
+from assur.kinematics.answers.excess import beyond, excesses, open_loop, within
 from assur.kinematics.answers.self_motion import SelfMotionCurve
 from assur.kinematics.answers.solution import Failure, Solution
 from assur.kinematics.closure import CLOSED, characteristic_length, closure_error
+from assur.kinematics.limits import limits_stated
 from assur.kinematics.modes import Problem
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord

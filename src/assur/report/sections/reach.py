@@ -7,6 +7,7 @@ import math
 from dataclasses import replace
 
 from assur.kinematics.answers.at_border import angle_at_border
+from assur.kinematics.limits import NO_LIMITS, limits_note, limits_stated
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.report.findings import Findings
@@ -35,8 +36,7 @@ ENDINGS = {
 def reach(found: Findings) -> Section:
     """The region that the default working mode reaches inside the file's box."""
     region, record = found.workspace, found.record
-    strokes = [item for item in record.inputs if item.stroke]
-    limits = "with the strokes of the file" if strokes else "without limits on the inputs, since none are stated"
+    limits = "within the limits of the file" if limits_stated(record) else f"where {NO_LIMITS}"
     how = (
         "Each margin of the inverse problem bounds a solid; the workspace is their intersection with the box."
         if record.closed_form
@@ -85,13 +85,15 @@ def extents(found: Findings) -> list[Scalar]:
     region, proof = found.workspace, found.bounds
     name, unit = size_name(region), extent_unit(found.record, region.box.names)
     cells = f"{found.resolution} cells along each coordinate"
-    estimate = Scalar(name, region.volume, unit, TWO_RESOLUTIONS, region.volume_error, note=cells)
+    limits = limits_note(found.record)
+    noted = "; ".join(filter(None, (cells, limits)))
+    estimate = Scalar(name, region.volume, unit, TWO_RESOLUTIONS, region.volume_error, note=noted)
     if isinstance(proof, str):
         return [estimate]
     low, high = proof.volume
     agrees = agreement(region.volume, region.volume_error, proof.volume)
     return [
-        Scalar(name, None, unit, PROVED, low=low, high=high, note=proof.note),
+        Scalar(name, None, unit, PROVED, low=low, high=high, note="; ".join(filter(None, (proof.note, limits)))),
         replace(estimate, name=f"{name} by solids", note=f"{cells}; {agrees}"),
     ]
 
@@ -134,6 +136,8 @@ def largest_cube(found: Findings) -> list[Scalar]:
     held = ", ".join(f"{name} = {_at(record, name, value)}" for name, value in cube.held.items())
     mode = f", mode {cube.mode}" if cube.mode else ""
     about = f"about {at}{f' with {held} held' if held else ''}{mode}: every pose is reached and none is singular"
+    if not limits_stated(record):
+        about += f" ({NO_LIMITS})"
     ends = f"; the next larger ones hold a pose where {cube.witness.why}" if cube.witness else ENDINGS[cube.stopped]
     known = math.isfinite(cube.refuted)
     return [
