@@ -14,6 +14,7 @@ from typing import Any, TypeVar
 
 from assur.errors import MechanismFileError, Problem, UnknownNameError, UsageError
 from assur.model.closed_form import ClosedForm
+from assur.model.closed_form_answers import answer_faults
 from assur.model.closed_form_file import disagreements, read_closed_form
 from assur.model.consent import built_in
 from assur.model.file.build import build
@@ -230,7 +231,13 @@ def _faults_beside(path: Path, record: MechanismRecord | None, faults: Faults | 
     if form is None or record is None or faults is None:
         return ()
     known = {"signs": faults.spares(("modes",)), "scales": faults.spares(("parameters",), ("unit",))}
-    return disagreements(record, form, path, **known)
+    told = disagreements(record, form, path, **known)
+    return told if told or faults.told() else answer_faults(record, form, path)
+
+
+def _disagreements(record: MechanismRecord, form: ClosedForm, path: Path) -> tuple[Problem, ...]:
+    """Where a closed form is not of its mechanism; what its kernels answer is not looked at of those built in."""
+    return disagreements(record, form, path) or (() if built_in(path) else answer_faults(record, form, path))
 
 
 def _closed_form(record: MechanismRecord, path: Path) -> ClosedForm | None:
@@ -238,7 +245,7 @@ def _closed_form(record: MechanismRecord, path: Path) -> ClosedForm | None:
     if not path.is_file():
         return None
     form = read_closed_form(path, record.name)
-    problems = disagreements(record, form, path) if form else ()
+    problems = _disagreements(record, form, path) if form else ()
     if problems:
         raise MechanismFileError(problems)
     return form

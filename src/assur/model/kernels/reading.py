@@ -50,7 +50,12 @@ def names_of(text: str, file: Path) -> Mapping[str, data.Value]:
         except (TypeError, ValueError, ArithmeticError, LookupError, AttributeError, RecursionError) as error:
             wrong = KernelFault(f"{type(error).__name__}: {error}"[:300], "see docs/closed-form.md")
             raise problem_of(file, wrong, meter.line) from error
-    known(scope)
+    try:
+        known(scope)
+    except FormFault:
+        raise
+    except KernelFault as fault:
+        raise problem_of(file, fault) from fault
     return shared
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import ast
+import builtins
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from assur.model.kernels.faults import FormFault
+from assur.model.kernels.faults import FormFault, KernelFault
 from assur.model.kernels.library import BUILTINS
 from assur.model.kernels.values import Value
 
@@ -61,11 +62,13 @@ def known(scope: Scope) -> None:
     """Check that every name that is asked for is one of the file, so far, or one of Python's that the form has.
 
     Errors:
-        FormFault: it is another one.
+        FormFault: it is one of Python's that the form does not have.
+        KernelFault: it is nobody's.
     """
     for name, line in scope.asked.items():
         if name not in scope.shared and name not in BUILTINS:
-            raise FormFault(f"the name '{name[:60]}'", f"names of this file, and {', '.join(BUILTINS)}", line=line)
+            fault = FormFault if name in vars(builtins) else KernelFault
+            raise fault(f"the name '{name[:60]}'", f"names of this file, and {', '.join(BUILTINS)}", line=line)
 
 
 def assigned_names(body: list[ast.stmt]) -> Iterator[str]:

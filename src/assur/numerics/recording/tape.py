@@ -191,16 +191,16 @@ class Recorded:
         return self.recorder.apply("magnitude", self)
 
     def __add__(self, other: Any) -> Recorded:
-        return self.recorder.apply("+", self, other)
+        return NotImplemented if _takes_over(other) else self.recorder.apply("+", self, other)
 
     def __sub__(self, other: Any) -> Recorded:
-        return self.recorder.apply("-", self, other)
+        return NotImplemented if _takes_over(other) else self.recorder.apply("-", self, other)
 
     def __mul__(self, other: Any) -> Recorded:
-        return self.recorder.apply("*", self, other)
+        return NotImplemented if _takes_over(other) else self.recorder.apply("*", self, other)
 
     def __truediv__(self, other: Any) -> Recorded:
-        return self.recorder.apply("/", self, other)
+        return NotImplemented if _takes_over(other) else self.recorder.apply("/", self, other)
 
     def __radd__(self, other: Any) -> Recorded:
         return self.recorder.apply("+", other, self)
@@ -225,6 +225,11 @@ class Recorded:
 
     def __invert__(self) -> Recorded:
         return self.recorder.apply("not", self)
+
+
+def _takes_over(other: Any) -> bool:
+    """Whether the other side of an operator is a number type around this one, as a polynomial over recorded numbers."""
+    return not isinstance(other, Recorded) and getattr(type(other), "__array_ufunc__", True) is None
 
 
 def pruned(
