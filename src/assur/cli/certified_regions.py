@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from assur.cli import exit_codes
-from assur.cli.numbers import assignments, interval, number
+from assur.cli.numbers import assignments, interval, number, whole_number
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.progress import progress
@@ -33,6 +33,7 @@ class Asked:
 
     gap: str | None
     finest: str | None
+    boxes: str | None
     prove: str | None
     largest: ShapeName | None
     around: str | None
@@ -43,7 +44,7 @@ def outcome(record: Mechanism, question: Question, asked: Asked, shared: Shared)
     """The proof that is wanted, as data and for a person."""
     _compatible(asked)
     if asked.prove is not None:
-        return _box(record, question, asked.prove, shared)
+        return _box(record, question, asked.prove, _most(asked), shared)
     if asked.largest is not None:
         return _largest(record, question, asked, asked.largest, shared)
     return _volume(record, question, asked, shared)
@@ -59,11 +60,23 @@ def _compatible(asked: Asked) -> None:
             raise UsageError(f"{name} belongs to --largest", hint="for example --largest cube --around x=0,y=0,z=400")
     if asked.ratio is not None and asked.largest != "cylinder":
         raise UsageError(f"--ratio is of a cylinder, not of a {asked.largest}", hint="leave it out")
+    if asked.largest is not None and asked.boxes is not None:
+        raise UsageError("--boxes belongs to --certify and --prove", hint="leave it out")
     other = asked.prove is not None or asked.largest is not None
     if other and (asked.gap is not None or asked.finest is not None):
         raise UsageError("--gap and --finest belong to --certify", hint="leave them out")
     if asked.gap is not None and asked.finest is not None:
         raise UsageError("--gap and --finest: give one of them", hint="--finest is in the mechanism's length unit")
+
+
+def _most(asked: Asked) -> int:
+    """Boxes that may be looked at."""
+    from assur.workspace.certified.paving import MOST
+
+    most = MOST if asked.boxes is None else whole_number(asked.boxes, "--boxes")
+    if most < 1:
+        raise UsageError(f"--boxes: {most} is not positive", hint=f"{MOST} if it is left out")
+    return most
 
 
 def _volume(record: Mechanism, question: Question, asked: Asked, shared: Shared) -> Outcome:
@@ -75,9 +88,11 @@ def _volume(record: Mechanism, question: Question, asked: Asked, shared: Shared)
         raise UsageError(f"--gap: {gap:g} is not positive", hint="1e-3 means bounds that differ by a thousandth")
     if finest is not None and finest <= 0:
         raise UsageError(f"--finest: {finest:g} is not a positive length")
+    sections, most = question.sections, _most(asked)
     with progress("certified workspace", shared) as step:
         found = certified_workspace(
-            record, question.mode, question.box, question.strokes, question.held, gap, question.sections, finest, step
+            *(record, question.mode, question.box, question.strokes, question.held, gap, sections, finest, step),
+            most=most,
         )
     data = _data(record, question, found.to_json())
     return Outcome(data, lambda: _shown_volume(record, found, data))
@@ -111,7 +126,7 @@ def _shown_volume(record: Mechanism, found: CertifiedWorkspace, data: Mapping[st
                 yield f"note: section at {item[last]:g}: {item['stopped']}"
 
 
-def _box(record: Mechanism, question: Question, text: str, shared: Shared) -> Outcome:
+def _box(record: Mechanism, question: Question, text: str, most: int, shared: Shared) -> Outcome:
     from assur.workspace.certified.proving import prove_box
 
     example = f"{record.platform.pose[0]}=-20:20"
@@ -122,7 +137,7 @@ def _box(record: Mechanism, question: Question, text: str, shared: Shared) -> Ou
         box[name] = (low * _factor(record, name), high * _factor(record, name))
     box = outer_box(record, box, question.held)
     with progress("proof", shared) as step:
-        found = prove_box(record, box, question.mode, question.strokes, held=question.held, progress=step)
+        found = prove_box(record, box, question.mode, question.strokes, held=question.held, progress=step, most=most)
     data = _data(record, question, found.to_json())
     code = exit_codes.of_answers([{"proved": "yes", "refuted": "no", "undecided": "open"}[found.status]])
     return Outcome(data, lambda: _shown_box(record, found, data), exit_code=code)
@@ -174,7 +189,7 @@ def _shown_box(record: Mechanism, found: ProvedBox, data: Mapping[str, Any]) -> 
             left=("the largest parts",),
         )
     if found.stopped:
-        yield f"note: {found.stopped}; what was not looked at counts as undecided"
+        yield f"note: {ENDED[found.stopped]}; what was not looked at counts as undecided"
 
 
 def _largest(record: Mechanism, question: Question, asked: Asked, shape: ShapeName, shared: Shared) -> Outcome:
@@ -223,6 +238,11 @@ def _floored(size: float) -> str:
     return outward(size, size * (1 + 1e-6))[0]
 
 
+ENDED = {
+    "interrupted": "interrupted",
+    "rounding": "floats cannot halve the open parts any further",
+    "too many boxes": "as many boxes were looked at as may be; --boxes raises that",
+}
 NOTES = {
     "interrupted": "interrupted: this is the size reached",
     "undecided": "between the two sizes nothing could be decided",

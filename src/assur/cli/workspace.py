@@ -54,6 +54,10 @@ def workspace(
         str | None,
         Parameter(metavar="LENGTH", help="With --certify, in place of a gap: size at which boxes are no longer cut."),
     ] = None,
+    boxes: Annotated[
+        str | None,
+        Parameter(metavar="N", help="Of a proof: boxes looked at, at most; 10 million, some two minutes, if left out."),
+    ] = None,
     prove: Annotated[
         str | None,
         Parameter(metavar="NAME=LOW:HIGH,..", help="Prove that all of this box is reached and none of it singular."),
@@ -76,8 +80,9 @@ def workspace(
     repeated; lengths and angles are in the mechanism's units.
 
     With --certify, --prove or --largest the answer is a proof by intervals and
-    needs a closed form. Ctrl-C ends it with the bounds reached. Exit code 4: a
-    pose fails, which is shown; 5: undecided.
+    needs a closed form. It ends whatever is asked: what --boxes or the floats
+    leave open is undecided, and said to be. Ctrl-C ends it with the bounds
+    reached. Exit code 4: a pose fails, which is shown; 5: undecided.
 
     For example:
         assur workspace zeng2019
@@ -100,9 +105,9 @@ def workspace(
                 "--resolution, --near and -o belong to the estimate, not to a proof",
                 hint="leave them out; `assur certify` writes a proof to a file",
             )
-        proof = certified_regions.Asked(gap, finest, prove, largest, around, ratio)
+        proof = certified_regions.Asked(gap, finest, boxes, prove, largest, around, ratio)
         return certified_regions.outcome(record, asked, proof, shared)
-    proofs = {"--gap": gap, "--finest": finest, "--around": around, "--ratio": ratio}
+    proofs = {"--gap": gap, "--finest": finest, "--boxes": boxes, "--around": around, "--ratio": ratio}
     for name, value in proofs.items():
         if value is not None:
             question = {"--around": "--largest cube", "--ratio": "--largest cylinder"}.get(name, "--certify")

@@ -138,9 +138,8 @@ def test_interruption_keeps_what_is_done():
     assert all(0 <= done <= total for done, total in calls)
 
 
-def test_too_many_boxes_end_with_the_gap_reached(monkeypatch):
-    monkeypatch.setattr(module, "MOST", 500)
-    *_, found = paved("zeng2019", 1e-9)
+def test_too_many_boxes_end_with_the_gap_reached():
+    *_, found = paved("zeng2019", 1e-9, most=2500)
     assert found.stopped == "too many boxes"
     assert found.low < 22_814_586.4 < found.high
 

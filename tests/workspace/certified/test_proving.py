@@ -99,3 +99,39 @@ def test_misuse():
         prove_box(ZENG, {"q": (5, 6)})
     with pytest.raises(UnknownNameError):
         prove_box(ZENG, what=["safe"])
+
+
+def high_by(start, floats):
+    """An interval so many floats high."""
+    end = start
+    for _ in range(floats):
+        end = float(np.nextafter(end, np.inf))
+    return start, end
+
+
+@pytest.mark.parametrize("floats", [1, 2, 3, 7, 40])
+def test_a_box_a_few_floats_high_that_a_surface_crosses_ends_undecided_or_refuted(floats):
+    record = ZENG
+    singular = 230.0  # w = 0 there: links 9 and 10 lie level
+    for start in (singular, float(np.nextafter(singular, 0.0)), 399.3):
+        found = prove_box(record, {"x": (-5, 5), "y": (-5, 5), "z": high_by(start, floats)}, most=20_000)
+        assert found.status in ("proved", "refuted", "undecided")
+        assert 0.0 <= found.share <= 1.0
+        assert (found.status == "proved") == (found.share == 1.0)
+
+
+def test_what_floats_cannot_halve_is_undecided_and_said_to_be():
+    record = assur.load("fivebar")
+    reach = float(np.sqrt((100 + 194) ** 2 - 70**2))  # crank and rod in line
+    box = {"x": high_by(0.0, 3), "y": high_by(reach, 3)}
+    found = prove_box(record, box, "-+")
+    assert (found.status, found.stopped) == ("undecided", "rounding")
+    assert len(found.doubtful) > 0
+
+
+def test_a_budget_of_boxes_ends_a_proof():
+    found = prove_box(ZENG, {"x": (-40, 0), "z": (180, 400)}, finest={"x": 1e-9, "z": 1e-9}, most=5_000)
+    assert found.stopped == "too many boxes"
+    assert len(found.proved) + len(found.failed) + len(found.doubtful) <= 5_000
+    with pytest.raises(UsageError, match="boxes"):
+        prove_box(ZENG, most=0)

@@ -153,9 +153,8 @@ def test_as_json():
     assert found["sections"][0]["z"] == 400.0
 
 
-def test_what_it_would_take_and_interruption(monkeypatch):
-    monkeypatch.setattr(paving_module, "MOST", 400)
-    found = certified_workspace(ZENG, gap=1e-9, sections=())
+def test_what_it_would_take_and_interruption():
+    found = certified_workspace(ZENG, gap=1e-9, sections=(), most=2000)
     assert found.stopped == "too many boxes"
     assert "the gap 1e-09 would take about" in found.note
 

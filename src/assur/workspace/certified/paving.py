@@ -29,8 +29,11 @@ Progress = Callable[[int, int], None]
 MOST_OF = 0.8
 """The boxes that are cut next leave this share of the gap open."""
 
-MOST = 2_000_000
-"""Boxes about the boundary at most, some 200 MB; then the paving ends with the gap that it has."""
+MOST = 10_000_000
+"""Boxes looked at, at most, some two minutes; then the paving ends with the gap that it has."""
+
+AT_ONCE = 5
+"""One in so many of these may be open at once: two million, some 200 MB."""
 
 FIRST = 256
 """Parts into which the box is cut before anything is judged, about: few steps over many boxes are fast."""
@@ -102,12 +105,14 @@ class _Work:
         self.frame, self.shares = frame, shares
         none = judged(frame, boxes[:0], shares)
         found = judged(frame, boxes, shares)
+        self.examined = len(boxes)
         self.state = _State(boxes[:0], none).with_judged(boxes, found, np.zeros(0, dtype=bool))
 
     def cut(self, chosen: BoolArray) -> None:
         """Halve chosen boxes about the boundary."""
         state = self.state
         parts = state.boundary[chosen].halved(state.known.axis[chosen])
+        self.examined += len(parts)
         self.state = state.with_judged(parts, judged(self.frame, parts, self.shares), ~chosen)
 
 
@@ -117,6 +122,7 @@ def pave(
     gap: float = 1e-3,
     finest: Mapping[str, float] | None = None,
     progress: Progress | None = None,
+    most: int = MOST,
 ) -> Paving:
     """Pave a box until the bounds of the volume differ by at most a share of it, or down to a size.
 
@@ -125,14 +131,15 @@ def pave(
         box: the poses looked at, over the free coordinates of the criteria.
         gap: wanted difference of the bounds, as a share of the lower one.
         finest: largest extent of a box about the boundary, by coordinate, in length units and rad. Where it is
-            given, boxes are cut down to it and no further, whatever the gap.
+            given, boxes are cut down to it and no further, whatever the gap. Boxes that floats cannot halve stay open.
         progress: called with (done, in all), of the way from the first gap to the wanted one.
+        most: boxes looked at, at most; a fifth of them open at once.
 
     Returns:
         The paving. Ctrl-C ends it with what is done.
 
     Errors:
-        UsageError: a gap or an extent that is not positive, a box over other coordinates.
+        UsageError: a gap, an extent or a number of boxes that is not positive, a box over other coordinates.
 
     Example: a quarter of the paper's search box, 10 mm.
 
@@ -146,6 +153,8 @@ def pave(
     """
     if not (gap > 0 and math.isfinite(gap)):
         raise UsageError(f"gap: {gap!r} is not positive", hint="1e-3 means bounds that differ by a thousandth")
+    if most < 1:
+        raise UsageError(f"boxes: {most} are none to look at", hint=f"{MOST} if nothing else is said")
     if box.names != criteria.slice.free:
         raise UsageError(f"box over {', '.join(box.names)}; {', '.join(criteria.slice.free)} are free")
     used = criteria.used if any(criteria.used) else (True, *criteria.used[1:])
@@ -153,7 +162,7 @@ def pave(
     limits = None if finest is None else _finest(names, box.names, finest)
     frame = Frame(criteria, box, used)
     work = _begun(frame, limits)
-    stopped = _run(work, gap, limits, progress)
+    stopped = _run(work, gap, limits, most, progress)
     length = as_interval(1.0)
     for has, low, high in zip(used, box.low, box.high, strict=True):
         length = length if has else length * (Interval.of(high) - low)
@@ -171,7 +180,7 @@ def pave(
     )
 
 
-def _run(work: _Work, gap: float, limits: FloatArray | None, progress: Progress | None) -> Stopped:
+def _run(work: _Work, gap: float, limits: FloatArray | None, most: int, progress: Progress | None) -> Stopped:
     """Cut boxes until there is no need to; say why, where it is for another reason."""
     whole = max(float(work.state.volume.high), 1e-300)
     least = SMALLEST * float(np.sum(work.state.boundary.sizes.high))
@@ -185,13 +194,14 @@ def _run(work: _Work, gap: float, limits: FloatArray | None, progress: Progress 
                 progress(*_way(reached / whole, max(wanted, 1e-300) / whole))
             if limits is None and reached <= wanted:
                 break
-            large = _large(state.boundary, state.known.axis, limits)
+            large, ended = _large(state.boundary, state.known.axis, limits)
             chosen = (_worst(state.known) if limits is None else np.ones(len(large), dtype=bool)) & large
             if limits is None and (idle > IDLE or not chosen.any()):
                 return "rounding"
             if not chosen.any():
-                break
-            if len(state.boundary) + int(np.sum(chosen)) > MOST:
+                return "rounding" if ended else ""
+            cut = int(np.sum(chosen))
+            if len(state.boundary) + cut > most // AT_ONCE + 1 or work.examined + 2 * cut > most:
                 return "too many boxes"
             work.cut(chosen)
     except KeyboardInterrupt:
@@ -226,16 +236,19 @@ def _finest(names: tuple[str, ...], allowed: tuple[str, ...], finest: Mapping[st
     return np.array([finest[name] for name in names])
 
 
-def _large(boxes: Boxes, axis: NDArray[np.int64], limits: FloatArray | None) -> BoolArray:
-    """Boxes (N,) that may be cut across the coordinate of that number; it is changed where another one must be."""
-    every = np.arange(len(boxes))
-    if limits is not None:
-        relative = (boxes.high - boxes.low) / limits[:, None]
-        own = relative[axis, every]
-        axis[:] = np.where(own > 1 + 1e-9, axis, np.argmax(relative, axis=0))
-        return np.asarray(np.max(relative, axis=0) > 1 + 1e-9)
-    middles, low, high = boxes.middles[axis, every], boxes.low[axis, every], boxes.high[axis, every]
-    return np.asarray((low < middles) & (middles < high))
+def _large(boxes: Boxes, axis: NDArray[np.int64], limits: FloatArray | None) -> tuple[BoolArray, bool]:
+    """Boxes (N,) that may be cut across the coordinate of that number; it is changed where another one must be.
+
+    And whether any is larger than wanted and cannot be cut, because floats end.
+    """
+    every, middles = np.arange(len(boxes)), boxes.middles
+    divisible = (boxes.low < middles) & (middles < boxes.high)
+    if limits is None:
+        return np.asarray(divisible[axis, every]), False
+    wide = boxes.high - boxes.low > limits[:, None] * (1 + 1e-9)
+    relative = np.where(divisible & wide, (boxes.high - boxes.low) / limits[:, None], 0.0)
+    axis[:] = np.where(relative[axis, every] > 0, axis, np.argmax(relative, axis=0))
+    return np.max(relative, axis=0) > 0, bool(np.any(wide & ~divisible))
 
 
 def _worst(known: Judged) -> BoolArray:

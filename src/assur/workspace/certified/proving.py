@@ -15,7 +15,7 @@ from assur.numerics.intervals.interval import Interval
 from assur.workspace.bounds import Stroke
 from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.criteria import Criteria
-from assur.workspace.certified.paving import Paving, Progress, Stopped, pave
+from assur.workspace.certified.paving import MOST, Paving, Progress, Stopped, pave
 from assur.workspace.certified.planes import BLOCK
 from assur.workspace.certified.questions import Witness, asked_of, columns_of, violations
 from assur.workspace.domain import Box, box_of
@@ -28,6 +28,9 @@ LISTED = 20
 
 PARTS = 32
 """Into so many parts a box is cut along each coordinate at most, where nobody says how many."""
+
+LEAST = 5e-324
+"""The smallest extent that is a float."""
 
 SUMMED = 1e-9
 """More than the relative error of the sums of the sizes of boxes."""
@@ -97,6 +100,7 @@ def prove_box(
     held: Mapping[str, float] | None = None,
     finest: Mapping[str, float] | None = None,
     progress: Progress | None = None,
+    most: int = MOST,
 ) -> ProvedBox:
     """Prove that a working mode reaches every pose of a box within strokes and limits, away from singularities.
 
@@ -110,9 +114,11 @@ def prove_box(
         held: pose coordinates that stand still.
         finest: extents, by coordinate, below which nothing is cut; by default a 32nd of the box.
         progress: called with (steps done, steps in all).
+        most: boxes looked at, at most.
 
     Returns:
-        The answer by a status. What stays undecided lies about a border or a singularity, within the finest size.
+        The answer by a status. What stays undecided lies about a border or a singularity, within the finest size, or
+        where floats end; `stopped` says which.
 
     Errors:
         UsageError: no closed form, a box turned round, an unknown name, mode or question.
@@ -132,9 +138,10 @@ def prove_box(
     domain = box_of(record, box, poses.free)
     asked = asked_of(record, mode, strokes, held, what)
     extents = {
-        name: (high - low) / PARTS for name, low, high in zip(domain.names, domain.low, domain.high, strict=True)
+        name: max((high - low) / PARTS, LEAST)
+        for name, low, high in zip(domain.names, domain.low, domain.high, strict=True)
     }
-    paving = pave(asked, domain, finest={**extents, **(finest or {})}, progress=progress)
+    paving = pave(asked, domain, finest={**extents, **(finest or {})}, progress=progress, most=most)
     witness = _witness(asked, domain, paving)
     certain = len(paving.boundary) + len(paving.outside) == 0
     known = float(np.sum(paving.inside.sizes.low))
@@ -150,7 +157,7 @@ def prove_box(
         proved=paving.inside,
         failed=paving.outside,
         doubtful=paving.boundary,
-        share=1.0 if certain else known / every * (1 - SUMMED),
+        share=1.0 if certain else known / every * (1 - SUMMED) if every > 0 else 0.0,
         witness=witness,
         stopped=paving.stopped,
     )

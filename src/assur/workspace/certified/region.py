@@ -93,7 +93,7 @@ class CertifiedWorkspace:
         text = {
             "interrupted": "interrupted: these are the bounds reached",
             "rounding": "the gap is as small as rounding lets it be",
-            "too many boxes": f"stopped at {MOST:.0e} boxes, which is what memory allows",
+            "too many boxes": "as many boxes were looked at as may be",
         }[self.stopped]
         reached = self.gap_reached
         if self.stopped != "too many boxes" or not self.gap or not reached:
@@ -140,6 +140,7 @@ def certified_workspace(
     finest: float | Mapping[str, float] | None = None,
     progress: Progress | None = None,
     section_gap: float | None = None,
+    most: int = MOST,
 ) -> CertifiedWorkspace:
     """Proved bounds of the volume of a workspace inside a box, and of the areas of its sections.
 
@@ -156,6 +157,7 @@ def certified_workspace(
             angles in rad are that over the characteristic length, or by coordinate. Sections keep the gap.
         progress: called with (steps done, steps in all).
         section_gap: the gap of sections, where it is another.
+        most: boxes looked at, at most, for the volume and for each section.
 
     Returns:
         The frozen result. Ctrl-C, and more boxes than the memory holds, end it with the bounds reached; `note` says so.
@@ -176,14 +178,14 @@ def certified_workspace(
     last, values = domain.names[-1], _values(record, domain, sections)
     asked = criteria(record, mode, strokes, held)
     tick = _Steps(progress, 1 + len(values))
-    paving = pave(asked, domain, gap, _extents(record, domain.names, finest), tick.part(0))
+    paving = pave(asked, domain, gap, _extents(record, domain.names, finest), tick.part(0), most)
     cuts: list[CertifiedSection] = []
     rest = Box(domain.names[:-1], domain.low[:-1], domain.high[:-1]) if values else domain
     for k, value in enumerate(values):
         if "interrupted" in (paving.stopped, *(item.stopped for item in cuts)):
             break
         asked = criteria(record, mode, strokes, {**poses.held, last: value})
-        found = pave(asked, rest, section_gap or gap, None, tick.part(k + 1))
+        found = pave(asked, rest, section_gap or gap, None, tick.part(k + 1), most)
         cuts.append(CertifiedSection(last, value, (found.low, found.high), unit(record, rest.names), found.stopped))
     return CertifiedWorkspace(
         mechanism=record.name,
