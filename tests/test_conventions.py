@@ -48,7 +48,7 @@ def test_it_lists_the_exit_code_of_every_error():
     listed = {int(cells[0]) for cells in rows("Command line")}
     kinds = [kind for kind in vars(errors).values() if isinstance(kind, type) and issubclass(kind, Exception)]
     assert {kind.exit_code for kind in kinds} <= listed
-    assert listed == {0, 1, 2, 3, 4, 5, 6, 70}
+    assert listed == {0, 1, 2, 3, 4, 5, 6, 70, 130}
 
 
 def test_it_lists_every_symbol_of_the_paper():

@@ -9,6 +9,7 @@ import difflib
 import unicodedata
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 _HIDDEN = frozenset(("Cc", "Cf", "Cs", "Zl", "Zp"))
 """Categories of Unicode that a reader does not see, but a terminal obeys: controls, directions, separators of lines."""
@@ -106,6 +107,18 @@ class OutputError(UsageError):
 
 class CodeNotRunWarning(UserWarning):
     """Python in a mechanism's folder was not run, since nobody gave leave (`assur.model.consent`)."""
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C during a long work.
+
+    Attributes:
+        answer: what was found before it, in the form of the work's answer.
+    """
+
+    def __init__(self, answer: Any) -> None:
+        super().__init__()
+        self.answer = answer
 
 
 @dataclass(frozen=True)

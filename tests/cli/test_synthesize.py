@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import math
 
 import pytest
 
@@ -86,3 +87,20 @@ def test_a_folder_that_cannot_be_made_is_said_before_the_search(assur_cli, tmp_p
     run = assur_cli("synthesize", "--toml", str(path / "found"))
     assert run.code == 2
     assert "cannot make the folder" in run.err
+
+
+def test_more_than_a_million_combinations_want_a_word(assur_cli, monkeypatch):
+    from assur.cli import synthesize
+
+    words = ("synthesize", "--max-joints", "3", "--actuators", "leg")
+    every = assur_cli(*words, "--json").json
+    types, count = every["limb_types"]["with_motion"], every["combinations"]["all"]
+    assert count == math.comb(types + 2, 3) > types
+    monkeypatch.setattr(synthesize, "MILLION", count - 1)
+    run = assur_cli(*words)
+    assert run.code == 2
+    said = f"{count} combinations of {types} limb types, and {count - 1} are looked at unasked"
+    assert run.err.startswith(f"error: {said}\nhint: ")
+    assert "--yes" in run.err
+    assert assur_cli(*words, "--yes", "--json").json == every
+    assert assur_cli(*words, "--symmetric").code == 0

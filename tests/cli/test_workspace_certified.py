@@ -149,11 +149,10 @@ def test_bad_input_is_refused(assur_cli, words, said):
     assert said in run.err
 
 
-def test_too_many_boxes_are_said_with_what_it_would_take(assur_cli, monkeypatch):
-    monkeypatch.setattr(paving, "MOST", 400)
-    run = assur_cli("workspace", "zeng2019", "--certify", "--gap", "1e-9")
+def test_too_many_boxes_are_said_with_what_it_would_take(assur_cli):
+    run = assur_cli("workspace", "zeng2019", "--certify", "--gap", "1e-9", "--boxes", "2000")
     assert run.code == 0
-    assert "note: stopped at" in run.out
+    assert "note: as many boxes were looked at as may be" in run.out
     assert "would take about" in " ".join(run.out.split())
 
 
@@ -218,3 +217,20 @@ def test_a_file_without_a_closed_form_is_told_what_works_without_one(assur_cli, 
     assert [word for word in values if word in named.replace(",", "").split()] == list(values)
     for command, rest in values.items():
         assert assur_cli(command, "my.toml", *rest).code == 0
+
+
+def test_a_box_a_few_floats_high_ends_undecided_and_says_why(assur_cli):
+    reach = math.sqrt((100 + 194) ** 2 - 70**2)  # crank and rod in line
+    above = math.nextafter(math.nextafter(reach, 1e9), 1e9)
+    run = assur_cli("workspace", "fivebar", "--mode=-+", "--prove", f"x=0:5e-324,y={reach!r}:{above!r}")
+    assert (run.code, run.err) == (5, "")
+    said = " ".join(run.out.split())
+    assert "note: floats cannot halve the open parts any further; what was not looked at counts as undecided" in said
+
+
+def test_the_number_of_boxes_is_a_budget(assur_cli):
+    words = ("workspace", "zeng2019", "--prove", "x=-110:90,y=-250:250,z=180:480")
+    run = assur_cli(*words, "--boxes", "300")
+    assert "--boxes raises that" in run.out
+    for bad in ("0", "-1"):
+        assert assur_cli(*words, "--boxes", bad).err.startswith(f"error: --boxes: {bad} is not positive")

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from assur.cli import exit_codes, region_question
+from assur.cli.interruption import pressed
 from assur.cli.numbers import assignments, number, numbers
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
@@ -99,6 +100,8 @@ def _answer(record: Mechanism, asked: Asked, shared: Shared) -> Answer:
     for name in modes:
         with progress(f"aspects {name}".strip(), shared) as step:
             found.append(aspects(record, name, words.box, words.strokes, words.held, finest, step))
+        if pressed():
+            return Answer(tuple(found))
     if asked.start is None:
         return Answer(tuple(found))
     first = found[0]

@@ -10,7 +10,7 @@ from dataclasses import asdict, replace
 from typing import TYPE_CHECKING
 
 from assur.cli.options import Outcome, Plain, Shared
-from assur.errors import CodeNotRunWarning
+from assur.errors import CodeNotRunWarning, visible
 
 if TYPE_CHECKING:
     from assur.model.consent import NotRun
@@ -35,7 +35,7 @@ def leave_by(shared: Plain) -> Iterator[list[NotRun]]:
             yield not_run
         finally:
             for code in not_run:
-                sys.stderr.write(f"note: {code}\n")
+                sys.stderr.write(f"note: {visible(str(code))}\n")
             if not_run:
                 sys.stderr.write(f"hint: {hint()}\n")
 
@@ -44,7 +44,7 @@ def asked(code: NotRun) -> bool:
     """Whether the person at the terminal lets a file run; no is the answer where none is given."""
     place = f"{code.file}:{code.line}" if code.line else code.file
     sys.stderr.write(
-        f"{place}: {code.reason}.\nIt would have to run as Python, which may do all that you may. Run it? [y/N] "
+        f"{visible(place)}: {code.reason}.\nIt would have to run as Python, which may do all that you may. Run it? [y/N] "
     )
     sys.stderr.flush()
     return sys.stdin.readline().strip().lower() in ("y", "yes")

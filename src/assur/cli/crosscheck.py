@@ -40,16 +40,21 @@ def crosscheck(
         assur crosscheck zeng2019 --samples 100 --json
     """
     record = shared.mechanism(mechanism)
+    from assur.cli.interruption import handing_over
     from assur.cli.numbers import whole_number
     from assur.cli.progress import progress
-    from assur.crosscheck.crosscheck import crosscheck
+    from assur.crosscheck.crosscheck import CrossCheck, crosscheck
     from assur.errors import UsageError
 
     poses, start = whole_number(samples, "--samples"), whole_number(seed, "--seed")
     if poses < 1 or start < 0:
         raise UsageError(f"--samples {poses}, --seed {start}: at least 1 pose, and a seed that is not negative")
-    with progress("crosscheck", shared):
+    with handing_over(CrossCheck, _outcome), progress("crosscheck", shared):
         found = crosscheck(record, engine, samples=poses, seed=start)
+    return _outcome(found)
+
+
+def _outcome(found: CrossCheck) -> Outcome:
     return Outcome(found.to_json(), lambda: _shown(found), 0 if found.holds else CLAIM_FAILS)
 
 

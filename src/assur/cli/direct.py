@@ -40,9 +40,11 @@ def direct(
         assur direct fivebar 127 53 --set l2=200 --json
     """
     record = shared.mechanism(mechanism)
+    from assur.cli.interruption import handing_over
     from assur.cli.positions import outcome
     from assur.kinematics.answers.at_border import inputs_from_border
     from assur.kinematics.border import input_names
+    from assur.kinematics.found import Found
 
     values = numbers(inputs, input_names(record), f"inputs of {record.name}")
     given = inputs_from_border(record, values)
@@ -52,4 +54,5 @@ def direct(
 
         way = certified_solutions.way_of(method, mode, crossed=crossed)
         return certified_solutions.outcome(record, certified_direct(record, given, way))
-    return outcome(record, record.direct(given, mode, method, crossed=crossed))
+    with handing_over(Found, lambda found: outcome(record, found)):
+        return outcome(record, record.direct(given, mode, method, crossed=crossed))

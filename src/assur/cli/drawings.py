@@ -6,10 +6,11 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from assur.cli.interruption import handing_over
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.paths import made, planned_folder
-from assur.cli.progress import progress
+from assur.cli.progress import progress, stages
 from assur.cli.quantities import count
 from assur.errors import UnknownNameError
 
@@ -28,9 +29,19 @@ def outcome(record: Mechanism, output: str, only: Sequence[str], formats: Sequen
     wanted = _wanted(record, context, only)
     _check_formats(formats)
     folder = planned_folder(output)
-    with progress("figures", shared) as step:
-        paths = write(record, made(folder), wanted, formats, step, context)
-    missing = {} if only else left_out(record, context)
+
+    def stopped(paths: list[Path]) -> Outcome:
+        return _outcome(record, wanted, paths, folder, {})
+
+    with handing_over(list, stopped), progress("figures", shared) as step:
+        paths = write(record, made(folder), wanted, formats, stages(step), context)
+    return _outcome(record, wanted, paths, folder, {} if only else left_out(record, context))
+
+
+def _outcome(
+    record: Mechanism, asked: Sequence[str], paths: Sequence[Path], folder: Path, missing: dict[str, str]
+) -> Outcome:
+    wanted = [name for name in asked if any(path.stem.endswith(f"-{name}") for path in paths)]
     data = {
         "mechanism": record.name,
         "folder": str(folder),

@@ -15,6 +15,8 @@ UNDECIDED = 5
 STOPPED = 6
 """A path stops before its end."""
 BUG = 70
+INTERRUPTED = 130
+"""What a shell says of a program that Ctrl-C ended."""
 BROKEN_PIPE = 141
 """What a shell says of a program whose reader went away."""
 

@@ -36,8 +36,10 @@ def inverse(
         assur inverse zeng2019 -15.4714 9.6849 456.3315 --certify
     """
     record = shared.mechanism(mechanism)
+    from assur.cli.interruption import handing_over
     from assur.cli.positions import outcome
     from assur.kinematics.answers.at_border import pose_from_border
+    from assur.kinematics.found import Found
 
     values = numbers(pose, record.platform.pose, f"pose of {record.name}")
     given = pose_from_border(record, values)
@@ -47,4 +49,5 @@ def inverse(
 
         way = certified_solutions.way_of(method, mode, crossed=crossed)
         return certified_solutions.outcome(record, certified_inverse(record, given, way))
-    return outcome(record, record.inverse(given, mode, method, crossed=crossed))
+    with handing_over(Found, lambda found: outcome(record, found)):
+        return outcome(record, record.inverse(given, mode, method, crossed=crossed))

@@ -10,9 +10,9 @@ from typing import Any
 from cyclopts import App, CycloptsError, Group, Parameter
 
 import assur
-from assur.cli import parsing
+from assur.cli import interruption, parsing
 from assur.cli.code import leave_by, told
-from assur.cli.exit_codes import BROKEN_PIPE, BUG
+from assur.cli.exit_codes import BROKEN_PIPE, BUG, INTERRUPTED
 from assur.cli.numbers import shielded
 from assur.cli.output import InterruptedByUserError, complain, console, emit, written
 from assur.cli.spelling import as_typed
@@ -23,7 +23,8 @@ HELP = """From the topology of a parallel mechanism to its numbers, each with it
 Negative numbers need no tricks. Angles are in the unit that the mechanism's
 file states. Exit codes: 0 fine, 1 a claim of ours fails, 2 usage, 3 bad file,
 4 proved: no (no solution, a box not all reached, no path), 5 undecided,
-6 a path that stopped short, 70 a bug of ours.
+6 a path that stopped short, 70 a bug of ours, 130 ended by Ctrl-C, with what
+was found so far.
 
 For example:
     assur direct zeng2019 162.6907 -143.3209 -24.6776
@@ -93,7 +94,8 @@ def main(words: Sequence[str] | None = None) -> int:
     words = sys.argv[1:] if words is None else words
     debug, json = "--debug" in words, "--json" in words
     try:
-        return _run(shielded(words))
+        with interruption.watched():
+            return _run(shielded(words))
     except AssurError as error:
         _traceback(debug)
         complain(as_typed(error, parsing.options(application(), words)), json=json)
@@ -102,7 +104,7 @@ def main(words: Sequence[str] | None = None) -> int:
         return BROKEN_PIPE
     except KeyboardInterrupt:
         complain(InterruptedByUserError("interrupted"), json=json)
-        return InterruptedByUserError.exit_code
+        return INTERRUPTED
     except Exception as error:  # whatever is left is our own bug, and a user gets one line
         _traceback(debug)
         what = " ".join(str(error).split())
@@ -122,8 +124,10 @@ def _run(words: Sequence[str]) -> int:
         return 0
     shared = bound.arguments.get("shared", bound.signature.parameters["shared"].default)
     with leave_by(shared) as not_run:
-        outcome = command(*bound.args, **bound.kwargs)
+        outcome = interruption.ended(lambda: command(*bound.args, **bound.kwargs))
         emit(told(outcome, not_run), json=shared.json)
+    if outcome.exit_code == INTERRUPTED:
+        complain(InterruptedByUserError(interruption.SAID))
     return int(outcome.exit_code)
 
 

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Literal
 
+from assur.cli.exit_codes import INTERRUPTED
 from assur.errors import AssurError, FileError, OutputError, visible
 
 if TYPE_CHECKING:
@@ -99,7 +100,7 @@ def forget_output() -> None:
 class InterruptedByUserError(AssurError):
     """Ctrl-C; what was done is kept, where the command keeps anything."""
 
-    exit_code = 130
+    exit_code = INTERRUPTED
 
 
 def complain(error: AssurError, *, json: bool = False) -> None:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from assur.cli.interruption import go_on
 from assur.cli.output import console
 
 if TYPE_CHECKING:
@@ -44,6 +45,16 @@ def progress(label: str, shared: Plain) -> Iterator[Step]:
             bars.update(bar, completed=done, total=total)
 
         yield step
+
+
+def stages(step: Step) -> Step:
+    """The same step, which ends a work of several stages where Ctrl-C has ended one of them with what it had."""
+
+    def checked(done: int, total: int) -> None:
+        go_on()
+        step(done, total)
+
+    return checked
 
 
 @contextmanager

@@ -33,14 +33,22 @@ def report(
         assur report ./my.toml --set l2=300 -o my.html
     """
     record = shared.mechanism(mechanism)
+    from assur.cli.interruption import handing_over
     from assur.cli.output import heading
     from assur.cli.paths import output_file
-    from assur.cli.progress import progress
+    from assur.cli.progress import progress, stages
     from assur.report import numbers_of, write_report
+    from assur.report.render import Page
 
     path = output_file(output, ENDINGS)
-    with progress("report", shared) as step:
-        page = write_report(record, path, step)
+
+    def stopped(page: Page) -> Outcome:
+        data = {"mechanism": record.name, "file": None, "numbers": numbers_of(page)}
+        titles = ", ".join(section.title for section in page.sections) or "none"
+        return Outcome(data, lambda: [heading(f"{record.name}, report: not written"), f"sections done: {titles}"])
+
+    with handing_over(Page, stopped), progress("report", shared) as step:
+        page = write_report(record, path, stages(step))
     size = path.stat().st_size
     data = {"mechanism": record.name, "file": str(path), "bytes": size, "numbers": numbers_of(page)}
     return Outcome(data, lambda: [heading(f"{record.name}, report"), f"written: {path} ({size / 1e6:.1f} MB)"])

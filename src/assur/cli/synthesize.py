@@ -22,6 +22,9 @@ if TYPE_CHECKING:
     from assur.synthesis.limbs import Actuators
     from assur.synthesis.synthesis import Synthesis
 
+MILLION = 1_000_000
+"""Combinations that are looked at without a word; some take seconds, a hundred times as many hours."""
+
 SHOWN = 20
 """Mechanisms in the table, and files, if nothing else is asked for."""
 
@@ -50,6 +53,7 @@ def synthesize(
     top: Annotated[
         str, Parameter(metavar="N", help="How many to show and write; 20 if left out, with --json all.")
     ] = "",
+    yes: Annotated[bool, Parameter(help="Look at more than a million combinations, however long it takes.")] = False,
     toml: Annotated[
         str, Parameter(metavar="FOLDER", help="Write each as a topology file that `assur topology` reads.")
     ] = "",
@@ -62,6 +66,8 @@ def synthesize(
     is listed is confirmed by the rules of POC sets and by the rank of twists.
     The best come first: smallest coupling degree, then fewest redundant
     constraints, fewest joints, fewest parallelograms, fewest kinds of limbs.
+    Before it begins it says how many combinations there are, where these are
+    more than a million, and wants --yes. Ctrl-C prints what was found so far.
 
     For example:
         assur synthesize --motion 3T --limbs 3 --max-joints 5 --symmetric
@@ -69,15 +75,23 @@ def synthesize(
         assur synthesize --actuators leg --symmetric --toml found
         assur synthesize --motion 2T1R --max-joints 3 --json
     """
+    from assur.cli.interruption import handing_over
     from assur.cli.paths import planned_folder
-    from assur.synthesis.synthesis import synthesis
+    from assur.synthesis.synthesis import Synthesis, TooManyError, synthesis
 
     number = None if limbs is None else whole_number(limbs, "--limbs")
     joints, degrees, place = whole_number(max_joints, "--max-joints"), _range(coupling), _place(actuators)
     count = _count(top)
     folder = planned_folder(toml) if toml else None
-    with progress("synthesis", shared) as step:
-        found = synthesis(motion, number, joints, degrees, symmetric=symmetric, actuators=place, step=step)
+    most = None if yes else MILLION
+    with handing_over(Synthesis, lambda found: _outcome(found, count, None)), progress("synthesis", shared) as step:
+        try:
+            found = synthesis(
+                motion, number, joints, degrees, symmetric=symmetric, actuators=place, step=step, most=most
+            )
+        except TooManyError as error:
+            hint = "ask for fewer joints or for --symmetric ones, or look at all of them with --yes"
+            raise UsageError(error.message, hint=hint) from None
     return _outcome(found, count, folder)
 
 

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from assur.crosscheck import engine as engines
 from assur.crosscheck.engine import Engine
 from assur.crosscheck.samples import Configuration, configurations
+from assur.errors import Interrupted
 from assur.kinematics.closure import characteristic_length, mobility
 from assur.kinematics.rates.velocity import velocity_map, velocity_map_at
 from assur.kinematics.status import Status
@@ -124,18 +125,25 @@ def crosscheck(
 
     Errors:
         UsageError: the engine is not installed. Whatever the direct and the inverse problem raise.
+        Interrupted: Ctrl-C; its answer is what was compared so far.
     """
     rng = np.random.default_rng(seed)
     there = engines.engine(record, text)
     found = configurations(record, samples, rng)
+    total = len(found)
     largest: dict[str, tuple[float, str]] = {}
     count: Counter[str] = Counter()
-    for item in found:
-        for kind, size in _compared(there, item, rng).items():
-            count[kind] += 1
-            size = np.inf if np.isnan(size) else size
-            if size > largest.get(kind, (-1.0, ""))[0]:
-                largest[kind] = (size, f"{item.problem} {item.mode}".strip())
+    done = 0
+    try:
+        for item in found:
+            for kind, size in _compared(there, item, rng).items():
+                count[kind] += 1
+                size = np.inf if np.isnan(size) else size
+                if size > largest.get(kind, (-1.0, ""))[0]:
+                    largest[kind] = (size, f"{item.problem} {item.mode}".strip())
+            done += 1
+    except KeyboardInterrupt:
+        found = found[:done]
     differences = tuple(
         Difference(kind, largest[kind][0], limit, count[kind], largest[kind][1])
         for kind, limit in TOLERANCES.items()
@@ -145,7 +153,10 @@ def crosscheck(
         problem: dict(sorted(Counter(item.mode for item in found if item.problem == problem).items()))
         for problem in ("direct", "inverse")
     }
-    return CrossCheck(record, name, there.version, samples, seed, modes, differences)
+    answer = CrossCheck(record, name, there.version, samples, seed, modes, differences)
+    if done < total:
+        raise Interrupted(answer)
+    return answer
 
 
 def _compared(engine: Engine, item: Configuration, rng: np.random.Generator) -> dict[str, float]:

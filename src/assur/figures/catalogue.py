@@ -7,7 +7,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from assur.errors import UnknownNameError
+from assur.errors import Interrupted, UnknownNameError
 from assur.figures.aspects import ASPECTS
 from assur.figures.context import Context
 from assur.figures.dexterity import DEXTERITY, LARGEST, SMALLEST
@@ -140,21 +140,27 @@ def write(
     Errors:
         UnknownNameError: a figure or a format that there is not; nothing is written then.
         OutputError: a file that cannot be written; what was there before stays whole.
+        Interrupted: Ctrl-C; its answer is the paths of the figures that are done.
     """
     shared = context or Context(record)
     chosen = _chosen(record, shared, names)
     for form in formats:
         if form not in FORMATS:
             raise UnknownNameError("figure format", form, FORMATS)
-    paths = []
-    for done, entry in enumerate(chosen):
-        made = drawing(record, entry.name, shared)
-        stem = f"{_number(shared, entry).lower()}-{entry.name}"
-        for form in formats:
-            content = _json(record, shared, entry, made) if form == "json" else encoded(made.figure, form)
-            paths.append(write_whole(Path(folder) / f"{stem}.{form}", content))
-        if progress:
-            progress(done + 1, len(chosen))
+    paths: list[Path] = []
+    try:
+        for done, entry in enumerate(chosen):
+            made = drawing(record, entry.name, shared)
+            stem = f"{_number(shared, entry).lower()}-{entry.name}"
+            if progress:
+                progress(done, len(chosen))  # may end it before what is half known is written
+            for form in formats:
+                content = _json(record, shared, entry, made) if form == "json" else encoded(made.figure, form)
+                paths.append(write_whole(Path(folder) / f"{stem}.{form}", content))
+            if progress:
+                progress(done + 1, len(chosen))
+    except KeyboardInterrupt:
+        raise Interrupted(paths) from None
     return paths
 
 

@@ -10,7 +10,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from assur.errors import UnknownNameError, UsageError
+from assur.errors import Interrupted, UnknownNameError, UsageError
 from assur.kinematics import border
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.closed_form.branches import Branches
@@ -161,13 +161,17 @@ def _on_joint_graph(
 ) -> Found:
     """What is found on the joint graph, problem by problem: loop by loop where that is complete, else by a search."""
     check(record)
-    found = [_assemblies(record, problem, one, method, crossed) for one in given.reshape(-1, given.shape[-1])]
+    found = []
+    for one in given.reshape(-1, given.shape[-1]):
+        found.append(_assemblies(record, problem, one, method, crossed))
+        if found[-1].interrupted and len(found) < given[..., 0].size:
+            raise KeyboardInterrupt
     most = max((len(item.joints) for item in found), default=0)
     joints = np.full((len(found), most, len(record.coordinates)), np.nan)
     for row, item in zip(joints, found, strict=True):
         row[: len(item.joints)] = item.joints[nearest_first(record, item.joints)]
     batch = given.shape[:-1]
-    return Found(
+    answer = Found(
         record,
         problem,
         given,
@@ -178,6 +182,9 @@ def _on_joint_graph(
         nearest=np.array([item.nearest for item in found]).reshape(batch),
         only=only,
     )
+    if any(item.interrupted for item in found):
+        raise Interrupted(answer)
+    return answer
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,6 +196,7 @@ class _Assemblies:
     right: str
     nearest: float
     uncrossed: bool
+    interrupted: bool = False
 
 
 def _assemblies(
@@ -199,16 +207,20 @@ def _assemblies(
         turn = solve_by_loops(record, **asked, crossed=crossed)
         if turn.complete or method == "loops" or (crossed and len(turn.joints)):
             return _Assemblies(turn.joints, turn.complete, turn.right, np.nan, not crossed)
-    found = search(record, problem, given)
+    interrupted = False
+    try:
+        found = search(record, problem, given)
+    except Interrupted as stop:
+        found, interrupted = stop.answer, True
     reason = f"not proved: a search from {found.starts} starts, of which number {found.last_new} found the last new one"
     if crossed or not record.generalised or crossed_parallelograms(record, home_values(record)):
-        return _Assemblies(found.joints, False, reason, found.nearest, False)
+        return _Assemblies(found.joints, False, reason, found.nearest, False, interrupted)
     kept = found.joints[[not crossed_parallelograms(record, row) for row in found.joints]]
     left_out = len(found.joints) - len(kept)
     if left_out:
         reason += f"; {left_out} with crossed parallelograms {'was' if left_out == 1 else 'were'} left out"
     nearest = np.nan if left_out and not len(kept) else found.nearest  # a crossed one closes: no gap is to be told
-    return _Assemblies(kept, False, reason, nearest, True)
+    return _Assemblies(kept, False, reason, nearest, True, interrupted)
 
 
 def _numbered_mode(record: MechanismRecord, problem: Problem, mode: str | None) -> str:

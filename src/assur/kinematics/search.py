@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.errors import Interrupted
 from assur.kinematics.border import held_inputs, inputs_of
 from assur.kinematics.closure import Assembly, assemble, characteristic_length
 from assur.kinematics.home import home_values
@@ -52,7 +53,8 @@ def search(record: MechanismRecord, problem: Problem, given: FloatArray, seed: i
     Angles start anywhere on the circle, lengths within twice the characteristic length of home, screws where they
     advance as far. Where turns count, starts and assemblies have as many as motions from home
     (`assur.kinematics.turns`), and some starts lie on the way from home to what is asked for. The search ends when it
-    has met what it knows `AGAIN` times as often as it has met anything new, or after `MOST` starts.
+    has met what it knows `AGAIN` times as often as it has met anything new, or after `MOST` starts. Ctrl-C ends it with
+    `Interrupted`, whose answer is the search so far.
 
     >>> from assur.model.registry import load_record
     >>> len(search(load_record("fivebar"), "direct", np.radians([127.0, 53.0])).joints)
@@ -63,9 +65,14 @@ def search(record: MechanismRecord, problem: Problem, given: FloatArray, seed: i
     starts, last, nearest, again = 0, 0, np.inf, 0
     while starts < MOST and again < AGAIN * max(len(known), 1):
         begun = _starts(record, STARTS, rng, with_home=starts == 0)
-        if starts == 0 and counts_turns(record):
-            begun[1 : 1 + WAY] = _on_the_way(record, problem, given)
-        found = _assembled(record, problem, given, begun)
+        try:
+            if starts == 0 and counts_turns(record):
+                begun[1 : 1 + WAY] = _on_the_way(record, problem, given)
+            found = _assembled(record, problem, given, begun)
+        except KeyboardInterrupt:
+            if not starts:
+                raise
+            raise Interrupted(Search(known, starts, last, nearest, False)) from None
         counted, same = with_turns_of_home(record, found.values, _held(record, problem))
         closed = np.flatnonzero(found.closed & same)
         joints = np.concatenate([known, counted[closed]])

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import assur
+from assur.errors import Interrupted
 from assur.kinematics.contract.check import check_closed_form
 from assur.kinematics.contract.held import IN_FULL
 from assur.model.mechanism import MechanismRecord
@@ -84,26 +85,44 @@ def report_html(
 
 
 def report_page(findings: Findings, progress: Progress | None = None) -> Page:
-    """The report as sections of results, before it is rendered; one that is refused is told of among the basis."""
+    """The report as sections of results, before it is rendered; one that is refused is told of among the basis.
+
+    Ctrl-C ends it with `Interrupted`, whose answer is the page of the sections that are done.
+    """
     check_closed_form(findings.record, IN_FULL)
-    tick = _ticker(len(ANALYSES) + len(SECTIONS), progress)
+    sections: dict[str, Section] = {}
+    refused: dict[str, str] = {}
+    try:
+        _make(findings, sections, refused, _ticker(len(ANALYSES) + len(SECTIONS), progress))
+    except KeyboardInterrupt:
+        raise Interrupted(_page(findings, sections.values())) from None
+    if refused:
+        told = Facts("Sections that this report does not have", tuple(refused.items()))
+        sections[KNOWN] = replace(sections[KNOWN], results=(*sections[KNOWN].results, told))
+    return _page(findings, sections.values())
+
+
+def _make(findings: Findings, sections: dict[str, Section], refused: dict[str, str], tick: Callable[[], None]) -> None:
+    """Make the sections one by one, or note why there is none."""
     for analysis in ANALYSES:
         with contextlib.suppress(*REFUSED):  # the sections that need it say why
             getattr(findings, analysis)
         tick()
-    sections: dict[str, Section] = {}
-    refused: dict[str, str] = {}
     for title, make in SECTIONS:
         try:
-            sections[title] = make(findings)
+            made = make(findings)
         except REFUSED as error:
             refused[title] = reason(error)
+        else:
+            tick()  # may end it before what is half known is kept
+            sections[title] = made
+            continue
         tick()
-    if refused:
-        told = Facts("Sections that this report does not have", tuple(refused.items()))
-        sections[KNOWN] = replace(sections[KNOWN], results=(*sections[KNOWN].results, told))
+
+
+def _page(findings: Findings, sections: Iterable[Section]) -> Page:
     record = findings.record
-    numbered = _numbered(sections.values(), itertools.count(1))
+    numbered = _numbered(sections, itertools.count(1))
     return Page(record.title, f"assur {assur.__version__} · {record.name}", record.source, numbered)
 
 

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import combinations_with_replacement
 from typing import get_args
 
-from assur.errors import UnknownNameError, UsageError
-from assur.synthesis.assembly import Range, assemble
-from assur.synthesis.classes import are_equal, classes
+from assur.errors import Interrupted, UnknownNameError, UsageError
+from assur.synthesis.assembly import Assembly, Range, assemble
+from assur.synthesis.classes import Class, are_equal, classes
 from assur.synthesis.designs import Design
 from assur.synthesis.isomorphism import mechanism_key
 from assur.synthesis.known_mechanisms import known_mechanisms
-from assur.synthesis.limb_motions import Limb, verdict
+from assur.synthesis.limb_motions import Limb, Verdict, verdict
 from assur.synthesis.limbs import Actuators, limb_types
 from assur.synthesis.positions import positions
 from assur.synthesis.tally import Tally, total
@@ -27,6 +28,10 @@ Step = Callable[[int, int], None]
 
 ANY = (0, 99)
 """Every coupling degree."""
+
+
+class TooManyError(UsageError):
+    """More combinations than are looked at unasked."""
 
 
 @dataclass(frozen=True)
@@ -77,6 +82,7 @@ def synthesis(
     symmetric: bool = False,
     actuators: Actuators = "base",
     step: Step = ignored,
+    most: int | None = None,
 ) -> Synthesis:
     """Mechanisms with a wanted motion, each confirmed by rules and by twists.
 
@@ -92,9 +98,11 @@ def synthesis(
         actuators: "base" where the first joint of each limb is driven (R, P or the translation of C), "leg" where it is
             the first P between two joints that turn.
         step: called with (steps done, steps in all).
+        most: combinations at most; any number where None.
 
     Errors:
-        UnknownNameError: another motion. UsageError: another number of limbs, or an empty range.
+        UnknownNameError: another motion. UsageError: another number of limbs, an empty range, or more combinations.
+        Interrupted: Ctrl-C; its answer is what was found so far.
         RoutesDisagreeError: rules and twists differ; the message names every chain.
 
     Example:
@@ -105,11 +113,31 @@ def synthesis(
     asked = _question(motion, limbs, max_joints, coupling, symmetric, actuators)
     usable, left_out, disagreements = _limbs(asked, step)
     found = classes(usable)
+    count = number_of_combinations(len(usable), asked.limbs, symmetric=symmetric)
+    if most is not None and count > most:
+        raise TooManyError(
+            f"{count} combinations of {len(usable)} limb types, and {most} are looked at unasked",
+            hint="ask for fewer joints or for equal limbs, or allow more by `most`",
+        )
     chosen = [some for some in combinations_with_replacement(found, asked.limbs) if not symmetric or are_equal(some)]
-    parts = []
-    for done, some in enumerate(chosen):
-        step(len(chosen) + done, 2 * len(chosen))
-        parts.append(assemble(some, asked.motion, Range(*coupling), symmetric=symmetric))
+    parts: list[Assembly] = []
+    try:
+        for done, some in enumerate(chosen):
+            step(len(chosen) + done, 2 * len(chosen))
+            parts.append(assemble(some, asked.motion, Range(*coupling), symmetric=symmetric))
+    except KeyboardInterrupt:
+        raise Interrupted(_answer(asked, found, left_out, parts, disagreements)) from None
+    return _answer(asked, found, left_out, parts, disagreements)
+
+
+def _answer(
+    asked: Question,
+    found: Sequence[Class],
+    left_out: Counter[str],
+    parts: Sequence[Assembly],
+    disagreements: tuple[str, ...],
+) -> Synthesis:
+    """What was found in the sets of classes that were looked at."""
     tally = total(part.tally for part in parts)
     disagreements += tally.disagreements
     if disagreements:
@@ -122,6 +150,15 @@ def synthesis(
         tally=tally,
         designs=_named(designs, asked.motion),
     )
+
+
+def number_of_combinations(types: int, limbs: int, *, symmetric: bool) -> int:
+    """Mechanisms of so many limbs of so many types: their number is told by a formula before one is looked at.
+
+    >>> number_of_combinations(170, 3, symmetric=False), number_of_combinations(170, 3, symmetric=True)
+    (833340, 170)
+    """
+    return types if symmetric else math.comb(types + limbs - 1, limbs) if types else 0
 
 
 def _question(
@@ -146,10 +183,19 @@ def _limbs(asked: Question, step: Step) -> tuple[list[Limb], Counter[str], tuple
     """Limbs with the motion, how many have it not and why, and those on which the routes disagree."""
     types = limb_types(asked.motion, asked.max_joints, asked.actuators)
     turns = positions(asked.motion, asked.limbs)
-    verdicts = []
-    for done, limb in enumerate(types):
-        step(done, 2 * len(types))
-        verdicts.append(verdict(limb, asked.motion, turns))
+    verdicts: list[Verdict] = []
+    try:
+        for done, limb in enumerate(types):
+            step(done, 2 * len(types))
+            verdicts.append(verdict(limb, asked.motion, turns))
+    except KeyboardInterrupt:
+        usable, left_out, _ = _sorted(verdicts)
+        raise Interrupted(_answer(asked, classes(usable), left_out, (), ())) from None
+    return _sorted(verdicts)
+
+
+def _sorted(verdicts: Sequence[Verdict]) -> tuple[list[Limb], Counter[str], tuple[str, ...]]:
+    """Verdicts by what they say."""
     return (
         [item.limb for item in verdicts if item.limb],
         Counter(item.reason for item in verdicts if item.reason),

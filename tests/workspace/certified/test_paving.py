@@ -9,7 +9,6 @@ import pytest
 
 import assur
 from assur.errors import UnknownNameError, UsageError
-from assur.workspace.certified import paving as module
 from assur.workspace.certified.criteria import criteria
 from assur.workspace.certified.paving import pave
 from assur.workspace.domain import Box, box_of

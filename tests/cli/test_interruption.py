@@ -1,0 +1,163 @@
+"""Ctrl-C in the midst of a long work: what was found so far is printed, and the exit code is 130."""
+
+from __future__ import annotations
+
+import signal
+
+import pytest
+
+from assur.cli import interruption
+from assur.cli.exit_codes import INTERRUPTED
+
+
+@pytest.fixture(autouse=True)
+def key():
+    """Ctrl-C raises `KeyboardInterrupt`, as at a terminal, whoever started the tests."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield lambda: signal.raise_signal(signal.SIGINT)
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler  # the command left no handler behind
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.fixture
+def at_call(monkeypatch, key):
+    """Press Ctrl-C when a function is called for the n-th time."""
+
+    def pressing(place, number):
+        module, _, name = place.rpartition(".")
+        target = __import__(module, fromlist=[name])
+        original, calls = getattr(target, name), []
+
+        def counted(*arguments, **options):
+            calls.append(1)
+            if len(calls) == number:
+                key()
+            return original(*arguments, **options)
+
+        monkeypatch.setattr(target, name, counted)
+
+    return pressing
+
+
+def told(run):
+    assert run.code == INTERRUPTED == 130
+    assert run.err.endswith(f"{interruption.SAID}\n")
+
+
+def test_a_search_hands_over_the_solutions_that_it_has(assur_cli, at_call, monkeypatch):
+    from assur.kinematics import search
+
+    monkeypatch.setattr(search, "AGAIN", 10**6)  # it never ends of itself before its last start
+    at_call("assur.kinematics.search.assemble", 2)
+    run = assur_cli("direct", "fivebar", "127", "53", "--method", "search", "--json")
+    told(run)
+    assert run.json["interrupted"] is True
+    assert len(run.json["solutions"]) == 2
+    assert f"a search from {search.STARTS} starts" in run.json["right"]
+
+
+def test_before_anything_is_found_nothing_is_printed(assur_cli, at_call):
+    at_call("assur.kinematics.search.assemble", 1)
+    run = assur_cli("direct", "fivebar", "127", "53", "--method", "search")
+    assert (run.code, run.out, run.err) == (130, "", "interrupted\n")
+
+
+PAVING = "assur.workspace.certified.paving._worst"
+
+
+def test_bounds_reached_are_printed(assur_cli, at_call):
+    at_call(PAVING, 3)
+    run = assur_cli("workspace", "zeng2019", "--certify", "--gap", "1e-6", "--json")
+    told(run)
+    low, high = run.json["volume"]
+    assert low < 22_814_586 < high
+    assert (run.json["stopped"], run.json["interrupted"]) == ("interrupted", True)
+
+
+def test_a_proof_of_a_box_is_undecided(assur_cli, at_call):
+    at_call("assur.workspace.certified.paving._large", 2)
+    run = assur_cli("workspace", "zeng2019", "--prove", "x=-110:90,y=-250:250,z=180:480")
+    told(run)
+    assert "interrupted" in run.out
+
+
+def test_aspects_of_the_modes_that_are_done(assur_cli, at_call):
+    at_call("assur.workspace.certified.paving._large", 2)
+    run = assur_cli("aspects", "fivebar", "--mode", "all", "--json")
+    told(run)
+    assert run.json["interrupted"] is True
+
+
+def test_a_certificate_is_written_with_what_is_proved(assur_cli, at_call, tmp_path):
+    at_call("assur.certificates.tree._halved", 3)
+    path = tmp_path / "c.json"
+    run = assur_cli("certify", "fivebar", "-o", str(path))
+    told(run)
+    assert assur_cli("verify", str(path)).code == 0
+
+
+def test_mechanisms_that_were_found_are_listed(assur_cli, at_call):
+    at_call("assur.synthesis.synthesis.assemble", 4)
+    run = assur_cli("synthesize", "--max-joints", "3", "--symmetric", "--json")
+    told(run)
+    whole = assur_cli("synthesize", "--max-joints", "3", "--symmetric", "--json").json
+    assert 0 < len(run.json["mechanisms"]) < len(whole["mechanisms"])
+
+
+def test_limbs_that_were_looked_at_are_counted(assur_cli, at_call):
+    at_call("assur.synthesis.synthesis.verdict", 9)
+    run = assur_cli("synthesize", "--max-joints", "3", "--symmetric")
+    told(run)
+    assert "0 mechanisms" in run.out
+
+
+def test_figures_that_are_drawn_are_listed_and_no_half_known_one_is_written(assur_cli, at_call, tmp_path):
+    words = ("figures", "fivebar", "--only", "structure", "workspace", "model", "--format", "svg", "-o", str(tmp_path))
+    at_call("assur.figures.context.workspace", 1)
+    run = assur_cli(*words, "--json")
+    told(run)
+    names = [item["name"] for item in run.json["figures"]]
+    assert "structure" in names
+    assert "workspace" not in names
+    assert len(list(tmp_path.iterdir())) == len(names)
+
+
+def test_a_report_says_which_sections_are_done_and_leaves_the_old_file(assur_cli, key, monkeypatch, tmp_path):
+    from assur.report import report
+
+    path = tmp_path / "r.html"
+    path.write_text("old")
+    monkeypatch.setattr(report, "ANALYSES", ())
+    monkeypatch.setattr(report, "SECTIONS", (*report.SECTIONS[1:3], ("The third", lambda _: key())))
+    run = assur_cli("report", "fivebar", "-o", str(path))
+    told(run)
+    assert run.out == "fivebar, report: not written\nsections done: The mechanism, Structure and topology\n"
+    assert path.read_text() == "old"
+
+
+@pytest.mark.sim
+def test_what_was_compared_with_the_engine_is_printed(assur_cli, at_call):
+    at_call("assur.crosscheck.crosscheck._compared", 4)
+    run = assur_cli("crosscheck", "fivebar", "--samples", "3", "--json")
+    told(run)
+    assert next(item for item in run.json["differences"] if item["kind"] == "frames of links")["count"] == 3
+
+
+def test_a_stage_that_answered_with_what_it_had_ends_the_work(key):
+    with interruption.watched():
+        interruption.go_on()
+        with pytest.raises(KeyboardInterrupt):
+            key()
+        assert interruption.pressed()
+        with pytest.raises(KeyboardInterrupt):
+            interruption.go_on()
+    with interruption.watched():
+        assert not interruption.pressed()
+
+
+def test_who_ignores_the_key_still_does(assur_cli):
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    with interruption.watched():
+        signal.raise_signal(signal.SIGINT)
+        assert not interruption.pressed()
+    signal.signal(signal.SIGINT, signal.default_int_handler)
