@@ -43,9 +43,8 @@ def leave_by(shared: Plain) -> Iterator[list[NotRun]]:
 def asked(code: NotRun) -> bool:
     """Whether the person at the terminal lets a file run; no is the answer where none is given."""
     place = f"{code.file}:{code.line}" if code.line else code.file
-    sys.stderr.write(
-        f"{visible(place)}: {code.reason}.\nIt would have to run as Python, which may do all that you may. Run it? [y/N] "
-    )
+    may = "It would have to run as Python, which may do all that you may. Run it? [y/N] "
+    sys.stderr.write(f"{visible(place)}: {code.reason}.\n{may}")
     sys.stderr.flush()
     return sys.stdin.readline().strip().lower() in ("y", "yes")
 
