@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -11,12 +11,22 @@ from assur.errors import MechanismFileError, Problem
 from assur.model.kernels.faults import KernelFault, LimitFault
 from assur.model.kernels.library import numeric
 from assur.model.kernels.limits import Meter
+from assur.model.kernels.programs import Program, Shapeless, program, shape_of
 from assur.model.kernels.values import Function, Named, Value, kind_of
+from assur.numerics.number_types import Extended, Floats, Intervals
 
 UNSET: Any = object()
 """Stands for a name that has no value yet."""
 ARITHMETIC = (TypeError, ValueError, ZeroDivisionError, OverflowError, RecursionError, AttributeError, LookupError)
 """What goes wrong between numbers: no fault of ours, but of the kernel's text, which is told its line."""
+
+
+PLAIN_NUMBERS = (Floats, Extended, Intervals)
+"""Number types over which a program is the same as the text: they have + - * / and a root, and keep nothing."""
+REPAID = 6
+"""Calls after which a program is made: recording and compiling take as long as some ten walks through the text."""
+MOST_SHAPES = 64
+"""Of one kernel's arguments for which there is a program."""
 
 
 class Frame:
@@ -33,6 +43,14 @@ Run = Callable[[Frame], Value]
 """What an expression or a statement became: work on a frame. A statement that returns gives its value, else UNSET."""
 
 
+@dataclass(eq=False)
+class Use:
+    """How often a kernel was called with arguments of one shape, and its program where that is often."""
+
+    calls: int = 0
+    program: Program | None = None
+
+
 @dataclass(frozen=True, eq=False)
 class KernelFunction(Function):
     """A function of a kernel's text. It can be called like any other, and keeps nothing from one call to the next.
@@ -43,6 +61,7 @@ class KernelFunction(Function):
         defaults: what the last arguments are where they are not given.
         size: places of its frame.
         body: its statements.
+        shapes: shape of arguments -> what there is for it.
 
     Errors of a call:
         MechanismFileError: the text cannot be worked out with these arguments, or takes too long.
@@ -55,12 +74,40 @@ class KernelFunction(Function):
     defaults: Mapping[str, Value]
     size: int
     body: Run
+    shapes: dict[Any, Use] = field(default_factory=dict)
 
     def __call__(self, *arguments: Any, **named: Any) -> Any:
         """The value at given arguments, with a budget of its own."""
+        if arguments and type(arguments[0]) in PLAIN_NUMBERS:
+            answer = self._by_program(arguments[0], arguments[1:], named)
+            if answer is not UNSET:
+                return answer
+        return self.evaluated(*arguments, **named)
+
+    def evaluated(self, *arguments: Any, **named: Any) -> Any:
+        """The value by a walk through the text."""
         meter = Meter()
         meter.line = self.line
         return guarded(self.file, meter, lambda: self.run(arguments, named, meter))
+
+    def _by_program(self, ns: Any, arguments: Sequence[Value], named: Mapping[str, Value]) -> Value:
+        """The value by straight-line code, where there is some for arguments of this shape; else UNSET."""
+        numbers: list[Value] = []
+        try:
+            shapes = tuple(shape_of(value, numbers) for value in arguments)
+            by_name = {name: shape_of(value, numbers) for name, value in named.items()}
+        except Shapeless:
+            return UNSET
+        use = self.shapes.setdefault((shapes, tuple(by_name.items())), Use())
+        use.calls += 1
+        if use.calls == REPAID and len(self.shapes) <= MOST_SHAPES:
+            use.program = program(self.evaluated, shapes, by_name)
+        if use.program is None:
+            return UNSET
+        try:
+            return use.program(numbers, ns.sqrt)
+        except ARITHMETIC:
+            return UNSET  # the walk through the text says where
 
     def run(self, arguments: Sequence[Value], named: Mapping[str, Value], meter: Meter) -> Value:
         """The value at given arguments, within the budget of a call that is under way."""
