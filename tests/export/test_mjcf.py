@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import zip_longest
 from xml.etree import ElementTree
 
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from assur.export.bodies import bodies, singly_jointed
 from assur.export.mjcf import mjcf
 from assur.model.joint_graph import frames
 from assur.model.points import point
@@ -202,3 +204,14 @@ def test_limits_and_strokes_are_ranges_of_the_joints(record, text, metre):
                 unit = metre if item.kind == "length" else 1.0
                 both = [np.max(bounds, axis=0)[0], np.min(bounds, axis=0)[1]]
                 np.testing.assert_allclose(floats(ranges[label]), unit * np.array(both))
+
+
+@pytest.mark.parametrize("record", ["b/J2"], indirect=True)
+def test_nominal_bodies_take_no_name_of_a_link(record):
+    model = bodies(record)
+    between = [f"{step.name}.link" for body in model.bodies.values() for step in body.steps[:-1]]
+    assert set(between) <= set(singly_jointed(model).bodies)
+    link = replace(model.bodies["world"], name=between[0])
+    both = replace(model, bodies={between[0]: link, **model.bodies})
+    assert len(singly_jointed(both).bodies) == len(both.bodies) + len(between)
+    assert singly_jointed(both).bodies[between[0]].mass == link.mass

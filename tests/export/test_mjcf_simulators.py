@@ -11,7 +11,6 @@ import pytest
 import assur
 import simulators
 from assur.export.mjcf import mjcf
-from assur.export.sdf import sdf
 from assur.kinematics.closure import characteristic_length
 from simulators import CLOSED, MECHANISMS, SCREWS, SIMULATORS
 
@@ -65,15 +64,3 @@ def test_the_table_is_what_they_read(tmp_path):
         lines.append(simulators.row(name, simulators.written(record), readings))
     missing = [line for line in lines if line not in PAGE]
     assert missing == [], "docs/export.md has other lines"
-
-
-@pytest.mark.engines
-def test_drake_refuses_the_loops_of_sdf(tmp_path):
-    from pydrake.all import MultibodyPlant, Parser
-
-    path = tmp_path / "it.sdf"
-    path.write_text(sdf(assur.load("fivebar")))
-    plant = MultibodyPlant(0.0)
-    Parser(plant).AddModels(str(path))
-    with pytest.raises(RuntimeError, match="loops in the system graph"):
-        plant.Finalize()

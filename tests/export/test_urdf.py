@@ -13,6 +13,11 @@ from assur.export.urdf import roll_pitch_yaw, urdf
 from assur.model.joint_graph import frames
 
 
+def link(name):
+    """`world` is the ground's."""
+    return "world.link" if name == "world" else name
+
+
 def floats(text):
     return np.array([float(word) for word in text.split()])
 
@@ -81,7 +86,7 @@ def urdf_values(record, text, beside, values, home, metre):
     for name, entry in beside["joints"].items():
         joint = record.joints[entry["joint"]]
         if "part" in entry:
-            forward = ends[f"{joint.name}.rz"] == joint.child
+            forward = ends[f"{joint.name}.rz"] == link(joint.child)
             turned = Rotation.from_matrix(away(record, joint, values, home, forward))
             found[name] = turned.as_euler("XYZ")[("rx", "ry", "rz").index(entry["part"])]
         elif name in screws:
@@ -107,8 +112,9 @@ def test_it_is_a_tree_of_all_links(record, text):
     names = [element.get("name") for element in root.findall("link")]
     carried = [joint.find("child").get("link") for joint in root.findall("joint")]
     assert len(set(names)) == len(names)
-    assert sorted([record.base, *carried]) == sorted(names)
-    assert set(record.links) <= set(names)
+    assert sorted([link(record.base), *carried]) == sorted(names)
+    assert set(map(link, record.links)) <= set(names)
+    assert "world" not in names
     assert root.find(".//mimic") is None
 
 
@@ -117,7 +123,7 @@ def test_links_are_where_the_joint_graph_says_at_any_joint_values(record, text, 
     assert set(values) == {joint.get("name") for joint in ElementTree.fromstring(text).findall("joint")}
     found = our_frames(text, beside, values)
     for name, (rotation, place) in frames(record, anywhere).items():
-        np.testing.assert_allclose(found[name], matrix(rotation, metre * place), atol=1e-9)
+        np.testing.assert_allclose(found[link(name)], matrix(rotation, metre * place), atol=1e-9)
 
 
 def side(entry, links):

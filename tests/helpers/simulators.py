@@ -220,3 +220,59 @@ def row(name: str, counts: tuple[int, int], readings: Mapping[str, Reading]) -> 
 def installed_versions() -> dict[str, str]:
     """Package -> version, of the simulators."""
     return {package: version(package) for package, _ in SIMULATORS.values()}
+
+
+# ---- URDF, a tree: where each link stands when every joint is at zero, and how many values its joints have ----------
+
+Tree = tuple[int, dict[str, tuple[np.ndarray, np.ndarray]]]
+"""Number of values, and the frames of links: orientation (3, 3) and origin (3,) in m."""
+
+
+def mujoco_tree(path: Path) -> Tree:
+    import mujoco
+
+    model = mujoco.MjModel.from_xml_path(str(path))
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    names = [model.body(k).name for k in range(1, model.nbody)]
+    return model.nv, {name: (data.body(name).xmat.reshape(3, 3), data.body(name).xpos) for name in names}
+
+
+def drake_tree(path: Path) -> Tree:
+    from pydrake.all import MultibodyPlant, Parser
+
+    plant = MultibodyPlant(0.0)
+    (instance,) = Parser(plant).AddModels(str(path))
+    bodies_ = [plant.get_body(index) for index in plant.GetBodyIndices(instance)]
+    plant.WeldFrames(plant.world_frame(), bodies_[0].body_frame())  # else Drake lets the base float
+    plant.Finalize()
+    context = plant.CreateDefaultContext()
+    poses = {body.name(): plant.EvalBodyPoseInWorld(context, body) for body in bodies_}
+    return plant.num_velocities(), {k: (pose.rotation().matrix(), pose.translation()) for k, pose in poses.items()}
+
+
+def pinocchio_tree(path: Path) -> Tree:
+    import pinocchio
+
+    model = pinocchio.buildModelFromUrdf(str(path))
+    data = model.createData()
+    pinocchio.framesForwardKinematics(model, data, pinocchio.neutral(model))
+    links = [(k, frame.name) for k, frame in enumerate(model.frames) if frame.type == pinocchio.BODY]
+    return model.nv, {name: (data.oMf[k].rotation, data.oMf[k].translation) for k, name in links}
+
+
+def newton_tree(path: Path) -> Tree:
+    newton, _ = _newton()
+    builder = newton.ModelBuilder()
+    builder.add_urdf(str(path))
+    model = builder.finalize(device="cpu")
+    state = model.state()
+    newton.eval_fk(model, model.joint_q, model.joint_qd, state)
+    poses = dict(zip((label.rpartition("/")[2] for label in builder.body_label), state.body_q.numpy(), strict=True))
+    return model.joint_dof_count, {
+        name: (Rotation.from_quat(pose[3:]).as_matrix(), pose[:3]) for name, pose in poses.items()
+    }
+
+
+TREES = {"MuJoCo": mujoco_tree, "Newton": newton_tree, "Drake": drake_tree, "Pinocchio": pinocchio_tree}
+"""Name -> what reads a URDF file."""

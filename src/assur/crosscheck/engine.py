@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError, extra_hint
 from assur.export.bodies import Bodies, bodies
-from assur.export.mjcf import body_name, mjcf, printed
+from assur.export.mjcf import mjcf, printed
+from assur.export.names import link_name
 from assur.model.joint_graph import Frame
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, rate_names
@@ -93,7 +94,7 @@ def link_frames(engine: Engine) -> Mapping[str, Frame]:
     """Frame of every link in the base frame: orientation (3, 3) and origin (3,) in m."""
     found = {}
     for link in engine.record.links:
-        body = engine.data.body(body_name(link))
+        body = engine.data.body(link_name(link))
         found[link] = (body.xmat.reshape(3, 3).copy(), body.xpos.copy())
     return found
 
@@ -141,7 +142,7 @@ def platform_jacobian(engine: Engine) -> tuple[FloatArray, float, float]:
 def _pose_rates(engine: Engine) -> FloatArray:
     """Rates (k, nv) of the pose per rate of each degree of freedom, lengths in the characteristic length."""
     record, model, data = engine.record, engine.model, engine.data
-    body = data.body(body_name(record.platform.link))
+    body = data.body(link_name(record.platform.link))
     rotation = body.xmat.reshape(3, 3)
     point = body.xpos + rotation @ (engine.bodies.metre * record.platform.point)
     linear, angular = np.zeros((3, model.nv)), np.zeros((3, model.nv))

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.export.names import Names
 from assur.export.steps import Step, joint_steps
 from assur.kinematics.closure import characteristic_length
 from assur.kinematics.home import home_values
@@ -146,10 +147,11 @@ def singly_jointed(model: Bodies) -> Bodies:
     (10, 14)
     """
     made: dict[str, Body] = {}
+    names = Names(model.bodies)
     for body in model.bodies.values():
         place = (body.parent, body.orientation, body.position)
         for step in body.steps[:-1]:
-            name = f"{step.name}.link"
+            name = names.new(f"{step.name}.link", "body")
             made[name] = carrier(name, place, (step,), step.at, model.size)
             place = (name, np.eye(3), np.zeros(3))
         parent, orientation, position = place
@@ -188,7 +190,7 @@ def _cut(
     origin = model.metre * position + orientation @ last.at
     if kept:
         steps = tuple(replace(step, at=np.zeros(3)) for step in kept)
-        name = f"{joint.name}.carrier"
+        name = Names(record.links).new(f"{joint.name}.carrier", "body")
         body = carrier(name, (joint.parent, orientation, origin), steps, np.zeros(3), model.size)
         return body, Closure(joint.name, name, joint.child, offsets)
     if parent:

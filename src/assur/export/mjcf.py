@@ -19,7 +19,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from assur.export.bodies import Bodies, Body, Closure, bodies, singly_jointed
-from assur.export.names import Names
+from assur.export.names import Names, link_name
 from assur.export.shapes import arms, radius
 from assur.export.steps import Step
 from assur.export.xml_text import Element, child, comment, document, number, numbers, quaternion
@@ -105,7 +105,7 @@ def _tree(record: MechanismRecord, model: Bodies, world: Element) -> None:
         element = child(
             made[body.parent],
             "body",
-            name=body_name(body.name),
+            name=link_name(body.name),
             pos=numbers(body.position),
             quat=quaternion(body.orientation),
         )
@@ -119,7 +119,7 @@ def _tree(record: MechanismRecord, model: Bodies, world: Element) -> None:
 
 def _sites(record: MechanismRecord, model: Bodies, made: Mapping[str, Element]) -> None:
     """Letters, and the platform's point. Pinocchio takes a site for a body of its name, so that they differ."""
-    names = Names([*map(body_name, model.bodies), *model.steps])
+    names = Names([*map(link_name, model.bodies), *model.steps])
     for letter in record.points.values():
         site = names.new(letter.name, "point")
         child(made[letter.link], "site", name=site, pos=numbers(model.metre * letter.at))
@@ -148,7 +148,7 @@ def _shapes(element: Element, body: Body, model: Bodies) -> None:
 
 
 def _closure(equality: Element, closure: Closure) -> None:
-    ends = {"body1": body_name(closure.first), "body2": body_name(closure.second)}
+    ends = {"body1": link_name(closure.first), "body2": link_name(closure.second)}
     for k, point in enumerate(closure.points, 1):
         child(equality, "connect", name=f"{closure.joint}.{k}", **ends, anchor=numbers(point))
 
@@ -196,8 +196,3 @@ def _ordered(model: Bodies) -> list[Step]:
         found += body.steps
         waiting = below.get(body.name, []) + waiting
     return found
-
-
-def body_name(link: str) -> str:
-    """Name of a link's body: its own, but `world` is taken in MJCF."""
-    return "world.link" if link == "world" else link

@@ -5,6 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 
+def link_name(link: str) -> str:
+    """Name of a link in a file: its own, but `world` is that of the ground everywhere.
+
+    >>> link_name("crank"), link_name("world")
+    ('crank', 'world.link')
+    """
+    return "world.link" if link == "world" else link
+
+
 class Names:
     """Names that are taken in a file; `world` is reserved in every form.
 

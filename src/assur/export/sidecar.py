@@ -3,7 +3,7 @@
 The form, all lengths in m and angles in rad, quaternions w x y z:
 
 - `format` 1, `mechanism`, `urdf` (the name of the file beside it), `unit` {"length": "m", "angle": "rad"};
-- `links`: link -> {`frame`}: the place of our frame's origin in the URDF link's frame, whose axes are parallel;
+- `links`: URDF link -> {`frame`}: the place of our frame's origin in the URDF link's frame, whose axes are parallel;
 - `joints`: URDF joint -> {`joint`, `home`}: the joint of the mechanism, and its value at the URDF's zero; of a part
   of a ball joint {`joint`, `part`}, where Rx Ry Rz of the three parts is the rotation away from home;
 - `couplings`: of screws, {`slide`, `hinge`, `ratio`}: away from home, slide = ratio times hinge;
@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.export.bodies import Bodies, bodies
+from assur.export.names import link_name
 from assur.export.steps import Step, joint_steps
 from assur.export.urdf import anchor, single_steps, tree_links
 from assur.model.joint_graph import child_frame, frames, joint_graph
@@ -51,7 +52,7 @@ def sidecar(record: MechanismRecord, urdf_name: str) -> dict[str, Any]:
         "mechanism": record.name,
         "urdf": urdf_name,
         "unit": {"length": "m", "angle": "rad"},
-        "links": {link: {"frame": -anchor(model.bodies[link]) + 0.0} for link in links},
+        "links": {link_name(link): {"frame": -anchor(model.bodies[link]) + 0.0} for link in links},
         "joints": {single.name: _joint(step, single) for step in steps for single in single_steps(step)},
         "couplings": [
             {"slide": f"{name}.advance", "hinge": name, "ratio": record.joints[name].pitch * model.metre / (2 * np.pi)}
@@ -67,7 +68,7 @@ def sidecar(record: MechanismRecord, urdf_name: str) -> dict[str, Any]:
             }
             for item in record.inputs
         ],
-        "platform": {"link": record.platform.link, "position": _place(record, model)},
+        "platform": {"link": link_name(record.platform.link), "position": _place(record, model)},
     }
     result: dict[str, Any] = plain(data)
     return result
@@ -106,7 +107,7 @@ def _loop(record: MechanismRecord, joint: Joint, model: Bodies) -> dict[str, Any
 
 def _frame(model: Bodies, link: str, point: FloatArray, turn: FloatArray) -> dict[str, Any]:
     return {
-        "link": link,
+        "link": link_name(link),
         "position": point - anchor(model.bodies[link]),
         "orientation": rotations.to_quaternion(turn),
     }

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.export.bodies import CARRIER_INERTIA, CARRIER_MASS, Bodies, Body, bodies
+from assur.export.names import Names, link_name
 from assur.export.shapes import arms, radius
 from assur.export.steps import Step
 from assur.export.xml_text import Element, child, comment, document, number, numbers
@@ -47,7 +48,7 @@ def urdf(record: MechanismRecord) -> str:
         body = model.bodies[name]
         if body.parent:
             _joints(root, body, model)
-        element = child(root, "link", name=name)
+        element = child(root, "link", name=link_name(name))
         _solid(element, body, model)
     return document(root)
 
@@ -87,10 +88,11 @@ def roll_pitch_yaw(orientation: FloatArray) -> FloatArray:
 def _joints(root: Element, body: Body, model: Bodies) -> None:
     """The row of joints that carries a link, and the nominal links between them."""
     steps = [single for step in body.steps for single in single_steps(step)]
-    names = [f"{step.name}.link" for step in steps[:-1]]
+    taken = Names(model.bodies)
+    names = [taken.new(f"{step.name}.link", "body") for step in steps[:-1]]
     position = body.position + body.orientation @ anchor(body) - anchor(model.bodies[body.parent])
     place = {"xyz": numbers(position), "rpy": numbers(roll_pitch_yaw(body.orientation))}
-    for step, near, far in zip(steps, [body.parent, *names], [*names, body.name], strict=True):
+    for step, near, far in zip(steps, [link_name(body.parent), *names], [*names, link_name(body.name)], strict=True):
         made = child(root, "joint", name=step.name, type=_kind(step))
         child(made, "origin", **place)
         child(made, "parent", link=near)
