@@ -151,7 +151,9 @@ def test_verify_runs_no_code_even_with_leave(hostile, tmp_path, monkeypatch, cap
     code = main(["verify", str(certificate), "--mechanism", str(hostile)])
     said = capsys.readouterr()
     assert not ran(hostile)
-    assert code != 0
+    assert code == 5
+    assert "holds for its own formulas" in said.out
+    assert "verified" not in said.out
     assert "this command runs no code of others" in said.err
 
 

@@ -36,8 +36,9 @@ def verify(
     The exit code is about the proof, not about what it answers. 0: it holds,
     also where it proves a no; 1: refused, a part or a claim does not hold or it
     is that of another mechanism or version; 3: no whole certificate; 5: it
-    holds for the formulas in it, but the mechanism is not at hand, so that
-    nobody knows whose they are.
+    holds for the formulas in it, but the mechanism is not at hand, or its closed
+    form is Python that only running could tell, so that nobody knows whose they
+    are. No code of others is run here.
 
     For example:
         assur verify cert.json
@@ -67,6 +68,9 @@ def _compared(path: Path, document: dict[str, Any], mechanism: str | None, secon
     record = at_hand(document, mechanism)
     if record is None:
         return _holds(path, document, None, seconds)
+    if record.closed_form_not_run:
+        why = f"{record.name}'s closed form is Python beyond formulas, and verify runs no code of others"
+        return _holds(path, document, None, seconds, why)
     try:
         record = with_dimensions(document, record)
     except UsageError as error:
@@ -78,7 +82,13 @@ def _compared(path: Path, document: dict[str, Any], mechanism: str | None, secon
     return _holds(path, document, record, seconds)
 
 
-def _holds(path: Path, document: dict[str, Any], record: MechanismRecord | None, seconds: float) -> Outcome:
+def _holds(
+    path: Path,
+    document: dict[str, Any],
+    record: MechanismRecord | None,
+    seconds: float,
+    why_not: str = "the mechanism is not at hand, say with --mechanism where it is",
+) -> Outcome:
     """It is verified where its formulas are those of the mechanism; anyone can write some for which a claim holds."""
     from assur.certificates.summary import claim_lines, shares, statement_lines
     from assur.cli.output import heading
@@ -92,7 +102,7 @@ def _holds(path: Path, document: dict[str, Any], record: MechanismRecord | None,
     whose = (
         "the mechanism's, recorded anew"
         if ours
-        else "not compared: the mechanism is not at hand, say with --mechanism where it is"
+        else f"not compared: {why_not}"
     )
     shown = [heading(f"{head}: {path}"), *lines, how, f"formulas: {whose}"]
     code = exit_codes.of_answers(["yes" if ours else "open"])
