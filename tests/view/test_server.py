@@ -5,6 +5,7 @@ import importlib.util
 import pathlib
 import socket
 import threading
+import time
 import urllib.request
 from types import SimpleNamespace
 
@@ -134,3 +135,42 @@ def test_without_viser_it_says_what_to_install(monkeypatch):
     with pytest.raises(UsageError, match="needs viser") as caught:
         server.library()
     assert caught.value.hint == "pip install '.[view]' in assur's folder"
+
+
+def test_so_many_windows_are_served_and_the_next_one_is_told(served):
+    found, _ = served
+    headers = [f"Host: 127.0.0.1:{found.port}", f"Origin: http://127.0.0.1:{found.port}", *SOCKET]
+    path = f"/{found.guard.token}"
+    shake = "\r\n".join([f"GET {path} HTTP/1.1", *headers, "Sec-WebSocket-Protocol: viser-v0", "", ""]).encode()
+    page = "\r\n".join([f"GET {path}/ HTTP/1.1", headers[0], "Connection: close", "", ""]).encode()
+
+    def counted(holds):
+        for _ in range(1000):
+            if holds():
+                return
+            time.sleep(0.01)
+        raise AssertionError(found._open)
+
+    def answer(sent):
+        line = socket.create_connection(("127.0.0.1", found.port), timeout=20)
+        line.sendall(sent)
+        return line, line.recv(4096)
+
+    lines = []
+    try:
+        while len(lines) <= server.MOST and (not lines or lines[-1][1].startswith(b"HTTP/1.1 101 ")):
+            lines.append(answer(shake))
+            counted(lambda: found._open == min(len(lines), server.MOST))
+        assert len(lines) == server.MOST + 1
+        assert lines[-1][1].startswith(b"HTTP/1.1 503 ")
+        line, told = answer(page)
+        line.close()
+        assert told.startswith(b"HTTP/1.1 503 ")
+        assert f"open in {server.MOST} windows already".encode() in told
+    finally:
+        for line, _ in lines:
+            line.close()
+    counted(lambda: found._open < server.MOST)  # the server notices that they are gone
+    line, told = answer(page)
+    line.close()
+    assert told.startswith(b"HTTP/1.1 200 ")

@@ -25,6 +25,14 @@ from assur.errors import AssurError, UsageError, extra_hint
 from assur.view.guard import POLICY, Answer, Guard, as_sent, reached_at
 
 REFUSED = b"refused\n"
+MOST = 8
+"""Windows that may be open at once: each is sent every change, and asks for its own."""
+FULL = (
+    "This view is open in {most} windows already, the most that it serves at once. Close one of them, then load this "
+    "page again.\n"
+)
+TRY_AGAIN_LATER = 1013
+"""What a WebSocket is closed with where there are too many."""
 Opened = Callable[[str], None]
 """Called with the query of every page that is opened."""
 
@@ -43,6 +51,7 @@ class Served:
         _check_free(host, port)
         self.guard, self.host = guard, host
         self._asked = False
+        self._open = 0
         page = (Path(viser.__file__).parent / "client" / "build" / "index.html").read_bytes()
         with contextlib.redirect_stdout(io.StringIO()), self._in_front(page, opened):
             self.viser = viser.ViserServer(host=host, port=port, verbose=False)
@@ -77,14 +86,14 @@ class Served:
         def process(connection: Any, request: Any) -> Any:
             self._asked = True
             port = connection.local_address[1]
-            verdict = self.guard.check(request.path, request.headers.raw_items(), port)
-            if verdict.answer is Answer.socket:
+            answer = self.guard.check(request.path, request.headers.raw_items(), port).answer
+            kind, body, status = "text/plain; charset=utf-8", REFUSED, http.HTTPStatus.FORBIDDEN
+            if answer is not Answer.refused and self._open >= MOST:
+                body, status = FULL.format(most=MOST).encode(), http.HTTPStatus.SERVICE_UNAVAILABLE
+            elif answer is Answer.socket:
                 return None
-            body, status = (
-                (page, http.HTTPStatus.OK) if verdict.answer is Answer.page else (REFUSED, http.HTTPStatus.FORBIDDEN)
-            )
-            kind = "text/html; charset=utf-8" if verdict.answer is Answer.page else "text/plain; charset=utf-8"
-            if verdict.answer is Answer.page:
+            elif answer is Answer.page:
+                kind, body, status = "text/html; charset=utf-8", page, http.HTTPStatus.OK
                 opened(request.path.partition("?")[2])
             fields = {**POLICY, "Content-Type": kind, "Content-Length": str(len(body)), "Connection": "close"}
             return response(status.value, status.phrase, headers(fields), body)
@@ -92,7 +101,18 @@ class Served:
         def serve(handler: Any, *arguments: Any, **options: Any) -> Any:
             quiet = logging.getLogger("assur.view.requests")
             quiet.setLevel(logging.CRITICAL)
-            return original(handler, *arguments, **{**options, "process_request": process, "logger": quiet})
+
+            async def counted(connection: Any) -> None:
+                if self._open >= MOST:  # several came at the same moment
+                    await connection.close(TRY_AGAIN_LATER, FULL.format(most=MOST).partition(".")[0])
+                    return
+                self._open += 1
+                try:
+                    await handler(connection)
+                finally:
+                    self._open -= 1
+
+            return original(counted, *arguments, **{**options, "process_request": process, "logger": quiet})
 
         setattr(library, "serve", serve)  # noqa: B010  # a module's attribute, for as long as viser starts
         try:

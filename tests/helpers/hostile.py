@@ -1,0 +1,156 @@
+"""What nobody should send: files, command lines and certificates that are wrong in as many ways as chance finds.
+
+Each is made from a seed, so that one that fails can be made again.
+"""
+
+from __future__ import annotations
+
+import copy
+import hashlib
+import json
+import math
+import random
+import re
+from collections.abc import Iterator
+from typing import Any
+
+TOKEN = re.compile(r"\"[^\"\n]*\"|[A-Za-z_][\w.']*|-?\d+(?:\.\d+)?|[^\w\s]|\n")
+ODD = (
+    *("nan", "inf", "-inf", "-1", "0", "1e308", "1e-320", "9" * 400, "0x1F", "1_000", "1.0", "true", "false"),
+    *('""', '"x"', '"-z"', '"a.b"', '"leg1.A"', '"l1*(2"', '"1/0"', '"sqrt(0-1)"', '"pi"', '"62 deg"', '"$"'),
+    *("[]", "{}", "[[]]", "[[", "]]", "[0, 0, 0]", "[nan, 0, 0]", "{ a = 1, a = 2 }", "1979-05-27", "'''", '"""'),
+    *("\n[x]\n", "\n[[x]]\n", "\n[joints]\n", "\nname = 1\n", "#", "=", ",", ".", "\\", "\x00", "\x1b[2J", "\u202e"),
+    *(
+        "\ufeff",
+        "\r",
+        "\x9b",
+        "é",
+        "\U0001f916",
+        "a" * 101,
+        "a." * 30,
+        "[" * 60,
+        '"\\u001b]0;x\\u0007"',
+        '"\\theta_{1"',
+    ),
+)
+"""What is put in the place of a piece of a file."""
+
+
+def mutated(text: str, seed: int) -> str:
+    """A file with one to four of its pieces replaced, removed, doubled, exchanged or cut off."""
+    rng = random.Random(seed)
+    for _ in range(rng.randint(1, 4)):
+        spans = [match.span() for match in TOKEN.finditer(text)] or [(0, 0)]
+        (start, end), (other, last) = rng.choice(spans), rng.choice(spans)
+        match rng.randrange(7):
+            case 0 | 1 | 2:
+                text = text[:start] + rng.choice(ODD) + text[end:]
+            case 3:
+                text = text[:start] + text[end:]
+            case 4:
+                text = text[:end] + " " + text[start:]
+            case 5:
+                text = text[:start] + text[other:last] + text[end:]
+            case _:
+                rows = text.split("\n")
+                row = rng.randrange(len(rows))
+                rows[row : row + 1] = rng.choice(([], [rows[row]] * 2, [rows[row][: len(rows[row]) // 2]], rows[:row]))
+                text = "\n".join(rows)
+    return text
+
+
+VALUES = (
+    *("", " ", "0", "-1", "1e400", "nan", "inf", "-inf", "1,5", "3mm", "--", "-", "=", "x=", "=1", "x=1:", "x=1:0"),
+    *("x=0:1,x=0:2", "all", "+", "++-++", "0", "+++++/0", "~Pa1", "../x", "/dev/zero", "/dev/stdin", ".", "\x1b[2J"),
+    *("\u202ex", "a" * 5000, "9" * 400, "1e-320", "zeng2019", "fivebar", "nowhere.toml", "R[x]", "{R[x] | ", "P[q]"),
+)
+QUICK = {
+    "direct": ("--mode", "--method", "--set", "--crossed", "--certify", "--json"),
+    "inverse": ("--mode", "--method", "--set", "--crossed", "--certify", "--json"),
+    "singularity": ("--pose", "--joints", "--mode", "--set", "--json"),
+    "indices": ("--pose", "--mode", "--length", "--set", "--json"),
+    "follow": ("--from", "--to", "--mode", "--json"),
+    "topology": ("--chain", "--actuate", "--mode", "--latex", "--json"),
+    "show": ("--set", "--json"),
+    "check": ("--set", "--json"),
+    "verify": ("--mechanism", "--json"),
+    "list": ("--json", "--set"),
+    "schema": ("--json",),
+    "export": ("--format", "-o", "--json"),
+    "new": ("--from", "--chain", "--force"),
+}
+"""Commands that are done at once, with options to be tried."""
+LONG = {
+    "workspace": ("--box", "--stroke", "--section", "--gap", "--finest", "--prove", "--largest", "--around", "--boxes"),
+    "aspects": ("--mode", "--box", "--finest", "--from", "--to"),
+    "certify": ("--kind", "--box", "--gap", "--finest", "--most", "--from", "--to"),
+    "sweep": ("--along", "--keep", "--threads", "--mode"),
+    "synthesize": ("--motion", "--limbs", "--max-joints", "--coupling", "--actuators", "--top"),
+    "figures": ("--only", "--format", "-o"),
+    "report": ("-o",),
+    "page": ("-o",),
+    "motion": ("-o", "--to", "--frames"),
+    "collisions": ("-o", "--to"),
+    "crosscheck": ("--samples", "--seed", "--engine"),
+}
+"""Commands that may take long: they are given an option that there is not as well."""
+MECHANISMS = ("fivebar", "zeng2019", "planar_3rrr", "delta_4s", "nobody", "nowhere.toml", "")
+
+
+def command_line(seed: int) -> list[str]:
+    """Words of a command line with values by chance."""
+    rng = random.Random(seed)
+    command = rng.choice([*QUICK, *QUICK, *LONG])
+    options = QUICK.get(command) or LONG[command]
+    words = [command]
+    if command not in ("list", "schema", "synthesize") and rng.random() < 0.9:
+        words.append(rng.choice((*MECHANISMS, rng.choice(VALUES))))
+    if command in ("direct", "inverse", "new"):
+        words += [rng.choice((*VALUES, "10", "20", "200")) for _ in range(rng.randint(0, 4))]
+    for _ in range(rng.randint(0, 3)):
+        words += [rng.choice(options), *(rng.choice((*VALUES, "10,200")) for _ in range(rng.randint(0, 1)))]
+    return [*words, "--nothing-like-it"] if command in LONG else words
+
+
+def forged(document: dict[str, Any], seed: int) -> tuple[bytes, bool]:
+    """A certificate with one to three of its parts changed and signed anew, and whether it then says another thing."""
+    rng = random.Random(seed)
+    changed = copy.deepcopy(document)
+    for _ in range(rng.randint(1, 3)):
+        _forge(changed, rng)
+    changed.pop("sha256", None)
+    text = json.dumps(changed, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
+    other = {key: value for key, value in changed.items() if key != "made_by"}
+    same = other == {key: value for key, value in document.items() if key not in ("made_by", "sha256")}
+    signed = {**changed, "sha256": hashlib.sha256(text.encode()).hexdigest()}
+    return json.dumps(signed).encode(), not same
+
+
+def _forge(changed: dict[str, Any], rng: random.Random) -> None:
+    """Change one place of a certificate: a leaf of its data, or a token of its proof."""
+    place, key = rng.choice([found for found in _places(changed) if found[1] != "sha256"])
+    value = place[key]
+    match value:
+        case bool():
+            place[key] = not value
+        case int():
+            place[key] = value + rng.choice((-1, 1, 2, 10**6))
+        case str() if value.startswith(("0x", "-0x")):
+            number = float.fromhex(value)
+            place[key] = rng.choice((math.nextafter(number, math.inf), -number, 2 * number, number + 1.0)).hex()
+        case str() if len(value) > 40:
+            at = rng.randrange(len(value))
+            place[key] = value[:at] + rng.choice(("i", "r", "b", "0", "1", "o00", "")) + value[at + 1 :]
+        case str():
+            place[key] = rng.choice(("", "zeng2019", "x", "\x1b[2J", "inf", "i", "yes", "0x1p+0", value + "x"))
+        case list() if value:
+            rng.choice((value.pop, lambda: value.append(copy.deepcopy(value[0])), value.reverse))()
+        case _:
+            place[key] = rng.choice((None, 0, "", [], {}, 1.5, True, [[]], {"a": 1}))
+
+
+def _places(part: Any) -> Iterator[tuple[Any, Any]]:
+    keys = list(part) if isinstance(part, dict) else range(len(part)) if isinstance(part, list) else ()
+    for key in keys:
+        yield part, key
+        yield from _places(part[key])
