@@ -30,8 +30,11 @@ def verdict_data(record: Mechanism, pose: NDArray[Any], mode: str) -> dict[str, 
     from assur.kinematics.rates.units import unit_length
     from assur.results.json_text import plain
 
-    why_not = answer(record.inverse(pose, mode))["failures"]
     verdict = record.singularity(pose, mode)
+    # of home's mode without a closed form `home_by` says what stops the paths
+    of_home = record.closed_form is None and (not mode or mode == record.modes.default_working)
+    lost = not of_home and verdict.kind in ("unreachable", "undecided")
+    why_not = answer(record.inverse(pose, mode))["failures"] if lost else []
     return {
         "mechanism": record.name,
         "unit": record.unit,
@@ -49,6 +52,8 @@ def _shown(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
     near = ", near_singular" if data["near"] else ""
     yield heading(f"{data['mechanism']}, singularity: {data['kind']}{near}")
     yield f"at {pose_text(style_of(record), data['coordinates'], data['pose'])}, {mode_words(record, data['mode'])}"
+    if data["home_by"]:
+        yield data["home_by"]
     yield ""
     if data["failures"]:
         yield failures(data["failures"])

@@ -38,7 +38,6 @@ def outcome(
 ) -> Outcome:
     """The path from texts `start` (home where there are none) to texts `target`; or why there is no start."""
     from assur.cli.positions import outcome as no_start
-    from assur.kinematics.paths.following import follow
 
     goal = _points(record, along, target)
     if not start:
@@ -49,6 +48,8 @@ def outcome(
         place = _points(record, along, start, "--from")
         if len(place) != 1:
             raise UsageError(f"--from: {count(len(place), 'point')}, one wanted", hint="further points belong to --to")
+        if record.closed_form is None and mode is None:
+            return _from_home_mode(record, along, place[0], goal, turns=turns, use_limits=use_limits)
         solve = record.inverse if along == "pose" else record.direct
         found = solve(place[0], mode)
         default = record.modes.default_working if along == "pose" else record.modes.default_assembly
@@ -56,6 +57,28 @@ def outcome(
         if row is None:
             return no_start(record, found if mode else solve(place[0], default or None))
         joints = found.joints[row]
+    return _followed(record, joints, along, goal, turns=turns, use_limits=use_limits)
+
+
+def _from_home_mode(
+    record: Mechanism, along: Along, place: NDArray[Any], goal: NDArray[Any], *, turns: Turns, use_limits: bool
+) -> Outcome:
+    """The path from where home's mode is at --from; without a closed form that is followed from home."""
+    from assur.kinematics.paths.home_mode import home_mode_at
+
+    start = home_mode_at(record, place, "poses" if along == "pose" else "inputs")
+    if start.joints is None:
+        said = f"{record.name}, no path: --from is not reached in home's mode: {start.words}"
+        data = {"mechanism": record.name, "status": "undecided", "why": said}
+        return Outcome(data, lambda: [said, "hint: name another mode at --from by --mode"], exit_codes.UNDECIDED)
+    return _followed(record, start.joints, along, goal, turns=turns, use_limits=use_limits)
+
+
+def _followed(
+    record: Mechanism, joints: NDArray[Any], along: Along, goal: NDArray[Any], *, turns: Turns, use_limits: bool
+) -> Outcome:
+    from assur.kinematics.paths.following import follow
+
     options: dict[str, Any] = {"poses" if along == "pose" else "inputs": goal}
     path = follow(record, joints, **options, turns=turns, use_limits=use_limits)
     code = exit_codes.FINE

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from rich.console import RenderableType
 
+    from assur.kinematics.answers.solution_set import SolutionSet
+    from assur.kinematics.paths.home_mode import HomeMode
     from assur.mechanism import Mechanism
     from assur.performance.overall import OverallIndices
 
@@ -45,11 +47,16 @@ def length_asked(text: str | None) -> Length:
 def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) -> Outcome:
     """Every index at one pose (m,) in a working mode."""
     from assur.kinematics.answers.at_border import answer, pose_at_border
+    from assur.kinematics.paths.home_mode import home_mode_at
     from assur.performance.indices import indices
     from assur.results.json_text import plain
 
-    lost = answer(record.inverse(pose, mode))["failures"]
-    found = indices(record, pose, mode, None if lost and length == "isotropic" else length)
+    of_home = record.closed_form is None and (not mode or mode == record.modes.default_working)
+    home = home_mode_at(record, pose) if record.closed_form is None else None
+    solved = None if of_home else record.inverse(pose, mode)
+    lost = [] if solved is None else answer(solved)["failures"]
+    there = not lost and (home is None or not of_home or home.reached)
+    found = indices(record, pose, mode, length if there or length != "isotropic" else None)
     data = {
         "mechanism": record.name,
         "unit": record.unit,
@@ -61,9 +68,18 @@ def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) ->
         **found.to_json(),
         **_distance(record, pose, mode),
         "failures": lost,
+        "home_by": "" if home is None else home.words if solved is None else _other(record, solved, home),
     }
     units = _units(found)
     return Outcome(data, lambda: _pose_shown(record, data, units), exit_codes.of_status(data["status"]))
+
+
+def _other(record: Mechanism, found: SolutionSet, home: HomeMode) -> str:
+    """Whether the first assembly of a named mode, whose indices are given, is that of home's mode."""
+    if not found.exists.any():
+        return ""
+    same = any(home.is_home(record, joints) for joints in found.joints[found.exists][:1])
+    return home.words if same else f"another assembly than that of home, as far as {home.paths} paths from home tell"
 
 
 def _distance(record: Mechanism, pose: NDArray[Any], mode: str) -> dict[str, Any]:
@@ -131,9 +147,13 @@ def _pose_shown(record: Mechanism, data: dict[str, Any], units: dict[str, str]) 
     yield heading(f"{data['mechanism']}, indices: {data['status']}")
     of_mode = f", working mode {data['mode']}" if data["mode"] else ""
     yield f"at {pose_text(style_of(record), data['coordinates'], data['pose'])}{of_mode}"
+    if data["home_by"]:
+        yield data["home_by"]
     yield ""
     if data["failures"]:
         yield failures(data["failures"])
+        return
+    if data["transmission"] is None:
         return
     rows = [(name, f"{short(data[name])} {units[name]}".strip(), index.meaning) for name, index in INDICES.items()]
     if data["distance"] is not None:

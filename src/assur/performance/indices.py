@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UnknownNameError
 from assur.kinematics import border
 from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.paths.home_mode import home_mode_at
 from assur.kinematics.position import inverse
 from assur.kinematics.rates.units import factor_unit, scaled
 from assur.kinematics.rates.velocity import VelocityMap, velocity_map, velocity_map_at
@@ -162,8 +163,9 @@ def indices(
     """Every index at poses (..., m) in a working mode (the file's default), by the closed form where there is one.
 
     Args:
-        record: the mechanism. Without a closed form the joint values are searched for, pose by pose: that is slow, and
-            a workspace that was followed knows them (`overall.overall`, or `indices_at` of its `joints`).
+        record: the mechanism. Without a closed form home is followed to each pose, and where a mode is named joint
+            values are searched for, pose by pose: that is slow, and a workspace that was followed knows them
+            (`overall.overall`, or `indices_at` of its `joints`).
         poses: (..., m), lengths in the mechanism's unit and rad.
         mode: signs of the working mode.
         characteristic_length: a length; "isotropic" for the one that makes J_L most isotropic over these poses; None
@@ -227,11 +229,29 @@ Part = tuple[NDArray[np.int8], FloatArray, FloatArray, FloatArray]
 
 
 def _at_poses(record: MechanismRecord, poses: FloatArray, mode: str) -> Part:
-    solved = inverse(record, poses, mode)
     if record.closed_form is None:
-        return _at_joints(record, _first(solved))
+        if not mode or mode == record.modes.default_working:
+            return _of_home(record, poses)
+        return _at_joints(record, _first(inverse(record, poses, mode)))
+    solved = inverse(record, poses, mode)
     status = solved.status[:, 0]
     return _part(record, status, velocity_map(record, poses, mode), solved.joints[:, 0])
+
+
+def _of_home(record: MechanismRecord, poses: FloatArray) -> Part:
+    """Home's mode at poses (N, m), pose by pose followed from home; undecided where no path leads there."""
+    joints = np.full((len(poses), len(record.coordinates)), np.nan)
+    for row, pose in zip(joints, poses, strict=True):
+        there = home_mode_at(record, pose).joints
+        if there is not None:
+            row[:] = there
+    status, matrices, inputs, outputs = _at_joints(record, joints)
+    lost = np.flatnonzero(~np.isfinite(joints[:, 0]))
+    for k in lost:
+        found = inverse(record, poses[k])
+        nowhere = found.complete and not np.any(found.exists)
+        status[k] = Status.unreachable if nowhere else Status.undecided
+    return status, matrices, inputs, outputs
 
 
 def _first(solved: SolutionSet) -> FloatArray:

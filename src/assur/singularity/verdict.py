@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
 from assur.kinematics.answers.solution_set import SolutionSet
-from assur.kinematics.border import Named, checked_joints
+from assur.kinematics.border import Named, checked_joints, checked_poses
 from assur.kinematics.closure import mobility
+from assur.kinematics.paths.home_mode import home_mode_at
 from assur.kinematics.position import inverse
 from assur.kinematics.rates.finite_motion import sides, status_of
 from assur.kinematics.rates.instantaneous import instantaneous
@@ -21,6 +22,7 @@ from assur.kinematics.rates.velocity import VelocityMap, velocity_map
 from assur.kinematics.status import Status, closed_form_of, relative_factors
 from assur.model.mechanism import MechanismRecord
 
+FloatArray = NDArray[np.float64]
 SAMPLES = 40
 
 
@@ -43,6 +45,8 @@ class Verdict:
         freedoms: mobility of the joint graph here, by that rank.
         types: Zlatanov's types, on the joint graph (`Instant.types`).
         platform_gains: whether the platform has more freedoms than in general, all inputs free; None where not asked.
+        home: without a closed form, whether the configuration belongs to home's mode, as paths from home decide; None
+            where there is a closed form, or joint values were given. `home_by` says by what.
         gap: of the ranks on the joint graph, the least ratio of a singular value kept to the largest dropped.
     """
 
@@ -61,6 +65,8 @@ class Verdict:
     types: tuple[str, ...] = ()
     platform_gains: bool | None = None
     gap: float | None = None
+    home: bool | None = None
+    home_by: str = ""
 
 
 @lru_cache(maxsize=64)
@@ -82,14 +88,19 @@ def generic_rank(record: MechanismRecord) -> int:
 def verdict(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) -> Verdict:
     """Judge one pose (m,) in a working mode (the file's default where none is given).
 
-    The kind is the most severe of what the factors say and what the rank of the joint graph says. Of a mechanism
-    without closed form the one assembly of the mode is found by a search and judged by `verdict_at`.
+    The kind is the most severe of what the factors say and what the rank of the joint graph says. A mechanism without
+    closed form is followed from home to the pose where no mode is named; where no path leads there the kind is
+    undecided, or unreachable where it is proved that there is no solution. Of another mode the one assembly is found by
+    a search and judged by `verdict_at`, and `home` says whether it is that of home's mode.
 
     >>> from assur.model.registry import load_record
     >>> verdict(load_record("zeng2019"), [-15.4714, 9.6849, 456.3315], "++-++").kind
     'regular'
     """
+    named = mode
     mode = mode or record.modes.default_working or None
+    if record.closed_form is None and (not named or named == record.modes.default_working):
+        return _of_home(record, checked_pose(record, pose))
     found = inverse(record, pose, mode)
     if found.batch_shape:
         raise UsageError(f"one pose is judged at a time, not a batch of shape {found.batch_shape}")
@@ -162,6 +173,24 @@ def verdict_at(record: MechanismRecord, joints: Named) -> Verdict:
     )
 
 
+def checked_pose(record: MechanismRecord, pose: ArrayLike) -> FloatArray:
+    """One pose (m,) in lengths and rad, or a clear refusal."""
+    given = checked_poses(record, pose)
+    if given.ndim != 1:
+        raise UsageError(f"one pose is judged at a time, not a batch of shape {given.shape[:-1]}")
+    return given
+
+
+def _of_home(record: MechanismRecord, pose: FloatArray) -> Verdict:
+    """The verdict on home's mode at a pose (m,)."""
+    there = home_mode_at(record, pose)
+    if there.joints is not None:
+        return replace(verdict_at(record, there.joints), home=True, home_by=there.words)
+    found = inverse(record, pose)
+    status = Status.unreachable if found.complete and not np.any(found.exists) else Status.undecided
+    return replace(_nothing(status), home=False, home_by=there.words)
+
+
 def _of_the_one(record: MechanismRecord, found: SolutionSet) -> Verdict:
     """The verdict on the only solution of a set that was found by a search."""
     joints = found.joints[found.exists]
@@ -172,7 +201,10 @@ def _of_the_one(record: MechanismRecord, found: SolutionSet) -> Verdict:
         raise UsageError(
             f"{record.name}: {len(joints)} assemblies at this pose", hint=f"name a working mode: {several}"
         )
-    return verdict_at(record, joints[0])
+    there = home_mode_at(record, found.given)
+    same = there.is_home(record, joints[0])
+    other = f"another assembly than that of home, as far as {there.paths} paths from home tell"
+    return replace(verdict_at(record, joints[0]), home=same, home_by=there.words if same else other)
 
 
 def _nothing(status: Status) -> Verdict:

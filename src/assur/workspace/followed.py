@@ -269,6 +269,8 @@ def _start(
                 continue
             if path.stopped is None and np.array_equal(working_signs(record, path.joints[-1]), signs):
                 return (point, path.joints[-1]), "followed from home"
+    if not mode:  # a mode without a name is home's: what a search finds may be another
+        return None, "home's mode was not followed into the box: no path from home led there"
     for point in spread:
         found = inverse(record, slice_.poses(point[None])[0], mode or None, crossed="~" in mode)
         if np.any(found.exists):
