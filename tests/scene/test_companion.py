@@ -1,12 +1,14 @@
 from __future__ import annotations
 
 import dataclasses
+import shutil
 
 import numpy as np
 import pytest
 
 from assur.errors import MechanismFileError
 from assur.kinematics.position import inverse
+from assur.model.registry import load_record
 from assur.scene.companion import Companion, companion, length
 from assur.scene.skeleton import skeleton
 
@@ -70,3 +72,11 @@ def test_names_that_do_not_exist_are_reported(every, tmp_path):
     for part in ("inputs", "rail", "'bsae'", "'Q1'", "'Q2'", "bars[0].length", "'nonsense'"):
         assert part in text
     assert "did you mean 'base'" in text
+
+
+def test_a_dollar_sign_begins_no_formula_in_a_text(tmp_path):
+    source = load_record("fivebar").folder
+    shutil.copy(source / "mechanism.toml", tmp_path / "mechanism.toml")
+    (tmp_path / "figures.toml").write_text('[links]\ncrank1 = "a$b$"\n', encoding="utf-8")
+    with pytest.raises(MechanismFileError, match=r"figures.toml:2: links.crank1: 'a\$b\$'; allowed: words without"):
+        companion(load_record(tmp_path / "mechanism.toml"))

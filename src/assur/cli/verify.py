@@ -99,11 +99,7 @@ def _holds(
     ours = record is not None
     data = {"verified": ours or None, "mechanism_compared": ours, "seconds": seconds, **known}
     head = "verified" if ours else "holds for its own formulas"
-    whose = (
-        "the mechanism's, recorded anew"
-        if ours
-        else f"not compared: {why_not}"
-    )
+    whose = "the mechanism's, recorded anew" if ours else f"not compared: {why_not}"
     shown = [heading(f"{head}: {path}"), *lines, how, f"formulas: {whose}"]
     code = exit_codes.of_answers(["yes" if ours else "open"])
     return Outcome({**data, "shares": shares(document["proof"])}, lambda: shown, code)

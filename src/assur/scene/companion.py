@@ -5,7 +5,7 @@ Everything in it is optional. It says names, numbers, views and which configurat
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
@@ -154,8 +154,21 @@ def companion(record: MechanismRecord) -> Companion:
         faults.raise_any()
         return Companion()
     _check_names(record, found, faults)
+    _check_texts(source.data, (), faults)
     faults.raise_any()
     return found
+
+
+def _check_texts(data: Any, path: tuple[str | int, ...], faults: Faults) -> None:
+    """A dollar sign would begin a formula in a text that is none."""
+    if isinstance(data, dict):
+        for key, value in data.items():
+            _check_texts(value, (*path, key), faults)
+    elif isinstance(data, list):
+        for k, value in enumerate(data):
+            _check_texts(value, (*path, k), faults)
+    elif isinstance(data, str) and "$" in data and path[-1] != "latex":
+        faults.add(path, f"'{data}'", "allowed: words without dollar signs; `latex` is for formulas")
 
 
 def _checked(source: TomlSource, faults: Faults) -> Companion | None:

@@ -18,6 +18,8 @@ from assur.workspace.domain import Box
 
 FloatArray = NDArray[np.float64]
 MAX_CELLS = 400
+NARROWEST = 1e-90
+"""The smallest side of a box, whose cube in cells is a float still."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +37,12 @@ class UniformGrid:
             )
         if len(self.cells) != self.dimension or not all(2 <= count <= MAX_CELLS for count in self.cells):
             raise UsageError(f"resolution: {self.cells}; 2 to {MAX_CELLS} cells along each coordinate")
+        for name, low, high in zip(self.box.names, self.box.low, self.box.high, strict=True):
+            if high - low < NARROWEST:
+                raise UsageError(
+                    f"box: {name} = {low:g} .. {high:g} is too narrow for an estimate",
+                    hint=f"{NARROWEST:g} at least; a proof may look at any box",
+                )
 
     @property
     def dimension(self) -> int:

@@ -135,3 +135,14 @@ def test_a_budget_of_boxes_ends_a_proof():
     assert len(found.proved) + len(found.failed) + len(found.doubtful) <= 5_000
     with pytest.raises(UsageError, match="boxes"):
         prove_box(ZENG, most=0)
+
+
+@pytest.mark.parametrize(
+    "command", [("aspects",), ("workspace", "--certify"), ("workspace",), ("certify", "-o", "c.json")]
+)
+def test_every_question_about_a_box_without_extent_ends(command, tmp_path, monkeypatch):
+    from assur.cli.main import main
+
+    monkeypatch.chdir(tmp_path)
+    for box in ("x=0:5e-324,y=200:201", "x=0:5e-324,y=285.5450927:285.54509270000004"):
+        assert main([command[0], "fivebar", "--mode=-+", "--box", box, *command[1:]]) in (0, 2, 4, 5)

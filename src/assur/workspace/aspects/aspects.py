@@ -26,7 +26,7 @@ from assur.workspace.aspects.search import Search, search
 from assur.workspace.aspects.turning import ends_of, turned
 from assur.workspace.aspects.volumes import Pair, volumes
 from assur.workspace.bounds import Stroke
-from assur.workspace.certified.boxes import Boxes
+from assur.workspace.certified.boxes import LEAST, Boxes
 from assur.workspace.certified.criteria import criteria
 from assur.workspace.certified.paving import Progress, Stopped
 from assur.workspace.certified.planes import Frame
@@ -279,7 +279,8 @@ def _extents(
     record: MechanismRecord, box: Box, finest: float | Mapping[str, float] | None, parts: int
 ) -> dict[str, float]:
     """The finest extent by coordinate; a part of the box where nothing is said."""
-    extents = {name: (high - low) / parts for name, low, high in zip(box.names, box.low, box.high, strict=True)}
+    sides = zip(box.names, box.low, box.high, strict=True)
+    extents = {name: max((high - low) / parts, LEAST) for name, low, high in sides}
     if finest is None:
         return extents
     if isinstance(finest, Mapping):

@@ -13,6 +13,10 @@ from assur.numerics.intervals.interval import Interval, as_interval
 FloatArray = NDArray[np.float64]
 
 
+LEAST = 5e-324
+"""The smallest extent that is a float; that of a box that floats cannot divide counts as it."""
+
+
 @dataclass(frozen=True, eq=False)
 class Boxes:
     """N boxes: low and high (k, N), one row per coordinate, in length units and rad.

@@ -19,7 +19,7 @@ from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.intervals.shapes import broadcast
 from assur.numerics.intervals.sloped import Sloped, ranged
 from assur.workspace.certified import cuts
-from assur.workspace.certified.boxes import Boxes
+from assur.workspace.certified.boxes import LEAST, Boxes
 from assur.workspace.certified.criteria import Criteria
 from assur.workspace.domain import Box
 
@@ -154,7 +154,7 @@ def _closer(frame: Frame, boxes: Boxes, shares: bool) -> Judged:
     least = np.clip(rounding.down_sum(1.0 - missing * larger), 0.0, 1.0) if shares else np.zeros(count)
     least = np.where(certain | negligible, np.where(inside, 1.0, least), 0.0)
     most = np.minimum(rounding.up(most * larger), 1.0)
-    axis = np.argmax(changes + 1e-6 * reach / np.max(reach, axis=0), axis=0)
+    axis = np.argmax(changes + 1e-6 * reach / np.maximum(np.max(reach, axis=0), LEAST), axis=0)
     return Judged(inside & certain & ~outside, outside, least, np.where(outside, 0.0, most), axis)
 
 

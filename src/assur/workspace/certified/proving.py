@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.intervals.interval import Interval
 from assur.workspace.bounds import Stroke
-from assur.workspace.certified.boxes import Boxes
+from assur.workspace.certified.boxes import LEAST, Boxes
 from assur.workspace.certified.criteria import Criteria
 from assur.workspace.certified.paving import MOST, Paving, Progress, Stopped, pave
 from assur.workspace.certified.planes import BLOCK
@@ -28,9 +28,6 @@ LISTED = 20
 
 PARTS = 32
 """Into so many parts a box is cut along each coordinate at most, where nobody says how many."""
-
-LEAST = 5e-324
-"""The smallest extent that is a float."""
 
 SUMMED = 1e-9
 """More than the relative error of the sums of the sizes of boxes."""
