@@ -80,6 +80,15 @@ def test_with_leave_it_runs(option, variable, hostile, capsys, monkeypatch):
     assert answer["right"].startswith("closed form")
 
 
+def test_what_goes_wrong_in_code_that_was_let_run_names_its_line(hostile, capsys):
+    path = hostile / "closed_form.py"
+    text = path.read_text(encoding="utf-8").replace("m3 = p.l6 * p.l6 - v * v\n", "m3 = p.l6**2 - abs(v).real**2.5\n")
+    path.write_text(text, encoding="utf-8")
+    line = text[: text.index("m3 = ")].count("\n") + 1
+    assert main(["direct", str(hostile), *GIVEN, "--certify", "--run-code"]) == 3
+    assert f"closed_form.py:{line}: " in capsys.readouterr().err
+
+
 def test_never_beats_the_option(hostile, capsys, monkeypatch):
     monkeypatch.setenv("ASSUR_RUN_CODE", "never")
     assert main(["direct", str(hostile), *GIVEN, "--run-code"]) == 0

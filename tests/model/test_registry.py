@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 from pathlib import Path
 
 import pytest
@@ -57,11 +58,14 @@ def test_a_file_a_folder_and_its_name_in_text_are_the_same(folder: Path) -> None
 
 
 def test_the_closed_form_beside_a_file_belongs_to_it(folder: Path) -> None:
-    (folder / "closed_form.py").write_text(FORM, encoding="utf-8")
+    home = load_record("fivebar").folder
+    assert home is not None
+    for name in ("mechanism.toml", "closed_form.py"):
+        shutil.copy(home / name, folder)
     record = load_record(folder)
     assert record.closed_form is not None
-    assert record.closed_form.signs == {"s": Sign("sine", "1")}
-    assert with_parameters(record, l1=41).closed_form is record.closed_form
+    assert record.closed_form.signs["e"] == Sign("sin_rods", "1")
+    assert with_parameters(record, l1=61).closed_form is record.closed_form
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,8 @@
 A kernel is straight-line algebra (+ - * / and `ns.sqrt`). It never decides anything: it returns the
 numbers of one branch (or, with arrays of signs, of all branches) together with *margins*, the quantities
 that must not be negative (or not zero) for the branch to exist. Everything that a kernel claims about the
-joint graph is checked against it: on its first use (`assur.kinematics.contract`), for the catalogue by the contract tests.
+joint graph is checked against it: on its first use (`assur.kinematics.contract`), for the catalogue by the
+contract tests.
 """
 
 from __future__ import annotations

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses
+import functools
 import sys
 import traceback
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from assur.errors import MechanismFileError, Problem, UsageError
-from assur.model.closed_form import ClosedForm
+from assur.errors import AssurError, MechanismFileError, Problem, UsageError
+from assur.model.closed_form import ClosedForm, Eliminant, PolynomialSystem, SelfMotion
 from assur.model.consent import may_run
 from assur.model.file.faults import listed
 from assur.model.formula import parse
@@ -42,6 +44,12 @@ def read_closed_form(path: Path, name: str) -> ClosedForm | None:
         if not may_run(path, text.encode(), reason, "the joint graph answers alone", fault.line):
             return None
         names = _run(text, path, name)
+        guarded: ClosedForm = _guarded(_form(names, path), path)
+        return guarded
+    return _form(names, path)
+
+
+def _form(names: Mapping[str, Any], path: Path) -> ClosedForm:
     form = names.get("CLOSED_FORM")
     if not isinstance(form, ClosedForm):
         raise MechanismFileError([_problem(path, "no CLOSED_FORM", "it must define CLOSED_FORM = ClosedForm(...)")])
@@ -60,6 +68,33 @@ def _run(text: str, path: Path, name: str) -> Mapping[str, Any]:
         what = f"{type(error).__name__}: {error}"
         raise MechanismFileError([_problem(path, what, "it must run", line=_line(error, path))]) from error
     return vars(module)
+
+
+def _guarded(declared: Any, path: Path) -> Any:
+    """A declaration whose functions were run from a file: what goes wrong in them is a fault of the file."""
+    parts = {item.name: getattr(declared, item.name) for item in dataclasses.fields(declared)}
+    guarded: dict[str, Any] = {}
+    for name, part in parts.items():
+        if isinstance(part, Eliminant | PolynomialSystem | SelfMotion):
+            guarded[name] = _guarded(part, path)
+        elif callable(part):
+            guarded[name] = _told(part, path)
+    return dataclasses.replace(declared, **guarded)
+
+
+def _told(kernel: Callable[..., Any], path: Path) -> Callable[..., Any]:
+    @functools.wraps(kernel)
+    def called(*arguments: Any, **named: Any) -> Any:
+        try:
+            return kernel(*arguments, **named)
+        except AssurError:
+            raise
+        except Exception as error:
+            what = f"{type(error).__name__}: {error}"[:300]
+            allowed = "allowed: straight-line algebra that works over every number type"
+            raise MechanismFileError([_problem(path, what, allowed, line=_line(error, path))]) from error
+
+    return called
 
 
 def disagreements(

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.numerics.intervals.interval import Interval, as_interval
+from assur.numerics.powers import whole_power
 
 FloatArray = NDArray[np.float64]
 Real: TypeAlias = "FloatArray | float | Any"  # or an interval
@@ -67,6 +68,9 @@ class Dual:
     def __sub__(self, other: Dual | Real) -> Dual:
         value, derivative = _parts(other)
         return Dual(self.value - value, self.derivative - derivative)
+
+    def __pow__(self, exponent: int) -> Any:
+        return whole_power(self, exponent)
 
     def __mul__(self, other: Dual | Real) -> Dual:
         value, derivative = _parts(other)

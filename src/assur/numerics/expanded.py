@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
+from assur.numerics.powers import whole_power
 
 ComplexArray = NDArray[np.complex128]
 Exponents = tuple[int, ...]
@@ -45,6 +46,9 @@ class Expanded:
 
     def __sub__(self, other: Any) -> Expanded:
         return self + self._like(other) * -1
+
+    def __pow__(self, exponent: int) -> Any:
+        return whole_power(self, exponent)
 
     def __mul__(self, other: Any) -> Expanded:
         total: dict[Exponents, Any] = {}

@@ -98,9 +98,12 @@ class KernelFunction(Function):
             by_name = {name: shape_of(value, numbers) for name, value in named.items()}
         except Shapeless:
             return UNSET
-        use = self.shapes.setdefault((shapes, tuple(by_name.items())), Use())
+        key = shapes, tuple(by_name.items())
+        if key not in self.shapes and len(self.shapes) == MOST_SHAPES:
+            return UNSET
+        use = self.shapes.setdefault(key, Use())
         use.calls += 1
-        if use.calls == REPAID and len(self.shapes) <= MOST_SHAPES:
+        if use.calls == REPAID:
             use.program = program(self.evaluated, shapes, by_name)
         if use.program is None:
             return UNSET

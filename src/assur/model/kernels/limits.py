@@ -18,8 +18,6 @@ LENGTH = 2_000
 """Of a tuple, list, table or text."""
 BITS = 256
 """Of a whole number."""
-POWER = 16
-"""The largest whole power; it is worked out by products."""
 
 
 class Meter:

@@ -7,8 +7,9 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from assur.model.kernels.faults import KernelFault
-from assur.model.kernels.limits import POWER, checked_length, checked_whole
+from assur.model.kernels.limits import checked_length, checked_whole
 from assur.model.kernels.values import PLAIN, TABLES, Value, is_number, kind_of, known
+from assur.numerics.powers import LARGEST, whole_power
 
 LARGEST_PLAIN = 2**62
 """Whole numbers below this are not measured."""
@@ -63,21 +64,15 @@ def power(base: Value, exponent: Value) -> Value:
     >>> power(3, 2), power(2.0, -2)
     (9, 0.25)
     """
-    if not is_number(base) or type(exponent) is not int or abs(exponent) > POWER:
+    if not is_number(base) or type(exponent) is not int or abs(exponent) > LARGEST:
         shown = exponent if type(exponent) in (int, float) and abs(exponent) < 1e6 else kind_of(exponent)
         raise KernelFault(
             f"{kind_of(base)} to the power {shown}",
-            f"whole powers from -{POWER} to {POWER}",
+            f"whole powers from -{LARGEST} to {LARGEST}",
             hint="a root is ns.sqrt" if exponent == 0.5 else "",
         )
-    if exponent == 0:
-        return 1
-    result = base
-    for digit in bin(abs(exponent))[3:]:
-        result = result * result
-        if digit == "1":
-            result = result * base
-    return 1 / result if exponent < 0 else _bounded(result)
+    result = whole_power(base, exponent)
+    return checked_whole(result) if type(result) is int else result
 
 
 def remainder(a: Value, b: Value) -> Value:

@@ -8,6 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from assur.numerics.powers import whole_power
+
 
 @dataclass(frozen=True, eq=False)
 class Complex:
@@ -38,6 +40,9 @@ class Complex:
 
     def __sub__(self, other: Any) -> Complex:
         return Complex.__add__(self, -other)
+
+    def __pow__(self, exponent: int) -> Any:
+        return whole_power(self, exponent)
 
     def __mul__(self, other: Any) -> Complex:
         if not isinstance(other, Complex):

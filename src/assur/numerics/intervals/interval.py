@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
 from assur.numerics.intervals import rounding
+from assur.numerics.powers import whole_power
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -158,6 +159,9 @@ class Interval:
         return Interval(rounding.down_sum(least), rounding.up_sum(most), self.defined & defined)
 
     @_between_numbers
+    def __pow__(self, exponent: int) -> Any:
+        return whole_power(self, exponent)
+
     def __mul__(self, other: Interval | Real) -> Interval:
         if other is self:
             return self.square()

@@ -23,6 +23,7 @@ from assur.numerics.intervals.functions import cosine_sine
 from assur.numerics.intervals.interval import Interval, as_interval, common
 from assur.numerics.intervals.rates import clamped_root, root_rate, sign_rate
 from assur.numerics.intervals.shapes import broadcast
+from assur.numerics.powers import whole_power
 from assur.numerics.recording.tape import Recorded
 
 FloatArray = NDArray[np.float64]
@@ -73,6 +74,9 @@ class Sloped:
 
     def __sub__(self, other: Sloped | Constant) -> Sloped:
         return self + -other
+
+    def __pow__(self, exponent: int) -> Any:
+        return whole_power(self, exponent)
 
     def __mul__(self, other: Sloped | Constant) -> Sloped:
         """With f g - f(c) g(c) = (f - f(c)) g(c) + f (g - g(c)); of a square (f - f(c)) (f + f(c))."""

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.numerics.powers import whole_power
 from assur.numerics.recording.tape import Recorded, Recorder, Tape
 
 
@@ -82,6 +83,9 @@ class Folded:
 
     def __rsub__(self, other: Any) -> Any:
         return -self if _is(other, 0.0) else self._apply("-", other, self)
+
+    def __pow__(self, exponent: int) -> Any:
+        return whole_power(self, exponent)
 
     def __mul__(self, other: Any) -> Any:
         if _is(other, 0.0):

@@ -16,6 +16,7 @@ import numpy as np
 
 from assur.numerics.intervals import rates
 from assur.numerics.number_types import Floats
+from assur.numerics.powers import whole_power
 
 
 @dataclass(frozen=True)
@@ -195,6 +196,9 @@ class Recorded:
 
     def __sub__(self, other: Any) -> Recorded:
         return NotImplemented if _takes_over(other) else self.recorder.apply("-", self, other)
+
+    def __pow__(self, exponent: int) -> Any:
+        return whole_power(self, exponent)
 
     def __mul__(self, other: Any) -> Recorded:
         return NotImplemented if _takes_over(other) else self.recorder.apply("*", self, other)

@@ -17,6 +17,8 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.numerics.powers import whole_power
+
 Values = NDArray[np.complex128]
 Operator = Literal["number", "letter", "+", "-", "*", "/", "neg", "sqrt"]
 CLOSE = 1e-9
@@ -86,6 +88,9 @@ class Traced:
 
     def __rsub__(self, other: Any) -> Traced:
         return self._make("-", self._number(other), self)
+
+    def __pow__(self, exponent: int) -> Any:
+        return whole_power(self, exponent)
 
     def __mul__(self, other: Any) -> Traced:
         return self._make("*", self, self._number(other))
