@@ -40,7 +40,7 @@ ZENG = [
     Wrong("zeng2019", "a row of Jq", "(sa * u1, 0, 0), (0, 0, sb * u3))", "(sa * u1, 0, 0), (0, 0, cb * u3))",
           "Jp and Jq row 3", "def jacobians"),
     Wrong("zeng2019", "a scale that is wrong away from home", "cos_alpha = (x + p.b - p.d) / p.l4",
-          "cos_alpha = (x + p.b - p.d + 1e-6 * (x + 15.4714) * x / p.b) / p.l4", "branch", "def inverse"),
+          "cos_alpha = (x + p.b - p.d + 1e-6 * (x + 15.4714) * x / p.b) / p.l4", "", ""),
     Wrong("zeng2019", "a margin that is never negative", '"M3": m3}', '"M3": m3 * m3}', "margin M3", '"M3": m3 * m3}'),
     Wrong("zeng2019", "a margin that is too strict", '"M3": m3}', '"M3": m3 - 1000}', "margin M3", '"M3": m3 - 1000}'),
     Wrong("zeng2019", "a branch that is missing", "u3 = sign.u3 * ns.sqrt(m3)", "u3 = ns.sqrt(m3)", "mode sign u3",

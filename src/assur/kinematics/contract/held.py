@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from assur.kinematics.closure import RANK_GAP
 from assur.kinematics.contract.borders import cut_short, ends, named_by_signs
 from assur.kinematics.contract.completeness import missing, random_assemblies
+from assur.kinematics.contract.curves import broken_curves
 from assur.kinematics.contract.determinants import wrong_factors
 from assur.kinematics.contract.dimensions import changed, with_dimensions
 from assur.kinematics.contract.kernel import recorded
@@ -22,6 +23,7 @@ from assur.kinematics.contract.rates import wrong_rates
 from assur.kinematics.contract.signs import wrong_signs
 from assur.kinematics.contract.solutions import Solutions, solutions, solves
 from assur.kinematics.contract.solvers import lacking
+from assur.kinematics.contract.systems import unsolved
 from assur.kinematics.contract.undeclared import undeclared
 from assur.kinematics.contract.zeros import false_zeros
 from assur.kinematics.modes import Problem
@@ -87,7 +89,7 @@ def at_places(record: MechanismRecord, extent: Extent, seed: int = 0) -> list[Mi
         if named_by_signs(record, problem)
     }
     asked += [solutions(record, problem, reached.given).spread(extent.solutions) for problem, reached in near.items()]
-    broken = _first(_positions, asked) or _first(_motions(extent, there), asked[: len(drawn)])
+    broken = _first(_positions, asked) or unsolved(there) or _first(_motions(extent, there), asked[: len(drawn)])
     if broken:
         return broken
     joints = random_assemblies(record, extent.assemblies, random)
@@ -109,7 +111,8 @@ def of_formulas(record: MechanismRecord, extent: Extent, seed: int = 0) -> list[
     found = undeclared(kernel, there)
     if len(there) and solves(record, "direct") and named_by_signs(record, "direct"):
         back = solutions(record, "direct", inputs(record, there.inputs, extent.poses, random))
-        found += undeclared(recorded(record, "direct"), back)
+        direct = recorded(record, "direct")
+        found += [*undeclared(direct, back), *broken_curves(direct, back)]
     return found or false_zeros(kernel, there)
 
 

@@ -116,7 +116,7 @@ def solves(record: MechanismRecord, problem: Problem) -> bool:
 
 def _listed(record: MechanismRecord, problem: Problem, found: Branches) -> Solutions:
     form, core = closed_form_of(record), found.branch.core
-    unsettled = np.isin(found.status, (Status.undecided, Status.self_motion))
+    unsettled = np.isin(found.formula_status, (Status.undecided, Status.self_motion))
     chosen = (
         found.exists
         & ~unsettled

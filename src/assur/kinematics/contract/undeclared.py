@@ -77,7 +77,7 @@ def _vanishing(kernel: Kernel, found: Solutions, k: int, values: FloatArray) -> 
     order = np.argsort(np.abs(values), kind="stable")
     start = np.unique(np.concatenate([order[: STARTS // 2], order[:: max(1, 2 * len(order) // STARTS)]]))
     given, signs = found.given[start], found.signs[start]
-    zero = _zeros(kernel, found, k, given, signs)
+    zero = zeros(kernel, found, k, given, signs)
     at = kernel.values(zero, signs)
     unnoticed = (np.abs(at[k]) <= ZERO * usual) & _listed(kernel, at) & ~_declared_zero(kernel, at)
     if not np.any(unnoticed):
@@ -94,7 +94,7 @@ def _vanishing(kernel: Kernel, found: Solutions, k: int, values: FloatArray) -> 
     return Mismatch("divisor", "", found.problem, text, allowed, "declare it as a margin that degenerates", line=line)
 
 
-def _zeros(kernel: Kernel, found: Solutions, k: int, given: FloatArray, signs: NDArray[np.int8]) -> FloatArray:
+def zeros(kernel: Kernel, found: Solutions, k: int, given: FloatArray, signs: NDArray[np.int8]) -> FloatArray:
     """Places (N, m) to which Newton's method, for one equation in all coordinates, leads from others."""
     units, entry = _units(found), kernel.entry(k)
     place = entry.tape.outputs["entry"]

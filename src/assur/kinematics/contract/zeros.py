@@ -5,20 +5,22 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.closure import RANK_GAP
 from assur.kinematics.contract.borders import REGULAR
 from assur.kinematics.contract.kernel import Kernel
 from assur.kinematics.contract.mismatch import Mismatch, place_text
 from assur.kinematics.contract.solutions import Solutions, solutions
-from assur.kinematics.rates.motions import motions
-from assur.kinematics.status import closed_form_of
+from assur.kinematics.rates.motions import general, motions
+from assur.kinematics.status import closed_form_of, relative_factors
 from assur.model.closed_form import Factor
 
 FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
 
 PAIRS = 6
 """Ways between solutions of one mode at which a factor has opposite signs, for each factor."""
 HALVINGS = 60
+SAME = 1e-6
+"""A factor within this share of its scale is zero too."""
 
 
 def false_zeros(kernel: Kernel, found: Solutions) -> list[Mismatch]:
@@ -46,14 +48,15 @@ def _of_factor(kernel: Kernel, found: Solutions, factor: Factor) -> list[Mismatc
     own = zeros.at(np.all((zeros.signs == signs[zeros.rows]) | (zeros.signs == 0), axis=-1))
     if not len(own):
         return []
-    motion = motions(record, own.joints, RANK_GAP)
+    motion = motions(record, own.joints)
     part = motion.inputs if factor.kind == "parallel" else motion.pose
     least = np.linalg.svd(part, compute_uv=False)[..., part.shape[-2] - 1]
-    usual = motion.ranks.closure == int(motions(record, found.spread(8).joints, RANK_GAP).ranks.closure.max())
+    usual = motion.ranks.closure == int(general(record).closure)
     crossed = np.abs(own.factors[factor.name]) <= _jump(found, factor.name)
+    unnamed = _unnamed(own, factor, usual, crossed)
     wrong = np.flatnonzero((least > REGULAR) & usual & crossed)
-    if not len(wrong):
-        return []
+    if unnamed or not len(wrong):
+        return unnamed
     row = int(wrong[0])
     label = {"parallel": "det Jp", "serial": "det Jq"}[factor.kind]
     text = (
@@ -62,6 +65,23 @@ def _of_factor(kernel: Kernel, found: Solutions, factor: Factor) -> list[Mismatc
         f"(smallest singular value {least[row]:.3g})"
     )
     return [Mismatch("factor", factor.name, "inverse", text, "where it is zero the joint graph must be singular")]
+
+
+def _unnamed(own: Solutions, factor: Factor, usual: BoolArray, crossed: BoolArray) -> list[Mismatch]:
+    """Zeros at which the closure loses rank and no group says so, or the other way round."""
+    record, form = own.record, closed_form_of(own.record)
+    zero = {name: np.abs(value) <= SAME for name, value in relative_factors(record, own.factors).items()}
+    groups = [np.logical_and.reduce([zero[name] for name in group]) for group in form.constraint_singular]
+    named = np.logical_or.reduce(groups) if groups else np.zeros(len(own), dtype=bool)
+    wrong = np.flatnonzero(crossed & (named == usual))
+    if not len(wrong):
+        return []
+    row = int(wrong[0])
+    what = "keeps its rank, and constraint_singular says that it loses it" if named[row] else "loses rank"
+    place = place_text(record, "inverse", own.given[row])
+    text = f"where it is zero the closure {what}: in mode {own.labels[row]} at {place}"
+    allowed = "constraint_singular must name where the closure loses rank"
+    return [Mismatch("factor", factor.name, "inverse", text, allowed)]
 
 
 def _opposite(found: Solutions, name: str) -> tuple[FloatArray, FloatArray, NDArray[np.int8]]:
