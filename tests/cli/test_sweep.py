@@ -190,7 +190,7 @@ def test_limits_left_out_are_those_of_the_file_in_its_units(assur_cli, tmp_path)
         ("zeng2019 --along x=3 --along y=3 --at z=300 --keep volume", "unknown quantity of the inverse problem"),
         (
             "zeng2019 --along x=3 --along y=3 --at z=300 --keep det_jp --mode all",
-            "only the inverse problem in one mode",
+            "only the inverse problem in one mode, in closed form, has this",
         ),
         ("zeng2019 --along x=3 --along y=3 --at z=300 --threads -1", "no number of threads"),
         ("gough_stewart --along x=3", "no grid over quaternions"),
@@ -208,16 +208,68 @@ def test_what_cannot_be_swept_is_refused_with_a_hint(assur_cli, tmp_path, words,
     assert not (tmp_path / "new").exists()
 
 
-def test_a_mechanism_without_a_closed_form_is_refused(assur_cli, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+@pytest.fixture(scope="module")
+def drafted(tmp_path_factory):
+    """A mechanism without a closed form."""
+    from assur.cli.main import main
+
+    path = tmp_path_factory.mktemp("drafted") / "hybrid.toml"
     chains = ("{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", "R[z] R[z] C[z]")
-    assert assur_cli("new", "hybrid.toml", *(word for text in chains for word in ("--chain", text))).code == 0
-    run = assur_cli("sweep", "hybrid.toml", "--along", "x=0:1:3", "-o", "new")
-    assert run.code == 2
-    error, hint = run.err.splitlines()
-    assert error == "error: hybrid has no closed form to sweep"
-    assert "direct, inverse, singularity, follow and workspace without a proof work on the joint graph" in hint
-    assert "catalogue" not in hint  # whose closed forms are of no use here
+    assert main(["new", str(path), *(word for text in chains for word in ("--chain", text))]) == 0
+    return str(path)
+
+
+def test_without_a_closed_form_home_s_mode_is_followed(assur_cli, drafted, tmp_path):
+    """Against a search for every mode of single poses."""
+    words = (drafted, "--along", "x=-20:100:4", "--along", "y=-40:200:4", "--at", "z=320")
+    data = assur_cli("sweep", *words, "--keep", "inputs,exists,status", "-o", str(tmp_path / "o"), "--json").json
+    assert data["mode"] == "home"
+    assert "one that is not reached so is undecided" in data["how"]
+    inputs, exists, status = (load(tmp_path / "o", name) for name in ("inputs", "exists", "status"))
+    assert set(data["counts"]["by_status"]) == {"regular", "undecided"}
+    names = dict(text.split() for text in data["files"]["status"]["meaning"].removeprefix("status: ").split(", "))
+    assert [names[str(k)] == "undecided" for k in status.ravel()] == (~exists).ravel().tolist()
+    assert np.isnan(inputs[:, ~exists]).all()
+    record = assur.load(drafted)
+    some = [(index, place) for index, place in places(data) if exists[index]][::4]
+    assert len(some) > 1
+    for index, place in some:
+        every = record.inverse([place[name] for name in "xyz"]).inputs
+        units = np.array([1.0, 1.0, np.pi / 180])
+        assert np.min(np.abs(every - inputs[(slice(None), *index)] * units).max(axis=-1)) < 1e-8
+
+
+def test_shards_of_what_is_followed_are_the_whole_to_the_byte(assur_cli, drafted, tmp_path):
+    words = (drafted, "--along", "x=-20:60:9", "--along", "y=-40:60:11", "--along", "z=300:340:6")
+    assert assur_cli("sweep", *words, "-o", str(tmp_path / "alone")).code == 0
+    folders = [str(tmp_path / f"part-{k}") for k in (1, 2)]
+    for k, folder in enumerate(folders, start=1):
+        assert assur_cli("sweep", *words, "--shard", f"{k}/2", "-o", folder, "--threads", str(k)).code == 0
+    assert assur_cli("sweep", "--merge", *folders, "-o", str(tmp_path / "joined")).code == 0
+    alone, joined = ({one.name: one.read_bytes() for one in (tmp_path / at).iterdir()} for at in ("alone", "joined"))
+    assert alone == joined
+
+
+@pytest.mark.parametrize(
+    ("words", "message", "told"),
+    [
+        (
+            ("--along", "x=0:1:3", "--at", "y=0,z=320", "--mode", "2"),
+            "follows home's working mode, not '2'",
+            "leave the",
+        ),
+        (
+            ("--along", "x=0:1:3", "--at", "y=0,z=320", "--keep", "det_jp"),
+            "unknown quantity",
+            "in closed form, has this",
+        ),
+        (("--problem", "direct", "--along", "q1=0:1:3"), "no closed form to sweep its inputs with", "sweeps of inputs"),
+    ],
+)
+def test_what_needs_a_closed_form_is_refused(assur_cli, drafted, tmp_path, words, message, told):
+    run = assur_cli("sweep", drafted, *words, "-o", str(tmp_path / "new"))
+    assert (run.code, message in run.err, told in run.err) == (2, True, True)
+    assert not (tmp_path / "new").exists()
 
 
 def test_the_numbers_of_the_page_are_those_of_a_single_pose(assur_cli):

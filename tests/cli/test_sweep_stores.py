@@ -115,7 +115,7 @@ def test_ctrl_c_is_an_object_too(assur_cli, tmp_path, monkeypatch):
     def stopped(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("assur.kinematics.closed_form.stored.StoredSweep.fill", stopped)
+    monkeypatch.setattr("assur.kinematics.closed_form.grid_sweep.GridSweep.fill", stopped)
     run = assur_cli("sweep", "zeng2019", *GRID, "-o", str(tmp_path), "--json")
     assert (run.code, run.json["error"]["exit_code"]) == (130, 130)
     assert run.json["error"]["message"] == f"interrupted: stopped at 0 of 9240, in {tmp_path}"

@@ -73,8 +73,7 @@ def outcome(
 
             fill_on_cluster(sweep, name, store, request.scheduler, progress=step)
 
-    engine = "a compiled loop" if sweep.compiled else "NumPy"
-    how = f"by {engine}" + (f", on the cluster at {request.scheduler}" if request.scheduler else "")
+    how = f"by {sweep.engine}" + (f", on the cluster at {request.scheduler}" if request.scheduler else "")
     with sweep.store(folder, request.shard) as store:
         return _run(store, fill, how, request, shared)
 
@@ -153,6 +152,10 @@ def _mode_of(about: Mapping[str, Any]) -> str:
         return f"{len(about['modes'])} modes"
     if about["problem"] == "direct":
         return f"assembly mode {mode}"
+    from assur.kinematics.closed_form.home_sweep import HOME
+
+    if mode == HOME:
+        return "the working mode of home"
     return f"working mode {mode}" if mode else "its only working mode"
 
 

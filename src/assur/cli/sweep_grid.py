@@ -25,8 +25,8 @@ def asked(record: MechanismRecord, problem: Problem, along: Sequence[str], at: S
     from assur.kinematics.status import NO_CLOSED_FORM
     from assur.model.pose import has_quaternion
 
-    if record.closed_form is None:
-        raise UsageError(f"{record.name} has no closed form to sweep", hint=NO_CLOSED_FORM)
+    if problem == "direct" and record.closed_form is None:
+        raise UsageError(f"{record.name} has no closed form to sweep its inputs with", hint=NO_CLOSED_FORM)
     if problem == "inverse" and has_quaternion(record.platform.pose):
         raise UsageError(
             f"{record.name}: no grid over quaternions", hint="Mechanism.inverse takes an array of poses of your own"

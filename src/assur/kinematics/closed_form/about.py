@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from assur.kinematics.answers.at_border import power
-from assur.kinematics.modes import Problem, sign_names
+from assur.kinematics.modes import Problem
 from assur.kinematics.status import Status, closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
@@ -16,7 +16,7 @@ from assur.results.store.layout import Array, Plan
 from assur.results.store.note import Counts
 
 if TYPE_CHECKING:
-    from assur.kinematics.closed_form.stored import StoredSweep
+    from assur.kinematics.closed_form.grid_sweep import GridSweep
 
 _ROWS = {"inputs": "input", "poses": "coordinate", "factors": "factor"}
 
@@ -38,7 +38,7 @@ def factor(record: MechanismRecord, kind: str) -> float:
     return math.pi / 180 if kind == "angle" and record.angle == "deg" else 1.0
 
 
-def about(sweep: StoredSweep) -> dict[str, Any]:
+def about(sweep: GridSweep) -> dict[str, Any]:
     """The sweep of a whole grid, without what is counted in it."""
     record = sweep.record
     kinds = coordinates(record, sweep.problem)
@@ -63,7 +63,7 @@ def about(sweep: StoredSweep) -> dict[str, Any]:
         "angle": record.angle,
         "along": axes,
         "at": held,
-        "how": _how(sweep),
+        "how": sweep.how,
         "files": {array.name: _file(sweep, array, [axis["name"] for axis in axes]) for array in sweep.arrays},
     }
 
@@ -115,15 +115,8 @@ def _of_files(plan: Plan, array: Array, whole: Mapping[str, Any]) -> dict[str, A
     return {**whole, "shape": list(array.shape), "axes": axes}
 
 
-def _how(sweep: StoredSweep) -> str:
-    model = "the reduced model" if closed_form_of(sweep.record).complete_for == "reduced" else "the joint graph"
-    every = len(sweep.modes) == 2 ** len(sign_names(sweep.record, sweep.problem))
-    modes = "every branch of its roots" if every else "this mode alone"
-    return f"closed form of {model}, {modes}, at the places of the grid and nowhere between them"
-
-
-def _file(sweep: StoredSweep, array: Array, along: Sequence[str]) -> dict[str, Any]:
-    rows, units, meaning = _rows(sweep.record, array.name)
+def _file(sweep: GridSweep, array: Array, along: Sequence[str]) -> dict[str, Any]:
+    rows, units, meaning = _rows(sweep, array.name)
     names = [*(["mode"] if sweep.every else []), *([_ROWS[array.name]] if rows else [])]
     return {
         "file": f"{array.name}.npy",
@@ -136,18 +129,19 @@ def _file(sweep: StoredSweep, array: Array, along: Sequence[str]) -> dict[str, A
     }
 
 
-def _rows(record: MechanismRecord, name: str) -> tuple[list[str], list[str], str]:
+def _rows(sweep: GridSweep, name: str) -> tuple[list[str], list[str], str]:
     """Names and units of the rows of a file, where it has some, and what stands in it."""
+    record = sweep.record
     units = {"length": record.unit, "angle": record.angle}
     if name in ("inputs", "poses"):
         kinds = coordinates(record, "direct" if name == "inputs" else "inverse")
-        return list(kinds), [units[kind] for kind in kinds.values()], f"the {name}; NaN where there is no solution"
+        return list(kinds), [units[kind] for kind in kinds.values()], f"the {name}; NaN where `exists` would be false"
     if name == "factors":
         items = closed_form_of(record).factor_list
         names, powers = [item.name for item in items], [power(record.unit, item.unit) for item in items]
         return names, powers, "factors of det Jp and det Jq"
     meanings = {
-        "exists": "whether the mode has a solution",
+        "exists": sweep.existence,
         "status": "status: " + ", ".join(f"{status.value} {status.name}" for status in Status),
         "det_jp": f"det Jp of the regular Jacobian, {record.unit} and rad",
         "det_jq": f"det Jq of the regular Jacobian, {record.unit} and rad",

@@ -19,8 +19,9 @@ from typing import Any
 
 from assur.errors import UsageError
 from assur.kinematics.closed_form.blocks import Progress
+from assur.kinematics.closed_form.grid_sweep import GridSweep
 from assur.kinematics.closed_form.grids import Grid
-from assur.kinematics.closed_form.stored import StoredSweep, stored_sweep
+from assur.kinematics.closed_form.stored import stored_sweep
 from assur.kinematics.modes import Problem
 from assur.model.registry import load_record
 from assur.results.store.note import asked, differences
@@ -40,7 +41,7 @@ class Job:
     Attributes:
         mechanism: a name, or the path of a file that the worker sees too.
         overrides: other values for parameters.
-        problem, grid, mode, keep: as of `StoredSweep`.
+        problem, grid, mode, keep: as of `GridSweep`.
     """
 
     mechanism: str
@@ -51,7 +52,7 @@ class Job:
     keep: tuple[str, ...]
 
 
-def job_of(sweep: StoredSweep, mechanism: str) -> Job:
+def job_of(sweep: GridSweep, mechanism: str) -> Job:
     """The job of a sweep whose mechanism was called by a name or a path."""
     path = Path(mechanism)
     called = str(path.absolute()) if path.exists() else mechanism
@@ -60,7 +61,7 @@ def job_of(sweep: StoredSweep, mechanism: str) -> Job:
 
 
 @lru_cache(maxsize=4)
-def sweep_of(job: Job) -> StoredSweep:
+def sweep_of(job: Job) -> GridSweep:
     """The sweep of a job, on a worker."""
     record = load_record(job.mechanism, **dict(job.overrides))
     return stored_sweep(record, job.problem, job.grid, job.mode, job.keep)
@@ -78,7 +79,7 @@ def solved_block(job: Job, number: int) -> tuple[int, Solved]:
 
 
 def fill_on_cluster(
-    sweep: StoredSweep, mechanism: str, store: Store, address: str, *, progress: Progress | None = None
+    sweep: GridSweep, mechanism: str, store: Store, address: str, *, progress: Progress | None = None
 ) -> None:
     """Let the workers of a cluster work out what a store lacks; this process writes it.
 

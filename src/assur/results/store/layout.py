@@ -174,13 +174,13 @@ class Plan:
         return slice(part.start - first, part.stop - first)
 
 
-def block_length(size: int, longest: int) -> int:
+def block_length(size: int, longest: int, shortest: int = SHORTEST) -> int:
     """Places in a block of a grid: by the grid alone, neither by the machine nor by how it is shared.
 
     >>> block_length(1000, 65536), block_length(640_000, 65536), block_length(10**9, 65536)
     (1024, 10000, 65536)
     """
-    return min(max(-(-size // NUMBER_OF_BLOCKS), SHORTEST), max(longest, SHORTEST))
+    return min(max(-(-size // NUMBER_OF_BLOCKS), shortest), max(longest, shortest))
 
 
 def known_array(name: str, kept: Mapping[str, Any]) -> Array:

@@ -11,7 +11,7 @@ import shutil
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -272,7 +272,8 @@ class Store:
                     hint="choose another folder, or remove what is there",
                 )
             self.done = blocks_done(self.plan, kept)
-        except DamagedNoteError as error:
+            self.plan = replace(self.plan, about=kept["about"])  # what was said of it at first is said at the end
+        except (DamagedNoteError, KeyError) as error:
             return [Fault(path, str(error), "a note of the store is due", tuple(self.plan.blocks))]
         faults = faults_of(self.folder, self.plan, self.done, progress)
         for number in {number for fault in faults for number in fault.blocks}:

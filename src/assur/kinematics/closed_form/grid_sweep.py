@@ -1,0 +1,168 @@
+"""Sweeps of grids into files: the arrays that are kept, their store, and a block, whatever it is that solves it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.closed_form.about import about, told
+from assur.kinematics.closed_form.blocks import FloatArray, Progress
+from assur.kinematics.closed_form.grids import Grid
+from assur.kinematics.closed_form.streamed import KINDS, fill
+from assur.kinematics.modes import Problem, all_modes
+from assur.kinematics.status import Status
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import is_angle
+from assur.results.disk import DISK, Disk
+from assur.results.store.layout import Array, Plan, Shard
+from assur.results.store.note import Counts
+from assur.results.store.store import Solved, Store
+
+Found = Mapping[str, NDArray[Any]]
+
+ALL = "all"
+"""Stands for every mode."""
+
+
+@dataclass(frozen=True, eq=False)
+class GridSweep(ABC):
+    """A sweep of a grid into files; made by `stored_sweep`, which checks it.
+
+    Attributes:
+        record, problem: what is solved.
+        grid: poses, or inputs as printed; angles in rad.
+        mode: one mode, or "all".
+        keep: quantities that are written.
+    """
+
+    record: MechanismRecord
+    problem: Problem
+    grid: Grid
+    mode: str
+    keep: tuple[str, ...]
+
+    @property
+    def every(self) -> bool:
+        """Whether all modes are swept, which then have an axis of their own, K."""
+        return self.mode == ALL
+
+    @property
+    def modes(self) -> tuple[str, ...]:
+        """The modes, in the order of the axis K."""
+        return all_modes(self.record, self.problem) if self.every else (self.mode,)
+
+    @cached_property
+    def arrays(self) -> tuple[Array, ...]:
+        """What is kept: (K,) in all modes, then its rows, then the places along each coordinate that is not held."""
+        rows = {
+            "inputs": len(self.record.inputs),
+            "poses": len(self.record.platform.pose),
+            "factors": len(self.record.closed_form.factor_list) if self.record.closed_form else 0,
+        }
+        first = (len(self.modes),) if self.every else ()
+        places = tuple(count for count in self.grid.counts if count > 1)
+        return tuple(
+            Array(name, KINDS.get(name, "float64"), first + ((rows[name],) if name in rows else ()), places)
+            for name in self.keep
+        )
+
+    @property
+    @abstractmethod
+    def formulas(self) -> dict[str, str]:
+        """What the numbers depend on beside dimensions, mode and grid."""
+
+    @property
+    @abstractmethod
+    def how(self) -> str:
+        """How the answers are known."""
+
+    @property
+    @abstractmethod
+    def existence(self) -> str:
+        """What it means that a solution exists."""
+
+    @property
+    @abstractmethod
+    def engine(self) -> str:
+        """What works on it, in words."""
+
+    @property
+    @abstractmethod
+    def block_length(self) -> int:
+        """Places in a block, by the whole grid alone."""
+
+    @abstractmethod
+    def answers(self, given: FloatArray) -> dict[str, NDArray[Any]]:
+        """What is kept of problems (m, b), angles in rad, and whether each exists (K, b) or (b,)."""
+
+    def plan(self, shard: Shard | None = None) -> Plan:
+        """What is to be in a store, of the whole grid or of a shard."""
+        names, low, high = self.grid.names, self.grid.low, self.grid.high
+        question = {
+            "kind": "stored sweep",
+            "mechanism": self.record.name,
+            **self.formulas,
+            "dimensions": {name: float(value) for name, value in vars(self.record.values).items()},
+            "problem": self.problem,
+            "mode": self.mode,
+            "limits": {name: [a, b] for name, a, b in zip(names, low, high, strict=True)},
+            "counts": list(self.grid.counts),
+            "keep": list(self.keep),
+        }
+        return Plan(question, self.arrays, self.block_length, shard, about(self))
+
+    def store(self, folder: Path, shard: Shard | None = None, disk: Disk = DISK) -> Store:
+        """The store of a folder, not open yet, with a note for people (`sweep.json`)."""
+        return Store(folder, self.plan(shard), told, disk)
+
+    def fill(self, store: Store, *, progress: Progress | None = None, threads: int = 0) -> None:
+        """Work out what a store lacks, in this process, which may be interrupted."""
+        fill(store, self.block, self.grid, progress=progress, threads=threads)
+
+    def block(self, given: FloatArray) -> Solved:
+        """What is kept of the problems (m, b) of a block, and what is counted in it."""
+        found = self.solve(given)
+        return Solved({name: found[name] for name in self.keep}, _counted(found))
+
+    def solve(self, given: FloatArray) -> Found:
+        """What is kept of problems (m, b), and whether each exists: exists and status (K, b) or (b,), and so on."""
+        found = self.answers(given)
+        for values in found.values():
+            if values.dtype == float:
+                values += 0.0  # a zero has no sign, whichever engine it is of
+                values[~np.broadcast_to(_over(found["exists"], values), values.shape)] = np.nan
+        self._to_file_angles(found)
+        return found
+
+    def _to_file_angles(self, found: Found) -> None:
+        if self.record.angle != "deg":
+            return
+        angles = {
+            "inputs": [item.coordinate.kind == "angle" for item in self.record.inputs],
+            "poses": [is_angle(name) for name in self.record.platform.pose],
+        }
+        for name in found.keys() & angles.keys():
+            for k, angle in enumerate(angles[name]):
+                if angle:
+                    np.degrees(found[name][..., k, :], out=found[name][..., k, :])
+
+
+def _over(exists: NDArray[np.bool_], values: NDArray[Any]) -> NDArray[np.bool_]:
+    """Existence (b,) or (K, b) with an axis for the rows of values (rows, b) or (K, rows, b)."""
+    return exists[..., None, :] if values.ndim > exists.ndim else exists
+
+
+def _counted(found: Found) -> Counts:
+    """Problems by the number of modes that solve them, and branches by status."""
+    modes = np.bincount(np.atleast_2d(found["exists"]).sum(axis=0))
+    counts = {"modes": {str(k): int(n) for k, n in enumerate(modes) if n}}
+    if "status" in found:
+        counts["status"] = {Status(k).name: int(n) for k, n in enumerate(np.bincount(found["status"].ravel())) if n}
+    return counts

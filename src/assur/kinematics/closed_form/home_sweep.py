@@ -1,0 +1,67 @@
+"""Stored sweeps on the joint graph: the inverse problem in home's working mode, where there is no closed form."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.border import inputs_of
+from assur.kinematics.closed_form.blocks import FloatArray
+from assur.kinematics.closed_form.grid_sweep import GridSweep
+from assur.kinematics.paths.from_home import followed_from_home
+from assur.kinematics.rates.finite_motion import classify_at
+from assur.kinematics.status import Status
+from assur.results.store.layout import block_length
+
+HOME = "home"
+"""Stands for the working mode of home."""
+LONGEST = 256
+"""Places in a block: each takes a thousand times as long as by a closed form."""
+
+
+@dataclass(frozen=True, eq=False)
+class HomeSweep(GridSweep):
+    """A sweep in which every pose is followed to from home, along a way of its own."""
+
+    @property
+    def formulas(self) -> dict[str, str]:
+        """The mechanism's file, in a few letters, and the version."""
+        text = self.record.file.read_bytes()
+        return {"formulas": hashlib.blake2b(text, digest_size=12).hexdigest(), "version": version("assur")}
+
+    @property
+    def how(self) -> str:
+        """What is not proved."""
+        return (
+            "followed on the joint graph from home, straight to each pose; one that is not reached so is undecided: "
+            "another way may lead there"
+        )
+
+    @property
+    def existence(self) -> str:
+        """That a pose was reached."""
+        return "whether the straight way from home reaches the pose"
+
+    @property
+    def engine(self) -> str:
+        """The joint graph."""
+        return "the joint graph, followed from home"
+
+    @property
+    def block_length(self) -> int:
+        """Places in a block."""
+        return block_length(self.grid.size, LONGEST, LONGEST)
+
+    def answers(self, given: FloatArray) -> dict[str, NDArray[Any]]:
+        """What is kept of poses (m, b), angles in rad, and whether each was reached (b,)."""
+        joints, reached = followed_from_home(self.record, given.T)
+        found = {"exists": reached, "inputs": inputs_of(self.record, joints).T}
+        found["status"] = np.full(reached.shape, Status.undecided, dtype=np.int8)
+        if np.any(reached):
+            found["status"][reached] = classify_at(self.record, joints[reached])
+        return found
