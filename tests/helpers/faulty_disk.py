@@ -17,7 +17,7 @@ class FaultyDisk(Disk):
     Args:
         number: which one; none where None.
         way: "fails" (an error, as of a full disk), "torn" (half of it is done, then a kill), "last" (it is done, then a
-            kill).
+            kill), "interrupted" (it is done, then Ctrl-C).
         real: whether what is synced really is; a kill of the process alone does not need that.
     """
 
@@ -34,6 +34,9 @@ class FaultyDisk(Disk):
             work()
         elif self.way == "fails":
             raise OSError(errno.ENOSPC, "No space left on device", str(path))
+        elif self.way == "interrupted":
+            work()
+            raise KeyboardInterrupt
         else:
             self.dead = True
             (half if self.way == "torn" else work)()

@@ -21,7 +21,7 @@ def test_what_is_reached_is_home_s_branch_of_the_closed_form(name):
     home = home_values(record)
     start = pose_of(record, home)
     size = np.ptp([record.box[name] for name in record.platform.pose], axis=1)
-    poses = start + np.random.default_rng(3).uniform(-0.4, 0.4, (60, len(start))) * size
+    poses = start + np.random.default_rng(3).uniform(-0.25, 0.25, (60, len(start))) * size
     joints, reached = followed_from_home(record, poses)
     assert reached.sum() > 10
     np.testing.assert_allclose(pose_of(record, joints[reached]), poses[reached], rtol=0, atol=1e-7 * np.max(size))

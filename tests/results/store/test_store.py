@@ -131,6 +131,31 @@ def test_whatever_fails_the_same_command_ends_in_the_same_bytes(whole, shards, t
         shutil.rmtree(tmp_path / str(number))
 
 
+@pytest.mark.parametrize("saved", [0.0, 1e9])
+def test_ctrl_c_at_any_instant_loses_nothing_that_was_written(whole, tmp_path, monkeypatch, saved):
+    """What is then said to be done is what the note says."""
+    monkeypatch.setattr(store_module, "SAVED", saved)
+    counted = FaultyDisk()
+    filled(tmp_path / "once", counted)
+    for number in range(counted.count):
+        folder, disk = tmp_path / str(number), FaultyDisk(number, "interrupted")
+        with Store(folder, PLAN, told, disk) as store:
+            with pytest.raises(KeyboardInterrupt):
+                interrupted(store)
+            state = folder / "state.json"
+            assert store.places_done == (json.loads(state.read_text())["done"] if state.exists() else 0)
+            put = {number for number in PLAN.blocks if number not in store.missing}
+            assert put == set(store.done)
+        filled(folder)
+        assert files_of(folder) == files_of(whole)
+
+
+def interrupted(store):
+    store.open()
+    store.fill((number, solved(PLAN, number)) for number in store.missing)
+    store.finish()
+
+
 def edit(folder, **entries):
     path = folder / "state.json"
     path.write_text(json.dumps({**json.loads(path.read_text()), **entries}, indent=1))

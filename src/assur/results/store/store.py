@@ -157,18 +157,20 @@ class Store:
         self._fresh[number] = Done(tuple(digests), solved.counts)
 
     def save(self) -> None:
-        """Bring what was put to the disk, then note it."""
-        fresh, self._fresh = self._fresh, {}  # what cannot be brought there is not done
+        """Bring what was put to the disk, then note it. What could not be brought there is not done."""
+        fresh, self._fresh = self._fresh, {}
         if not fresh:
             return
-        for array in self.plan.files:
-            self.disk.sync(part_of(self.folder / f"{array.name}.npy"))
         before = dict(self.done)
-        self.done |= fresh
         try:
+            for array in self.plan.files:
+                self.disk.sync(part_of(self.folder / f"{array.name}.npy"))
+            self.done |= fresh
             self._note()
-        except BaseException:
+        except BaseException as error:
             self.done = before
+            if not isinstance(error, OSError):  # Ctrl-C: nothing failed, and it may be brought there yet
+                self._fresh = fresh
             raise
 
     def fill(self, blocks: Iterable[tuple[int, Solved]], progress: Progress | None = None) -> None:
@@ -186,7 +188,11 @@ class Store:
                 if progress is not None:
                     progress(done, self.plan.length)
         finally:
-            self.save()
+            try:
+                self.save()
+            except KeyboardInterrupt:
+                self.save()
+                raise
 
     def finish(self) -> dict[str, NDArray[Any]]:
         """Give the arrays their names, once every block is done, and tell people of them.
