@@ -158,10 +158,10 @@ class Interval:
         least, most = _quiet(np.subtract, self.low, high), _quiet(np.subtract, self.high, low)
         return Interval(rounding.down_sum(least), rounding.up_sum(most), self.defined & defined)
 
-    @_between_numbers
     def __pow__(self, exponent: int) -> Any:
         return whole_power(self, exponent)
 
+    @_between_numbers
     def __mul__(self, other: Interval | Real) -> Interval:
         if other is self:
             return self.square()

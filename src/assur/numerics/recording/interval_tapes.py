@@ -165,5 +165,5 @@ class _Derivatives:
     def sqrt(self, radicand: Sloped, /) -> Sloped:
         """Root of max(radicand, 0), with the derivative r' / (2 root)."""
         root: Any = self.recorder.sqrt(radicand.whole)
-        rate: Any = 0.5 / root
+        rate: Recorded = 0.5 / root
         return Sloped(root, root, tuple(None if slope is None else slope * rate for slope in radicand.slopes))
