@@ -6,6 +6,7 @@ import pytest
 
 import assur
 from assur.model.registry import left_out, topology_names
+from catalogue import each
 
 
 def test_list_has_every_mechanism(assur_cli):
@@ -25,7 +26,7 @@ def test_list_has_every_topology_and_what_is_left_out(assur_cli):
     assert all(item["reason"] in out for item in found["left_out"])
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_show_says_what_the_record_holds(assur_cli, name):
     record = assur.load(name)
     data = assur_cli("show", name, "--json").json

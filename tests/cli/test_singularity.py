@@ -3,6 +3,7 @@ from __future__ import annotations
 import pytest
 
 import assur
+from catalogue import each
 
 POSE = ("-15.4714", "9.6849", "456.3315")
 SHAPE = {"kind", "factors", "det_jp", "det_jq", "condition"}
@@ -36,7 +37,7 @@ def test_a_pose_out_of_reach_exits_4_and_names_the_quantity(assur_cli):
     assert "n_alpha < 0" in assur_cli("singularity", "zeng2019", "--pose", "900", "0", "300").out
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_without_a_pose_it_lists_factors_loci_and_examples(assur_cli, name):
     run = assur_cli("singularity", name, "--json")
     assert run.code == 0

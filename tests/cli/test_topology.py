@@ -13,6 +13,7 @@ from assur.mechanism import topology as derive
 from assur.model.registry import topology_names
 from assur.topology.answers import answers
 from assur.topology.latex import fragment
+from catalogue import each
 
 TRIPTERON = ["P[x] R[x] R[x] R[x]", "P[y] R[y] R[y] R[y]", "P[z] R[z] R[z] R[z]"]
 PARTS = ("derivation", "limbs", "decoupling", "actuators", "joints")
@@ -55,7 +56,7 @@ def test_json_of_the_papers_mechanism_has_the_papers_numbers(assur_cli):
     assert found["routes_agree"] is True
 
 
-@pytest.mark.parametrize("name", [*assur.names(), *topology_names()])
+@pytest.mark.parametrize("name", each([*assur.names(), *topology_names()]))
 def test_every_mechanism_of_the_catalogue_can_be_asked_for(assur_cli, name):
     run = assur_cli("topology", name)
     assert (run.code, run.err) == (0, "")

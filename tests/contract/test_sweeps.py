@@ -11,6 +11,7 @@ from assur.kinematics.closed_form.filling import finished
 from assur.kinematics.closed_form.recorded import recording
 from assur.kinematics.closed_form.sweep import ALL_WANTED, inverse_sweep
 from assur.kinematics.modes import mode_signs
+from catalogue import each
 
 NAMES = [name for name in assur.names() if assur.load(name).closed_form is not None]
 WITH_BRANCHES = [name for name in NAMES if callable(assur.load(name).closed_form.direct)]
@@ -79,7 +80,6 @@ def test_every_direct_recorded(name):
     same(truths, exists)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_one_mode_compiled(name):
     mechanism, want = assur.load(name), ALL_WANTED[:5]
@@ -93,9 +93,9 @@ def test_one_mode_compiled(name):
             same(found[quantity], values)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", each(NAMES))
 def test_every_branch_compiled(name):
+    """Of three in the quick run: of every mechanism one mode is, and the recording of every branch that is compiled."""
     mechanism = assur.load(name)
     poses = poses_of(mechanism)
     distinct, wanted = (

@@ -7,7 +7,6 @@ import sys
 
 import pytest
 
-import assur
 from assur import figures
 from assur.errors import UnknownNameError
 
@@ -21,7 +20,7 @@ print(*(hashlib.sha256(figures.encoded(figure, form, 100)).hexdigest() for form 
 
 
 def test_the_same_bytes_in_another_process_with_another_hash_seed():
-    name = assur.names()[0]
+    name = "fivebar"
     found = []
     for seed in ("1", "2"):
         environment = {**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": os.pathsep.join(sys.path)}

@@ -17,6 +17,7 @@ from assur.model.registry import topology_names
 from assur.topology.counting.coupling import AssurChain, Loop
 from assur.topology.joints import JOINT_TYPES
 from assur.topology.linkages.linkage import Group, Linkage, LinkageJoint
+from catalogue import each
 
 TYPES = {item.letter: item for item in JOINT_TYPES.values()}
 
@@ -98,7 +99,7 @@ def texts(drawing):
     return [item for item in drawing.figure.axes[0].texts if item.get_text()]
 
 
-@pytest.mark.parametrize("name", [*CASES, *CATALOGUE])
+@pytest.mark.parametrize("name", [*CASES, *each(CATALOGUE)])
 def test_nothing_lies_on_anything_else_or_outside_the_page(name):
     figure = drawn(name).figure
     renderer = FigureCanvasAgg(figure).get_renderer()

@@ -8,6 +8,7 @@ from matplotlib.mathtext import MathTextParser
 import assur
 from assur.figures.letters import letter
 from assur.scene.companion import companion
+from catalogue import each
 
 PARSER = MathTextParser("path")
 
@@ -25,7 +26,7 @@ def written(record):
     return [f"${text}$" for text in latex if text] + [letter(name) for name in names]
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_all_that_a_mechanism_writes_can_be_drawn(name):
     texts = written(assur.load(name))
     assert len(texts) > 10

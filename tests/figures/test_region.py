@@ -14,6 +14,7 @@ from assur.model.pose import is_angle
 from assur.workspace.fields import at_points, factor_fields
 from assur.workspace.region import workspace
 from assur.workspace.slices import coordinates
+from catalogue import each
 
 
 def test_the_numbers_are_those_of_the_workspace(context, data):
@@ -46,7 +47,7 @@ def test_the_loci_are_zeros_of_their_factors(context, data):
             assert np.max(np.abs(values)) < 2e-3 * size
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_the_workspace_of_every_mechanism_is_drawn_and_says_what_is_held(name):
     record = assur.load(name)
     found = workspace(record, resolution=8)

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-import assur
 from assur import figures
 from assur.figures.meaning import named, typeset
 from assur.figures.singular import symbol_of
@@ -17,11 +14,7 @@ from assur.kinematics.position import inverse
 from assur.kinematics.status import FACTOR_TOLERANCE, relative_factors
 from assur.model.points import point
 from assur.scene.skeleton import skeleton
-
-
-@cache
-def bare(name):
-    return figures.Context(assur.load(name))
+from catalogue import each
 
 
 def test_every_example_is_drawn_once(context, data):
@@ -62,9 +55,8 @@ def test_what_is_called_collinear_or_parallel_is(context):
     assert checked >= 2 or context.record.name != "zeng2019"
 
 
-@pytest.mark.parametrize("name", ["zeng2019", "delta_4s"])
-def test_no_text_is_a_cut_of_its_data_and_all_of_it_is_on_the_page(name):
-    context = bare(name)
+@pytest.mark.parametrize("context", each(["fivebar", "zeng2019", "delta_4s"], ["fivebar", "zeng2019"]), indirect=True)
+def test_no_text_is_a_cut_of_its_data_and_all_of_it_is_on_the_page(context):
     for figure in ("serial", "parallel", "singular"):
         drawing = figures.drawing(context.record, figure, context)
         page = drawing.figure.axes[0]
@@ -80,9 +72,10 @@ def test_no_text_is_a_cut_of_its_data_and_all_of_it_is_on_the_page(name):
             assert whole.y0 <= box.y0 <= box.y1 <= whole.y1, text.get_text()
 
 
-def test_factors_that_vanish_in_the_same_configuration_share_a_panel_headed_by_the_status_there():
+@pytest.mark.parametrize("context", ["zeng2019"], indirect=True)
+def test_factors_that_vanish_in_the_same_configuration_share_a_panel_headed_by_the_status_there(context):
     """Where u1 = 0 at the drawn configuration u2 = 0, too, so that the platform moves by itself."""
-    drawing = figures.drawing(bare("zeng2019").record, "singular", bare("zeng2019"))
+    drawing = figures.drawing(context.record, "singular", context)
     panels = {item["factor"]: item["panel"] for item in drawing.data["examples"]}
     assert panels["u1"] == panels["u2"]
     assert len(set(panels.values())) == len(panels) - 1

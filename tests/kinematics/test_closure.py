@@ -12,6 +12,7 @@ from assur.kinematics.closure import assemble, characteristic_length, closure_er
 from assur.kinematics.home import home_values
 from assur.model.joint_graph import child_frame, frames, joint_graph
 from assur.model.registry import load_record
+from catalogue import each
 
 
 def _starts(mechanism, count, seed=0):
@@ -39,7 +40,7 @@ FEWER = {
 """Mechanisms of which fewer than nearly all random starts close, and the share that must."""
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_random_starts_assemble_and_no_axis_is_turned_round(name):
     """The check shares nothing with the residual: joint points and axis vectors, seen from both links."""
     mechanism = assur.load(name)

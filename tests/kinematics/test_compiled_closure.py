@@ -13,6 +13,7 @@ from assur.kinematics import compiled_closure as module
 from assur.kinematics.closure import CLOSED, assemble, characteristic_length, closure_error, mobility
 from assur.kinematics.compiled_closure import assemblies_around, compiled_closure
 from assur.kinematics.pose import pose_of
+from catalogue import each
 
 SPIN = {"delta_4s", "h4_robot", "linear_delta_4s"}
 """Mechanisms with rods that spin: what turns them is no part of the answer."""
@@ -35,7 +36,7 @@ def _starts(mechanism, count=60, away=0.04, push=0.01):
     return start
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_neighbouring_starts_close_as_by_least_squares(name):
     mechanism = assur.load(name)
     held, length = list(mechanism.input_indices), characteristic_length(mechanism)
@@ -56,7 +57,7 @@ def test_neighbouring_starts_close_as_by_least_squares(name):
         assert gaps.max() <= AGREED
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_as_many_unknowns_as_independent_equations(name):
     """The rank by singular values, of a matrix that was written elsewhere."""
     mechanism = assur.load(name)

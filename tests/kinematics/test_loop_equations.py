@@ -16,6 +16,7 @@ from assur.model.joint_graph import joint_graph
 from assur.numerics import components
 from assur.numerics.recording.folding import Folding
 from assur.topology.joints import SPHERICAL
+from catalogue import each
 
 
 def _near_home(mechanism, size, count=20):
@@ -32,7 +33,7 @@ def _evaluated(equations, outputs, state):
     return {name: np.broadcast_to(value, state.shape[1]) for name, value in found.items()}
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_gaps_are_those_of_the_closure(name):
     """Anywhere: distances; and rotations, by the chord and by the sine vector of what the closure has as a vector."""
     mechanism = assur.load(name)
@@ -50,7 +51,7 @@ def test_gaps_are_those_of_the_closure(name):
     np.testing.assert_allclose(found, 4.0 * np.sin(angle[..., 0] / 2) ** 2, atol=1e-12)
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_the_derivative_is_that_of_the_closure_at_assemblies(name):
     """A ball joint's three columns are along the parent's axes here, rates of its rotation vector there."""
     mechanism = assur.load(name)

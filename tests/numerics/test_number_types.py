@@ -15,9 +15,10 @@ from assur.kinematics.modes import mode_signs, sign_names
 from assur.model.pose import is_angle
 from assur.numerics.dual import Dual, Duals
 from assur.numerics.number_types import Extended, Floats, Symbols
+from catalogue import each
 
 
-@pytest.fixture(params=assur.names())
+@pytest.fixture(params=each())
 def mechanism(request):
     return assur.load(request.param)
 

@@ -8,16 +8,17 @@ import pytest
 from assur.kinematics.closure import closure_error
 from assur.kinematics.pose import pose_of
 from assur.kinematics.status import relative_factors
-from assur.mechanism import load, names
+from assur.mechanism import load
 from assur.page.content import DIGITS, content
 from assur.results.json_text import json_text
 from assur.scene.companion import companion
 from assur.scene.parts import parts
 from assur.scene.skeleton import skeleton
+from catalogue import each
 from pages import content_of
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", each())
 def test_it_is_json_and_loses_no_bit_of_what_is_computed_from(name):
     record = load(name)
     found = json.loads(json_text(content_of(name)))
@@ -28,7 +29,7 @@ def test_it_is_json_and_loses_no_bit_of_what_is_computed_from(name):
     assert found["platform"]["point"] == record.platform.point.tolist()
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", each())
 def test_printed_inputs_follow_from_joint_values_as_it_says(name):
     record = load(name)
     found = content_of(name)

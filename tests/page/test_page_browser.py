@@ -15,6 +15,7 @@ from assur.kinematics.pose import pose_of
 from assur.mechanism import load
 from assur.model.joint_graph import frames
 from assur.model.pose import is_angle
+from catalogue import each
 from pages import page_of, scene_of
 from tabs import as_it_opened, load_page, look
 
@@ -87,7 +88,7 @@ def moves(ranges, home, rng):
     return home + rng.uniform(-SHARE, SHARE, size=(MOVES, len(home))) * span
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", each(NAMES))
 def test_it_opens_from_a_file_without_a_word_and_without_a_request(shown, name):
     here = shown(name)
     assert here.said == []
@@ -98,7 +99,7 @@ def test_it_opens_from_a_file_without_a_word_and_without_a_request(shown, name):
     assert state["residual"] < 1e-10 * characteristic_length(here.record)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", each(NAMES))
 def test_poses_at_random_inputs_are_those_of_direct_in_the_same_mode(shown, name, rng):
     here = shown(name)
     record, length = here.record, characteristic_length(here.record)
@@ -128,7 +129,7 @@ def test_poses_at_random_inputs_are_those_of_direct_in_the_same_mode(shown, name
     assert compared >= 1
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", each(NAMES))
 def test_inputs_at_random_poses_are_those_of_inverse_in_the_same_mode(shown, name, rng):
     here = shown(name)
     record, length = here.record, characteristic_length(here.record)

@@ -107,7 +107,7 @@ def red_round(here, joint):
     [
         ("zeng2019", "toPose", (0.0, 0.0, 200.0)),  # out of reach: the loop of a joint without a letter
         ("planar_3rrr", "toInputs", (1.2, 0.0, -1.2)),  # a parallel singularity, and what is beyond it
-        ("fivebar", "toPose", (0.0, 300.0)),
+        pytest.param("fivebar", "toPose", (0.0, 300.0), marks=pytest.mark.deep),
     ],
 )
 def test_the_joint_that_a_reason_names_is_ringed_until_it_moves_again(opened, name, call, by):

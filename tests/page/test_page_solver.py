@@ -41,6 +41,9 @@ const { walked } = await import(`${process.argv[1]}/test/walks.js`);
 process.stdout.write(JSON.stringify(walked(modelOf(scene), { moves, seed })));
 """
 
+SELDOM = {"three_crr": 4, "tripteron": 4}
+"""They are seldom stopped: so many times as many moves."""
+
 AWAY = {"fivebar": (0.0, 270.0)}
 """Where modes are named: this lies beyond a parallel singularity of a working mode, others near home."""
 
@@ -126,13 +129,11 @@ def test_the_pages_own_tests_pass(node):
 
 @pytest.mark.node
 @pytest.mark.parametrize("name", names())
-@pytest.mark.parametrize(
-    ("moves", "seed"), [(20, 12), *(pytest.param(120, seed, marks=pytest.mark.deep) for seed in (11, 13))]
-)
+@pytest.mark.parametrize(("moves", "seed"), [(15, 11), pytest.param(300, 13, marks=pytest.mark.deep)])
 def test_no_stop_is_a_trap_and_every_reason_is_true(name, moves, seed):
     """Random moves of every mechanism: from a stop the way back is free, and the measures are as the reason says."""
     whole = content_of(name)
-    given = {"scene": {key: whole[key] for key in WALKED}, "moves": moves, "seed": seed}
+    given = {"scene": {key: whole[key] for key in WALKED}, "moves": moves * SELDOM.get(name, 1), "seed": seed}
     command = [str(shutil.which("node")), "--input-type=module", "-e", WALK, str(WEB)]
     done = subprocess.run(command, input=json.dumps(given), capture_output=True, text=True, timeout=240, check=False)
     assert done.returncode == 0, done.stderr[-2000:]

@@ -15,6 +15,7 @@ from assur.report.findings import Findings
 from assur.report.render import page_html
 from assur.report.report import SECTIONS, report_page
 from assur.report.sections.reach import AGAINST, reach
+from catalogue import each
 
 
 def test_without_closed_form_and_reference_data(bare, read):
@@ -77,7 +78,7 @@ def test_a_file_without_closed_form_has_its_solutions_by_search(delta, read):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_every_mechanism_has_its_report(name, read):
     found = report_html(assur.load(name), figures=False, resolution=8)
     page = read(found)

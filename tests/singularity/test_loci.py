@@ -9,6 +9,7 @@ import assur
 from assur.kinematics.modes import all_modes
 from assur.singularity.loci import parallel_loci
 from assur.workspace.region import workspace
+from catalogue import each
 
 MECHANISM = assur.load("zeng2019")
 P = MECHANISM.values
@@ -108,11 +109,11 @@ def test_most_vertices_are_exactly_singular():
             assert np.nanmax(relative) < 1e-3
 
 
-def test_every_mechanism_and_mode_has_one_locus_per_parallel_factor():
-    for name in assur.names():
-        mechanism = assur.load(name)
-        wanted = [item.name for item in mechanism.closed_form.factor_list if item.kind == "parallel"]
-        for mode in all_modes(mechanism, "inverse")[:4]:
-            found = workspace(mechanism, mode, resolution=8)
-            assert [locus.factor for locus in parallel_loci(mechanism, found.region)] == wanted
-            assert all(locus.meaning for locus in found.loci)
+@pytest.mark.parametrize("name", each())
+def test_every_mechanism_and_mode_has_one_locus_per_parallel_factor(name):
+    mechanism = assur.load(name)
+    wanted = [item.name for item in mechanism.closed_form.factor_list if item.kind == "parallel"]
+    for mode in all_modes(mechanism, "inverse")[:4]:
+        found = workspace(mechanism, mode, resolution=8)
+        assert [locus.factor for locus in parallel_loci(mechanism, found.region)] == wanted
+        assert all(locus.meaning for locus in found.loci)

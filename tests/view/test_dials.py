@@ -10,9 +10,10 @@ from assur.kinematics.border import inputs_of
 from assur.kinematics.pose import pose_of
 from assur.model.pose import has_quaternion
 from assur.view.dials import Dial, dials, inputs, pose_with, read
+from catalogue import each
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_home_lies_on_every_dial_and_reads_back(name):
     record = assur.load(name)
     home = record.home_values

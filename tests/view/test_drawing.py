@@ -9,9 +9,10 @@ from assur.scene.companion import companion
 from assur.scene.parts import parts
 from assur.scene.skeleton import skeleton
 from assur.view.drawing import FULL, Drawing, cloud, drawing, places
+from catalogue import each
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_solids_stand_where_the_scene_has_them(name):
     record = assur.load(name)
     home = record.home_values

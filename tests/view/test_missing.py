@@ -13,6 +13,7 @@ from assur.numerics import rotations
 from assur.view import missing
 from assur.view.explain import explain, listed
 from assur.view.missing import Miss, _sense, misses
+from catalogue import each
 
 
 def _told(record, pose):
@@ -76,7 +77,7 @@ def test_of_limbs_that_share_a_bar_the_pair_is_named():
     assert {item.sense for item in found} == {"too short"}
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_where_every_leg_reaches_none_misses(name):
     record = assur.load(name)
     home = np.array(record.home_values)

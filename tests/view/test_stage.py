@@ -8,9 +8,10 @@ import pytest
 import assur
 from assur.view.drawing import cloud, drawing
 from assur.view.stage import GHOSTS, NARROW, OPENING, ROOM, Stage, framed
+from catalogue import each
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_all_of_a_mechanism_is_in_a_narrow_picture_and_fills_it(name):
     """By a pinhole camera of our own: where rays to every vertex meet the picture, in halves of its sides."""
     record = assur.load(name)
@@ -34,7 +35,7 @@ def test_neither_shadows_nor_surroundings_are_drawn():
     assert server.scene.configure_default_lights.call_args.kwargs["cast_shadow"] is False
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_a_link_is_one_mesh_for_each_of_its_colours(name):
     server = MagicMock()
     record = assur.load(name)

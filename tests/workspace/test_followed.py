@@ -40,7 +40,7 @@ CASES = [
     ("planar_3rrr", 20, (("phi", 0.2),)),
     ("planar_3rrr", 40, (("x", 10.0), ("y", -5.0))),
     ("zeng2019", 12, ()),
-    ("delta_4s", 6, ()),
+    pytest.param("delta_4s", 6, (), marks=pytest.mark.deep),
     ("three_rps", 8, ()),
     ("three_rps", 20, (("z", 250.0),)),
 ]
@@ -84,7 +84,7 @@ def test_sections_and_outlines_agree():
     assert found.projection("x", "z").area == pytest.approx(known.projection("x", "z").area, rel=0.02)
 
 
-LOCI = [("fivebar", 24), ("planar_3rrr", 12), ("zeng2019", 12), ("delta_4s", 8)]
+LOCI = [("fivebar", 24), ("planar_3rrr", 12), ("zeng2019", 12), pytest.param("delta_4s", 8, marks=pytest.mark.deep)]
 
 
 @pytest.mark.parametrize(("name", "resolution"), LOCI)
@@ -105,7 +105,7 @@ def test_the_locus_of_the_determinant_is_that_of_all_parallel_factors(name, reso
         assert abs(found.share - fine.share) <= fine.share * (locus.area_error / locus.area + 0.02)
 
 
-@pytest.mark.parametrize(("name", "resolution"), [("planar_3rrr", 12), ("zeng2019", 12), ("delta_4s", 8)])
+@pytest.mark.parametrize(("name", "resolution"), LOCI[1:])
 def test_there_are_no_false_pieces_of_a_locus(name, resolution):
     """A piece that is more than a cell away from every true one would be false."""
     _, found = both(name, resolution)

@@ -10,9 +10,10 @@ import pytest
 import assur
 from assur.export.cad.bill import Row, bill, bill_csv
 from assur.scene.bodies import bodies, fused
+from catalogue import each
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_every_link_and_joint_is_in_it(name):
     record = assur.load(name)
     rows = bill(record)

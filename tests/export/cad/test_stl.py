@@ -9,6 +9,7 @@ from manifold3d import Manifold
 import assur
 from assur.export.cad.stl import RECORD, stl, stl_files
 from assur.scene.bodies import bodies, fused
+from catalogue import each
 
 METRE = {"mm": 1.0, "cm": 10.0, "m": 1000.0}
 
@@ -34,7 +35,7 @@ def volume(rows):
     return float(np.linalg.det(rows["corners"].astype(float)).sum() / 6)
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_every_file_is_watertight_and_has_the_volume_of_its_link(name):
     record = assur.load(name)
     files, made = stl_files(record), {body.link: body for body in bodies(record)}

@@ -13,6 +13,7 @@ from assur.kinematics.closure import characteristic_length
 from assur.kinematics.pose import pose_of
 from assur.model.registry import names
 from assur.numerics.intervals.interval import Interval
+from catalogue import each
 
 TABLE_1 = [162.6907, -143.3209, -24.6776]
 POSES = [[-15.4714, 9.6849, 456.3315], [-15.4714, 9.6849, -396.3315], [-83.0873, 9.6849, 118.2099]]
@@ -107,7 +108,7 @@ def test_near_a_singularity_the_two_poses_are_still_told_apart(paper):
     assert agrees(found, paper.direct([l2 + l3 / 2 - 1e-6, -l2 - l3 / 2, 0.0]), "direct")
 
 
-@pytest.mark.parametrize("name", [name for name in CLOSED if assur.load(name).closed_form.direct is not None])
+@pytest.mark.parametrize("name", each(name for name in CLOSED if assur.load(name).closed_form.direct is not None))
 def test_proved_directs_are_those_found_in_floats(name):
     record = assur.load(name)
     inputs, _ = near_home(record, 1)

@@ -12,11 +12,12 @@ from assur.model.registry import names
 from assur.numerics.branch_and_prune import Existing
 from assur.numerics.intervals.interval import Interval
 from assur.numerics.krawczyk import parts
+from catalogue import each
 
 BY_LEGS = [name for name in names() if not has_quaternion(assur.load(name).platform.pose)]
 
 
-@pytest.mark.parametrize("name", BY_LEGS)
+@pytest.mark.parametrize("name", each(BY_LEGS, ("zeng2019", "planar_3rrr", "three_rps")))
 def test_the_equations_hold_at_every_pose_and_nowhere_else(name):
     """In its own working mode every pose is a zero within rounding; in another mode, or moved, some equation is not."""
     record = assur.load(name)
@@ -35,7 +36,7 @@ def test_the_equations_hold_at_every_pose_and_nowhere_else(name):
     assert np.all(held >= 1)
 
 
-@pytest.mark.parametrize("name", BY_LEGS)
+@pytest.mark.parametrize("name", each(BY_LEGS, ("zeng2019", "planar_3rrr", "three_rps")))
 def test_every_regular_pose_is_proved_from_the_legs(name):
     record = assur.load(name)
     inputs = inputs_of(record, record.home_values) * 1.013
