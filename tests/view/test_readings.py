@@ -1,12 +1,14 @@
 """Live numbers against the functions of the library."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 import assur
 from assur.kinematics.postures import postures
 from assur.singularity.distance import distance
-from assur.view.readings import Reading, clearance, closest_factor, readings, table
+from assur.view.readings import Reading, clearance, closest_factor, limits_reading, readings, table
 from assur.view.snapshot import start
 
 
@@ -57,3 +59,13 @@ def test_without_a_closed_form_there_is_neither():
 
 def test_what_a_file_says_is_text_in_the_page():
     assert "<script" not in table([Reading("<script>", "<script>", '"<script>')])
+
+
+def test_the_limit_that_is_exceeded_most_is_read_off():
+    """Legs of 400 mm where strokes end at 320."""
+    record = assur.load("three_rps")
+    here = start(record)
+    values = next(iter(record.direct([400.0, 380.0, 390.0]))).joints
+    outside = dataclasses.replace(here, values=np.array(list(values.values())))
+    assert limits_reading(outside).text == "rho1 outside by 80 mm, 2 more"
+    assert limits_reading(here).text == "within"

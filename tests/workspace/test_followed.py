@@ -19,6 +19,7 @@ from assur.workspace.grid import grid_over
 from assur.workspace.projections import everywhere
 from assur.workspace.region import workspace
 from assur.workspace.slices import slice_at
+from screw_mechanisms import FIVEBAR, loaded
 
 PHI = {"phi": 0.2}
 
@@ -290,3 +291,17 @@ def test_a_locus_along_the_border_is_seen_though_it_is_thinner_than_a_cell():
     """The Delta's rods lie in one plane just before its arms stretch: a sliver of 0.15 % of the volume."""
     known, found = both("delta_4s", 10)
     assert sum(item.area for item in found.loci) > 0.4 * sum(item.area for item in known.loci)
+
+
+def test_strokes_of_screws_bound_a_workspace_by_their_turns(tmp_path):
+    """Four turns of 10 mm either way let the first slider of the five-bar go from x = -90 to -10 mm."""
+    record = loaded(tmp_path, FIVEBAR)
+    turns = 2 * np.pi * 4.0
+    found = workspace(
+        record, box={"x": (-60, 60), "y": (60, 125)}, strokes={"q1": (-turns, turns)}, resolution=16, sections=[]
+    )
+    y = np.linspace(60, 125, 20001)
+    half = np.sqrt(130**2 - y**2)
+    width = np.clip(np.minimum(60, half - 10) - np.maximum(-60, half - 90), 0, None)
+    assert abs(found.volume - np.mean(width) * 65) < 3 * found.volume_error
+    assert found.volume_error < 0.02 * found.volume

@@ -13,9 +13,9 @@ from assur.kinematics.closure import Assembly, assemble, characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
 from assur.kinematics.pose import pose_of
-from assur.kinematics.turns import counts_turns, near_turns_of_home, with_turns_of_home
+from assur.kinematics.turns import counts_turns, joint_units, near_turns_of_home, with_turns_of_home
 from assur.model.joint_graph import frames
-from assur.model.mechanism import Coordinate, MechanismRecord
+from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.model.turns import counted, periodic_inputs
 
@@ -143,16 +143,9 @@ def places(record: MechanismRecord, joints: FloatArray) -> FloatArray:
 
 def _starts(record: MechanismRecord, count: int, rng: np.random.Generator, *, with_home: bool) -> FloatArray:
     """Joint values (count, coordinates) by chance, the first of them home where that is wanted."""
-    home, length = home_values(record), characteristic_length(record)
+    home, units = home_values(record), joint_units(record)
     spread = rng.uniform(-1.0, 1.0, size=(count, len(home)))
     if with_home:
         spread[0] = 0.0
-    return np.asarray(home + spread * [_reach(record, item, length) for item in record.coordinates])
-
-
-def _reach(record: MechanismRecord, item: Coordinate, length: float) -> float:
-    """How far from home a joint value starts: half a turn, twice the characteristic length, or turns for as much."""
-    if item.kind == "length":
-        return 2.0 * length
-    pitch = abs(record.joints[item.joint].pitch)
-    return np.pi * max(1.0, 4.0 * length / pitch) if pitch else np.pi
+    angles = (units == 1.0) & [item.kind == "angle" for item in record.coordinates]
+    return np.asarray(home + np.where(angles, np.pi, 2.0 * units) * spread)

@@ -7,10 +7,12 @@ such an assembly answers no question about the mechanism as it is assembled.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.closure import characteristic_length
 from assur.kinematics.home import home_values
 from assur.model.mechanism import MechanismRecord
 from assur.model.turns import counted, periodic, screws_among, turn_relations
@@ -75,6 +77,27 @@ def told_by_turns(record: MechanismRecord, locked: dict[int, float]) -> dict[int
                 rest = sum(row[k] * (known[int(k)] - home[k]) for k in np.flatnonzero(row) if k != index)
                 known[index] = float(home[index] - rest * row[index])
     return {index: value for index, value in known.items() if index not in locked}
+
+
+@lru_cache(maxsize=64)
+def joint_units(record: MechanismRecord) -> FloatArray:
+    """What a change of one is of each joint value (n,): the characteristic length, a rad, or a screw's turns for it.
+
+    A screw, and a shaft that drives one, turns many times while its nut goes as far as other joints go in one step.
+
+    >>> from assur.model.registry import load_record
+    >>> joint_units(load_record("fivebar")).tolist()
+    [1.0, 1.0, 1.0, 1.0, 1.0]
+    """
+    length = characteristic_length(record)
+    units = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
+    pitches = np.array([abs(record.joints[item.joint].pitch) for item in record.coordinates])
+    for row in turn_relations(record) != 0:
+        pitches[row] = np.maximum(pitches[row], np.max(pitches[row]))
+    screws = pitches > 0
+    units[screws] = np.maximum(1.0, 2 * np.pi * length / pitches[screws])
+    units.flags.writeable = False
+    return units
 
 
 def counts_turns(record: MechanismRecord) -> bool:

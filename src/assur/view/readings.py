@@ -8,6 +8,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from assur.errors import AssurError
+from assur.kinematics.answers.at_border import angle_at_border
+from assur.kinematics.answers.excess import excesses
+from assur.kinematics.closure import characteristic_length
+from assur.kinematics.limits import limits_note
 from assur.kinematics.postures import Postures
 from assur.kinematics.rates.units import unit_length
 from assur.kinematics.status import relative_factors
@@ -47,6 +51,7 @@ def readings(snapshot: Snapshot) -> tuple[Reading, ...]:
         )
     ]
     rows.append(Reading("residual", f"{snapshot.residual:.1e} {record.unit}", "largest gap of the loops"))
+    rows.append(limits_reading(snapshot))
     modes = zip(("working", "assembly"), snapshot.modes, strict=True)
     rows += [Reading(f"{kind} mode", text) for kind, text in modes if text]
     verdict = verdict_at(record, snapshot.values)
@@ -60,6 +65,26 @@ def readings(snapshot: Snapshot) -> tuple[Reading, ...]:
         rows.append(Reading(f"least measure ({least})", f"{verdict.relative[least]:.3g}", about))
     rows.append(Reading("configuration", verdict.kind.replace("_", "-") + (", near singular" if verdict.near else "")))
     return tuple(rows)
+
+
+def limits_reading(snapshot: Snapshot) -> Reading:
+    """Whether strokes, limits of joints and cones of the file are kept, else which is exceeded most and by how much.
+
+    >>> from assur.model.registry import load_record
+    >>> from assur.view.snapshot import start
+    >>> limits_reading(start(load_record("fivebar"))).text, limits_reading(start(load_record("three_rps"))).text
+    ('no limits are stated', 'within')
+    """
+    record, about = snapshot.record, "strokes, limits of joints and cones of the file"
+    found = excesses(record, "inverse", snapshot.pose, snapshot.values)
+    if not found:
+        return Reading("limits", limits_note(record) or "within", about)
+    length = characteristic_length(record)
+    worst = max(found, key=lambda item: item.by / (1.0 if item.angular else length))
+    by = angle_at_border(record, worst.by) if worst.angular else worst.by
+    more = f", {len(found) - 1} more" if len(found) > 1 else ""
+    unit = record.angle if worst.angular else record.unit
+    return Reading("limits", f"{worst.joint} outside by {by:.4g} {unit}{more}", about)
 
 
 def closest_factor(snapshot: Snapshot, working: Postures) -> Reading | None:

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.border import checked, checked_poses, input_names
-from assur.kinematics.rates.motions import input_units, pose_units
+from assur.kinematics.rates.motions import pose_units
+from assur.kinematics.turns import joint_units
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
 from assur.model.turns import periodic_inputs
@@ -31,8 +32,8 @@ class Course:
         prescribed: "inputs" or "poses".
         vertices: (k, n) or (k, m); angles run on, so that neighbours differ by the turn that is meant.
         shares: (k,) shares of the way, from 0 to 1, by length (a rad counts as one characteristic length).
-        scales: (r,) what counts as a change of one: the characteristic length, or a rad; negative for an input
-            that runs against its joint value.
+        scales: (r,) what counts as a change of one: the characteristic length, a rad, or the turns of a screw for
+            that length; negative for an input that runs against its joint value.
         changes: (k - 1, r) what changes from vertex to vertex; a quaternion's change is a rotation vector
             in the base frame (`assur.model.pose.rate_names`).
     """
@@ -117,7 +118,7 @@ def _sizes(record: MechanismRecord, prescribed: Prescribed) -> FloatArray:
     """What counts as a change of one, per rate."""
     if prescribed == "poses":
         return pose_units(record)
-    return np.asarray(input_units(record) * [item.sign for item in record.inputs])
+    return joint_units(record)[list(record.input_indices)] * [item.sign for item in record.inputs]
 
 
 def _short(turn: FloatArray) -> FloatArray:

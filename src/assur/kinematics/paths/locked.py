@@ -12,10 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.closure import assemble, characteristic_length
+from assur.kinematics.closure import assemble
 from assur.kinematics.paths.course import Prescribed
 from assur.kinematics.pose import pose_rates
 from assur.kinematics.rates.motions import closure_at_platform, general, pose_units
+from assur.kinematics.turns import joint_units
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -35,9 +36,8 @@ Matrices = dict[str, FloatArray]
 
 
 def units(record: MechanismRecord) -> FloatArray:
-    """Per joint value (n,): the characteristic length, or one rad."""
-    length = characteristic_length(record)
-    return np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
+    """Per joint value (n,): the characteristic length, one rad, or the turns of a screw for that length."""
+    return joint_units(record)
 
 
 def matrices(record: MechanismRecord, values: FloatArray) -> Matrices:
