@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import pytest
+
 import assur
 from assur.kinematics.certified.certify import certified_direct, certified_inverse
 from assur.kinematics.certified.result import answer
@@ -111,3 +113,12 @@ def test_at_a_half_turn_the_parts_of_a_quaternion_have_either_sign(assur_cli, tm
     assert run.code == 5
     assert run.out.count("-1.000000 .. 1.000000") == 3
     assert "of either sign where qw may be 0" in " ".join(run.out.split())
+
+
+def test_proved_solutions_say_which_limits_they_exceed(assur_cli):
+    data = assur_cli("direct", "three_rps", "400", "400", "400", "--certify", "--json").json
+    assert (data["limits_stated"], len(data["solutions"])) == (True, 16)
+    for item in data["solutions"]:
+        assert [(each["joint"], each["by"]) for each in item["limits"]["outside"]] == [
+            (f"rho{k}", pytest.approx(80.0)) for k in (1, 2, 3)
+        ]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from assur.cli import exit_codes
 from assur.cli.options import MethodName, Outcome
 from assur.cli.output import heading, table
+from assur.cli.positions import exceeded, limits_cell
 from assur.cli.quantities import QUATERNION, Style, pose_text, short, style_of
 from assur.errors import UsageError
 
@@ -55,10 +56,14 @@ def _shown(record: Mechanism, data: dict[str, Any], headline: str) -> Iterable[R
     yield ""
     if data["solutions"]:
         yield _solutions(record, data, style)
+        yield from exceeded(data)
         yield from _undetermined(style, data)
     if data["undecided"]:
         yield _undecided(data, style)
     yield from _right(record, data)
+    if data["solutions"]:
+        stated = "Limits are judged in floating point." if data["limits_stated"] else "No limits are stated."
+        yield stated
 
 
 def _given(record: Mechanism, data: dict[str, Any], style: Style) -> str:
@@ -82,6 +87,7 @@ def _solutions(record: Mechanism, data: dict[str, Any], style: Style) -> Rendera
         kinds = [item.coordinate.kind for item in record.inputs]
         titles = [f"{name} [{style.kind_unit(kind)}]" for name, kind in zip(data["input_names"], kinds, strict=True)]
     other = "working_mode" if direct else "assembly_mode"
+    told = data["limits_stated"]
     rows, hows = [], list(dict.fromkeys(item["how"] for item in data["solutions"]))
     for item in data["solutions"]:
         bounds = item["pose" if direct else "inputs"]
@@ -97,8 +103,10 @@ def _solutions(record: Mechanism, data: dict[str, Any], style: Style) -> Rendera
             values = [style.kind(*pair) for pair in zip(kinds, middles, strict=True)]
             told = [True] * len(pairs)
         width = max((high - low for (low, high), known in zip(pairs, told, strict=True) if known), default=0.0)
-        rows.append((item["mode"], *values, at_most(width), item[other], str(hows.index(item["how"]) + 1)))
-    return table(("mode", *titles, "width", other.partition("_")[0], "proof"), rows)
+        row = (item["mode"], *values, at_most(width), item[other], str(hows.index(item["how"]) + 1))
+        rows.append((*row, *([limits_cell(item)] if told else [])))
+    columns = ("mode", *titles, "width", other.partition("_")[0], "proof", *(["limits"] if told else []))
+    return table(columns, rows, left=("limits",))
 
 
 def _range(style: Style, name: str, pair: tuple[float, float]) -> str:

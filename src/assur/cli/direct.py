@@ -29,7 +29,9 @@ def direct(
 
     Each solution comes with its assembly mode, its working mode, its status and
     the gap that is left when every loop of the joint graph is closed with it.
-    Exit code 4: it is proved that there is none; 5: undecided.
+    It says which strokes and limits of joints it exceeds; nothing is dropped.
+    Exit code 4: it is proved that there is none; 5: undecided; 3: the formulas
+    of the file give what is no solution.
 
     With --certify each answer has bounds, and is proved or undecided, never a
     guess. Every number given counts as the float that is nearest to it.

@@ -28,7 +28,9 @@ def inverse(
 
     Each solution comes with its working mode, its assembly mode, its status and
     the gap that is left when every loop of the joint graph is closed with it.
-    Exit code 4: it is proved that there is none; 5: undecided.
+    It says which strokes and limits of joints it exceeds; nothing is dropped.
+    Exit code 4: it is proved that there is none; 5: undecided; 3: the formulas
+    of the file give what is no solution.
 
     For example:
         assur inverse zeng2019 -15.4714 9.6849 456.3315

@@ -44,7 +44,7 @@ def _shown(record: Mechanism, data: dict[str, Any], branches: int) -> Iterable[R
     yield ""
     if data["solutions"]:
         yield _solutions(record, data, style)
-        yield from _exceeded(data)
+        yield from exceeded(data)
         yield from _open_loops(data)
         yield from _remarks(data)
         yield from parasitic.shown_solutions(record, data["solutions"])
@@ -113,7 +113,7 @@ def _solutions(record: Mechanism, data: dict[str, Any], style: Style) -> Rendera
         return [style.kind(*pair) for pair in zip(kinds, item["inputs"], strict=True)]
 
     rows = [
-        (item["mode"], *values(item), item[other], item["status"], tiny(item["residual"]), _limits(item))
+        (item["mode"], *values(item), item[other], item["status"], tiny(item["residual"]), limits_cell(item))
         for item in data["solutions"]
     ]
     usual = [item["status"] == "regular" and not item["limits"]["outside"] for item in data["solutions"]]
@@ -129,16 +129,18 @@ def _solutions(record: Mechanism, data: dict[str, Any], style: Style) -> Rendera
     )
 
 
-def _limits(item: dict[str, Any]) -> str:
+def limits_cell(item: dict[str, Any]) -> str:
     """The first limit that a solution exceeds, by how much, and how many more."""
     outside = item["limits"]["outside"]
+    if item["limits"]["within"] is None:
+        return ""
     if not outside:
         return "within"
     first = f"{outside[0]['joint']} {short(outside[0]['by'])} {outside[0]['unit']}"
     return f"{first} +{len(outside) - 1}" if len(outside) > 1 else first
 
 
-def _exceeded(data: dict[str, Any]) -> Iterable[str | RenderableType]:
+def exceeded(data: dict[str, Any]) -> Iterable[str | RenderableType]:
     """Which limits the solutions exceed, and by how much; once for all that do so alike."""
     modes: dict[tuple[str, ...], list[str]] = {}
     for item in data["solutions"]:

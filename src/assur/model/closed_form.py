@@ -31,7 +31,8 @@ class Branch:
 
     Attributes:
         pose: the coordinates of the platform, in the file's order; an angle is a pair (cosine, sine).
-        inputs: the inputs in the file's order; a revolute input is a pair (cosine, sine).
+        inputs: the inputs in the file's order; a revolute input is a pair (cosine, sine), but a
+            number in rad where its turns count, as those of a screw do (`assur.model.turns`).
         margins: name -> value; the branch exists where every one of them allows it.
         core: every quantity that factors, Jacobians and joint values are made of.
     """
@@ -192,9 +193,9 @@ class ClosedForm:
             source's model, which leaves assemblies of the joint graph out; `reduced_because` says which).
         direct: (ns, p, inputs, sign) -> Branch; or an `Eliminant`; or a `PolynomialSystem`; or None: only a search.
         inverse: (ns, p, pose, sign) -> Branch.
-        joints: (ns, p, core) -> {joint: value}, a pair (cosine, sine) for a revolute; a joint with several
-            components has one entry for each ("leg1.U.first"), but a spherical joint one entry, the rotation of
-            the child against the parent as three rows. Freedoms that move nothing else may have any value.
+        joints: (ns, p, core) -> {joint: value}, a pair (cosine, sine) for a revolute, rad for a screw; a joint
+            of several components has one entry for each ("leg1.U.first"), but a spherical joint one entry, the
+            rotation of the child against the parent as three rows. Freedoms that move nothing else may have any value.
         factors: (ns, p, core) -> {factor: value}.
         jacobians: (ns, p, core) -> (rows of Jp, rows of Jq) with Jp v = Jq qdot; a plain 0 where an entry
             vanishes everywhere. v are the rates of the pose coordinates; those of a quaternion are the angular

@@ -9,16 +9,21 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics import border
-from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
+from assur.kinematics import border, position
+from assur.kinematics.answers.at_border import inputs_at_border, limits_at_border, pose_at_border, power
+from assur.kinematics.closure import characteristic_length
+from assur.kinematics.limits import limits_stated
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import QUATERNION, is_angle
+from assur.model.pose import LENGTHS, QUATERNION, is_angle
+from assur.model.turns import periodic_inputs
 from assur.numerics.intervals.functions import TURN
 from assur.numerics.intervals.interval import Interval
 from assur.results.json_text import plain
 
 FloatArray = NDArray[np.float64]
+THERE = 1e-6
+"""A solution in floating point this near to the middle of proved bounds, in rad or characteristic lengths, is it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,6 +168,7 @@ def answer(found: CertifiedSolutions) -> dict[str, Any]:
     record = found.record
     direct = found.problem == "direct"
     given = inputs_at_border(record, found.given) if direct else pose_at_border(record, found.given)
+    kept = _limits(found)
     return {
         "mechanism": record.name,
         "unit": record.unit,
@@ -174,10 +180,38 @@ def answer(found: CertifiedSolutions) -> dict[str, Any]:
         "complete": found.complete,
         "complete_for": found.complete_for,
         "right": found.right,
-        "solutions": [_solution(found, item) for item in found.solutions],
+        "limits_stated": limits_stated(record),
+        "solutions": [
+            {**_solution(found, item), "limits": limits} for item, limits in zip(found.solutions, kept, strict=True)
+        ],
         "undecided": [_doubt(record, item) for item in found.undecided],
         "excluded": dict(found.excluded),
     }
+
+
+def _limits(found: CertifiedSolutions) -> list[dict[str, Any]]:
+    """Which limits of the file each solution exceeds, of the solution in floating point that lies at it.
+
+    That is no proof; `within` is None where the file states no limits, and where no such solution was found.
+    """
+    record, direct = found.record, found.problem == "direct"
+    none: dict[str, Any] = {"within": None, "outside": []}
+    if not limits_stated(record) or not found.solutions:
+        return [none] * len(found.solutions)
+    floats = list((position.direct if direct else position.inverse)(record, found.given))
+    rows = np.array([one.pose if direct else one.inputs for one in floats])
+    names = record.platform.pose
+    same = np.array([is_angle(name) for name in names]) if direct else periodic_inputs(record)
+    lengths = [name in LENGTHS for name in names] if direct else [k.coordinate.kind == "length" for k in record.inputs]
+    sizes = np.where(lengths, characteristic_length(record), 1.0)
+    kept = []
+    for item in found.solutions:
+        change = rows - (item.pose if direct else item.inputs).middle
+        change = np.where(same, np.remainder(change + np.pi, 2 * np.pi) - np.pi, change)
+        away = np.max(np.abs(change) / sizes, axis=-1) if len(rows) else np.array([np.inf])
+        k = int(np.argmin(away))
+        kept.append(limits_at_border(record, floats[k]) if away[k] < THERE else none)
+    return kept
 
 
 def _solution(found: CertifiedSolutions, item: ProvedSolution) -> dict[str, Any]:
