@@ -64,52 +64,62 @@ VALUES = (
     *("x=0:1,x=0:2", "all", "+", "++-++", "0", "+++++/0", "~Pa1", "../x", "/dev/zero", "/dev/stdin", ".", "\x1b[2J"),
     *("\u202ex", "a" * 5000, "9" * 400, "1e-320", "zeng2019", "fivebar", "nowhere.toml", "R[x]", "{R[x] | ", "P[q]"),
 )
-QUICK = {
-    "direct": ("--mode", "--method", "--set", "--crossed", "--certify", "--json"),
-    "inverse": ("--mode", "--method", "--set", "--crossed", "--certify", "--json"),
-    "singularity": ("--pose", "--joints", "--mode", "--set", "--json"),
-    "indices": ("--pose", "--mode", "--length", "--set", "--json"),
-    "follow": ("--from", "--to", "--mode", "--json"),
-    "topology": ("--chain", "--actuate", "--mode", "--latex", "--json"),
-    "show": ("--set", "--json"),
-    "check": ("--set", "--json"),
-    "verify": ("--mechanism", "--json"),
-    "list": ("--json", "--set"),
-    "schema": ("--json",),
-    "export": ("--format", "-o", "--json"),
-    "new": ("--from", "--chain", "--force"),
-}
-"""Commands that are done at once, with options to be tried."""
-LONG = {
-    "workspace": ("--box", "--stroke", "--section", "--gap", "--finest", "--prove", "--largest", "--around", "--boxes"),
-    "aspects": ("--mode", "--box", "--finest", "--from", "--to"),
-    "certify": ("--kind", "--box", "--gap", "--finest", "--most", "--from", "--to"),
-    "sweep": ("--along", "--keep", "--threads", "--mode"),
-    "synthesize": ("--motion", "--limbs", "--max-joints", "--coupling", "--actuators", "--top"),
-    "figures": ("--only", "--format", "-o"),
-    "report": ("-o",),
-    "page": ("-o",),
-    "motion": ("-o", "--to", "--frames"),
-    "collisions": ("-o", "--to"),
-    "crosscheck": ("--samples", "--seed", "--engine"),
-}
-"""Commands that may take long: they are given an option that there is not as well."""
-MECHANISMS = ("fivebar", "zeng2019", "planar_3rrr", "delta_4s", "nobody", "nowhere.toml", "")
+LINES = (
+    *("direct fivebar 127 53 --mode + --method loops", "direct zeng2019 162.7 -143.3 -24.7 --set l2=300 --json"),
+    *("direct fivebar 127 53 --certify --json", "direct planar_3rrr 10 20 30 --crossed"),
+    *("inverse fivebar 0 200 --mode=-+ --json", "inverse zeng2019 -15.5 9.7 456.3 --mode ++-++ --certify"),
+    *("inverse planar_3rpr 10 20 5 --set r=20", "follow fivebar --to 20,200 --from 0,200 --mode=-+"),
+    *("singularity fivebar --pose 0 200 --mode=-+", "singularity zeng2019 --pose 0 0 400 --mode ++-++ --json"),
+    *("indices fivebar --pose 0 200 --mode=-+ --json", "topology tripteron --actuate 1.1,2.1,3.1 --json"),
+    *("topology --chain R[z]R[z]R[z] --chain R[z]R[z]R[z] --latex", "topology --chain C[x]R[x]R[x] --mode home"),
+    *(
+        "show zeng2019 --set l2=300 --json",
+        "check fivebar --set l1=110 --json",
+        "list --json",
+        "schema",
+        "cache --json",
+    ),
+    *(
+        "verify c.json --mechanism fivebar --json",
+        "export fivebar --format mjcf -o m.xml",
+        "new my.toml --from fivebar",
+    ),
+    *("new my.toml --chain R[z]R[z]R[z] --chain R[z]R[z]R[z] --force", "audit fivebar --json"),
+    *("workspace fivebar --mode=-+ --resolution 8 --box x=-10:10 --stroke 0:180 --section 200 --near 5 --json",),
+    *("workspace fivebar --mode=-+ --prove x=-10:10,y=200:210 --boxes 500", "workspace fivebar --certify --gap 0.1"),
+    *("workspace fivebar --mode=-+ --largest cylinder --around x=0,y=200 --ratio 1", "aspects fivebar --finest 60"),
+    *(
+        "aspects fivebar --mode=-+ --finest 60 --from 0,200 --to 10,210 --box x=-50:50",
+        "certify fivebar -o c.json --most 9",
+    ),
+    *("certify fivebar -o c.json --kind box --box x=-10:10 --most 9 --gap 0.1 --finest 0.1 --resume",),
+    *("sweep fivebar --along x=3 --along y=3 -o out --keep status --threads 1", "synthesize --max-joints 2 --top 3"),
+    *("synthesize --motion 3T --limbs 3 --coupling 0..1 --actuators leg --max-joints 2 --symmetric --toml out",),
+    *("figures fivebar --only structure --format svg -o out",),
+)
+"""Command lines that are done in a moment and mean something."""
 
 
 def command_line(seed: int) -> list[str]:
-    """Words of a command line with values by chance."""
+    """Words of a command line, one or two of them by chance another value, cut short, left out or doubled."""
     rng = random.Random(seed)
-    command = rng.choice([*QUICK, *QUICK, *LONG])
-    options = QUICK.get(command) or LONG[command]
-    words = [command]
-    if command not in ("list", "schema", "synthesize") and rng.random() < 0.9:
-        words.append(rng.choice((*MECHANISMS, rng.choice(VALUES))))
-    if command in ("direct", "inverse", "new"):
-        words += [rng.choice((*VALUES, "10", "20", "200")) for _ in range(rng.randint(0, 4))]
-    for _ in range(rng.randint(0, 3)):
-        words += [rng.choice(options), *(rng.choice((*VALUES, "10,200")) for _ in range(rng.randint(0, 1)))]
-    return [*words, "--nothing-like-it"] if command in LONG else words
+    words = rng.choice(LINES).split()
+    for _ in range(rng.randint(1, 2)):
+        at = rng.randrange(1, len(words)) if len(words) > 1 else 0
+        word, value = words[at], rng.choice(VALUES)
+        cut = rng.randrange(len(word) + 1)
+        match rng.randrange(6):
+            case 0 | 1:
+                words[at] = value
+            case 2:
+                words[at] = word[:cut] + value + word[cut:]
+            case 3:
+                words[at] = re.sub(r"-?[0-9]+(?:[.][0-9]+)?", lambda _, value=value: value, word, count=1)
+            case 4:
+                del words[at]
+            case _:
+                words.insert(at, word)
+    return words
 
 
 def forged(document: dict[str, Any], seed: int) -> tuple[bytes, bool]:
