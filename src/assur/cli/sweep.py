@@ -1,4 +1,4 @@
-"""`assur sweep`: a grid of poses or inputs, of any size, solved in closed form into files."""
+"""`assur sweep`: a grid of poses or inputs, of any size, solved into files; in parts, and on many machines."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def sweep(
     repair: Annotated[bool, Parameter(help="Compute again what is damaged in the folder.")] = False,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
-    r"""Solve a grid of poses or inputs in closed form, into files.
+    r"""Solve a grid of poses or inputs, into files.
 
     Any number of poses, 10^9 too: memory is that of a few blocks, and what the
     files will take is told before. After Ctrl-C (exit code 130), or a kill, the
@@ -62,7 +62,8 @@ def sweep(
     (exit code 3), and --repair computes it again. A folder of another grid is
     refused. --along and --at are given once per coordinate, or with commas
     between; lengths and angles are in the mechanism's units, in the files too.
-    Where there is no solution the numbers are NaN.
+    Where there is no solution the numbers are NaN. Without a closed form poses
+    are followed to from home, and one that is not reached so is undecided.
 
     Beyond one machine: --shard 2/7 works out a part, --merge joins the parts to
     the bytes of a single run; --scheduler uses a Dask cluster (pip install
