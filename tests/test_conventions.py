@@ -46,7 +46,7 @@ def test_it_prints_the_tolerances_of_topology():
 
 def test_it_lists_the_exit_code_of_every_error():
     listed = {int(cells[0]) for cells in rows("Command line")}
-    kinds = [kind for kind in vars(errors).values() if isinstance(kind, type) and issubclass(kind, Exception)]
+    kinds = [kind for kind in vars(errors).values() if isinstance(kind, type) and issubclass(kind, errors.AssurError)]
     assert {kind.exit_code for kind in kinds} <= listed
     assert listed == {0, 1, 2, 3, 4, 5, 6, 70, 130}
 
