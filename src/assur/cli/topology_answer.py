@@ -196,6 +196,9 @@ def _decoupling(found: Topology, say: Said) -> Iterator[RenderableType]:
     matrix = found.decoupling
     if matrix is None and not found.loops:
         return
+    if matrix is None and found.decoupling_refusal:
+        yield say(f"No answer: {found.decoupling_refusal}.")
+        return
     if matrix is None:
         yield say(f"The inputs do not determine the platform: {found.actuation}.")
         return

@@ -15,7 +15,7 @@ from assur.errors import UsageError
 from assur.topology.chains import Chain
 from assur.topology.counting.actuation import actuation
 from assur.topology.counting.coupling import Loop, coupling
-from assur.topology.counting.decoupling import Decoupling, by_jacobian, confirmed
+from assur.topology.counting.decoupling import Decoupling, Judged, by_jacobian, judged
 from assur.topology.counting.decoupling import by_rules as decoupled_by_rules
 from assur.topology.counting.mobility import Mobility, mobility
 from assur.topology.counting.relaxation import relaxation
@@ -142,7 +142,7 @@ def analyse(
     rules = as_the_limbs_are(rules, limbs)
     order = coupling(here.collapsed, collapsed.internal)
     check_xi(chains or (), [limb.here for limb in limbs], order.loops, held=held)
-    decoupling = by_jacobian(here.collapsed, base, platform)
+    decoupling = _decoupling(by_jacobian(here.collapsed, base, platform), chains, still)
     plan = solution_plan(order, here.collapsed, base, platform)
     solvable = not plan.free
     return Topology(
@@ -162,8 +162,8 @@ def analyse(
         redundant_constraints=RedundantConstraints(collapsed.redundant_constraints, whole.redundant_constraints),
         redundant_by_loop=(*_of_loops(order.loops), *_of_parallelograms(here)),
         inputs=_input_names(here),
-        decoupling=decoupling,
-        decoupling_refusal=_decoupling_refusal(decoupling, chains, still),
+        decoupling=decoupling.decoupling,
+        decoupling_refusal=decoupling.refusal,
         plan=plan,
         linkage=linkage,
         notes=(*notes, SPECIAL) if here.special else notes,
@@ -173,13 +173,13 @@ def analyse(
     )
 
 
-def _decoupling_refusal(found: Decoupling | None, chains: Sequence[Chain] | None, still: bool) -> str:
-    """Why the theory does not confirm the Jacobian's pattern; empty where it does, or where there is none."""
-    if found is None:
-        return ""
+def _decoupling(twists: Decoupling | None, chains: Sequence[Chain] | None, still: bool) -> Judged:
+    """The Jacobian's pattern, and why the theory does not confirm it where it does not."""
+    if twists is None:
+        return Judged(None)
     if chains is None or not still:
-        return "the platform turns" if chains else "the joint graph has no limbs"
-    return confirmed(decoupled_by_rules(chains, found.inputs), found)
+        return Judged(twists, "the platform turns" if chains else "the joint graph has no limbs")
+    return judged(decoupled_by_rules(chains, twists.inputs), twists)
 
 
 def _limbs(here: Sample, chains: Sequence[Chain], rules: Rules) -> list[KnownLimb]:

@@ -47,6 +47,7 @@ def answers(found: Topology) -> dict[str, Any]:
         "inputs": list(decoupling.inputs if decoupling else found.inputs),
         "outputs": list(decoupling.outputs) if decoupling else [],
         "decoupling": [list(row) for row in decoupling.depends] if decoupling else None,
+        "decoupling_refusal": found.decoupling_refusal,
         "actuation": _actuation(found),
         "relaxation": _relaxation(found),
         "plan": {

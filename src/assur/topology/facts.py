@@ -69,8 +69,8 @@ class Topology:
         assur_chains: each with the indices of its loops.
         redundant_by_loop: 6 - xi of each loop in that order, then of the loop inside each parallelogram, by name; all
             together are those of the joint graph.
-        decoupling: None where the inputs do not determine the platform.
-        decoupling_refusal: why the theory does not confirm that pattern, empty where it does.
+        decoupling: None where the inputs do not determine the platform, or where the two routes differ on it.
+        decoupling_refusal: why the theory does not confirm that pattern, or what each route says; empty where it does.
         linkage: what the twists were computed on.
     """
 

@@ -11,8 +11,9 @@ import pytest
 import assur
 from assur.kinematics.structure import linkage as structure
 from assur.numerics.rotations import to_vector
-from assur.topology.agreement import RoutesDisagreeError
-from assur.topology.counting.decoupling import Decoupling, by_jacobian, by_rules, confirmed, jacobian
+from assur.topology import analysis
+from assur.topology.answers import answers
+from assur.topology.counting.decoupling import Decoupling, Judged, by_jacobian, by_rules, jacobian, judged
 from assur.topology.counting.inputs import default_inputs
 from assur.topology.linkages.configurations import configurations
 from assur.topology.linkages.edges import Edge, along, closure, column_names, input_columns, null_basis
@@ -208,7 +209,7 @@ def test_the_rules_give_the_pattern_of_the_jacobian(name, inputs):
     found = by_jacobian(edges(linkage, values), "base", "platform")
     assert list(found.inputs) == inputs
     assert by_rules(parse_chains(MECHANISMS[name]), inputs) == found
-    assert confirmed(by_rules(parse_chains(MECHANISMS[name]), inputs), found) == ""
+    assert judged(by_rules(parse_chains(MECHANISMS[name]), inputs), found) == Judged(found)
 
 
 def test_a_component_of_a_joint_is_locked_and_the_other_stays():
@@ -219,10 +220,11 @@ def test_a_component_of_a_joint_is_locked_and_the_other_stays():
     assert rotation.depends[0] == (True, True)  # the C still slides along x whatever is locked
     assert rotation.depends[1] == (False, True)
     leg = parse_chains(["P[x] P[y] P[z]", "U[x,y] P[z] U[y,x]"])
-    first = by_rules(leg, ["P1", "U1.1"])  # with U1.1 locked the leg moves across y, with U1.2 locked across x
-    assert (first.outputs, first.depends) == (("x", "y", "z"), ((True, False), (False, True), (True, True)))
+    # U1.1 is locked anywhere, and the leg moves across an axis anywhere across x
+    first = by_rules(leg, ["P1", "U1.1"])
+    assert (first.outputs, first.depends) == (("x", "y", "z"), ((True, False), (True, True), (True, True)))
+    # U1.2 is locked anywhere too, so the slide behind it points anywhere
     second = by_rules(leg, ["P1", "U1.2"])
-    # U1.2 is locked anywhere, so the slide behind it points anywhere across y
     assert (second.outputs, second.depends) == (("x", "y", "z"), ((True, False), (True, True), (True, True)))
 
 
@@ -240,13 +242,49 @@ def test_a_limb_without_joints_left_is_not_decided():
 
 def test_what_the_theory_promises_must_hold():
     rules = Decoupling(("x", "y"), ("P1", "P2"), ((True, False), (True, True)))
-    assert confirmed(rules, rules) == ""
-    assert confirmed(Refusal("because"), rules) == "because"
+    assert judged(rules, rules) == Judged(rules)
+    assert judged(Refusal("because"), rules) == Judged(rules, "because")
     fewer = dataclasses.replace(rules, depends=((True, False), (False, True)))
-    assert "more than the topology promises" in confirmed(rules, fewer)
+    assert judged(rules, fewer) == Judged(fewer, "the dimensions decouple more than the topology promises")
     more = dataclasses.replace(rules, depends=((True, True), (True, True)))
-    with pytest.raises(RoutesDisagreeError, match="x does not depend on P2"):
-        confirmed(rules, more)
+    refused = judged(rules, more)
+    assert refused.decoupling is None
+    assert "the rules say that x does not depend on P2, the twists say that it does" in refused.refusal
     other = Decoupling(("x", "y", "rz"), ("P1", "P2"), ((True, False), (True, True), (True, False)))
-    with pytest.raises(RoutesDisagreeError, match="rz does not depend on P1"):
-        confirmed(rules, other)
+    assert "rz does not depend on P1" in judged(rules, other).refusal
+
+
+def three(text):
+    """Three limbs with axes a (radial) and t (tangential), turned about z."""
+    turns = ((1.0, 0.0), (-0.5, 0.8660254037844386), (-0.5, -0.8660254037844386))
+    return [text.replace("a", f"{c},{s},0").replace("t", f"{-s},{c},0") for c, s in turns]
+
+
+LOCKED_AWAY_FROM_HOME = {
+    "an axis turned back before the one that is locked": (
+        ["R[x] R[x] P(4R)[z] R[x]", "C[x] R[x] R[x]", "P[y] R[y] P(4R)[x] R[y]"],
+        ["2.3", "3.4", "2.2"],
+    ),
+    "3-RER": (three("R[t] R[a] R[a] R[a] R[t]"), None),
+    "3-RER of a wrist": (three("R[a]@O R[t] R[t] R[t] R[a]@Q"), None),
+    "3-RRPRR": (three("R[t] R[0,0,1] P[a] R[0,0,1] R[t]"), None),
+}
+
+
+@pytest.mark.parametrize("name", LOCKED_AWAY_FROM_HOME)
+def test_a_locked_joint_keeps_the_angle_that_it_has_and_not_that_at_home(name):
+    texts, actuate = LOCKED_AWAY_FROM_HOME[name]
+    found = assur.topology(texts, actuate=actuate, mode="translation")
+    assert (found.actuation.verdict, found.decoupling_refusal) == ("valid", "")
+    assert found.decoupling is not None
+
+
+def test_a_disagreement_on_decoupling_leaves_everything_else(monkeypatch):
+    wrong = Decoupling(("x", "y", "z"), ("P1", "P2", "P3"), ((True, False, False),) * 3)
+    monkeypatch.setattr(analysis, "decoupled_by_rules", lambda *_: wrong)
+    found = assur.topology(PAPER)
+    assert (str(found.poc), found.dof, found.xi, found.coupling_degree) == ("t³ r⁰", 3, (3, 5), 1)
+    assert found.decoupling is None
+    assert "the rules say that x does not depend on P2, the twists say that it does" in found.decoupling_refusal
+    assert answers(found)["decoupling"] is None
+    assert answers(found)["decoupling_refusal"] == found.decoupling_refusal

@@ -7,6 +7,7 @@ import pytest
 from assur.topology.notation import parse_chain, parse_chains
 from assur.topology.rules.intersection import parallel
 from assur.topology.rules.locking import ANYWHERE, locked
+from assur.topology.rules.refusals import Refusal
 from assur.topology.rules.union import serial
 
 
@@ -58,6 +59,44 @@ def test_without_an_axis_that_turns_back_the_end_link_has_not_turned(text):
     last = {"R2"} if text.count("R[z]") == 2 else {"R1"}
     slide = next(item for item in _left(text, last) if item.name == "P1")
     assert slide.axes == ((1.0, 0.0, 0.0),)
+
+
+def test_what_stands_before_a_locked_axis_is_turned_by_the_parallel_one_that_turns_it_back():
+    parallelogram = _left("R[y] P(4R)[x] R[y]", {"R2"})[1]
+    assert parallelogram.axis == pytest.approx((math.cos(ANYWHERE), 0.0, -math.sin(ANYWHERE)))
+
+
+def test_limbs_are_not_displaced_alike():
+    one, other = (locked(parse_chain("R[z] P[x] R[z]").elements, {"R1"}, limb)[0].axes[0] for limb in (0, 1))
+    assert math.acos(sum(a * b for a, b in zip(one, other, strict=True))) > 0.1
+
+
+def test_behind_a_ball_joint_axes_are_turned_from_the_end_link():
+    first, second = (item for item in _left("R[z] P[x] S P[x] R[z]", {"R1"}) if item.name.startswith("P"))
+    assert first.axes[0] == pytest.approx((math.cos(ANYWHERE), math.sin(ANYWHERE), 0.0))
+    assert second.axes[0][2] == pytest.approx(0.0)
+    assert abs(second.axes[0][0]) < 0.99
+
+
+def test_axes_that_met_are_apart_where_a_locked_joint_stands_between():
+    first, second = _left("R[x]@A R[y] R[z]@A", {"R2"})
+    assert first.point != second.point
+    first, second = _left("R[x]@A R[y]@A R[z]@A", {"R2"})
+    assert first.point == second.point
+
+
+@pytest.mark.parametrize("text", ["R[x] R[y] R[x] R[y]", "R[x] R[y] R[z] R[1,1,0]", "R[x] R[y] R[1,1,0]"])
+def test_a_limb_with_several_ways_back_to_its_orientation_is_refused(text):
+    refusal = locked(parse_chain(text).elements, {"R1"})
+    assert isinstance(refusal, Refusal)
+    assert "several ways" in refusal.reason
+
+
+def test_a_joint_locked_inside_a_planar_loop_leaves_its_branches_displaced():
+    loop = _left("{R[z] P[x] R[z] | R[z] R[z] R[z]} R[z]", {"R1"})[0]
+    assert abs(loop.branches[0][0].axes[0][0]) < 0.99  # the slide is turned by the locked axis before it
+    apart = locked(parse_chain("{R[z] P[x] R[x] | R[z] P[x] R[x]}").elements, {"R1"})
+    assert isinstance(apart, Refusal)
 
 
 def test_parallelograms_and_loops_behind_a_locked_axis_turn_too():

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.chains import Chain
 from assur.topology.directions import NAMED
 from assur.topology.linkages.edges import Edge, along, at_generic, closure, column_names, input_columns, null_basis
@@ -100,10 +99,12 @@ def by_rules(chains: Sequence[Chain], inputs: Sequence[str]) -> Decoupling | Ref
     """
     columns = []
     for name in inputs:
-        left = [locked(chain.elements, set(inputs) - {name}) for chain in chains]
-        if not all(left):
-            return Refusal(f"a limb has no joint left when every input but {name} is locked")
-        limbs = [serial(elements, "translation") for elements in left]
+        limbs: list[Motion | Refusal] = []
+        for number, chain in enumerate(chains):
+            left = locked(chain.elements, set(inputs) - {name}, number)
+            if not left:
+                return Refusal(f"a limb has no joint left when every input but {name} is locked")
+            limbs.append(left if isinstance(left, Refusal) else serial(left, "translation"))
         found = _meeting(limbs)
         if isinstance(found, Refusal):
             return found
@@ -114,23 +115,29 @@ def by_rules(chains: Sequence[Chain], inputs: Sequence[str]) -> Decoupling | Ref
     return Decoupling(tuple(OUTPUTS[index] for index in kept), tuple(inputs), tuple(used[index] for index in kept))
 
 
-def confirmed(rules: Decoupling | Refusal, twists: Decoupling) -> str:
-    """Why the rules do not decide the pattern of the Jacobian; empty where both routes give the same.
+@dataclass(frozen=True)
+class Judged:
+    """The pattern, None where the routes differ; `refusal` says why the rules do not confirm it."""
+
+    decoupling: Decoupling | None
+    refusal: str = ""
+
+
+def judged(rules: Decoupling | Refusal, twists: Decoupling) -> Judged:
+    """The pattern of the Jacobian, unless the rules promise a zero where it has none: then neither is chosen.
 
     A pattern with more zeros than the theory promises is due to dimensions.
-
-    Errors:
-        RoutesDisagreeError: an entry that the theory promises to be zero is not.
     """
     if isinstance(rules, Refusal):
-        return rules.reason
+        return Judged(twists, rules.reason)
     for output, row in zip(twists.outputs, twists.depends, strict=True):
         allowed = rules.inputs_of(output) if output in rules.outputs else ()
         for name, used in zip(twists.inputs, row, strict=True):
             if used and name not in allowed:
-                raise RoutesDisagreeError(f"decoupling: the rules say that {output} does not depend on {name}, it does")
+                reason = f"the rules say that {output} does not depend on {name}, the twists say that it does"
+                return Judged(None, f"{reason}; one of them is wrong there, and neither is chosen")
     same = (rules.outputs, rules.depends) == (twists.outputs, twists.depends)
-    return "" if same else "the dimensions decouple more than the topology promises"
+    return Judged(twists, "" if same else "the dimensions decouple more than the topology promises")
 
 
 def _meeting(limbs: Sequence[Motion | Refusal]) -> Motion | Refusal:

@@ -1,55 +1,84 @@
 """Chains with some joints locked: what is left, in a general configuration.
 
-A locked joint is a rigid piece of its chain, but it is locked anywhere, not only as written. So what a locked axis
-has turned goes on pointing in another direction: everything up to the next axis parallel to it, which turns back
-because the end link keeps its orientation.
+A locked joint is a rigid piece of its chain, but it keeps the angle that it has in some general configuration, not the
+one as written. So the chain is displaced first, its end link held in its orientation: parallel axes turn, each by
+an angle of its own, and what stands between the first and the last of them is turned with them. Then joints are locked.
 """
 
 from __future__ import annotations
 
 import dataclasses
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
 
 from assur.topology.chains import ChainJoint, Element, InnerLoop, Parallelogram
-from assur.topology.directions import Vector
+from assur.topology.directions import Vector, span
 from assur.topology.joints import CYLINDRICAL, PRISMATIC, REVOLUTE
-from assur.topology.rules.vectors import aligned, rotated
+from assur.topology.rules.motion import Motion
+from assur.topology.rules.refusals import Refusal
+from assur.topology.rules.union import inner_loop
+from assur.topology.rules.vectors import AXES, aligned, rotated
 
 ANYWHERE = 0.7
-"""Angle (rad) by which a locked axis is turned: no part of a right angle, or of an angle between common axes."""
+"""Angle (rad) by which the first axis is turned: no part of a right angle, or of an angle between common axes."""
+
+FURTHER = 0.31
+"""Each axis after it is turned by so much more (rad), so that no two links turn alike."""
+
+ELSEWHERE = 0.23
+"""The first axis of each limb after the first is turned by so much more (rad): symmetry at home is no law."""
+
+SEVERAL_WAYS = "a limb can keep the orientation of its end in several ways, so its axes have no general place"
 
 
-def locked(elements: Sequence[Element], names: Collection[str]) -> tuple[Element, ...]:
+def locked(elements: Sequence[Element], names: Collection[str], limb: int = 0) -> tuple[Element, ...] | Refusal:
     """The elements that still move, from base to end link, where some joints are locked.
 
     Args:
         elements: of a chain whose end link keeps its orientation.
         names: of joints, "P1", or of one of two freedoms, "C1.1" (of a C the translation, of a U the first axis).
+        limb: its number in the mechanism, so that equal limbs are not displaced alike.
 
     Returns:
-        What is left; nothing of an inner loop that a branch without joints holds.
+        What is left, at a general configuration; nothing of an inner loop that a branch without joints holds. Or why
+        that is not known.
 
     >>> from assur.topology.notation import parse_chain
     >>> chain = parse_chain("R[z] P[x] R[z] C[x]")
     >>> [item.name for item in locked(chain.elements, {"R1", "C1.1"})]
     ['P1', 'R2', 'C1']
     """
+    there = _displaced(elements, names, ANYWHERE + ELSEWHERE * limb)
+    return there if isinstance(there, Refusal) else _left(there, names)
+
+
+def _left(elements: Sequence[Element], names: Collection[str]) -> tuple[Element, ...]:
+    """The elements that are not locked; axes that met in a point do not where a locked joint moved one of them off."""
     left: list[Element] = []
-    turned: Vector | None = None
-    for index, element in enumerate(elements):
-        left += _left_of(element if turned is None else _turned(element, turned), names)
-        if turned is not None and _comes_back([element], turned):
-            turned = None
-        stopped = _locked_axis(element, names)
-        if stopped is not None and _comes_back(elements[index + 1 :], stopped):
-            turned = stopped
+    seen: set[str] = set()
+    apart: set[str] = set()
+    for element in elements:
+        point = element.point if isinstance(element, ChainJoint) else ""
+        if point in apart and isinstance(element, ChainJoint):
+            element = dataclasses.replace(element, point=f"{point}'")
+        left += _left_of(element, names)
+        seen.add(point)
+        if _is_touched(element, names):
+            apart |= seen - {point}
     return tuple(left)
+
+
+def _is_touched(element: Element, names: Collection[str]) -> bool:
+    """Whether a joint, or some joint of a loop, is locked."""
+    if isinstance(element, InnerLoop):
+        return any(_is_touched(item, names) for branch in element.branches for item in branch)
+    return any(name in names for name in (element.name, f"{element.name}.1", f"{element.name}.2"))
 
 
 def _left_of(element: Element, names: Collection[str]) -> list[Element]:
     """One element, or the part of it that is not locked."""
     if isinstance(element, InnerLoop):
-        branches = tuple(locked(branch, names) for branch in element.branches)
+        branches = tuple(_left(branch, names) for branch in element.branches)
         return [InnerLoop(branches, element.name)] if all(branches) else []
     if element.name in names:
         return []
@@ -65,37 +94,205 @@ def _left_of(element: Element, names: Collection[str]) -> list[Element]:
     return [dataclasses.replace(element, type=PRISMATIC, point="")]
 
 
-def _locked_axis(element: Element, names: Collection[str]) -> Vector | None:
-    """The last axis of a joint, if it is locked."""
-    if not isinstance(element, ChainJoint) or not element.axes or element.type is PRISMATIC:
-        return None
-    return element.axes[-1] if element.name in names or f"{element.name}.2" in names else None
+# ---- a general configuration ----------------------------------------------------------------------------------
 
 
-def _comes_back(elements: Sequence[Element], axis: Vector) -> bool:
-    """Whether something turns back what a locked axis has turned: a parallel axis, or a ball joint."""
-    return any(other is None or aligned(other, axis) for other in _axes_of_turns(elements))
+@dataclass(frozen=True)
+class _Turn:
+    """A rotation of a chain: about an axis as written, or about every axis (None, a ball joint)."""
+
+    axis: Vector | None
 
 
-def _axes_of_turns(elements: Sequence[Element]) -> Iterator[Vector | None]:
-    """Axes about which some elements turn, in order; None for any axis."""
+@dataclass
+class _Block:
+    """Parallel axes, around what stands between them: the places of its turns in the chain."""
+
+    axis: Vector
+    places: list[int]
+
+
+def _displaced(elements: Sequence[Element], names: Collection[str], first: float) -> tuple[Element, ...] | Refusal:
+    """The chain where its axes are turned by general angles, the first as given, and its end link is not turned."""
+    turns = _turns_of(elements)
+    if isinstance(turns, Refusal):
+        return turns
+    word = [turn.axis for some in turns for turn in some]
+    angles = _angles(word, first)
+    if isinstance(angles, Refusal):
+        return angles
+    found: list[Element] = []
+    active: list[tuple[Vector, float]] = []
+    backwards = _after_ball(word, angles)
+    place = 0
+    for element, some in zip(elements, turns, strict=True):
+        ball = any(turn.axis is None for turn in some)
+        if ball:
+            active = backwards
+            place += len(some)
+            found.append(element)
+            continue
+        inner = [(axis, angles[place + index]) for index, axis in enumerate(word[place : place + len(some)]) if axis]
+        moved = _turned(element, active, [angle for _, angle in inner], names, first)
+        if isinstance(moved, Refusal):
+            return moved
+        found.append(moved)
+        for axis, angle in inner:
+            active = _followed(active, axis, angle)
+        place += len(some)
+    return tuple(found)
+
+
+def _turns_of(elements: Sequence[Element]) -> list[list[_Turn]] | Refusal:
+    """The rotations of each element, in order."""
+    turns: list[list[_Turn]] = []
     for element in elements:
         if isinstance(element, InnerLoop):
-            yield from _axes_of_turns(element.branches[0])
+            motion = inner_loop(element)
+            if not isinstance(motion, Motion):
+                return motion
+            if motion.rotations.dim > 1 or not motion.rotations.is_fixed:
+                return Refusal("an inner loop has several rotations, or one whose axis turns")
+            turns.append([_Turn(axis) for axis in motion.rotations.fixed])
         elif isinstance(element, Parallelogram):
-            if element.kind != "4R":
-                yield element.axis
-        elif element.type is not PRISMATIC:
-            yield from element.axes or (None,)
+            turns.append([] if element.kind == "4R" else [_Turn(element.axis)])
+        elif element.type is PRISMATIC:
+            turns.append([])
+        else:
+            turns.append([_Turn(axis) for axis in element.axes] or [_Turn(None)])
+    return turns
 
 
-def _turned(element: Element, axis: Vector) -> Element:
-    """An element behind a locked axis; what stands behind an axis that turns back is as written."""
+def _angles(word: Sequence[Vector | None], first: float) -> list[float] | Refusal:
+    """General angles of the turns of a chain that leave its end link unturned, those of ball joints left out as 0.
+
+    Parallel axes with nothing but whole blocks between them make a block, whose angles add up to zero. What is so found
+    must be all: as many freedoms as the axes as written have at first order.
+    """
+    angles = [first + FURTHER * index for index in range(len(word))]
+    if None in word:
+        return [0.0 if axis is None else angle for axis, angle in zip(word, angles, strict=True)]
+    axes = [axis for axis in word if axis is not None]
+    blocks = _blocks(axes)
+    free = sum(len(block.places) - 1 for block in blocks)
+    if free != len(axes) - (len(span(axes)) if axes else 0):
+        return Refusal(SEVERAL_WAYS)
+    for block in blocks:
+        *before, last = block.places
+        sense = [1.0 if _along(axes[index], block.axis) else -1.0 for index in block.places]
+        total = sum(way * angles[index] for way, index in zip(sense, before, strict=False))
+        angles[last] = -sense[-1] * total
+    return angles
+
+
+def _blocks(axes: Sequence[Vector]) -> list[_Block]:
+    """The axes as blocks, one inside another; an axis without a parallel one that it could turn with is its own."""
+    done: list[_Block] = []
+    opened: list[_Block] = []
+    for index, axis in enumerate(axes):
+        depth = next((k for k in reversed(range(len(opened))) if aligned(opened[k].axis, axis)), None)
+        if depth is None:
+            opened.append(_Block(axis, [index]))
+        else:
+            done += opened[depth + 1 :]
+            del opened[depth + 1 :]
+            opened[depth].places.append(index)
+    return [*done, *opened]
+
+
+def _along(first: Vector, second: Vector) -> bool:
+    """Whether two parallel axes point the same way."""
+    return sum(a * b for a, b in zip(first, second, strict=True)) > 0
+
+
+def _followed(active: Sequence[tuple[Vector, float]], axis: Vector, angle: float) -> list[tuple[Vector, float]]:
+    """Rotations in order from the base once one more follows; parallel neighbours are one, and vanish at zero."""
+    if not active or not aligned(active[-1][0], axis):
+        return [*active, (axis, angle)] if angle else list(active)
+    last, sum_of = active[-1]
+    total = sum_of + (angle if _along(last, axis) else -angle)
+    return [*active[:-1], (last, total)] if abs(total) > 1e-12 else list(active[:-1])  # rounding of a sum of angles
+
+
+def _after_ball(word: Sequence[Vector | None], angles: Sequence[float]) -> list[tuple[Vector, float]]:
+    """The rotations of the link behind the last ball joint: those behind it, turned back from the end link."""
+    behind: list[tuple[Vector, float]] = []
+    for axis, angle in zip(reversed(word), reversed(angles), strict=True):
+        if axis is None:
+            break
+        behind = _followed(behind, axis, -angle)
+    return behind
+
+
+def _turned(
+    element: Element,
+    active: Sequence[tuple[Vector, float]],
+    own: Sequence[float],
+    names: Collection[str],
+    first: float,
+) -> Element | Refusal:
+    """An element behind some rotations; its own angles displace its second axis, or the branches of a loop."""
     if isinstance(element, InnerLoop):
-        branches = tuple(tuple(_turned(item, axis) for item in branch) for branch in element.branches)
-        return InnerLoop(branches, element.name)
+        locked_turn = any(_is_touched(item, names) and _axes_of(item) for branch in element.branches for item in branch)
+        branches = []
+        for number, branch in enumerate(element.branches):
+            start = first + ELSEWHERE * (number + 1) / 2  # between the limbs
+            moved = _turned_branch(branch, own[0] if own else 0.0, start) if locked_turn else tuple(branch)
+            if isinstance(moved, Refusal):
+                return moved
+            branches.append(tuple(_rigidly(item, active) for item in moved))
+        return InnerLoop(tuple(branches), element.name)
+    if isinstance(element, Parallelogram) or len(element.axes) < 2:
+        return _rigidly(element, active)
+    near, far = element.axes
+    axes = (_direction(near, active), _direction(far, _followed(active, near, own[0])))
+    return dataclasses.replace(element, axes=axes)
+
+
+def _turned_branch(branch: Sequence[Element], net: float, first: float) -> tuple[Element, ...] | Refusal:
+    """A branch of a planar loop, its axes turned by general angles that add up to the turn of the output link."""
+    axes = [axis for item in branch for axis in _axes_of(item)]
+    if any(not aligned(axes[0], axis) for axis in axes) or any(isinstance(item, InnerLoop) for item in branch):
+        return Refusal("a joint is locked in an inner loop that is not planar")
+    moved: list[Element] = []
+    passed = 0
+    for item in branch:
+        angle = 0.0 if not passed else net if passed == len(axes) else first + FURTHER * passed
+        moved.append(_rigidly(item, [(axes[0], angle)] if angle else []))
+        passed += len(_axes_of(item))
+    return tuple(moved)
+
+
+def _axes_of(element: Element) -> tuple[Vector, ...]:
+    """Axes that a joint turns about; three at right angles for a ball joint, none for a slide or a 4R parallelogram."""
+    if isinstance(element, InnerLoop):
+        return tuple(_axes_in(element.branches[0]))
     if isinstance(element, Parallelogram):
-        return dataclasses.replace(element, axis=rotated(element.axis, axis, ANYWHERE))
-    if element.type is not PRISMATIC and element.axes and aligned(element.axes[0], axis):
+        return () if element.kind == "4R" else (element.axis,)
+    return () if element.type is PRISMATIC else element.axes or AXES
+
+
+def _axes_in(elements: Sequence[Element]) -> Iterator[Vector]:
+    for element in elements:
+        yield from _axes_of(element)
+
+
+def _rigidly(element: Element, active: Sequence[tuple[Vector, float]]) -> Element:
+    """An element that is turned as a whole."""
+    if not active:
         return element
-    return dataclasses.replace(element, axes=tuple(rotated(item, axis, ANYWHERE) for item in element.axes))
+    if isinstance(element, InnerLoop):
+        return InnerLoop(
+            tuple(tuple(_rigidly(item, active) for item in branch) for branch in element.branches), element.name
+        )
+    if isinstance(element, Parallelogram):
+        return dataclasses.replace(element, axis=_direction(element.axis, active))
+    return dataclasses.replace(element, axes=tuple(_direction(axis, active) for axis in element.axes))
+
+
+def _direction(direction: Vector, active: Sequence[tuple[Vector, float]]) -> Vector:
+    """A direction behind rotations about axes as written, the first of them next to the base."""
+    for axis, angle in reversed(active):
+        if not aligned(axis, direction):
+            direction = rotated(direction, axis, angle)
+    return direction
