@@ -274,4 +274,12 @@ def _of_chains(
 ) -> Topology:
     names = numbered_inputs(chains, actuate) if actuate else default_inputs(chains)
     built = place(chains, actuated=names)
-    return analyse(built, chains, name=name, title=title, source=source, mode=mode, chosen=bool(actuate))
+    return analyse(
+        built,
+        chains,
+        name=name,
+        title=title,
+        source=source,
+        mode=mode,
+        inputs_by="given" if actuate else "first joints",
+    )

@@ -17,10 +17,11 @@ from assur.topology.counting.actuation import actuation
 from assur.topology.counting.coupling import Loop, coupling
 from assur.topology.counting.decoupling import Decoupling, Judged, by_jacobian, judged
 from assur.topology.counting.decoupling import by_rules as decoupled_by_rules
+from assur.topology.counting.drives import admissible_drives
 from assur.topology.counting.mobility import Mobility, mobility
 from assur.topology.counting.relaxation import relaxation
 from assur.topology.counting.solution_plan import solution_plan
-from assur.topology.facts import Known, Limb, RedundantConstraints, Topology
+from assur.topology.facts import InputsBy, Known, Limb, RedundantConstraints, Topology
 from assur.topology.linkages.configurations import Hold, home_is_special
 from assur.topology.linkages.edges import Edge, closure, rank
 from assur.topology.linkages.linkage import Linkage
@@ -29,9 +30,13 @@ from assur.topology.linkages.shared_points import point_of_platform
 from assur.topology.linkages.twists import dimensions, edges, generic_values, motion_space
 from assur.topology.notation import plain_text, symbolic_text
 from assur.topology.routes import KnownLimb, Rules, as_the_limbs_are, both, by_rules, check_xi, limb_known
+from assur.topology.rules.motion import Motion
+from assur.topology.rules.refusals import Refusal
 
 FloatArray = NDArray[np.float64]
 Mode = Literal["home", "translation"]
+
+ADMISSIBLE: InputsBy = "admissible set"
 
 COUNT = 4
 """Configurations, at least, at which ranks are taken."""
@@ -100,7 +105,7 @@ def analyse(
     title: str = "",
     source: str = "",
     mode: Mode = "home",
-    chosen: bool = True,
+    inputs_by: InputsBy = "given",
     notes: tuple[str, ...] = (),
 ) -> Topology:
     """Everything that the theory says of a linkage.
@@ -112,7 +117,8 @@ def analyse(
         title: for print.
         source: for print.
         mode: "home" for the motion that is reached from home, "translation" for a platform that keeps its orientation.
-        chosen: whether somebody chose the inputs; if not, those that are too many are left out, and a note says so.
+        inputs_by: whether somebody gave the inputs, or they are the first joints of the branches. Where these do not
+            determine a mechanism, an admissible set takes their place, and a note says so.
         notes: what to tell the reader beside the facts.
 
     Errors:
@@ -124,11 +130,21 @@ def analyse(
     base, platform = linkage.base, linkage.platform
     collapsed = mobility(here.collapsed, base, platform)
     whole = mobility(here.joints, base, platform)
-    allowed = max(collapsed.controlled, 0)
-    if len(linkage.inputs) > allowed and not chosen:
-        fewer = dataclasses.replace(linkage, inputs=linkage.inputs[:allowed])
-        notes = (*notes, _left_out(linkage, allowed))
-        return analyse(fewer, chains, name=name, title=title, source=source, mode=mode, notes=notes)
+    if inputs_by == "first joints" and collapsed.loops and not _are_valid(here):
+        inputs = admissible_drives(here.collapsed, linkage, chains or ())
+        if inputs is not None:
+            said = _driven_words(linkage, inputs)
+            driven = dataclasses.replace(linkage, inputs=inputs)
+            return analyse(
+                driven,
+                chains,
+                name=name,
+                title=title,
+                source=source,
+                mode=mode,
+                inputs_by=ADMISSIBLE,
+                notes=(*notes, said),
+            )
     refuse_too_many(linkage, collapsed)
     if mode == "translation" and len(chains or ()) != 1 and here.poc[1]:
         raise UsageError(
@@ -142,7 +158,7 @@ def analyse(
     rules = as_the_limbs_are(rules, limbs)
     order = coupling(here.collapsed, collapsed.internal)
     check_xi(chains or (), [limb.here for limb in limbs], order.loops, held=held)
-    decoupling = _decoupling(by_jacobian(here.collapsed, base, platform), chains, still)
+    decoupling = _decoupling(by_jacobian(here.collapsed, base, platform), chains, rules.platform, still=still)
     plan = solution_plan(order, here.collapsed, base, platform)
     solvable = not plan.free
     return Topology(
@@ -162,6 +178,7 @@ def analyse(
         redundant_constraints=RedundantConstraints(collapsed.redundant_constraints, whole.redundant_constraints),
         redundant_by_loop=(*_of_loops(order.loops), *_of_parallelograms(here)),
         inputs=_input_names(here),
+        inputs_by=inputs_by,
         decoupling=decoupling.decoupling,
         decoupling_refusal=decoupling.refusal,
         plan=plan,
@@ -173,12 +190,19 @@ def analyse(
     )
 
 
-def _decoupling(twists: Decoupling | None, chains: Sequence[Chain] | None, still: bool) -> Judged:
-    """The Jacobian's pattern, and why the theory does not confirm it where it does not."""
+def _decoupling(
+    twists: Decoupling | None, chains: Sequence[Chain] | None, platform: Motion | Refusal, *, still: bool
+) -> Judged:
+    """The Jacobian's pattern, and why the theory does not confirm it where it does not.
+
+    Where the rules do not know how the whole mechanism moves, they do not know it with joints locked either.
+    """
     if twists is None:
         return Judged(None)
     if chains is None or not still:
         return Judged(twists, "the platform turns" if chains else "the joint graph has no limbs")
+    if isinstance(platform, Refusal):
+        return Judged(twists, platform.reason)
     return judged(decoupled_by_rules(chains, twists.inputs), twists)
 
 
@@ -217,11 +241,25 @@ def _input_names(here: Sample) -> tuple[str, ...]:
     return tuple(found)
 
 
-def _left_out(linkage: Linkage, allowed: int) -> str:
-    names = [joint for joint, _ in linkage.inputs]
-    taken = f"only {', '.join(names[:allowed])}" if allowed else "nothing"
-    firsts = f"{', '.join(names)}, the first joints of the branches"
-    return f"actuated: {taken}, of {firsts}; {counted(allowed, 'degree')} of freedom"
+def _are_valid(here: Sample) -> bool:
+    """Whether the inputs determine the mechanism, and none is too many."""
+    return actuation(here.collapsed, here.linkage.base, here.linkage.platform, limit=0).verdict == "valid"
+
+
+def _driven_words(linkage: Linkage, inputs: Sequence[tuple[str, int]]) -> str:
+    """What is driven in the place of the first joints of the branches."""
+    firsts = ", ".join(joint for joint, _ in linkage.inputs) or "none that can be driven"
+    groups = {name: group for group in linkage.groups.values() for name in group.joints}
+    names = [groups[joint].name if joint in groups else joint for joint, _ in inputs]
+    if not inputs:
+        return f"actuated: nothing, for the platform does not move; the first joints of the branches: {firsts}"
+    if set(inputs) <= set(linkage.inputs):
+        count = counted(len(inputs), "degree")
+        return f"actuated: only {', '.join(names)}, of {firsts}, the first joints of the branches; {count} of freedom"
+    return (
+        f"actuated: {', '.join(names)}, an admissible set near the base, because the first joints of the branches "
+        f"({firsts}) do not determine the mechanism"
+    )
 
 
 def refuse_too_many(linkage: Linkage, found: Mobility) -> None:
@@ -229,8 +267,10 @@ def refuse_too_many(linkage: Linkage, found: Mobility) -> None:
     allowed = max(found.controlled, 0)
     if len(linkage.inputs) > allowed:
         names = ", ".join(joint for joint, _ in linkage.inputs)
+        internal = f" beside {counted(found.internal_freedoms, 'internal one')}" if found.internal_freedoms else ""
         raise UsageError(
-            f"{counted(len(linkage.inputs), 'actuated joint')} ({names}) for {counted(allowed, 'degree')} of freedom",
+            f"{counted(len(linkage.inputs), 'actuated joint')} ({names}) for {counted(allowed, 'degree')} of freedom"
+            f"{internal}",
             hint=f"actuate {allowed} of them: --actuate limb.joint,... with numbers from 1"
             if allowed
             else "the mechanism does not move: a limb has too few freedoms, or axes that do not go together",

@@ -45,6 +45,7 @@ def answers(found: Topology) -> dict[str, Any]:
         },
         "redundant_by_loop": dict(found.redundant_by_loop),
         "inputs": list(decoupling.inputs if decoupling else found.inputs),
+        "inputs_by": found.inputs_by,
         "outputs": list(decoupling.outputs) if decoupling else [],
         "decoupling": [list(row) for row in decoupling.depends] if decoupling else None,
         "decoupling_refusal": found.decoupling_refusal,

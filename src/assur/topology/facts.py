@@ -21,6 +21,10 @@ if TYPE_CHECKING:
 Route = Literal["both", "twists"]
 """By which routes a POC set is known: rules and twists, which agree, or twists alone where the rules refuse."""
 
+InputsBy = Literal["given", "first joints", "admissible set"]
+"""Who chose the inputs: the user or the file; else the first joint of each branch, or where these do not determine the
+mechanism an admissible set near the base, one joint for each limb where that is possible."""
+
 
 @dataclass(frozen=True)
 class Known:
@@ -69,6 +73,7 @@ class Topology:
         assur_chains: each with the indices of its loops.
         redundant_by_loop: 6 - xi of each loop in that order, then of the loop inside each parallelogram, by name; all
             together are those of the joint graph.
+        inputs_by: who chose the inputs.
         decoupling: None where the inputs do not determine the platform, or where the two routes differ on it.
         decoupling_refusal: why the theory does not confirm that pattern, or what each route says; empty where it does.
         linkage: what the twists were computed on.
@@ -93,6 +98,7 @@ class Topology:
     decoupling: Decoupling | None
     plan: SolutionPlan
     linkage: Linkage
+    inputs_by: InputsBy = "given"
     decoupling_refusal: str = ""
     notes: tuple[str, ...] = ()
     derive: Callable[[], tuple[Derivation, ...]] = field(repr=False, default=tuple)

@@ -16,8 +16,8 @@ from assur.topology.linkages.placing import place
 def inputs_for(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mode) -> tuple[tuple[str, ...], Topology]:
     """Names of actuated joints, as many as there are freedoms, that determine a mechanism; its topology with these.
 
-    By default the first P, R, H or C of each branch from the base; where these do not determine it, the set that does
-    and is spread most evenly over the limbs.
+    By default the first P, R, H or C of each branch from the base; where these do not determine it, an admissible set
+    near the base, of what a draft can drive.
 
     Errors:
         UsageError: a mechanism that does not move; named joints that do not determine it, or no set that does.
@@ -27,21 +27,24 @@ def inputs_for(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mod
     ('P1', 'P2', 'P3')
     """
     names = numbered_inputs(chains, actuate) if actuate else default_inputs(chains)
-    found = analyse(place(chains, actuated=names), chains, mode=mode, chosen=bool(actuate))
+    found = analyse(place(chains, actuated=names), chains, mode=mode, inputs_by="given" if actuate else "first joints")
     asked = found.actuation
     if not asked.needed:
         raise UsageError(
             f"the chains make a structure that does not move: {found.dof} degrees of freedom",
             hint=_why_rigid(chains),
         )
-    if asked.needed > found.poc.dim:
+    idle = sorted({joint for joints in found.internal_joints for joint in joints if joint in names})
+    if idle or asked.needed > found.poc.dim:
+        moving = ", ".join(idle) or "driven joints"
         raise UsageError(
-            f"{asked.needed} joints must be driven, but the platform has dimension {found.poc.dim}, {found.poc}: limbs "
-            "move while the platform stands still, so that no pose tells where the mechanism is",
+            f"the platform has dimension {found.poc.dim}, {found.poc}, but {moving} can move "
+            "while it stands still: limbs move by themselves, so that no pose tells where the mechanism is",
             hint="leave joints out of a limb, or add a limb",
         )
-    if asked.verdict == "valid":
-        return names[: asked.needed], found
+    driven = _first_components(found.inputs)
+    if asked.verdict == "valid" and driven is not None:
+        return (names if actuate else driven), found
     if actuate:
         raise UsageError(f"the actuated joints do not determine the mechanism: {asked.verdict}", hint=asked.hint)
     limb_of = {joint.name: number for number, chain in enumerate(chains) for joint in chain.joints}

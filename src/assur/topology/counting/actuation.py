@@ -20,6 +20,7 @@ from assur.topology.counting.mobility import AT_REST, motions
 from assur.topology.linkages.edges import Edge, column_names, input_columns, rank
 
 FloatArray = NDArray[np.float64]
+IndexArray = NDArray[np.intp]
 
 Verdict = Literal["valid", "too few", "too many", "dependent"]
 
@@ -131,7 +132,7 @@ def actuation(edges: Sequence[Edge], base: str, platform: str, limit: int = SETS
     found = motions(edges, base, platform)
     names, chosen = column_names(edges), input_columns(edges)
     needed = found.useful.shape[-1]
-    rows = _candidates(edges, found.internal)
+    rows = driven_columns(edges, found.internal)
     locked = rank(found.useful[:, chosen], scale=1.0)
     sets, possible = _admissible(found.useful[:, rows], limit)
     some, every = _in_sets(found.useful[:, rows])
@@ -156,24 +157,29 @@ def actuation(edges: Sequence[Edge], base: str, platform: str, limit: int = SETS
     )
 
 
-def _candidates(edges: Sequence[Edge], internal: FloatArray) -> list[int]:
-    """Columns that may be actuated."""
+def driven_columns(edges: Sequence[Edge], internal: FloatArray) -> list[int]:
+    """Columns that may be actuated: of edges with at most two freedoms, where internal freedoms (N, c, i) rest."""
     rests = np.max(np.abs(internal), axis=(0, 2), initial=0.0) < AT_REST
     single = np.repeat([edge.freedoms <= 2 for edge in edges], [edge.freedoms for edge in edges])
     return [int(column) for column in np.flatnonzero(rests & single)]
 
 
-def _admissible(rows: FloatArray, limit: int) -> tuple[list[tuple[int, ...]], int]:
-    """Sets of rows (N, m, d) that span everything, of the first sets of d, and how many sets of d there are."""
+def spanning(rows: FloatArray, sets: IndexArray) -> NDArray[np.bool_]:
+    """Whether sets (k, d) of rows (N, m, d) span everything, (k,)."""
     rows = rows[:2]
-    count, size = rows.shape[1:]
-    possible = comb(count, size)
     lengths = np.linalg.norm(rows, axis=-1, keepdims=True)
     unit = rows / np.where(lengths > AT_REST, lengths, np.inf)
+    spans: NDArray[np.bool_] = np.any(np.abs(np.linalg.det(unit[:, sets])) > DETERMINANT, axis=0)
+    return spans
+
+
+def _admissible(rows: FloatArray, limit: int) -> tuple[list[tuple[int, ...]], int]:
+    """Sets of rows (N, m, d) that span everything, of the first sets of d, and how many sets of d there are."""
+    count, size = rows.shape[1:]
+    possible = comb(count, size)
     tried = np.array(list(islice(combinations(range(count), size), limit)), dtype=int)
     tried = tried.reshape(min(possible, limit), size)
-    spans = np.any(np.abs(np.linalg.det(unit[:, tried])) > DETERMINANT, axis=0)
-    return [tuple(item) for item in tried[spans].tolist()], possible
+    return [tuple(item) for item in tried[spanning(rows, tried)].tolist()], possible
 
 
 def _in_sets(rows: FloatArray) -> tuple[list[int], list[int]]:
