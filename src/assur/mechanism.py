@@ -8,6 +8,7 @@ from __future__ import annotations
 import dataclasses
 import re
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, get_args
 
@@ -33,8 +34,10 @@ from assur.topology.analysis import Mode, analyse
 from assur.topology.chains import Chain
 from assur.topology.counting.inputs import default_inputs, numbered_inputs
 from assur.topology.facts import Topology
+from assur.topology.linkages.configurations import ImmobileError
 from assur.topology.linkages.placing import place
 from assur.topology.linkages.recognition import recognised
+from assur.topology.linkages.twists import ShakyError
 from assur.topology.notation import parse_chains
 
 if TYPE_CHECKING:
@@ -48,6 +51,11 @@ if TYPE_CHECKING:
     from assur.workspace.region import Workspace
 
 FloatArray = NDArray[np.float64]
+
+PLACINGS = 3
+"""Random dimensions that are tried for chains that do not move, or are shaky."""
+
+SOME_DIMENSIONS = "not all dimensions move: this is said of some that do, and with others it does not move or is shaky"
 
 
 class Mechanism(MechanismRecord):
@@ -273,13 +281,20 @@ def _of_chains(
     source: str = "",
 ) -> Topology:
     names = numbered_inputs(chains, actuate) if actuate else default_inputs(chains)
-    built = place(chains, actuated=names)
-    return analyse(
-        built,
-        chains,
+    answers = partial(
+        analyse,
+        chains=chains,
         name=name,
         title=title,
         source=source,
         mode=mode,
         inputs_by="given" if actuate else "first joints",
     )
+    for seed in range(PLACINGS - 1):
+        try:
+            found = answers(place(chains, seed=seed, actuated=names))
+        except (ShakyError, ImmobileError):
+            continue
+        return dataclasses.replace(found, notes=(*found.notes, SOME_DIMENSIONS)) if seed else found
+    last = answers(place(chains, seed=PLACINGS - 1, actuated=names))
+    return dataclasses.replace(last, notes=(*last.notes, SOME_DIMENSIONS))

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
+from assur.topology.agreement import RoutesDisagreeError, by_twists
 from assur.topology.chains import Chain
 from assur.topology.counting.actuation import actuation
 from assur.topology.counting.coupling import Loop, coupling
@@ -21,13 +22,14 @@ from assur.topology.counting.drives import admissible_drives
 from assur.topology.counting.mobility import Mobility, mobility
 from assur.topology.counting.relaxation import relaxation
 from assur.topology.counting.solution_plan import solution_plan
-from assur.topology.facts import InputsBy, Known, Limb, RedundantConstraints, Topology
+from assur.topology.facts import InputsBy, Known, Limb, OperationModeFacts, RedundantConstraints, Topology
 from assur.topology.linkages.configurations import Hold, home_is_special
 from assur.topology.linkages.edges import Edge, closure, rank
 from assur.topology.linkages.linkage import Linkage
+from assur.topology.linkages.modes import OperationMode, operation_modes
 from assur.topology.linkages.recognition import recognised
 from assur.topology.linkages.shared_points import point_of_platform
-from assur.topology.linkages.twists import dimensions, edges, generic_values, motion_space
+from assur.topology.linkages.twists import dimensions, edges, motion_space
 from assur.topology.notation import plain_text, symbolic_text
 from assur.topology.routes import KnownLimb, Rules, as_the_limbs_are, both, by_rules, check_xi, limb_known
 from assur.topology.rules.motion import Motion
@@ -55,6 +57,7 @@ class Sample:
         space: (N, 6, k) motion space of the platform.
         poc: its (t, r, dim).
         special: whether home has instantaneous freedoms that these configurations have lost.
+        modes: the operation modes that meet at home, this one first.
     """
 
     linkage: Linkage
@@ -64,6 +67,12 @@ class Sample:
     space: FloatArray
     poc: tuple[int, int, int]
     special: bool
+    modes: tuple[OperationMode, ...] = ()
+
+    @property
+    def is_branch_point(self) -> bool:
+        """Whether several operation modes meet at home."""
+        return len(self.modes) > 1
 
     @property
     def keeps_orientation(self) -> bool:
@@ -75,18 +84,19 @@ def sample(linkage: Linkage, mode: Mode = "home") -> Sample:
     """A linkage at configurations displaced from home, the platform kept from turning in translation mode.
 
     A P(4S) or P(2US) is kept a parallelogram, as the theory takes it, also where the mechanism does not see to that.
+    Where operation modes meet at home it is the one with most freedoms.
 
     Errors:
-        UnclearRankError: what is reached from home disagrees on a rank. ImmobileError: home cannot be left.
+        ShakyError: loops that close only where they are singular. ImmobileError: home cannot be left.
     """
     hold = held_in(linkage, mode)
-    values = generic_values(linkage, COUNT, hold=hold)
+    modes = operation_modes(linkage, COUNT, hold=hold)
+    values = modes[0].values
     collapsed = edges(linkage, values)
     space = motion_space(collapsed, linkage.base, linkage.platform)
     special = home_is_special(linkage, values, hold)
-    return Sample(
-        linkage, values, edges(linkage, values, collapsed=False), collapsed, space, dimensions(space), special
-    )
+    joints = edges(linkage, values, collapsed=False)
+    return Sample(linkage, values, joints, collapsed, space, dimensions(space), special, modes)
 
 
 def held_in(linkage: Linkage, mode: Mode) -> Hold | None:
@@ -157,7 +167,8 @@ def analyse(
     limbs = _limbs(here, chains or (), rules)
     rules = as_the_limbs_are(rules, limbs)
     order = coupling(here.collapsed, collapsed.internal)
-    check_xi(chains or (), [limb.here for limb in limbs], order.loops, held=held)
+    if not here.is_branch_point:  # the rules may speak of another mode
+        check_xi(chains or (), [limb.here for limb in limbs], order.loops, held=held)
     decoupling = _decoupling(by_jacobian(here.collapsed, base, platform), chains, rules.platform, still=still)
     plan = solution_plan(order, here.collapsed, base, platform)
     solvable = not plan.free
@@ -167,7 +178,7 @@ def analyse(
         source=source,
         mode=mode,
         limbs=tuple(_limb(chain, limb.known) for chain, limb in zip(chains or (), limbs, strict=True)),
-        known=both("the platform", rules.platform, here.space),
+        known=_platform_known(rules.platform, here),
         dof=collapsed.dof,
         internal_freedoms=collapsed.internal_freedoms,
         internal_joints=tuple(item.joints for item in whole.internal),
@@ -183,10 +194,35 @@ def analyse(
         decoupling_refusal=decoupling.refusal,
         plan=plan,
         linkage=linkage,
-        notes=(*notes, SPECIAL) if here.special else notes,
+        modes=tuple(OperationModeFacts(item.freedoms, *item.poc, item.real) for item in here.modes),
+        notes=(*notes, _met_at_home(here)) if here.special or here.is_branch_point else notes,
         derive=rules.derivations,
         actuate=partial(actuation, here.collapsed, base, platform),
         relax=partial(relaxation, here.joints, base, platform),
+    )
+
+
+def _platform_known(rules: Motion | Refusal, here: Sample) -> Known:
+    """The platform's POC set; where operation modes meet at home the rules may speak of another one than this."""
+    try:
+        return both("the platform", rules, here.space)
+    except RoutesDisagreeError as error:
+        if not here.is_branch_point:
+            raise
+        reason = f"operation modes meet at home, and the rules speak of another one than the twists ({error.message})"
+        return Known(by_twists(here.space), "twists", reason)
+
+
+def _met_at_home(here: Sample) -> str:
+    """What is special about home."""
+    if not here.is_branch_point:
+        return SPECIAL
+    others = "; ".join(f"({number}) {mode}" for number, mode in enumerate(here.modes[1:], 2))
+    translating = any(mode.poc[1] == 0 < mode.poc[2] for mode in here.modes[1:])
+    ask = "; mode translation asks for one that does not turn" if translating else ""
+    return (
+        f"home is a branch point, where {len(here.modes)} operation modes meet; all this is said of (1) "
+        f"{here.modes[0]}; the others: {others}{ask}"
     )
 
 

@@ -59,6 +59,7 @@ def answers(found: Topology) -> dict[str, Any]:
         "routes_agree": found.routes_agree,
         "refusals": refusals(found),
         "derivation": [line for item in found.derivations for line in item.text().splitlines()],
+        "operation_modes": [dataclasses.asdict(mode) for mode in found.modes],
         "notes": list(found.notes),
     }
 

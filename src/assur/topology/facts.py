@@ -51,6 +51,17 @@ class Limb:
 
 
 @dataclass(frozen=True)
+class OperationModeFacts:
+    """A motion that starts at home: F, the platform's POC set, and whether its freedoms are real or it is shaky."""
+
+    dof: int
+    t: int
+    r: int
+    dim: int
+    real: bool
+
+
+@dataclass(frozen=True)
 class RedundantConstraints:
     """6 v - rank of the closure: with parallelograms as generalised joints, and with all joints."""
 
@@ -77,6 +88,7 @@ class Topology:
         decoupling: None where the inputs do not determine the platform, or where the two routes differ on it.
         decoupling_refusal: why the theory does not confirm that pattern, or what each route says; empty where it does.
         linkage: what the twists were computed on.
+        modes: the operation modes that meet at home, where there are several; all facts are those of the first.
     """
 
     name: str
@@ -100,6 +112,7 @@ class Topology:
     linkage: Linkage
     inputs_by: InputsBy = "given"
     decoupling_refusal: str = ""
+    modes: tuple[OperationModeFacts, ...] = ()
     notes: tuple[str, ...] = ()
     derive: Callable[[], tuple[Derivation, ...]] = field(repr=False, default=tuple)
     actuate: Callable[[], Actuation] = field(repr=False, default=NotImplemented)

@@ -42,6 +42,28 @@ NULL = 1e-7
 STILL = 1e-6
 """Rates below this share of a random one are rounding errors of zero."""
 
+WALK, WALK_STEP = 6, 0.1
+"""Steps of a walk from a branch point, and the largest displacement of a joint (rad, lengths) in each."""
+
+STUCK = 0.3
+"""A walk that gets on by less than this share of a step follows no motion."""
+
+BLURRED = 2e-5
+"""Share of the largest below which a closure's singular value may be zero: where two solutions of the loops coincide,
+closing them to 1e-11 finds joints to its root, 3e-6, and leaves that much of a singular value that is zero."""
+
+FINITE = (8e-3, 2e-3)
+"""Steps (rad, lengths) by which instantaneous freedoms are tried."""
+
+STRAIGHT = 1e-4
+"""A correction by less than this share of a step follows no curve: the motion is straight in its joints."""
+
+CURVED = 0.1
+"""Directions in which many steps together get on by less than this share of the longest are curvature."""
+
+WAYS = 3
+"""Random freedoms that are tried at a configuration."""
+
 TRIES = 4
 """How often other directions, in smaller steps, are tried where loops do not close."""
 
@@ -129,6 +151,99 @@ def scattered(
     return np.asarray(found.x[found.converged] * tree.scales)
 
 
+def walked(linkage: Linkage, start: FloatArray, seed: int = 0, hold: Hold | None = None) -> FloatArray:
+    """Joint values (M, n), M <= N, where walks from assemblies (N, n) end after several small steps.
+
+    Each walk goes on in the direction in which it went, roughly, so that it follows a motion that starts at a branch
+    point also where random directions there are none of any motion. Walks that do not get away are left out.
+
+    Args:
+        linkage: assembled at home.
+        start: assemblies of it.
+        seed: of the random directions.
+        hold: as in `configurations`.
+    """
+    tree = screw_tree(linkage)
+    system = _System.of(linkage, tree, hold)
+    rng = np.random.default_rng(seed)
+    values = start / tree.scales
+    heading = rng.normal(size=values.shape)
+    heading[1::2] *= rng.random(heading[1::2].shape) < 0.5  # a motion may be of few joints
+    alive = np.ones(len(values), dtype=bool)
+    for number in range(WALK):
+        direction = _projected(system.at(values, np.arange(len(values)))[1], heading)
+        size = np.max(np.abs(direction), axis=1, keepdims=True)
+        aim = values + WALK_STEP * direction / np.maximum(size, STILL)
+        closed = minimise(system.at, aim, tolerance=CLOSED, max_steps=60)
+        moved = closed.x - values
+        gone = np.max(np.abs(moved), axis=1)
+        alive &= closed.converged & (size[:, 0] > STILL) & (gone < 2 * WALK_STEP)
+        # a first step in a direction of no motion may come back nearly to the start
+        alive &= (gone > STUCK * WALK_STEP) | (number == 0)
+        heading = moved / np.maximum(gone, STILL)[:, None] + 0.2 * rng.normal(size=values.shape)
+        values = closed.x
+    return np.asarray(values[alive] * tree.scales)
+
+
+def lasting(linkage: Linkage, values: FloatArray, seed: int = 0, hold: Hold | None = None) -> NDArray[np.bool_]:
+    """Whether all instantaneous freedoms at assemblies (N, n) lead somewhere, (N,).
+
+    Along a motion, closing the loops after a step along its tangent takes a correction by the square of the step. Along
+    a freedom that is instantaneous only, the correction is as long as the step.
+
+    Args:
+        linkage: assembled at home.
+        values: assemblies of it.
+        seed: of the random freedoms that are tried.
+        hold: as in `configurations`.
+    """
+    tree = screw_tree(linkage)
+    system = _System.of(linkage, tree, hold)
+    if not system.rows or not len(values):
+        return np.ones(len(values), dtype=bool)
+    at = np.repeat(values / tree.scales, WAYS, axis=0)
+    target = np.random.default_rng(seed).normal(size=at.shape)
+    direction = _projected(system.at(at, np.arange(len(at)))[1], target, BLURRED)
+    size = np.linalg.norm(direction, axis=1, keepdims=True)
+    direction /= np.maximum(size, STILL)
+    shares = []
+    for step in FINITE:
+        aim = at + step * direction
+        closed = minimise(system.at, aim, tolerance=CLOSED, max_steps=60)
+        share = np.linalg.norm(closed.x - aim, axis=1) / step
+        shares.append(np.where(closed.converged, share, np.inf))
+    steps = FINITE[1] / FINITE[0]
+    lasts = (shares[1] < STRAIGHT) | (shares[1] < 2 * steps * shares[0])
+    lasts &= np.isfinite(shares[1])
+    rigid = size[:, 0] < STILL * np.linalg.norm(target, axis=1)
+    every: NDArray[np.bool_] = np.all((lasts | rigid).reshape(len(values), WAYS), axis=1)
+    return every
+
+
+def finite_directions(linkage: Linkage, value: FloatArray, hold: Hold | None = None) -> FloatArray:
+    """Orthonormal directions (n, k) of joint values in which an assembly (n,) can really be left, by finite steps.
+
+    To the accuracy of the steps: where an assembly is regular, the null space of its closure is exact.
+
+    Args:
+        linkage: assembled at home.
+        value: an assembly of it.
+        hold: as in `configurations`.
+    """
+    tree = screw_tree(linkage)
+    system = _System.of(linkage, tree, hold)
+    count = 2 * len(value)
+    at = np.repeat(value[None] / tree.scales, count, axis=0)
+    target = np.random.default_rng(0).normal(size=at.shape)
+    direction = _projected(system.at(at, np.arange(count))[1], target, BLURRED)
+    direction /= np.maximum(np.linalg.norm(direction, axis=1, keepdims=True), STILL)
+    closed = minimise(system.at, at + FINITE[0] * direction, tolerance=CLOSED, max_steps=100)
+    steps = (closed.x - at)[closed.converged] / FINITE[0]
+    _, singular, turned = np.linalg.svd(steps, full_matrices=False)
+    kept: FloatArray = turned[singular > CURVED * max(float(singular.max(initial=0.0)), 1.0)].T
+    return kept
+
+
 def home_is_special(linkage: Linkage, values: FloatArray, hold: Hold | None = None) -> bool:
     """Whether home has instantaneous freedoms more than configurations (N, n) that are displaced from it.
 
@@ -172,10 +287,10 @@ def _displaced(
     return values, arrived
 
 
-def _projected(jacobian: FloatArray, target: FloatArray) -> FloatArray:
-    """The part of targets (N, n) in the null space of jacobians (N, r, n)."""
+def _projected(jacobian: FloatArray, target: FloatArray, null: float = NULL) -> FloatArray:
+    """The part of targets (N, n) in the null space of jacobians (N, r, n), of singular values below a share."""
     _, singular, turned = np.linalg.svd(jacobian, full_matrices=False)
-    used = turned * (singular > NULL * np.maximum(singular[:, :1], NULL))[..., None]
+    used = turned * (singular > null * np.maximum(singular[:, :1], NULL))[..., None]
     rest: FloatArray = target - np.einsum("nki,nk->ni", used, np.einsum("nki,ni->nk", used, target))
     return rest
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import AssurError, UsageError
-from assur.topology.linkages.configurations import Hold, configurations, home_is_special
+from assur.topology.linkages.configurations import BLURRED, Hold, configurations, home_is_special
 from assur.topology.linkages.edges import RANK_GAP, Edge, along, closure
 from assur.topology.linkages.linkage import Group, Linkage
 from assur.topology.linkages.screws import screw_tree
@@ -26,10 +26,6 @@ FloatArray = NDArray[np.float64]
 
 CLEAR = 1e3
 """The smallest singular value that counts is at least so many times the largest one that does not."""
-
-BLURRED = 2e-5
-"""Share of the largest below which a closure's singular value may be zero: where two solutions of the loops coincide,
-closing them to 1e-11 finds joints to its root, 3e-6, and leaves that much of a singular value that is zero."""
 
 COMMON = 1e-12
 """A direction is fixed if its part outside the space, squared and averaged over the configurations, is below this."""

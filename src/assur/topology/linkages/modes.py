@@ -1,0 +1,206 @@
+"""Operation modes that meet at home, told from one another, and from shaky linkages, by finite steps.
+
+Where home has instantaneous freedoms that are lost on the way, it may be a branch point of the configuration space:
+several motions start there, with other freedoms each. Walks in random directions find them. An instantaneous freedom
+is a real one where a step along it leaves the loops open by the square of its length only; where it is not, a
+configuration is singular although it cannot be left by that freedom, and a linkage with no others is shaky.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.topology.linkages.configurations import (
+    Hold,
+    ImmobileError,
+    finite_directions,
+    home_is_special,
+    lasting,
+    walked,
+)
+from assur.topology.linkages.edges import along, closure, rank
+from assur.topology.linkages.linkage import Linkage
+from assur.topology.linkages.twists import (
+    ShakyError,
+    UnclearRankError,
+    dimensions,
+    edges,
+    fixed_directions,
+    generic_values,
+    motion_space,
+)
+from assur.topology.poc import PocSet
+
+FloatArray = NDArray[np.float64]
+
+WALKS = 24
+"""From home, at first; so many again in other directions where none of them meets a regular configuration."""
+
+ROUNDS = 3
+"""How often walks are started."""
+
+MOST = 6
+"""Operation modes that are told apart; a home where more meet is answered for these."""
+
+
+ROUGH = 0.05
+"""What is below this share of finite steps of one length is their curvature."""
+
+
+@dataclass(frozen=True, eq=False)
+class OperationMode:
+    """One motion that starts at home.
+
+    Attributes:
+        values: (N, n) configurations of it.
+        freedoms: F, with parallelograms as one joint.
+        poc: (t, r, dim) of the platform.
+        real: whether all its instantaneous freedoms lead somewhere. Of a shaky one they do not, and its numbers are
+            those of its finite motion, as far as steps tell.
+        met: by how many walks.
+    """
+
+    values: FloatArray
+    freedoms: int
+    poc: tuple[int, int, int]
+    real: bool
+    met: int = 1
+
+    def __str__(self) -> str:
+        t, r, dim = self.poc
+        shaky = "" if self.real else " (shaky: singular all along, with instantaneous freedoms that lead nowhere)"
+        return f"F = {self.freedoms}, {PocSet(t, r, dim)} with dim {dim}{shaky}"
+
+
+def operation_modes(
+    linkage: Linkage, count: int = 4, seed: int = 0, hold: Hold | None = None
+) -> tuple[OperationMode, ...]:
+    """The operation modes that are met around home: real ones first, those with most freedoms first.
+
+    Args:
+        linkage: assembled at home.
+        count: configurations of each, at least.
+        seed: of the random directions.
+        hold: as in `configurations`.
+
+    Errors:
+        ShakyError: none of them is real. ImmobileError: home cannot be left. UnclearRankError: ranks are not clear.
+    """
+    try:
+        values = generic_values(linkage, count, seed, hold)
+        if not home_is_special(linkage, values, hold) and np.all(lasting(linkage, values, seed, hold)):
+            return (_mode(linkage, values),)
+    except (UnclearRankError, ImmobileError) as error:
+        unclear: UnclearRankError | ImmobileError | None = error
+    else:
+        unclear = None
+    found: list[OperationMode] = []
+    for number in range(ROUNDS):
+        found = _met(linkage, WALKS, seed + number, hold, count, found)
+        if any(mode.real for mode in found):
+            break
+    ordered = sorted(found, key=lambda mode: (not mode.real, -mode.freedoms, [-number for number in mode.poc]))
+    if not ordered:
+        raise unclear or _immobile(linkage)
+    if not ordered[0].real:
+        raise _shaky(ordered)
+    return tuple(ordered)
+
+
+def _met(
+    linkage: Linkage, walks: int, seed: int, hold: Hold | None, count: int, before: Sequence[OperationMode]
+) -> list[OperationMode]:
+    """The modes of configurations at the ends of walks from home, beside those that are known."""
+    ends = walked(linkage, np.zeros((walks, _columns(linkage))), seed, hold)
+    found = list(before)
+    for value, lasts in zip(ends, lasting(linkage, ends, seed, hold), strict=True):
+        here = _at(linkage, value, hold, lasts=bool(lasts))
+        index = next((index for index, mode in enumerate(found) if _are_one(linkage, mode, here)), None)
+        if index is not None:
+            found[index] = replace(found[index], met=found[index].met + 1)
+        elif len(found) < MOST:
+            around = _around(linkage, value, seed, hold, count, here) if here.real else here
+            found += [around] if around is not None else []
+    return found
+
+
+def _at(linkage: Linkage, value: FloatArray, hold: Hold | None, *, lasts: bool) -> OperationMode:
+    """The mode of one configuration (n,), shaky where its freedoms do not last or its ranks are not clear."""
+    if lasts:
+        try:
+            return _mode(linkage, value[None])
+        except UnclearRankError:
+            pass
+    tangent = finite_directions(linkage, value, hold)
+    moved = along(edges(linkage, value[None], collapsed=False), linkage.base, linkage.platform)[0] @ tangent
+    t, r, dim = (_roughly(part) for part in (moved[3:], moved[:3], moved))
+    return OperationMode(value[None], tangent.shape[1], (t, r, dim), real=False)
+
+
+def _roughly(matrix: FloatArray) -> int:
+    """The rank of what finite steps measured."""
+    return int(np.sum(np.linalg.svd(matrix, compute_uv=False) > ROUGH)) if matrix.size else 0
+
+
+def _around(
+    linkage: Linkage, value: FloatArray, seed: int, hold: Hold | None, count: int, here: OperationMode
+) -> OperationMode | None:
+    """A mode with more configurations, walked to from one of them; None where there are not enough of its kind."""
+    ends = walked(linkage, np.repeat(value[None], 4 * count, axis=0), seed, hold)
+    kept = []
+    for end in ends:
+        try:
+            there = _mode(linkage, end[None])
+        except UnclearRankError:
+            continue
+        if (there.freedoms, there.poc) == (here.freedoms, here.poc):
+            kept.append(end)
+    if len(kept) < count:
+        return None
+    return replace(here, values=np.stack(kept[:count]))
+
+
+def _mode(linkage: Linkage, values: FloatArray) -> OperationMode:
+    """What is true at some regular configurations of one mode."""
+    collapsed = edges(linkage, values)
+    space = motion_space(collapsed, linkage.base, linkage.platform)
+    freedoms = sum(edge.freedoms for edge in collapsed) - rank(closure(collapsed))
+    return OperationMode(values, freedoms, dimensions(space), real=True)
+
+
+def _are_one(linkage: Linkage, mode: OperationMode, here: OperationMode) -> bool:
+    """Whether a configuration has the numbers and the fixed directions of a mode."""
+    if not mode.real and not here.real:
+        return True
+    if (mode.freedoms, mode.poc, mode.real) != (here.freedoms, here.poc, here.real):
+        return False
+    before, after = (
+        [len(rows) for rows in fixed_directions(motion_space(edges(linkage, values), linkage.base, linkage.platform))]
+        for values in (mode.values, np.concatenate([mode.values, here.values]))
+    )
+    return before == after
+
+
+def _columns(linkage: Linkage) -> int:
+    return sum(len(joint.screws) for joint in linkage.joints.values())
+
+
+def _immobile(linkage: Linkage) -> ImmobileError:
+    at_home = edges(linkage, np.zeros((1, _columns(linkage))))
+    count = sum(edge.freedoms for edge in at_home) - rank(closure(at_home))
+    return ImmobileError(
+        f"the mechanism does not move: at home it has {count} instantaneous freedoms, and none of them leads anywhere",
+        hint="its axes are special as written: other directions, or a limb with one joint more, let it move",
+    )
+
+
+def _shaky(modes: Sequence[OperationMode]) -> ShakyError:
+    return ShakyError(
+        "the mechanism is shaky: its loops close only where they are singular, and it has instantaneous freedoms that "
+        f"finite steps do not follow; those that they do: {'; '.join(str(mode).split(' (')[0] for mode in modes)}",
+        hint="its axes are special as written: other directions or another number of limbs avoid that",
+    )
