@@ -27,6 +27,9 @@ Hold = Literal["orientation", "parallelograms"]
 CLOSED = 1e-11
 """Rotation (rad) and gap (lengths) below which a loop is closed."""
 
+EXACTLY = 5e-15
+"""Rotation (rad) and gap (lengths) that rounding leaves of a loop."""
+
 STEPS = 2
 """How many steps are taken from home."""
 
@@ -51,6 +54,9 @@ STUCK = 0.3
 BLURRED = 2e-5
 """Share of the largest below which a closure's singular value may be zero: where two solutions of the loops coincide,
 closing them to 1e-11 finds joints to its root, 3e-6, and leaves that much of a singular value that is zero."""
+
+DOUBTFUL = 1e-4
+"""Share of the largest below which a singular value is tried as if it were zero: several solutions may coincide."""
 
 FINITE = (8e-3, 2e-3)
 """Steps (rad, lengths) by which instantaneous freedoms are tried."""
@@ -182,7 +188,9 @@ def walked(linkage: Linkage, start: FloatArray, seed: int = 0, hold: Hold | None
         alive &= (gone > STUCK * WALK_STEP) | (number == 0)
         heading = moved / np.maximum(gone, STILL)[:, None] + 0.2 * rng.normal(size=values.shape)
         values = closed.x
-    return np.asarray(values[alive] * tree.scales)
+    # where two solutions coincide an error of the loops is the square of the joints': the loops are closed further
+    polished = minimise(system.at, values[alive], tolerance=EXACTLY, max_steps=25)
+    return np.asarray(polished.x * tree.scales)
 
 
 def lasting(linkage: Linkage, values: FloatArray, seed: int = 0, hold: Hold | None = None) -> NDArray[np.bool_]:
@@ -203,7 +211,7 @@ def lasting(linkage: Linkage, values: FloatArray, seed: int = 0, hold: Hold | No
         return np.ones(len(values), dtype=bool)
     at = np.repeat(values / tree.scales, WAYS, axis=0)
     target = np.random.default_rng(seed).normal(size=at.shape)
-    direction = _projected(system.at(at, np.arange(len(at)))[1], target, BLURRED)
+    direction = _projected(system.at(at, np.arange(len(at)))[1], target, DOUBTFUL)
     size = np.linalg.norm(direction, axis=1, keepdims=True)
     direction /= np.maximum(size, STILL)
     shares = []

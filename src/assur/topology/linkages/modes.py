@@ -22,7 +22,7 @@ from assur.topology.linkages.configurations import (
     lasting,
     walked,
 )
-from assur.topology.linkages.edges import along, closure, rank
+from assur.topology.linkages.edges import along, closure, null_basis, rank
 from assur.topology.linkages.linkage import Linkage
 from assur.topology.linkages.twists import (
     ShakyError,
@@ -40,12 +40,18 @@ FloatArray = NDArray[np.float64]
 WALKS = 24
 """From home, at first; so many again in other directions where none of them meets a regular configuration."""
 
-ROUNDS = 3
+ROUNDS = 2
 """How often walks are started."""
+
+AROUND = 6
+"""Walks from a singular configuration: where any of them meets a regular one, it was no motion of its own."""
 
 MOST = 6
 """Operation modes that are told apart; a home where more meet is answered for these."""
 
+
+AT_REST = 1e-6
+"""A freedom of a joint rests where it has less of every unit motion."""
 
 ROUGH = 0.05
 """What is below this share of finite steps of one length is their curvature."""
@@ -61,6 +67,7 @@ class OperationMode:
         poc: (t, r, dim) of the platform.
         real: whether all its instantaneous freedoms lead somewhere. Of a shaky one they do not, and its numbers are
             those of its finite motion, as far as steps tell.
+        moving: which freedoms of its joints move.
         met: by how many walks.
     """
 
@@ -68,6 +75,7 @@ class OperationMode:
     freedoms: int
     poc: tuple[int, int, int]
     real: bool
+    moving: tuple[bool, ...] = ()
     met: int = 1
 
     def __str__(self) -> str:
@@ -79,7 +87,7 @@ class OperationMode:
 def operation_modes(
     linkage: Linkage, count: int = 4, seed: int = 0, hold: Hold | None = None
 ) -> tuple[OperationMode, ...]:
-    """The operation modes that are met around home: real ones first, those with most freedoms first.
+    """The operation modes that are met around home: real ones first, then those with most freedoms, and met most often.
 
     Args:
         linkage: assembled at home.
@@ -100,12 +108,14 @@ def operation_modes(
         unclear = None
     found: list[OperationMode] = []
     for number in range(ROUNDS):
-        found = _met(linkage, WALKS, seed + number, hold, count, found)
-        if any(mode.real for mode in found):
-            break
-    ordered = sorted(found, key=lambda mode: (not mode.real, -mode.freedoms, [-number for number in mode.poc]))
+        if not any(mode.real for mode in found):
+            found = _met(linkage, WALKS, seed + number, hold, count, found)
+    ordered = sorted(found, key=lambda mode: (not mode.real, -mode.freedoms, -mode.met, mode.poc))
     if not ordered:
-        raise unclear or _immobile(linkage)
+        if isinstance(unclear, UnclearRankError):
+            raise unclear
+        at_home = _finite_motion(linkage, np.zeros(_columns(linkage)), hold)
+        raise _shaky([at_home]) if at_home.freedoms else _immobile(linkage)
     if not ordered[0].real:
         raise _shaky(ordered)
     return tuple(ordered)
@@ -118,23 +128,36 @@ def _met(
     ends = walked(linkage, np.zeros((walks, _columns(linkage))), seed, hold)
     found = list(before)
     for value, lasts in zip(ends, lasting(linkage, ends, seed, hold), strict=True):
-        here = _at(linkage, value, hold, lasts=bool(lasts))
-        index = next((index for index, mode in enumerate(found) if _are_one(linkage, mode, here)), None)
-        if index is not None:
-            found[index] = replace(found[index], met=found[index].met + 1)
+        here = _regular(linkage, value) if lasts else None
+        same = (mode for mode in found if (_are_one(linkage, mode, here) if here else not mode.real))
+        known = next(same, None)
+        if known is not None:
+            found[found.index(known)] = replace(known, met=known.met + 1)
         elif len(found) < MOST:
-            around = _around(linkage, value, seed, hold, count, here) if here.real else here
-            found += [around] if around is not None else []
+            new = _around(linkage, value, seed, hold, count, here) if here else _shaky_mode(linkage, value, seed, hold)
+            found += [new] if new else []
     return found
 
 
-def _at(linkage: Linkage, value: FloatArray, hold: Hold | None, *, lasts: bool) -> OperationMode:
-    """The mode of one configuration (n,), shaky where its freedoms do not last or its ranks are not clear."""
-    if lasts:
-        try:
-            return _mode(linkage, value[None])
-        except UnclearRankError:
-            pass
+def _regular(linkage: Linkage, value: FloatArray) -> OperationMode | None:
+    """The mode of one configuration (n,), None where its ranks are not clear."""
+    try:
+        return _mode(linkage, value[None])
+    except UnclearRankError:
+        return None
+
+
+def _shaky_mode(linkage: Linkage, value: FloatArray, seed: int, hold: Hold | None) -> OperationMode | None:
+    """The finite motion at a singular configuration (n,), None where walks from it meet a regular one."""
+    ends = walked(linkage, np.repeat(value[None], AROUND, axis=0), seed, hold)
+    lasts = lasting(linkage, ends, seed, hold)
+    if any(item and _regular(linkage, end) for end, item in zip(ends, lasts, strict=True)):
+        return None
+    return _finite_motion(linkage, value, hold)
+
+
+def _finite_motion(linkage: Linkage, value: FloatArray, hold: Hold | None) -> OperationMode:
+    """What finite steps follow at a configuration (n,)."""
     tangent = finite_directions(linkage, value, hold)
     moved = along(edges(linkage, value[None], collapsed=False), linkage.base, linkage.platform)[0] @ tangent
     t, r, dim = (_roughly(part) for part in (moved[3:], moved[:3], moved))
@@ -157,7 +180,7 @@ def _around(
             there = _mode(linkage, end[None])
         except UnclearRankError:
             continue
-        if (there.freedoms, there.poc) == (here.freedoms, here.poc):
+        if (there.freedoms, there.poc, there.moving) == (here.freedoms, here.poc, here.moving):
             kept.append(end)
     if len(kept) < count:
         return None
@@ -169,14 +192,24 @@ def _mode(linkage: Linkage, values: FloatArray) -> OperationMode:
     collapsed = edges(linkage, values)
     space = motion_space(collapsed, linkage.base, linkage.platform)
     freedoms = sum(edge.freedoms for edge in collapsed) - rank(closure(collapsed))
-    return OperationMode(values, freedoms, dimensions(space), real=True)
+    return OperationMode(values, freedoms, dimensions(space), real=True, moving=_moving(linkage, values))
+
+
+def _moving(linkage: Linkage, values: FloatArray) -> tuple[bool, ...]:
+    """Which freedoms of the joints move, at all of some configurations."""
+    free = null_basis(closure(edges(linkage, values, collapsed=False)))
+    moving = np.linalg.norm(free, axis=-1) > AT_REST
+    if len(free) < len(values) or np.any(moving != moving[0]):
+        raise UnclearRankError(
+            "configurations disagree on which joints move",
+            hint="home may lie where operation modes meet; start from a configuration inside one of them",
+        )
+    return tuple(bool(item) for item in moving[0])
 
 
 def _are_one(linkage: Linkage, mode: OperationMode, here: OperationMode) -> bool:
     """Whether a configuration has the numbers and the fixed directions of a mode."""
-    if not mode.real and not here.real:
-        return True
-    if (mode.freedoms, mode.poc, mode.real) != (here.freedoms, here.poc, here.real):
+    if any(getattr(mode, key) != getattr(here, key) for key in ("freedoms", "poc", "real", "moving")):
         return False
     before, after = (
         [len(rows) for rows in fixed_directions(motion_space(edges(linkage, values), linkage.base, linkage.platform))]
@@ -193,7 +226,8 @@ def _immobile(linkage: Linkage) -> ImmobileError:
     at_home = edges(linkage, np.zeros((1, _columns(linkage))))
     count = sum(edge.freedoms for edge in at_home) - rank(closure(at_home))
     return ImmobileError(
-        f"the mechanism does not move: at home it has {count} instantaneous freedoms, and none of them leads anywhere",
+        f"the mechanism does not move: at home it has {count} instantaneous freedom{'' if count == 1 else 's'}, and no "
+        "finite step follows them",
         hint="its axes are special as written: other directions, or a limb with one joint more, let it move",
     )
 

@@ -1,0 +1,103 @@
+"""Random mechanisms against an oracle that shares no code with the library: finite motion, measured."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import assur
+from assur.topology.linkages.configurations import ImmobileError
+from assur.topology.linkages.twists import ShakyError, UnclearRankError
+from mobility_oracle import outcomes, random_mechanism
+
+QUICK, ALL, TOGETHER = 50, 1000, 50
+REFUSED = 0.03
+"""Share of mechanisms that may be refused: those that are shaky, and those that only seem to move at home."""
+
+BRANCH_POINT = ["R[x] R[y] P[z] R[y] R[x]", "P[x] R[1,0,2] R[1,0,2] R[1,0,2] R[y]", "R[y] R[y] R[y] R[1,0,2] R[1,0,2]"]
+
+
+def mechanism(number):
+    return random_mechanism(np.random.default_rng([77, number]))
+
+
+def compared(number):
+    """Whether a mechanism was refused, with the reason; whatever is answered must have been met."""
+    texts = mechanism(number)
+    met = outcomes(texts, number)
+    real = {(item.freedoms, item.t, item.r, item.dim) for item in met if item.real}
+    try:
+        found = assur.topology(texts)
+    except (ShakyError, ImmobileError, UnclearRankError) as error:
+        return error.message
+    modes = [(mode.dof, mode.t, mode.r, mode.dim) for mode in found.modes if mode.real]
+    assert modes[0] == (found.dof, found.poc.t, found.poc.r, found.poc.dim)
+    # where the oracle never met a regular configuration it says nothing
+    assert not real or modes[0] in real or real <= set(modes), (number, texts, dict(met), modes)
+    assert len(modes) > 1 or real <= set(modes), (number, texts, dict(met), modes)
+    assert not found.decoupling_refusal.startswith("the rules say"), (number, texts, found.decoupling_refusal)
+    return ""
+
+
+def share_refused(numbers, record):
+    reasons = {number: compared(number) for number in numbers}
+    refused = {number: reason for number, reason in reasons.items() if reason}
+    record("refused", f"{len(refused)} of {len(reasons)}")
+    print(f"refused: {len(refused)} of {len(reasons)}", *refused.items(), sep="\n  ")  # noqa: T201  # shown with -rP
+    return len(refused)
+
+
+@pytest.mark.parametrize("start", range(0, QUICK, 10))
+def test_what_is_said_of_random_mechanisms_is_what_they_do(start, record_property):
+    assert share_refused(range(start, start + 10), record_property) <= 2
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("start", range(0, ALL, TOGETHER))
+def test_what_is_said_of_a_thousand_random_mechanisms_is_what_they_do(start, record_property):
+    # of fifty mechanisms five may be refused by chance where three in a hundred are
+    assert share_refused(range(start, start + TOGETHER), record_property) <= 5
+
+
+def test_a_branch_point_is_told_from_a_shaky_linkage():
+    """The platform turns about y in the plane across it, or moves in space where every configuration is singular.
+
+    The orientations are R(u, a) R(y, b) = R(y, c) R(u, d), u along [1, 0, 2], by the second and the third limb: turns
+    about y or about u alone. By the first, R(x, e) R(y, f) R(x, g), no turn about u starts at home.
+    """
+    found = assur.topology(BRANCH_POINT)
+    assert (found.dof, str(found.poc)) == (3, "t²(⊥[0, 1, 0]) r¹(∥[0, 1, 0])")
+    assert [(mode.dof, mode.t, mode.r, mode.real) for mode in found.modes] == [(3, 2, 1, True), (3, 3, 0, False)]
+    assert any("home is a branch point, where 2 operation modes meet" in note for note in found.notes)
+    met = outcomes(BRANCH_POINT, count=24)
+    assert {(item.freedoms, item.t, item.r) for item in met if item.real} == {(3, 2, 1)}
+    assert {item.t for item in met if not item.real} == {3}
+
+
+@pytest.mark.parametrize(
+    ("texts", "modes"),
+    [
+        (["R[1,0,2] R[1,0,2] R[1,0,2] R[1,0,2]", "C[z] U[z,x] R[z]"], {(3, 2, 1), (3, 2, 0)}),
+        (["R[x] R[x] R[y] C[x]", "R[y] R[y] R[z] C[y]", "R[x] R[x] R[y] C[x]"], {(3, 3, 3), (3, 3, 0)}),
+        (["R[0.6,0.8,0] R[-0.5,0.8,1.1] R[-0.5,0.8,1.1] R[-0.5,0.8,1.1] R[0.6,0.8,0]"] * 3, {(4, 3, 1), (3, 2, 1)}),
+    ],
+)
+def test_all_operation_modes_that_meet_at_home_are_named(texts, modes):
+    found = assur.topology(texts)
+    assert {(mode.dof, mode.t, mode.r) for mode in found.modes if mode.real} == modes
+    assert {(item.freedoms, item.t, item.r) for item in outcomes(texts) if item.real} <= modes
+
+
+def test_a_mechanism_that_only_seems_to_move_is_said_not_to():
+    texts = ["S R[z] R[z]", "R[x] R[x] P[x] P(4R)[y]", "U[0.6,0.8,0; 0,1,0] R[0.6,0.8,0]"]
+    with pytest.raises(ImmobileError, match="at home it has 1 instantaneous freedom, and no finite step follows"):
+        assur.topology(texts)
+    assert not any(item.real for item in outcomes(texts))
+
+
+def test_of_a_shaky_mechanism_the_finite_motion_is_said():
+    bar = "{R[x] R[x] R[x] | R[x] R[x] R[x]} P[x] P[0.6,0.8,0] R[0.6,0.8,0]"
+    other = bar.replace("x", "y")
+    with pytest.raises(ShakyError, match="that they do: F = 7, t³ r¹ with dim 4"):
+        assur.topology([bar, other, bar])
+    assert {item.freedoms for item in outcomes([bar, other, bar])} == {8}
