@@ -212,8 +212,8 @@ def topology(
         what: the name or file of a mechanism or of a topology, a mechanism, one chain, or several chains from base
             to platform, in the plain form ("P[x] R[x] R[x] R[x]") or the literature's.
         actuate: actuated joints as "limb.joint" (a list, or a text with commas), counted from 1, the branches of inner
-            loops one after the other. By default those of the mechanism, and for chains the first P, R or C of each
-            branch from the base, as many as there are freedoms.
+            loops one after the other. By default those of the mechanism, and for chains the first P, R, H or C of each
+            branch from the base, or an admissible set near it where these do not determine the mechanism.
         mode: "home" for the motion that is reached from the configuration as written; "translation" where the
             platform keeps its orientation. By default what a topology's file says, else "home".
 
@@ -224,6 +224,7 @@ def topology(
         NotationError: a chain that cannot be read. UnknownNameError, MechanismFileError: as `load`.
         UsageError: more actuated joints than degrees of freedom, links that nothing connects, an unknown mode.
         RoutesDisagreeError: the two routes give different answers; the message names the chain.
+        ShakyError: loops that close only where they are singular. ImmobileError: freedoms at home that lead nowhere.
 
     Example:
         >>> found = topology("zeng2019")

@@ -367,6 +367,136 @@ def outcomes(texts, seed=0, count=12):
     return Counter(outcome(linkage, values, number) for number, values in enumerate(ends))
 
 
+# ---- coupling -------------------------------------------------------------------------------------------------
+
+
+def least_sum_of_degrees(texts, driven, seed=0):
+    """The least sum of |degrees| over all orders of loops, Eqs. (4) to (6), by trying them; None where nothing was met.
+
+    `driven` names joints, "R3", or components, "C1.1". A parallelogram is one joint, with the motion of its far link.
+    """
+    linkage = Linkage(placed(texts, seed))
+    ends = [values for number, values in enumerate(walks(linkage, 12, seed)) if outcome(linkage, values, number).real]
+    if not ends:
+        return None
+    return _Orders(linkage, ends[0], driven).least(frozenset())
+
+
+class _Orders:
+    """Loops of a mechanism one after the other, at one assembly."""
+
+    def __init__(self, linkage, values, driven):
+        self.edges = _generalised(linkage, values)
+        columns = [np.concatenate([[index] * twists.shape[1]]) for index, (*_, twists) in enumerate(self.edges)]
+        self.owner = np.concatenate(columns).astype(int)
+        names = [
+            f"{name}.{k + 1}" if twists.shape[1] > 1 else name
+            for name, _, _, twists in self.edges
+            for k in range(twists.shape[1])
+        ]
+        self.driven = np.array([name in driven for name in names])
+        assert self.driven.sum() == len(driven), (names, driven)
+        (moves,) = _null(self._closure(frozenset(range(len(self.edges))))[None])[0]
+        way = self._way(0, 1)
+        platform = sum(sense * self._spread(index) for index, sense in way) @ moves
+        (rests,) = _null(np.concatenate([platform, moves[self.driven]])[None])[0]
+        self.internal = moves @ rests
+        self.known, self.ranks = {}, {}
+
+    def _spread(self, index):
+        found = np.zeros((6, len(self.owner)))
+        found[:, self.owner == index] = self.edges[index][3]
+        return found
+
+    def _way(self, start, end, among=None):
+        """(edge, sense) from one link to another."""
+        among = range(len(self.edges)) if among is None else among
+        ways = {start: []}
+        while end not in ways:
+            before = len(ways)
+            for index in among:
+                _, near, far, _ = self.edges[index]
+                for one, other, sense in ((near, far, 1), (far, near, -1)):
+                    if one in ways and other not in ways:
+                        ways[other] = [*ways[one], (index, sense)]
+            if len(ways) == before:
+                return None
+        return ways[end]
+
+    def _closure(self, taken):
+        rows, tree = [], []
+        for index in sorted(taken):
+            _, near, far, _ = self.edges[index]
+            way = self._way(near, far, tree)
+            if way is None:
+                tree.append(index)
+            else:
+                rows.append(self._spread(index) - sum((sense * self._spread(i) for i, sense in way), np.zeros((6, 1))))
+        return np.concatenate(rows) if rows else np.zeros((0, len(self.owner)))
+
+    def left(self, taken):
+        """Freedoms less internal ones, less inputs, less the rank of the closure."""
+        if taken not in self.ranks:
+            inside = np.isin(self.owner, list(taken))
+            internal = self.internal.shape[1] - _rank(self.internal[~inside])
+            self.ranks[taken] = inside.sum() - internal - self.driven[inside].sum() - _rank(self._closure(taken))
+        return int(self.ranks[taken])
+
+    def least(self, taken):
+        if taken not in self.known:
+            after = {frozenset(taken | loop) for loop in self._next(taken)}
+            sums = [abs(self.left(item) - self.left(taken)) + self.least(item) for item in after]
+            self.known[taken] = min(sums, default=0)
+        return self.known[taken]
+
+    def _next(self, taken):
+        """Sets of edges that add one loop: cycles of the graph whose parts that are joined already are one node."""
+        node = {link: link for _, near, far, _ in self.edges for link in (near, far)}
+        for index in taken:
+            _, near, far, _ = self.edges[index]
+            node = {link: node[near] if item == node[far] else item for link, item in node.items()}
+        rest = [(i, node[e[1]], node[e[2]]) for i, e in enumerate(self.edges) if i not in taken]
+
+        def further(way, nodes, goal):
+            if nodes[-1] == goal:
+                yield frozenset(way)
+                return
+            for index, one, other in rest:
+                for near, far in ((one, other), (other, one)):
+                    if near == nodes[-1] and index > way[0] and far not in nodes:
+                        yield from further((*way, index), (*nodes, far), goal)
+
+        for index, one, other in rest:
+            yield from further((index,), (other,), one)
+
+
+def _generalised(linkage, values):
+    """Joints as (name, near, far, twists (6, f)) at an assembly; a parallelogram as one, with its far link's motion."""
+    step = 1e-30
+    poses = linkage.poses(values.astype(complex))
+    found, inside = [], {}
+    for index, (name, near, far, _) in enumerate(linkage.body.joints):
+        columns = linkage.columns[index]
+        count = columns.stop - columns.start
+        shifted = values + 1j * step * np.eye(linkage.count)[columns]
+        moved = poses[near] @ linkage._joint(index, shifted)
+        real, slope = moved.real, moved.imag / step
+        spin = slope[..., :3, :3] @ np.swapaxes(real[..., :3, :3], -1, -2)
+        omega = _skew_part(spin)
+        velocity = slope[..., :3, 3] - np.cross(omega, real[..., :3, 3])
+        twists = np.concatenate([omega, velocity], axis=-1).reshape(count, 6).T
+        if "." in name:
+            inside.setdefault(name.split(".")[0], []).append((near, far, twists))
+            if len(inside[name.split(".")[0]]) == 4:
+                (base, _, a), (_, end, b), (_, _, d), (_, _, c) = inside[name.split(".")[0]]
+                (rates,) = _null(np.concatenate([a, b, -d, -c], axis=1)[None])[0]
+                motion = a @ rates[:1] + b @ rates[1:2]
+                found.append((name.split(".")[0], base, end, motion / np.linalg.norm(motion)))
+        else:
+            found.append((name, near, far, twists))
+    return found
+
+
 # ---- random mechanisms ----------------------------------------------------------------------------------------
 
 DIRECTIONS = ("x", "y", "z", "x", "y", "z", "1,0,2", "0.6,0.8,0", "-0.5,0.8,1.1")

@@ -8,7 +8,7 @@ import pytest
 import assur
 from assur.topology.linkages.configurations import ImmobileError
 from assur.topology.linkages.twists import ShakyError, UnclearRankError
-from mobility_oracle import outcomes, random_mechanism
+from mobility_oracle import least_sum_of_degrees, outcomes, random_mechanism
 
 QUICK, ALL, TOGETHER = 50, 1000, 50
 REFUSED = 0.03
@@ -36,6 +36,9 @@ def compared(number):
     assert not real or modes[0] in real or real <= set(modes), (number, texts, dict(met), modes)
     assert len(modes) > 1 or real <= set(modes), (number, texts, dict(met), modes)
     assert not found.decoupling_refusal.startswith("the rules say"), (number, texts, found.decoupling_refusal)
+    if found.coupling_degree is not None and len(modes) == 1 and real == set(modes):
+        least = least_sum_of_degrees(texts, found.inputs, number)
+        assert least in (sum(abs(loop.delta) for loop in found.loops), None), (number, texts, found.inputs, found.delta)
     return ""
 
 

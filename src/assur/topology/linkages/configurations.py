@@ -188,6 +188,8 @@ def walked(linkage: Linkage, start: FloatArray, seed: int = 0, hold: Hold | None
         alive &= (gone > STUCK * WALK_STEP) | (number == 0)
         heading = moved / np.maximum(gone, STILL)[:, None] + 0.2 * rng.normal(size=values.shape)
         values = closed.x
+    if not np.any(alive):
+        return np.zeros((0, len(tree.scales)))
     # where two solutions coincide an error of the loops is the square of the joints': the loops are closed further
     polished = minimise(system.at, values[alive], tolerance=EXACTLY, max_steps=25)
     return np.asarray(polished.x * tree.scales)
