@@ -25,7 +25,8 @@ def compared(number):
     """Whether a mechanism was refused, with the reason; whatever is answered must have been met."""
     texts = mechanism(number)
     met = outcomes(texts, number)
-    real = {(item.freedoms, item.t, item.r, item.dim) for item in met if item.real}
+    # what one walk alone met may be a singular configuration of a mode that others met
+    real = {(item.freedoms, item.t, item.r, item.dim) for item, count in met.items() if item.real and count > 1}
     try:
         found = assur.topology(texts)
     except (ShakyError, ImmobileError, UnclearRankError) as error:
