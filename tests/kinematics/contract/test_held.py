@@ -12,6 +12,10 @@ from assur.model.registry import load_record
 
 WRONG = {
     "a curve of self-motion": ("zeng2019", ("u1 = p.l2 * cos_gamma", "u1 = 0.9 * p.l2 * cos_gamma"), "self-motion"),
+    "a curve that is not there": ("zeng2019", ("- y_a3\n    v_squared = p.l6", "- y_a3\n    v_squared = p.l8"), "self"),
+    "poses of a curve": ("fivebar", ("pose = (x1 + p.l2 * rod[0]", "pose = (x1 + p.l1 * rod[0]"), "self-motion"),
+    "a direct problem that moves everywhere": (
+        "zeng2019", ("y, -big_b / 2, big_b / 2", "y, big_b / 2, big_b / 2"), ""),
     "a constraint singularity that is not named": (
         "zeng2019", ('singular=(("v",), ("sin_beta",), ', 'singular=(("sin_beta",), '), "factor v"),
     "one that is none": (

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from assur.kinematics.closure import RANK_GAP
 from assur.kinematics.contract.borders import cut_short, ends, named_by_signs
 from assur.kinematics.contract.completeness import missing, random_assemblies
-from assur.kinematics.contract.curves import broken_curves
+from assur.kinematics.contract.curves import broken_curves, lacking_curves
 from assur.kinematics.contract.determinants import wrong_factors
 from assur.kinematics.contract.dimensions import changed, with_dimensions
 from assur.kinematics.contract.kernel import recorded
@@ -67,6 +67,8 @@ EXTENTS = (AT_LOAD, IN_FULL, DEEP)
 SIZE = 700
 """Of a mechanism of many joints fewer motions are looked at: its number of joint values, squared, over this many."""
 FEWEST = 16
+JOINTS = 24
+"""The same for solutions, of which each takes as long as there are joint values."""
 
 
 def at_places(record: MechanismRecord, extent: Extent, seed: int = 0) -> list[Mismatch]:
@@ -78,17 +80,19 @@ def at_places(record: MechanismRecord, extent: Extent, seed: int = 0) -> list[Mi
     """
     random = np.random.default_rng(seed)
     drawn: dict[Problem, FloatArray] = {"inverse": poses(record, extent.poses, random)}
-    there = solutions(record, "inverse", drawn["inverse"]).spread(extent.solutions)
+    there = solutions(record, "inverse", drawn["inverse"]).spread(_most(record, extent))
     asked = [there]
     if len(there) and solves(record, "direct"):
         drawn["direct"] = inputs(record, there.inputs, extent.poses, random)
-        asked.append(solutions(record, "direct", drawn["direct"]).spread(extent.solutions))
+        asked.append(solutions(record, "direct", drawn["direct"]).spread(_most(record, extent)))
     near = {
         problem: ends(record, problem, given, random)
         for problem, given in drawn.items()
         if named_by_signs(record, problem)
     }
-    asked += [solutions(record, problem, reached.given).spread(extent.solutions) for problem, reached in near.items()]
+    asked += [
+        solutions(record, problem, reached.given).spread(_most(record, extent)) for problem, reached in near.items()
+    ]
     broken = _first(_positions, asked) or unsolved(there) or _first(_motions(extent, there), asked[: len(drawn)])
     if broken:
         return broken
@@ -112,7 +116,7 @@ def of_formulas(record: MechanismRecord, extent: Extent, seed: int = 0) -> list[
     if len(there) and solves(record, "direct") and named_by_signs(record, "direct"):
         back = solutions(record, "direct", inputs(record, there.inputs, extent.poses, random))
         direct = recorded(record, "direct")
-        found += [*undeclared(direct, back), *broken_curves(direct, back)]
+        found += [*undeclared(direct, back), *broken_curves(direct, back), *lacking_curves(there)]
     return found or false_zeros(kernel, there)
 
 
@@ -138,6 +142,11 @@ def at_other_dimensions(record: MechanismRecord, extent: Extent, seed: int = 1) 
             if own:
                 return own, True
     return broken, True
+
+
+def _most(record: MechanismRecord, extent: Extent) -> int:
+    """How many solutions are looked at: fewer of a mechanism with many joints, each of which takes longer."""
+    return int(extent.solutions * min(1.0, JOINTS / len(record.coordinates)))
 
 
 def _first(laws: Callable[[Solutions], list[Mismatch]], asked: Sequence[Solutions]) -> list[Mismatch]:

@@ -117,12 +117,8 @@ def solves(record: MechanismRecord, problem: Problem) -> bool:
 def _listed(record: MechanismRecord, problem: Problem, found: Branches) -> Solutions:
     form, core = closed_form_of(record), found.branch.core
     unsettled = np.isin(found.formula_status, (Status.undecided, Status.self_motion))
-    chosen = (
-        found.exists
-        & ~unsettled
-        & np.all(np.isfinite(found.joints), axis=-1)
-        & np.all(np.isfinite(found.poses), axis=-1)
-    )
+    finite = np.all(np.isfinite(found.joints), axis=-1) & np.all(np.isfinite(found.poses), axis=-1)
+    chosen = found.exists & (found.formula_status != Status.undecided) & finite
     jp, jq = (_matrix(rows, found) for rows in form.jacobians(Floats(), record.values, core))
     named = {name: _expanded(getattr(core, sign.attribute), found) for name, sign in form.signs.items()}
     margins = form.direct_margins if problem == "direct" else form.inverse_margins
