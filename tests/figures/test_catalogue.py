@@ -60,7 +60,7 @@ def test_every_figure_is_written_in_every_format(context, tmp_path):
         context=context,
     )
     assert len(paths) == len(set(paths)) == 4 * len(names)
-    assert steps == [(k + 1, len(names)) for k in range(len(names))]
+    assert list(dict.fromkeys(steps)) == [(k, len(names)) for k in range(len(names) + 1)]
     assert sorted(tmp_path.iterdir()) == sorted(paths)
     for path in paths:
         content = path.read_bytes()
