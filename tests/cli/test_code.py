@@ -174,20 +174,44 @@ def test_a_fifo_or_text_that_is_no_utf8_is_told(tmp_path):
         assur.load(folder)
 
 
-def test_the_answer_is_kept_for_the_content_alone(tmp_path, monkeypatch):
-    monkeypatch.setenv("ASSUR_CACHE", str(tmp_path))
+def test_the_answer_is_kept_for_the_content_at_its_place_with_the_python_beside_it(tmp_path, monkeypatch):
+    monkeypatch.setenv("ASSUR_CACHE", str(tmp_path / "cache"))
+    folder, other = tmp_path / "a", tmp_path / "b"
+    for place in (folder, other):
+        place.mkdir()
+        (place / "closed_form.py").write_bytes(b"1")
     asked = []
 
     def agree(code):
         asked.append(code.file)
         return True
 
-    with leave(ask=agree):
-        assert may_run(Path("a.py"), b"1", "", "")
-        assert may_run(Path("b.py"), b"1", "", "")
-    with leave(ask=agree):
-        assert may_run(Path("c.py"), b"1", "", "")
-    assert asked == ["a.py"]
+    def asked_at(place, content=b"1"):
+        asked.clear()
+        with leave(ask=agree):
+            assert may_run(place / "closed_form.py", content, "", "")
+            assert may_run(place / "closed_form.py", content, "", "")
+        return len(asked)
+
+    assert [asked_at(folder), asked_at(folder), asked_at(folder, b"2")] == [1, 0, 1]
+    assert asked_at(other) == 1  # what it reads beside it may be another
+    (folder / "helper.py").write_bytes(b"x = 1")
+    assert [asked_at(folder), asked_at(folder)] == [1, 0]
+    (folder / "helper.py").write_bytes(b"x = 2")
+    assert asked_at(folder) == 1
     monkeypatch.setenv("ASSUR_RUN_CODE", "perhaps")
     with pytest.raises(UsageError, match="perhaps"):
         may_run(Path("a.py"), b"1", "", "")
+
+
+def test_a_link_to_a_built_in_file_makes_nothing_beside_it_built_in(tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("ASSUR_CACHE", str(tmp_path / "cache"))
+    folder = tmp_path / "own"
+    folder.mkdir()
+    (folder / "mechanism.toml").symlink_to(ROOT / "fivebar" / "mechanism.toml")
+    text = (ROOT / "fivebar" / "closed_form.py").read_text(encoding="utf-8")
+    assert text.count("ns.sqrt(meeting / square) / 2") == 1
+    wrong = text.replace("ns.sqrt(meeting / square) / 2", "ns.sqrt(meeting / square) / 3")
+    (folder / "closed_form.py").write_text(wrong, encoding="utf-8")
+    assert main(["workspace", str(folder), "--prove", "x=-10:10,y=100:110"]) == 3
+    assert "does not close" in capsys.readouterr().err

@@ -20,15 +20,15 @@ from assur.model.formula import parse
 from assur.model.kernels.faults import FormFault
 from assur.model.kernels.reading import names_of
 from assur.model.mechanism import MechanismRecord
-from assur.results.reading import file_text
 
 
-def read_closed_form(path: Path, name: str) -> ClosedForm | None:
+def read_closed_form(path: Path, name: str, text: str) -> ClosedForm | None:
     """CLOSED_FORM of a file of kernels, which is read and not run (`assur.model.kernels`).
 
     Args:
         path: the file.
         name: the mechanism, after which a module that has to run is called.
+        text: what stands in the file.
 
     Returns:
         None where the file is Python beyond that form, and nobody gave leave to run it (`assur.model.consent`).
@@ -36,7 +36,6 @@ def read_closed_form(path: Path, name: str) -> ClosedForm | None:
     Errors:
         MechanismFileError: it cannot be worked out, or defines no CLOSED_FORM.
     """
-    text = file_text(path)
     try:
         names = names_of(text, path)
     except FormFault as fault:

@@ -1,7 +1,8 @@
 """Leave to run Python that came with a mechanism's file: what the evaluator of kernels does not read, and evidence.
 
 Python may do anything that its user may. So what stands in the folder of a mechanism that is not built in runs only
-with leave, which is asked for once for each content of a file. What was not run is kept in `refused` and warned of.
+with leave, which is asked for once for each content of a file, at its place and with the Python beside it. What was not
+run is kept in `refused` and warned of.
 """
 
 from __future__ import annotations
@@ -72,7 +73,7 @@ def built_in(path: Path) -> bool:
     False
     """
     home = Path(str(files("assur"))).resolve() / "mechanisms"
-    return path.resolve().is_relative_to(home)
+    return (path.parent.resolve() / path.name).is_relative_to(home)  # a link in another folder stands among its files
 
 
 def may_run(path: Path, content: bytes, reason: str, instead: str, line: int | None = None) -> bool:
@@ -80,7 +81,7 @@ def may_run(path: Path, content: bytes, reason: str, instead: str, line: int | N
 
     Args:
         path: the file.
-        content: what was read of it, and will run: leave is for this content alone.
+        content: what was read of it, and will run: leave is for this content, at this place, with the Python beside it.
         reason: why it would have to run.
         instead: what happens where it does not.
         line: where in the file the reason stands.
@@ -110,7 +111,7 @@ def hint() -> str:
 
 def _agreed(code: NotRun, content: bytes) -> bool:
     """Leave that was given before, or is given now, at a terminal."""
-    name = hashlib.sha256(content).hexdigest()
+    name = _digest(Path(code.file), content)
     from assur.cache import cache_folder
 
     kept = cache_folder() / KEPT / name
@@ -125,6 +126,16 @@ def _agreed(code: NotRun, content: bytes) -> bool:
                 kept.parent.mkdir(parents=True, exist_ok=True)
                 kept.touch()
     return _process.answers[name]
+
+
+def _digest(path: Path, content: bytes) -> str:
+    """Of all that leave is given for: a file's place and content, and the Python beside it, which it may import."""
+    place = path.absolute()
+    parts = [str(place).encode(), content]
+    for beside in sorted(place.parent.glob("*.py")):
+        if beside != place and beside.is_file():
+            parts += [beside.name.encode(), beside.read_bytes()]
+    return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()
 
 
 @contextlib.contextmanager

@@ -171,6 +171,7 @@ class MechanismRecord:
         box: name of a pose coordinate -> (low, high): where the source looks for the workspace.
         sections: values of the last pose coordinate at which the source cuts the workspace.
         folder: where the file's companions are (closed form, reference), None for a lone file.
+        closed_form_text: what stood in the file of the closed form when it was read.
         closed_form_not_run: whether there is a closed form that only Python could read, and that was not run.
         description: the file that the record was made of, for making it again with other dimensions.
         overrides: parameters whose values are not the file's.
@@ -200,6 +201,7 @@ class MechanismRecord:
     box: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     sections: tuple[float, ...] = ()
     closed_form: ClosedForm | None = None
+    closed_form_text: str = ""
     closed_form_not_run: bool = False
     description: Description | None = None
     overrides: Mapping[str, float] = field(default_factory=dict)

@@ -26,6 +26,7 @@ from assur.model.file.topology_file import read_topology
 from assur.model.file.topology_schema import is_topology
 from assur.model.mechanism import MechanismRecord
 from assur.model.topology_description import TopologyDescription
+from assur.results.reading import file_text
 
 FILE = "mechanism.toml"
 TOPOLOGY = "topology.toml"
@@ -34,6 +35,8 @@ CLOSED_FORM = "closed_form.py"
 _TABLES = ("base", "platform", "links", "joints", "parameters", "inputs", "home", "unit", "angle", "repeat")
 _LOOPS = tuple((table,) for table in (*_TABLES, "generalised"))
 """What loops are made of: where a fault leaves unknown whether they close and move."""
+_NOT_OF_FILE = ("closed_form", "closed_form_text", "closed_form_not_run", "thickness")
+"""What a record has from elsewhere than the mechanism's file."""
 Record = TypeVar("Record", bound=MechanismRecord)
 
 
@@ -136,8 +139,10 @@ def load_record(name_or_path: str | Path, /, **overrides: Any) -> MechanismRecor
     path = _find(name_or_path, (FILE, TOPOLOGY))
     record = read_mechanism(path)
     beside = path.parent / CLOSED_FORM
-    form = _closed_form(record, beside)
-    record = dataclasses.replace(record, closed_form=form, closed_form_not_run=form is None and beside.is_file())
+    text = file_text(beside) if beside.is_file() else None
+    form = None if text is None else _closed_form(record, beside, text)
+    not_run = text is not None and form is None
+    record = dataclasses.replace(record, closed_form=form, closed_form_text=text or "", closed_form_not_run=not_run)
     return with_parameters(record, **overrides) if overrides else record
 
 
@@ -165,7 +170,7 @@ def with_parameters(record: Record, /, **overrides: Any) -> Record:
         place = f"{problem.path}: {problem.found}; {problem.allowed}"
         raise UsageError(f"{record.name} cannot be with {given}: {place}", hint=problem.hint) from None
     parts = {item.name: getattr(changed, item.name) for item in dataclasses.fields(MechanismRecord)}
-    kept = {name: getattr(record, name) for name in ("closed_form", "closed_form_not_run", "thickness")}
+    kept = {name: getattr(record, name) for name in _NOT_OF_FILE}
     return dataclasses.replace(record, **{**parts, **kept})
 
 
@@ -225,7 +230,8 @@ def examine(name_or_path: str | Path, /) -> tuple[MechanismRecord | None, tuple[
 def _faults_beside(path: Path, record: MechanismRecord | None, faults: Faults | None) -> tuple[Problem, ...]:
     """Faults of a closed form; what it claims of a mechanism where that is known."""
     try:
-        form = read_closed_form(path, record.name if record else path.parent.name) if path.is_file() else None
+        name = record.name if record else path.parent.name
+        form = read_closed_form(path, name, file_text(path)) if path.is_file() else None
     except MechanismFileError as error:
         return error.problems
     if form is None or record is None or faults is None:
@@ -240,11 +246,9 @@ def _disagreements(record: MechanismRecord, form: ClosedForm, path: Path) -> tup
     return disagreements(record, form, path) or (() if built_in(path) else answer_faults(record, form, path))
 
 
-def _closed_form(record: MechanismRecord, path: Path) -> ClosedForm | None:
-    """CLOSED_FORM of the Python file beside a mechanism file, None where there is no such file."""
-    if not path.is_file():
-        return None
-    form = read_closed_form(path, record.name)
+def _closed_form(record: MechanismRecord, path: Path, text: str) -> ClosedForm | None:
+    """CLOSED_FORM of the Python file beside a mechanism file, None where it was not run."""
+    form = read_closed_form(path, record.name, text)
     problems = _disagreements(record, form, path) if form else ()
     if problems:
         raise MechanismFileError(problems)

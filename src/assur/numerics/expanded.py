@@ -20,6 +20,9 @@ from assur.numerics.powers import whole_power
 ComplexArray = NDArray[np.complex128]
 Exponents = tuple[int, ...]
 
+MOST_PRODUCTS = 100_000
+"""Of terms with terms in one product; a power of a sum would grow without end."""
+
 
 @dataclass(frozen=True, eq=False)
 class Expanded:
@@ -54,6 +57,8 @@ class Expanded:
         total: dict[Exponents, Any] = {}
         if not isinstance(other, Expanded):
             return Expanded({exponents: factor * other for exponents, factor in self.terms.items()})
+        if len(self.terms) * len(other.terms) > MOST_PRODUCTS:
+            raise OverflowError(f"a product of polynomials of {len(self.terms)} and {len(other.terms)} terms")
         for first, a in self.terms.items():
             for second, b in other.terms.items():
                 exponents = tuple(i + j for i, j in zip(first, second, strict=True))

@@ -110,3 +110,37 @@ def test_a_cache_that_cannot_be_written_is_no_fault(copied, counted, monkeypatch
 def test_a_built_in_form_is_not_checked(counted):
     load("zeng2019", l2=300)
     assert counted == []
+
+
+@pytest.mark.parametrize("file", [CLOSED, "mechanism.toml"])
+def test_a_file_that_is_changed_between_reading_and_check_has_not_passed(copied, counted, file):
+    """A check is of what was read; an editor, or an enemy, may have written another file meanwhile."""
+    from assur.model.registry import load_record
+
+    folder = copied("biglide")
+    path = folder / file
+    text = path.read_text(encoding="utf-8")
+    read = load_record(folder)
+    path.write_text(text.replace("arm1 = sign.s1", "arm1 = -sign.s1") + "# another file\n", encoding="utf-8")
+    check.check_closed_form(read)
+    assert len(counted) == 1
+    if file == CLOSED:
+        with pytest.raises(MechanismFileError, match="mode sign s1"):
+            load(folder)
+    else:
+        load(folder)
+    assert len(counted) == 2
+
+
+def test_a_form_that_was_read_is_not_excused_by_the_file_that_stands_there_now(copied):
+    from assur.model.registry import load_record
+
+    folder = copied("biglide")
+    path = folder / CLOSED
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace("arm1 = sign.s1", "arm1 = -sign.s1"), encoding="utf-8")
+    wrong = load_record(folder)
+    path.write_text(text, encoding="utf-8")
+    load(folder)
+    with pytest.raises(MechanismFileError, match="mode sign s1"):
+        check.check_closed_form(wrong)

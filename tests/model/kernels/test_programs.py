@@ -92,3 +92,9 @@ def test_a_value_is_made_again_of_its_shape():
     assert made(shape, iter(numbers)) == value
     with pytest.raises(Shapeless):
         numbers_of((print,))
+
+
+def test_true_is_not_one():
+    kernel = names_of("def f(ns, x, flag):\n    return x if flag is True else -x\n", Path("k.py"))["f"]
+    answers = [kernel(Floats(), 2.0, flag) for flag in (1, True) for _ in range(9)]
+    assert answers == [-2.0] * 9 + [2.0] * 9

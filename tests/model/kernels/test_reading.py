@@ -255,6 +255,9 @@ def test_nothing_is_kept_from_call_to_call():
     )
     with pytest.raises(MechanismFileError, match="'append' of a tuple"):
         names["f"](Floats(), 1.0)
+    hidden = "for k in range(1):\n    table = {'n': []}\n    get = table.get\ndef f(ns, x):\n    return get('n')\n"
+    with pytest.raises(MechanismFileError, match="'get' of a table"):  # it would keep the table, with a list to fill
+        names_of(hidden, FILE)
     text = "from types import SimpleNamespace\ndef f(ns, x):\n    return SimpleNamespace(rows=[x, [x]], a={'b': [1]})\n"
     made = names_of(text, FILE)["f"](Floats(), 1.0)
     assert made.rows == (1.0, (1.0,))
@@ -277,3 +280,47 @@ def test_the_docs_list_what_may_be_used():
 def test_the_built_in_files_use_a_small_part_of_the_budget():
     source = (ROOT / "src/assur/mechanisms/h4_robot/closed_form.py").read_text(encoding="utf-8")
     assert sum(1 for _ in ast.walk(ast.parse(source))) < 30_000 / 4
+
+
+@pytest.mark.parametrize("body", ["rows.append(1.0)", "rows[0] = 5.0", "table['a'] = 5.0", "table['a'].append(1.0)"])
+def test_what_a_kernel_is_given_is_not_changed(body):
+    rows, table = [1.0, 2.0], {"a": [1.0]}
+    kernel = names_of(f"def f(ns, rows, table):\n    {body}\n    return 0.0\n", FILE)["f"]
+    with pytest.raises(MechanismFileError):
+        kernel(Floats(), rows, table)
+    assert (rows, table) == ([1.0, 2.0], {"a": [1.0]})
+
+
+def test_a_loop_of_the_file_reads_what_it_gave_before():
+    assert names_of("total = 0\nfor k in range(5):\n    total = total + k\n", FILE)["total"] == 10
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        ("t = (x,)\nfor k in range(60):\n    t = (t, t)\nreturn t", "more than 20000 parts"),
+        ("t = (1,)\nfor k in range(60):\n    t = (t, t)\nreturn SimpleNamespace(a=t)", "more than 20000 parts"),
+        ("t = SimpleNamespace(a=x)\nfor k in range(60):\n    t = SimpleNamespace(a=t, b=t)\nreturn t", "20000 parts"),
+        ("return unknowns(20_000)", "count of unknowns"),
+        ("return coefficients_of(unknowns(1)[0], 10**6)", "count of coefficients_of"),
+        ("return half_angle({}, degree=10**6)", "degree of half_angle"),
+        ("t = (x,) * 900\nfor k in range(100):\n    multiply(t, t)\nreturn x", f"more than {STEPS} steps"),
+        ("a, b, c, d = unknowns(4)\nreturn ((a + b + c + d)**16)**4", f"more than {STEPS} steps"),
+        ("a, b, c, d = unknowns(4)\ny = (a + b + c + d)**8\nreturn y**16", "product of polynomials"),
+    ],
+)
+def test_what_doubles_or_multiplies_ends(body, words):
+    lines = ["from types import SimpleNamespace", "from assur.numerics.polynomials import half_angle, multiply"]
+    lines += ["from assur.numerics.expanded import coefficients_of, unknowns", "def f(ns, x):"]
+    text = "\n".join([*lines, *("    " + line for line in body.splitlines())])
+    with pytest.raises(MechanismFileError, match=words):
+        names_of(text, FILE)["f"](Floats(), 1.0)
+
+
+def test_what_the_file_doubles_at_its_top_ends():
+    for text in (
+        "t = (1,)\nfor k in range(60):\n    t = (t, t)\n",
+        "def f(x=0x1" + "0" * 90_000 + "):\n    return x\n",
+    ):
+        with pytest.raises(MechanismFileError, match=r"parts|bits"):
+            names_of(text, FILE)

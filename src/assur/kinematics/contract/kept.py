@@ -21,6 +21,7 @@ from typing import Any, Literal, get_args
 from assur.cache import cache_folder, keep
 from assur.kinematics.contract.held import Extent
 from assur.model.mechanism import MechanismRecord
+from assur.model.registry import CLOSED_FORM
 
 FOLDER = "closed_forms"
 ENDINGS = (".py", ".toml")
@@ -57,7 +58,7 @@ def _entry(record: MechanismRecord, extent: Extent, scope: Scope) -> dict[str, A
         "assur": version("assur"),
         "laws": _laws(),
         "dimensions": "any" if scope == "any" else own,
-        "files": dict(_digests(record.file)),
+        "files": {**dict(_digests(record.file)), **_of_record(record)},
     }
 
 
@@ -85,6 +86,13 @@ def _digests(file: Path) -> Iterator[tuple[str, str]]:
     for path in sorted({*beside, file}):
         if path.is_file():
             yield path.name, hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def _of_record(record: MechanismRecord) -> dict[str, str]:
+    """What the record was made of as it was read then: what stands in these files by now was not checked."""
+    description = record.description
+    texts = {record.file.name: description.source.text if description else "", CLOSED_FORM: record.closed_form_text}
+    return {name: hashlib.sha256(text.encode()).hexdigest() for name, text in texts.items()}
 
 
 @lru_cache(maxsize=1)

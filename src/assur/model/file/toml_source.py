@@ -49,10 +49,12 @@ class TomlSource:
     Attributes:
         data: the document.
         lines: path of a key or array element -> its line, counted from 1.
+        text: what was read.
     """
 
     data: dict[str, Any]
     lines: dict[KeyPath, int]
+    text: str = ""
 
     def line(self, path: KeyPath) -> int:
         """Line of the deepest part of a path that stands in the document; the first line where none does."""
@@ -86,7 +88,7 @@ def read_toml(text: str, file: str) -> TomlSource:
     try:
         data = tomllib.loads(text)
         _check_size(data, file)
-        source = TomlSource(data, Lines(text.replace("\r\n", "\n")).lines())
+        source = TomlSource(data, Lines(text.replace("\r\n", "\n")).lines(), text)
     except tomllib.TOMLDecodeError as error:
         raise MechanismFileError(_all_syntax(file, text, str(error))) from None
     except RecursionError:

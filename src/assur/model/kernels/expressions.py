@@ -10,10 +10,11 @@ from assur.model.kernels import values as data
 from assur.model.kernels.faults import FormFault, KernelFault
 from assur.model.kernels.functions import UNSET, Frame, Run, called
 from assur.model.kernels.library import BUILTINS
-from assur.model.kernels.limits import NESTING, checked_length
+from assur.model.kernels.limits import NESTING, checked_length, checked_whole
 from assur.model.kernels.operations import BINARY, COMPARISONS, UNARY, entry
 from assur.model.kernels.scope import Scope, checked_name, target_names
 from assur.model.kernels.values import Value
+from assur.numerics.expanded import Expanded
 
 NONE: Mapping[str, Value] = {}
 FORM = "assignments, functions, for over a tuple, if on whole numbers, comprehensions, + - * / ** and calls"
@@ -40,6 +41,8 @@ def _constant(node: ast.Constant, scope: Scope, depth: int) -> Run:
         raise FormFault(f"a constant of type {type(value).__name__}", "numbers, texts, None", line=node.lineno)
     if isinstance(value, str):
         checked_length(len(value))
+    if type(value) is int:
+        checked_whole(value)
     return lambda frame: value
 
 
@@ -96,7 +99,14 @@ def _binary(node: ast.BinOp, scope: Scope, depth: int) -> Run:
     if operation is None:
         raise FormFault(f"the operator {type(node.op).__name__}", "+ - * / **", line=node.lineno)
     left, right = expression(node.left, scope, depth), expression(node.right, scope, depth)
-    return lambda frame: operation(left(frame), right(frame))
+
+    def run(frame: Frame) -> Value:
+        result = operation(left(frame), right(frame))
+        if type(result) is Expanded:
+            frame.meter.spend(len(result.terms) ** 2)  # at least as many as were multiplied
+        return result
+
+    return run
 
 
 def _unary(node: ast.UnaryOp, scope: Scope, depth: int) -> Run:
@@ -215,7 +225,7 @@ def _as_table(value: Value) -> Mapping[Any, Value]:
 
 
 def _call(node: ast.Call, scope: Scope, depth: int) -> Run:
-    function, spread = expression(node.func, scope, depth), _arguments(node.args, scope, depth)
+    function, spread = _callee(node.func, scope, depth), _arguments(node.args, scope, depth)
     named = [(keyword.arg, expression(keyword.value, scope, depth)) for keyword in node.keywords]
 
     if not named:
@@ -231,6 +241,14 @@ def _call(node: ast.Call, scope: Scope, depth: int) -> Run:
         return called(function(frame), spread(frame), keywords, frame.meter)
 
     return call
+
+
+def _callee(node: ast.expr, scope: Scope, depth: int) -> Run:
+    """What is called: methods of lists, texts and tables are looked up here alone."""
+    if not isinstance(node, ast.Attribute) or node.attr.startswith("_"):
+        return expression(node, scope, depth)
+    of, name, method = expression(node.value, scope, depth + 1), node.attr, data.method
+    return lambda frame: method(of(frame), name)
 
 
 def _arguments(nodes: list[ast.expr], scope: Scope, depth: int) -> Callable[[Frame], list[Value]]:

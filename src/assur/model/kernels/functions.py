@@ -12,7 +12,7 @@ from assur.model.kernels.faults import KernelFault, LimitFault
 from assur.model.kernels.library import numeric
 from assur.model.kernels.limits import Meter
 from assur.model.kernels.programs import Program, Shapeless, program, shape_of
-from assur.model.kernels.values import Function, Named, Value, kind_of
+from assur.model.kernels.values import Function, Named, Value, frozen, kind_of, parts_of
 from assur.numerics.number_types import Extended, Floats, Intervals
 
 UNSET: Any = object()
@@ -88,7 +88,14 @@ class KernelFunction(Function):
         """The value by a walk through the text."""
         meter = Meter()
         meter.line = self.line
-        return guarded(self.file, meter, lambda: self.run(arguments, named, meter))
+        return guarded(self.file, meter, lambda: self._answered(arguments, named, meter))
+
+    def _answered(self, arguments: Sequence[Value], named: Mapping[str, Value], meter: Meter) -> Value:
+        """The value at arguments that the text cannot change, itself of a size that can be walked through."""
+        given = {name: frozen(value) for name, value in named.items()}
+        value = self.run([frozen(value) for value in arguments], given, meter)
+        parts_of(value)
+        return value
 
     def _by_program(self, ns: Any, arguments: Sequence[Value], named: Mapping[str, Value]) -> Value:
         """The value by straight-line code, where there is some for arguments of this shape; else UNSET."""
@@ -146,7 +153,10 @@ def called(function: Value, arguments: Sequence[Value], named: Mapping[str, Valu
         return function.run(arguments, named, meter)
     if isinstance(function, Named):
         if function.takes == "numbers":
-            meter.spend(sum(map(numeric, arguments)) + sum(map(numeric, named.values())))
+            count = sum(map(numeric, arguments)) + sum(map(numeric, named.values()))
+            meter.spend(count * count)  # the costliest multiply each number with each
+        else:
+            meter.spend(sum(map(parts_of, arguments)) + sum(map(parts_of, named.values())))
         return function.function(*arguments, **named)
     raise KernelFault(f"{kind_of(function)} is called", "functions of this file, of the imports and of Python's own")
 

@@ -20,6 +20,7 @@ from assur.model.kernels.values import (
     Value,
     attribute,
     entries,
+    frozen,
     is_number,
     key,
     kind_of,
@@ -45,6 +46,14 @@ ALGEBRA: Mapping[str, tuple[str, ...]] = {
 DECLARATIONS = (
     "Branch", "ClosedForm", "Eliminant", "Factor", "Margin", "PolynomialSystem", "Quantity", "SelfMotion", "Sign",
 )  # fmt: skip
+COUNTS: Mapping[str, tuple[int, str]] = {
+    "unknowns": (0, "count"),
+    "half_angle": (1, "degree"),
+    "coefficients_of": (1, "count"),
+}
+"""Functions that are told how many numbers to make -> place and name of that argument."""
+MANY = 64
+"""That a function makes at most; its work grows with the square, or worse."""
 LARGEST_ENTRY = 10**6
 """Of a whole number among the numbers that a function of ours is given: a product with a tuple would repeat it."""
 _NUMERICS, _DECLARED = "assur.numerics", "assur.model.closed_form"
@@ -81,9 +90,26 @@ def _modules() -> Mapping[str, Mapping[str, Value]]:
     for module, names in ALGEBRA.items():
         path = f"{_NUMERICS}.{module}"
         own = vars(import_module(path))
-        table[path] = {name: Named(name, own[name], "numbers") if callable(own[name]) else own[name] for name in names}
+        table[path] = {name: _offered(name, own[name]) for name in names}
         table[_NUMERICS][module] = Module(path, table[path])
     return table
+
+
+def _offered(name: str, value: Value) -> Value:
+    """A function as a kernel may call it, or a constant."""
+    if not callable(value):
+        return frozen(value)
+    if name not in COUNTS:
+        return Named(name, value, "numbers")
+    place, argument = COUNTS[name]
+
+    def counted(*arguments: Value, **named: Value) -> Value:
+        count = named.get(argument, arguments[place] if len(arguments) > place else None)
+        if type(count) is not int or not 0 <= count <= MANY:
+            raise KernelFault(f"{argument} of {name}", f"a whole number from 0 to {MANY}")
+        return value(*arguments, **named)
+
+    return Named(name, counted, "numbers")
 
 
 def numeric(value: Value, left: int = LENGTH, depth: int = 6) -> int:

@@ -16,6 +16,8 @@ CALLS = 30
 """Functions in one another."""
 LENGTH = 2_000
 """Of a tuple, list, table or text."""
+PARTS = 20_000
+"""Of a value with all that it is made of, each as often as it occurs: `t = (t, t)` doubles it in one step."""
 BITS = 256
 """Of a whole number."""
 

@@ -36,7 +36,7 @@ def shape_of(value: Value, numbers: list[Value]) -> Shape:
 
     >>> numbers = []
     >>> shape_of((1.5, (2, 2.5)), numbers), numbers
-    (('tuple', ('number',), ('tuple', ('plain', 2), ('number',))), [1.5, 2.5])
+    (('tuple', ('number',), ('tuple', ('plain', 2, 'int'), ('number',))), [1.5, 2.5])
     """
     kind = type(value)
     if kind is tuple:
@@ -45,7 +45,7 @@ def shape_of(value: Value, numbers: list[Value]) -> Shape:
         parts = vars(value)
         return ("record", tuple(parts), *[shape_of(part, numbers) for part in parts.values()])
     if kind is int or kind is str or kind is bool or value is None:
-        return ("plain", value)
+        return ("plain", value, kind.__name__)  # True is 1 where they are compared
     if is_number(value):
         numbers.append(value)
         return NUMBER

@@ -13,7 +13,7 @@ from assur.model.kernels.faults import FormFault, KernelFault
 from assur.model.kernels.functions import UNSET, Frame, problem_of
 from assur.model.kernels.library import imported
 from assur.model.kernels.limits import BYTES, NODES, Meter
-from assur.model.kernels.scope import Scope, checked_name, known
+from assur.model.kernels.scope import Scope, assigned_names, checked_name, known
 from assur.model.kernels.statements import function, statement
 
 
@@ -41,6 +41,7 @@ def names_of(text: str, file: Path) -> Mapping[str, data.Value]:
         meter.line = node.lineno
         try:
             for name, value in _defined(node, scope, file, meter):
+                data.parts_of(value)
                 shared[name] = data.frozen(value)
         except FormFault as fault:
             fault.line = fault.line or node.lineno
@@ -89,6 +90,8 @@ def _defined(node: ast.stmt, scope: Scope, file: Path, meter: Meter) -> Iterator
         raise FormFault("return outside a function", FORM, line=node.lineno)
     else:
         own = Scope(scope.shared)
+        for name in assigned_names([node]):
+            own.named(checked_name(name, node.lineno))
         run = statement(node, own, 0)
         known(own)
         frame = Frame(own.size, meter)

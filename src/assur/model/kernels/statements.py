@@ -36,7 +36,7 @@ def function(node: ast.FunctionDef, around: Scope, asked: dict[str, int], file: 
     known(around)
     frame = Frame(around.size, meter)
     defaults = {
-        name: data.frozen(default(frame)) for name, default in zip(names[len(names) - len(given) :], given, strict=True)
+        name: _default(default(frame)) for name, default in zip(names[len(names) - len(given) :], given, strict=True)
     }
     scope = Scope(around.shared, asked)
     for name in (*names, *assigned_names(node.body)):
@@ -44,6 +44,11 @@ def function(node: ast.FunctionDef, around: Scope, asked: dict[str, int], file: 
     body = block(node.body, scope)
     name = checked_name(node.name, node.lineno)
     return KernelFunction(name, node.lineno, file, tuple(names), defaults, scope.size, body)
+
+
+def _default(value: data.Value) -> data.Value:
+    data.parts_of(value)
+    return data.frozen(value)
 
 
 def block(nodes: list[ast.stmt], scope: Scope, depth: int = 0) -> Run:

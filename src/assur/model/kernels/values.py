@@ -13,8 +13,8 @@ from types import MappingProxyType, SimpleNamespace
 from typing import Any
 
 from assur.model.closed_form import Branch
-from assur.model.kernels.faults import KernelFault
-from assur.model.kernels.limits import checked_length
+from assur.model.kernels.faults import KernelFault, LimitFault
+from assur.model.kernels.limits import PARTS, checked_length
 
 Value = Any
 
@@ -136,6 +136,30 @@ def key(value: Value) -> Value:
     raise KernelFault(f"{kind_of(value)} as a key", "a text or a whole number")
 
 
+def parts_of(value: Value) -> int:
+    """How many parts a value has, itself and what it is made of, each as often as it occurs.
+
+    Errors:
+        LimitFault: more than anything may have that is walked through.
+
+    >>> parts_of((1, (2, 3)))
+    5
+    """
+    count, left = 0, [value]
+    while left:
+        part = left.pop()
+        count += 1
+        if isinstance(part, tuple | list):
+            left += part
+        elif isinstance(part, TABLES):
+            left += part.values()
+        elif isinstance(part, RECORDS):
+            left += vars(part).values()
+        if count + len(left) > PARTS:
+            raise LimitFault(f"a value of more than {PARTS} parts", hint="a tuple that holds itself twice is doubled")
+    return count
+
+
 def frozen(value: Value) -> Value:
     """The same data without anything that could be changed later, so that a kernel keeps nothing from call to call.
 
@@ -162,10 +186,6 @@ def attribute(value: Value, name: str) -> Value:
         return _entry(value.names, name)
     if isinstance(value, tuple) and name in getattr(type(value), "_fields", ()):
         return getattr(value, name)
-    if isinstance(value, list | str | dict | MappingProxyType):
-        method = _METHODS.get((_family(value), name))
-        if method is not None:
-            return Named(name, lambda *arguments: method(value, *arguments))
     if name == "sqrt" and not isinstance(value, _DATA) and callable(getattr(type(value), "sqrt", None)):
         return Named("sqrt", value.sqrt)
     raise KernelFault(
@@ -173,6 +193,19 @@ def attribute(value: Value, name: str) -> Value:
         "attributes of p, sign, core and other records, and ns.sqrt",
         hint="a number has + - * / and ** only" if is_number(value) else "",
     )
+
+
+def method(value: Value, name: str) -> Value:
+    """What `value.name(...)` calls: a method of a list, text or table, else an attribute.
+
+    A method is called where it is named and is no value: kept for later it would keep its list or table as well, and
+    with that something from one call to the next.
+
+    >>> method(["x"], "append").name
+    'append'
+    """
+    function = _METHODS.get((_family(value), name)) if isinstance(value, (list, str, *TABLES)) else None
+    return Named(name, lambda *arguments: function(value, *arguments)) if function else attribute(value, name)
 
 
 def _entry(names: Mapping[str, Value], name: str) -> Value:
