@@ -61,3 +61,33 @@ def test_a_slip_of_the_pen_is_a_fault_with_a_line(old, new, told, tmp_path):
         load_record(folder)
     assert any(told in str(problem) for problem in caught.value.problems), caught.value
     assert all(problem.line for problem in caught.value.problems)
+
+
+def lengthened(folder, times):
+    """A copy of the built-in folder whose closed form goes through a long chain of sums; its numbers stay."""
+    shutil.copytree(HOME, folder)
+    path, first = folder / "closed_form.py", "    square = dx * dx + dy * dy\n"
+    text = path.read_text(encoding="utf-8")
+    assert text.count(first) == 1
+    chain = f"    extra = dx\n    for k in range({times}):\n        extra = extra * 0.5 + dy\n"
+    path.write_text(text.replace(first, f"{first}{chain}    square = square + 1e-30 * extra\n"), encoding="utf-8")
+    return folder
+
+
+def test_kernels_that_would_take_memory_by_the_square_of_their_length_are_refused(tmp_path):
+    with pytest.raises(MechanismFileError, match=r"\d+ different operations on numbers .*allowed: 8000"):
+        load_record(lengthened(tmp_path / "long", 1999))
+    assert load_record(lengthened(tmp_path / "shorter", 1500)).closed_form
+
+
+def test_a_long_chain_of_operations_is_no_deep_recursion(tmp_path):
+    from assur.kinematics.contract.algebra import Algebra
+    from assur.kinematics.contract.kernel import recorded
+
+    record = load_record(lengthened(tmp_path / "chain", 1500))
+    algebra = Algebra(recorded(record, "inverse"))
+    assert {algebra.least(k) for k in reversed(range(len(algebra.operations)))} == {
+        "positive",
+        "zero or more",
+        "anything",
+    }

@@ -53,6 +53,8 @@ class Algebra:
         self._known: set[int] = set()
         for k in self._declared:
             self._taken_apart(k, finite=k not in factors)
+        for k in range(len(self.operations)):  # arguments come first, so that a long chain is no deep recursion
+            self.least(k)
 
     def doubtful_divisors(self) -> tuple[int, ...]:
         """Entries, parts of divisors, of which it is not known that they are not zero."""
@@ -91,13 +93,14 @@ class Algebra:
 
     def _taken_apart(self, k: int, *, finite: bool) -> None:
         """A product that is not zero has no part that is zero; nor has a quotient that is known to be finite."""
-        if k in self._known:
-            return
-        self._known.add(k)
-        item = self.operations[k]
-        if item.name in ("*", "negative", "magnitude", "root") or (item.name == "/" and finite):
-            for part in item.arguments:
-                self._taken_apart(part, finite=finite)
+        left = [k]
+        while left:
+            part = left.pop()
+            item = self.operations[part]
+            splits = item.name in ("*", "negative", "magnitude", "root") or (item.name == "/" and finite)
+            if part not in self._known and splits:
+                left += item.arguments
+            self._known.add(part)
 
     def _doubtful(self, k: int) -> frozenset[int]:
         item = self.operations[k]

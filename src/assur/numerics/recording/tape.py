@@ -130,6 +130,10 @@ class Recorder:
         self._varying: list[str] = []
         self._uniform: list[str] = []
 
+    def __len__(self) -> int:
+        """How many operations were recorded, equal ones once."""
+        return len(self._operations)
+
     def varying(self, name: str) -> Recorded:
         """A number that is given for each element."""
         self._varying.append(name)
