@@ -215,3 +215,11 @@ def test_a_link_to_a_built_in_file_makes_nothing_beside_it_built_in(tmp_path, mo
     (folder / "closed_form.py").write_text(wrong, encoding="utf-8")
     assert main(["workspace", str(folder), "--prove", "x=-10:10,y=100:110"]) == 3
     assert "does not close" in capsys.readouterr().err
+
+
+def test_other_content_is_not_built_in_wherever_its_path_leads(monkeypatch):
+    monkeypatch.setenv("ASSUR_RUN_CODE", "never")
+    path = ROOT / "fivebar" / "closed_form.py"
+    assert may_run(path, path.read_bytes(), "", "")
+    with pytest.warns(CodeNotRunWarning):
+        assert not may_run(path, b"what was read before the folder became a link", "", "")
