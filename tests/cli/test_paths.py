@@ -63,6 +63,6 @@ def test_the_help_of_an_error_names_no_option_that_the_command_lacks(assur_cli, 
     def refused(*_, **__):
         raise OSError(13, "Permission denied")
 
-    monkeypatch.setattr("tempfile.mkstemp", refused)
+    monkeypatch.setattr("assur.storage._created", refused)
     run = assur_cli("new", str(tmp_path / "my.toml"), "--from", "fivebar")
     assert (run.code, run.err.splitlines()[1]) == (2, "hint: choose another place")

@@ -12,6 +12,7 @@ import pytest
 import sympy as sp
 
 import assur
+from assur.model.kernels.reading import names_of
 
 DOCUMENT = Path(__file__).parents[2] / "docs" / "derivations" / "three_rps.md"
 ROOT3 = sp.sqrt(3)
@@ -63,7 +64,8 @@ def quadrics(u, u_bar, v, d, d_bar, k=K):
 @pytest.fixture(scope="module")
 def kernels():
     """The kernels and what they are made of, without the underscores."""
-    names = assur.load("three_rps").closed_form.direct.coefficients.__globals__
+    path = assur.load("three_rps").folder / "closed_form.py"
+    names = names_of(path.read_text(encoding="utf-8"), path)
     wanted = ("coefficients", "AWRY", "_times_t", "_less", "_products_of_heights")
     return SimpleNamespace(**{name.strip("_").lower(): names[name] for name in wanted})
 

@@ -122,7 +122,7 @@ def _closes(ledger: Ledger, record: Mechanism, found: SolutionSet) -> None:
 def _comes_back(ledger: Ledger, record: Mechanism, text: str, gaps: list[float]) -> None:
     from assur.kinematics.closure import characteristic_length
 
-    worst = max(gaps)
+    worst = max(gaps, default=float("inf"))  # no solution that could come back is no claim that holds
     ledger.claim(
         text, worst <= BACK * characteristic_length(record), f"{len(gaps)} times, to {worst:.1e} {record.unit}"
     )

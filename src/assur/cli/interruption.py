@@ -68,6 +68,11 @@ def go_on() -> None:
         raise KeyboardInterrupt
 
 
+def was_the_end() -> None:
+    """Ctrl-C was how this command ends, as that of a server: nothing was cut short."""
+    _KEY.pressed = False
+
+
 @contextmanager
 def handing_over(kind: type[Answer], outcome: Callable[[Answer], Outcome]) -> Iterator[None]:
     """Make an outcome of what a work inside has so far, where Ctrl-C ends it; of an answer of that kind, no other."""

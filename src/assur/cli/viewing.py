@@ -7,6 +7,7 @@ import sys
 import threading
 import webbrowser
 
+from assur.cli import interruption
 from assur.cli.options import Outcome
 from assur.errors import UsageError
 from assur.model.mechanism import MechanismRecord
@@ -49,6 +50,7 @@ def outcome(record: MechanismRecord, *, host: str, port: int, allow_network: boo
             if opens:
                 webbrowser.open(ends.enter_context(leading_to(served.url)).as_uri())
             wait()
+        interruption.was_the_end()
     return Outcome({"mechanism": record.name, "url": served.url}, lambda: [f"the view of {record.name} has ended"])
 
 

@@ -64,7 +64,7 @@ def test_spinning_rods_are_no_self_motion(balls):
     assert not np.any(has_finite_motion(balls, balls.home_values[None]))
 
 
-def test_what_is_not_assembled_is_unreachable():
+def test_what_is_not_assembled_is_not_closed():
     fivebar = assur.load("fivebar")
     found = classify_at(fivebar, np.array([[fivebar.home_values, fivebar.home_values + 0.2]]))
-    assert found.tolist() == [[Status.regular, Status.unreachable]]
+    assert found.tolist() == [[Status.regular, Status.not_closed]]
