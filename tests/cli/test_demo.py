@@ -122,7 +122,9 @@ def test_a_gap_in_a_loop_is_found(assur_cli, short, tmp_path, monkeypatch):
     )
     run = assur_cli("demo", "-o", str(tmp_path), "--json")
     failed = [claim["claim"] for claim in run.json["claims"] if not claim["holds"]]
-    assert (run.code, failed) == (1, ["every solution closes every loop of the joint graph"] * 2)
+    assert run.code == 1
+    assert failed.count("every solution closes every loop of the joint graph") == 2
+    assert run.json["files"] == []  # what stands on solutions is left out
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,8 @@ from assur.cli.quantities import count
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
+    from assur.mechanism import Mechanism
+
 MECHANISM = "zeng2019"
 BEGIN_WITH = "fivebar"
 """A small mechanism, good to begin one's own with."""
@@ -23,10 +25,9 @@ CLAIM_FAILS = 1
 
 
 def outcome(folder: Path, shared: Plain) -> Outcome:
-    """Run every part; exit code 1 where a claim fails."""
-    from assur.cli import demo_analysis, demo_documents, demo_position
+    """Run every part; exit code 1 where a claim fails. What stands on solutions is left out where one of these fails."""
+    from assur.cli import demo_position
     from assur.mechanism import load
-    from assur.report.findings import Findings
 
     begin = time.monotonic()
     record = load(MECHANISM)
@@ -35,14 +36,7 @@ def outcome(folder: Path, shared: Plain) -> Outcome:
     demo_position.topology(ledger, record)
     demo_position.direct(ledger, record)
     demo_position.inverse(ledger, record)
-    demo_analysis.velocity(ledger, record)
-    findings = Findings(record)
-    demo_analysis.singularities(ledger, findings, shared)
-    demo_analysis.workspace(ledger, findings, shared)
-    demo_documents.audit(ledger, findings, shared)
-    files = demo_documents.figures(ledger, findings, folder / "figures", shared)
-    files += demo_documents.report(ledger, findings, folder / "report.html", shared)
-    files += demo_documents.page(ledger, record, folder / "page.html", shared)
+    files = [] if ledger.failed else _analysed(ledger, record, folder, shared)
     seconds = time.monotonic() - begin
     data = {
         "mechanism": record.name,
@@ -54,13 +48,31 @@ def outcome(folder: Path, shared: Plain) -> Outcome:
     return Outcome(data, lambda: _shown(ledger, folder, files, seconds), CLAIM_FAILS if ledger.failed else 0)
 
 
+def _analysed(ledger: Ledger, record: Mechanism, folder: Path, shared: Plain) -> list[Path]:
+    """Everything that stands on the solutions of the position problems; the files that were written."""
+    from assur.cli import demo_analysis, demo_documents
+    from assur.report.findings import Findings
+
+    demo_analysis.velocity(ledger, record)
+    findings = Findings(record)
+    demo_analysis.singularities(ledger, findings, shared)
+    demo_analysis.workspace(ledger, findings, shared)
+    demo_documents.audit(ledger, findings, shared)
+    files = demo_documents.figures(ledger, findings, folder / "figures", shared)
+    files += demo_documents.report(ledger, findings, folder / "report.html", shared)
+    return [*files, *demo_documents.page(ledger, record, folder / "page.html", shared)]
+
+
 def _shown(ledger: Ledger, folder: Path, files: list[Path], seconds: float) -> Iterable[RenderableType]:
     total = count(len(ledger.claims), "claim")
     yield ""
     yield heading(f"{total} checked, {'all hold' if not ledger.failed else f'{ledger.failed} FAIL'}; {seconds:.0f} s")
-    yield f"{count(len(files), 'file')} in {folder}; open these two in a browser:"
-    yield f"  {folder / 'report.html'}: all of the above, with its figures"
-    yield f"  {folder / 'page.html'}: the mechanism, to be moved by hand"
+    if files:
+        yield f"{count(len(files), 'file')} in {folder}; open these two in a browser:"
+        yield f"  {folder / 'report.html'}: all of the above, with its figures"
+        yield f"  {folder / 'page.html'}: the mechanism, to be moved by hand"
+    else:
+        yield "no files: what stands on the solutions was left out"
     for claim in ledger.claims:
         if not claim.holds:
             yield f"fails: {claim.section}: {claim.claim}: {claim.found}"
