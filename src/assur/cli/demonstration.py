@@ -25,7 +25,7 @@ CLAIM_FAILS = 1
 
 
 def outcome(folder: Path, shared: Plain) -> Outcome:
-    """Run every part; exit code 1 where a claim fails. What stands on solutions is left out where one of these fails."""
+    """Run every part; exit code 1 where a claim fails. Where one of solutions does, what stands on them is left out."""
     from assur.cli import demo_position
     from assur.mechanism import load
 
