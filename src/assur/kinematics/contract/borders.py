@@ -14,7 +14,7 @@ from assur.kinematics.closure import RANK_GAP
 from assur.kinematics.contract.mismatch import Mismatch, place_text
 from assur.kinematics.contract.solutions import Solutions, solutions
 from assur.kinematics.modes import Problem, sign_names
-from assur.kinematics.rates.motions import motions
+from assur.kinematics.rates.motions import general, motions
 from assur.kinematics.status import branch_kernel, closed_form_of
 from assur.model.closed_form import Margin
 from assur.model.mechanism import MechanismRecord
@@ -120,7 +120,8 @@ def cut_short(record: MechanismRecord, problem: Problem, reached: Ends) -> list[
     motion = motions(record, found.joints[rows], RANK_GAP)
     part = motion.inputs if problem == "direct" else motion.pose
     least = np.linalg.svd(part, compute_uv=False)[..., part.shape[-2] - 1] if len(rows) else np.zeros(0)
-    least = np.where(motion.ranks.closure < np.max(motion.ranks.closure, initial=0), 0.0, least)
+    # a flat parallelogram is singular as a constraint, whatever inputs and platform do; all rows may be such places
+    least = np.where(motion.ranks.closure < general(record).closure, 0.0, least)
     told: dict[str, Mismatch] = {}
     for row, size in zip(rows, least, strict=True):
         margin = reached.margins[judged[found.rows[row]]]
