@@ -120,8 +120,10 @@ def cut_short(record: MechanismRecord, problem: Problem, reached: Ends) -> list[
     motion = motions(record, found.joints[rows], RANK_GAP)
     part = motion.inputs if problem == "direct" else motion.pose
     least = np.linalg.svd(part, compute_uv=False)[..., part.shape[-2] - 1] if len(rows) else np.zeros(0)
-    # a flat parallelogram is singular as a constraint, whatever inputs and platform do; all rows may be such places
-    least = np.where(motion.ranks.closure < general(record).closure, 0.0, least)
+    least = np.where(motion.ranks.closure < np.max(motion.ranks.closure, initial=0), 0.0, least)
+    if np.any(least > REGULAR):
+        # a flat parallelogram is singular as a constraint, whatever inputs and platform do; all rows may be such places
+        least = np.where(motion.ranks.closure < general(record).closure, 0.0, least)
     told: dict[str, Mismatch] = {}
     for row, size in zip(rows, least, strict=True):
         margin = reached.margins[judged[found.rows[row]]]
