@@ -117,3 +117,38 @@ B = 0
 C = [0, 0, 0]
 """
 """The motors turn the screws, so that -20 mm a turn lift the nuts; level, the platform stands 160 mm over them."""
+
+JACK = """
+format = 1
+name = "jack"
+title = "a screw jack whose nut is kept from turning by two hinges"
+unit = "mm"
+angle = "deg"
+base = "base"
+platform = { link = "beam", point = [90, 0, 0], pose = ["z"] }
+[parameters]
+lead = { value = 8, sign = "any" }
+[links]
+base = {}
+shaft = {}
+nut = {}
+beam = {}
+slide = {}
+[joints]
+M = { type = "revolute", parent = "base", child = "shaft", axis = "z" }
+H = { type = "helical", parent = "shaft", child = "nut", axis = "z", pitch = "lead" }
+A = { type = "revolute", parent = "nut", child = "beam", at = [0, 40, 0], child_at = [0, 40, 0], axis = "x" }
+B = { type = "revolute", parent = "beam", child = "slide", at = [200, -60, 30], axis = "x" }
+P = { type = "prismatic", parent = "base", child = "slide", at = [200, -60, 30], axis = "z" }
+[inputs]
+M = { name = "q" }
+[home]
+M = 0
+H = 0
+A = 0
+B = 0
+P = 0
+"""
+"""No loop has parallel axes alone. The hinges keep the nut upright, so H = -M and it sinks by the lead a turn. The beam
+has two places: as at home, and turned over about the hinge A, with B as far under it as B is above it at home.
+"""

@@ -11,9 +11,19 @@ from assur.kinematics.limits import limits
 from assur.kinematics.paths.following import follow
 from assur.kinematics.postures import unwound
 from assur.kinematics.search import places, search
-from assur.kinematics.turns import in_one_turn, told_by_turns, with_turns_of_home
-from assur.model.turns import counted, periodic, turn_relations, unwrapped
-from screw_mechanisms import DIFFERENTIAL, FIVEBAR, TRIPOD, loaded
+from assur.kinematics.turns import (
+    counted,
+    in_one_turn,
+    lasting_relations,
+    periodic,
+    told_by_turns,
+    unwrapped,
+    with_turns_of_home,
+)
+from assur.model.registry import with_parameters
+from assur.model.turns import turn_relations
+from assur.workspace.region import workspace
+from screw_mechanisms import DIFFERENTIAL, FIVEBAR, JACK, TRIPOD, loaded
 
 TURN = 2 * np.pi
 
@@ -164,3 +174,39 @@ def test_a_search_on_turns_gives_what_the_loops_give(fivebar):
     loops = fivebar.direct(given, method="loops").joints
     found = search(fivebar, "direct", given).joints
     assert np.allclose(in_order(loops), in_order(found), atol=1e-8)
+
+
+@pytest.fixture(scope="module")
+def jack(folder):
+    return loaded(folder, JACK)
+
+
+@pytest.mark.parametrize("turns", [0.25, -3.0, 12.4])
+def test_turns_count_where_hinges_across_the_screw_keep_its_nut_from_turning(jack, turns):
+    """The beam as at home, and turned over so that its hinge B is as far under the nut's as it was above it."""
+    found = jack.direct([TURN * turns])
+    over = -2 * np.arctan2(30, -100)
+    heights = [-8 * turns, -8 * turns - 40 * np.sin(over)]
+    assert np.allclose(np.sort(found.poses[:, 0]), np.sort(heights), atol=1e-8)
+    back = jack.inverse([-8 * turns])
+    assert np.min(np.abs(back.inputs[:, 0] - TURN * turns)) < 1e-8
+    assert len(back) == 2
+
+
+def test_a_sum_that_no_motion_changes_is_told_by_assemblies_around_home(jack, fivebar):
+    assert turn_relations(jack).shape == (0, 5)
+    assert lasting_relations(jack).tolist() == [[1, 1, 0, 0, 0]]
+    assert len(lasting_relations(fivebar)) == len(turn_relations(fivebar))
+
+
+def test_a_stroke_of_a_shaft_is_reached_once(jack):
+    """Over a quarter of a turn the nut moves by a quarter of the lead."""
+    region = workspace(jack, box={"z": (-10.0, 10.0)}, strokes={"q": (0.0, TURN / 4)})
+    assert region.volume == pytest.approx(2.0, rel=0.05)
+
+
+@pytest.mark.parametrize("lead", [80.0, 8.0, 0.05, 1e-3])
+def test_a_fine_thread_is_no_singularity(folder, lead):
+    """Where the velocity ratio is the lead everywhere, nothing that is said of singular and regular depends on it."""
+    found = with_parameters(loaded(folder, JACK), lead=lead).direct([2.5])
+    assert {item.status.name for item in found} == {"regular"}

@@ -8,8 +8,8 @@ import pytest
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import characteristic_length
 from assur.kinematics.pose import pose_of
+from assur.kinematics.turns import counted
 from assur.mechanism import load, names
-from assur.model.turns import counted
 from assur.page.graph import coordinates
 from assur.page.ranges import input_ranges, pose_ranges, whole_turn
 from screw_mechanisms import FIVEBAR, loaded

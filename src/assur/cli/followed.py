@@ -105,7 +105,7 @@ def _nearest_home(record: Mechanism, found: SolutionSet, default: str) -> int | 
     """The listed solution of the default mode that is nearest to home; None where there is none."""
     import numpy as np
 
-    from assur.model.turns import periodic
+    from assur.kinematics.turns import periodic
 
     rows = [k for k in np.flatnonzero(found.exists) if not default or str(found.labels[k]).partition("/")[0] == default]
     if not rows:

@@ -21,10 +21,10 @@ from assur.errors import Interrupted
 from assur.kinematics.closure import characteristic_length, mobility
 from assur.kinematics.rates.velocity import velocity_map, velocity_map_at
 from assur.kinematics.status import Status
+from assur.kinematics.turns import periodic_inputs
 from assur.model.joint_graph import Frame, frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
-from assur.model.turns import periodic_inputs
 
 FloatArray = NDArray[np.float64]
 EngineName = Literal["mujoco"]

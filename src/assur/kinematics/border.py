@@ -11,10 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.closure import characteristic_length
 from assur.kinematics.pose import pose_error
+from assur.kinematics.turns import periodic_inputs
 from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
-from assur.model.turns import periodic_inputs
 from assur.numerics import rotations
 from assur.topology.joints import SPHERICAL
 

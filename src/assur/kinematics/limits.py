@@ -9,8 +9,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.turns import periodic
 from assur.model.mechanism import MechanismRecord
-from assur.model.turns import periodic
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]

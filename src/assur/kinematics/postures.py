@@ -15,8 +15,8 @@ from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.search import SAME, places
 from assur.kinematics.status import Status
+from assur.kinematics.turns import periodic
 from assur.model.mechanism import MechanismRecord
-from assur.model.turns import periodic
 
 FloatArray = NDArray[np.float64]
 

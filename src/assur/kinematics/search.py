@@ -13,11 +13,17 @@ from assur.kinematics.closure import Assembly, assemble, characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
 from assur.kinematics.pose import pose_of
-from assur.kinematics.turns import counts_turns, joint_units, near_turns_of_home, with_turns_of_home
+from assur.kinematics.turns import (
+    counted,
+    counts_turns,
+    joint_units,
+    near_turns_of_home,
+    periodic_inputs,
+    with_turns_of_home,
+)
 from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
-from assur.model.turns import counted, periodic_inputs
 
 FloatArray = NDArray[np.float64]
 STARTS = 192

@@ -1,4 +1,8 @@
-"""Turns of home: what assemblies with screws have in common with home, and angles counted accordingly.
+"""Turns: which angles are the same after a whole turn, and which are not because a screw advances by its pitch.
+
+The value of a helical joint is a real number of turns. So is that of a driven joint whose angle and those of screws
+add up to what no motion changes: a motor on the shaft of a screw whose nut does not turn, be it guided or held by
+axes across.
 
 A nut that was threaded on one turn further stands elsewhere at the same angles. No motion leads there from home, so
 such an assembly answers no question about the mechanism as it is assembled.
@@ -6,19 +10,137 @@ such an assembly answers no question about the mechanism as it is assembled.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import itertools
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.closure import characteristic_length
+from assur.errors import MechanismFileError, UsageError
+from assur.kinematics.closure import assemble, characteristic_length
 from assur.kinematics.home import home_values
 from assur.model.mechanism import MechanismRecord
-from assur.model.turns import counted, periodic, screws_among, turn_relations
+from assur.model.turns import screws_among, turn_relations
+from assur.topology.joints import SPHERICAL
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
+
+SUMMED = 4
+"""So many angles at most are looked at together: screws, and motors that turn their shafts in series."""
+
+AROUND, SAMPLES = 0.1, 24
+"""How far assemblies around home are looked for (rad), and how many."""
+
+KEPT = 1e-6
+"""A sum of angles that changes by less than this (rad) does not change: assemblies close to some 1e-9, and the angles
+move by `AROUND`. In turns: within it half a turn counts as just that."""
+
+
+@lru_cache(maxsize=64)
+def counted(record: MechanismRecord) -> BoolArray:
+    """Whether whole turns of a joint value (n,) count.
+
+    >>> from assur.model.registry import load_record
+    >>> bool(np.any(counted(load_record("fivebar"))))
+    False
+    """
+    driven = np.isin(np.arange(len(record.coordinates)), record.input_indices)
+    return _frozen(screws_among(record) | (driven & np.any(lasting_relations(record) != 0, axis=0)))
+
+
+@lru_cache(maxsize=64)
+def periodic(record: MechanismRecord) -> BoolArray:
+    """Whether a whole turn leaves a joint value (n,) as it was: an angle about an axis whose turns do not count.
+
+    >>> from assur.model.registry import load_record
+    >>> bool(np.all(periodic(load_record("fivebar"))))
+    True
+    """
+    return _frozen(_about_axis(record) & ~counted(record))
+
+
+def periodic_inputs(record: MechanismRecord) -> BoolArray:
+    """The same (n,) for the inputs.
+
+    >>> from assur.model.registry import load_record
+    >>> periodic_inputs(load_record("fivebar")).tolist()
+    [True, True]
+    """
+    return np.asarray(periodic(record)[list(record.input_indices)])
+
+
+def unwrapped(record: MechanismRecord, change: FloatArray) -> FloatArray:
+    """Changes (..., n) of joint values, angles that are the same after a whole turn the short way.
+
+    >>> from assur.model.registry import load_record
+    >>> unwrapped(load_record("fivebar"), np.full(5, 6.0)).round(4).tolist()
+    [-0.2832, -0.2832, -0.2832, -0.2832, -0.2832]
+    """
+    return np.where(periodic(record), np.remainder(change + np.pi, 2 * np.pi) - np.pi, change)
+
+
+@lru_cache(maxsize=64)
+def lasting_relations(record: MechanismRecord) -> FloatArray:
+    """Sums (r, n) of angles of screws and inputs that no motion from home changes, as rows of -1, 0 and 1.
+
+    Those around loops of parallel axes hold in every assembly. The others, of at most `SUMMED` angles, are told by
+    assemblies around home: a nut may also be kept from turning by hinges across its screw.
+
+    >>> from assur.model.registry import load_record
+    >>> lasting_relations(load_record("fivebar")).shape
+    (0, 5)
+    """
+    rows = list(turn_relations(record))
+    screws = screws_among(record)
+    if np.any(screws):
+        driven = np.isin(np.arange(len(screws)), record.input_indices) & _about_axis(record)
+        changes = _changes_around_home(record)
+        for row in _sums(screws, driven):
+            off = np.abs(np.remainder(changes @ row + np.pi, 2 * np.pi) - np.pi)
+            kept = np.max(off, initial=0.0) <= KEPT
+            if kept and np.linalg.matrix_rank(np.array([*rows, row])) > len(rows):
+                rows.append(row)
+    return _frozen(np.array(rows).reshape(len(rows), len(screws)))
+
+
+def _sums(screws: BoolArray, driven: BoolArray) -> Iterator[FloatArray]:
+    """Rows (n,) of -1, 0 and 1, shorter ones first, the first of them 1, with a screw and an angle in each."""
+    angles = np.flatnonzero(screws | driven)
+    for size in range(2, SUMMED + 1):
+        for chosen in itertools.combinations(angles, size):
+            if not np.any(screws[list(chosen)]):
+                continue
+            for signs in itertools.product((1.0, -1.0), repeat=size - 1):
+                row = np.zeros(len(screws))
+                row[list(chosen)] = (1.0, *signs)
+                yield row
+
+
+def _changes_around_home(record: MechanismRecord) -> FloatArray:
+    """How joint values (N, n) differ from those of home at assemblies around it; none where home does not close.
+
+    A joint that stands still tells nothing: rows in which some angle of a screw or an input does not move at all would
+    make every sum with it look kept, so that it is given a motion of its own.
+    """
+    try:
+        home = home_values(record)
+    except (MechanismFileError, UsageError):
+        return np.eye(len(record.home))
+    away = AROUND * np.random.default_rng(0).normal(size=(SAMPLES, len(home)))
+    found = assemble(record, home + away * _about_axis(record))
+    changes = (found.values - home)[found.closed]
+    still = np.max(np.abs(changes), axis=0, initial=0.0) <= KEPT
+    return np.concatenate([changes, np.diag(still.astype(float))])
+
+
+def _about_axis(record: MechanismRecord) -> BoolArray:
+    """Which joint values (n,) are angles about an axis."""
+    return np.array(
+        [item.kind == "angle" and record.joints[item.joint].type is not SPHERICAL for item in record.coordinates]
+    )
 
 
 def in_one_turn(record: MechanismRecord, joints: FloatArray) -> FloatArray:
@@ -42,19 +164,22 @@ def with_turns_of_home(
         cannot, a nut has been threaded anew.
     """
     answer, screws = in_one_turn(record, joints), screws_among(record)
-    home, relations = home_values(record), turn_relations(record)
+    home, relations = home_values(record), lasting_relations(record)
     for row in relations:
         free = np.setdiff1d(np.flatnonzero((row != 0) & ~screws), np.asarray(held, dtype=int))
         if len(free):
-            turns = np.round((answer - home) @ row / (2 * np.pi))
-            answer[..., free[0]] -= 2 * np.pi * turns * row[free[0]]
-    off = np.round((answer - home) @ relations.T / (2 * np.pi))
-    return answer, np.all(off == 0, axis=-1)
+            answer[..., free[0]] -= 2 * np.pi * _turns((answer - home) @ row) * row[free[0]]
+    return answer, np.all(_turns((answer - home) @ relations.T) == 0, axis=-1)
+
+
+def _turns(angle: FloatArray) -> FloatArray:
+    """Whole turns (...) of an angle; half a turn counts as none, forwards, so that rounding does not decide."""
+    return np.asarray(np.ceil(angle / (2 * np.pi) - 0.5 - KEPT))
 
 
 def near_turns_of_home(record: MechanismRecord, start: FloatArray, held: Sequence[int]) -> FloatArray:
     """Starts (..., n) moved as little as gives them as many turns as motions from home have, `held` values kept."""
-    relations = turn_relations(record).copy()
+    relations = lasting_relations(record).copy()
     off = (start - home_values(record)) @ relations.T
     relations[:, list(held)] = 0.0
     return start - off @ np.linalg.pinv(relations).T
@@ -92,7 +217,7 @@ def joint_units(record: MechanismRecord) -> FloatArray:
     length = characteristic_length(record)
     units = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
     pitches = np.array([abs(record.joints[item.joint].pitch) for item in record.coordinates])
-    for row in turn_relations(record) != 0:
+    for row in lasting_relations(record) != 0:
         pitches[row] = np.maximum(pitches[row], np.max(pitches[row]))
     screws = pitches > 0
     units[screws] = np.maximum(1.0, 2 * np.pi * length / pitches[screws])
@@ -108,3 +233,8 @@ def counts_turns(record: MechanismRecord) -> bool:
     False
     """
     return bool(np.any(counted(record)))
+
+
+def _frozen(array: NDArray[Any]) -> NDArray[Any]:
+    array.flags.writeable = False
+    return array

@@ -1,9 +1,4 @@
-"""Turns: which angles are the same after a whole turn, and which are not because a screw advances by its pitch.
-
-The value of a helical joint is a real number of turns. So is that of a driven joint whose angle tells, with the angles
-of screws alone, how a link stands that can only turn about their common direction: a motor on the shaft of a screw
-whose nut is guided. Around a loop of parallel axes the angles add up to whole turns, and to as many on every motion.
-"""
+"""Turns around loops of parallel axes: there the angles add up to whole turns, and to as many on every motion."""
 
 from __future__ import annotations
 
@@ -16,48 +11,12 @@ from numpy.typing import NDArray
 
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import Joint, MechanismRecord
-from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC, REVOLUTE, SPHERICAL
+from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC, REVOLUTE
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 PARALLEL = 1e-9
 """Sine below which an axis is along a direction: both are written, or turned by a limb's angle."""
-
-
-@lru_cache(maxsize=64)
-def counted(record: MechanismRecord) -> BoolArray:
-    """Whether whole turns of a joint value (n,) count.
-
-    >>> from assur.model.registry import load_record
-    >>> bool(np.any(counted(load_record("fivebar"))))
-    False
-    """
-    driven = np.isin(np.arange(len(record.coordinates)), record.input_indices)
-    return _frozen(screws_among(record) | (driven & np.any(turn_relations(record) != 0, axis=0)))
-
-
-@lru_cache(maxsize=64)
-def periodic(record: MechanismRecord) -> BoolArray:
-    """Whether a whole turn leaves a joint value (n,) as it was: an angle about an axis whose turns do not count.
-
-    >>> from assur.model.registry import load_record
-    >>> bool(np.all(periodic(load_record("fivebar"))))
-    True
-    """
-    about_axis = [
-        item.kind == "angle" and record.joints[item.joint].type is not SPHERICAL for item in record.coordinates
-    ]
-    return _frozen(np.array(about_axis, dtype=bool) & ~counted(record))
-
-
-def periodic_inputs(record: MechanismRecord) -> BoolArray:
-    """The same (n,) for the inputs.
-
-    >>> from assur.model.registry import load_record
-    >>> periodic_inputs(load_record("fivebar")).tolist()
-    [True, True]
-    """
-    return np.asarray(periodic(record)[list(record.input_indices)])
 
 
 @lru_cache(maxsize=64)
@@ -73,16 +32,6 @@ def turn_relations(record: MechanismRecord) -> FloatArray:
     matrix = np.array(rows).reshape(len(rows), len(record.coordinates))
     driven = np.isin(np.arange(matrix.shape[1]), record.input_indices)
     return _frozen(_without(matrix, np.flatnonzero(~screws_among(record) & ~driven)))
-
-
-def unwrapped(record: MechanismRecord, change: FloatArray) -> FloatArray:
-    """Changes (..., n) of joint values, angles that are the same after a whole turn the short way.
-
-    >>> from assur.model.registry import load_record
-    >>> unwrapped(load_record("fivebar"), np.full(5, 6.0)).round(4).tolist()
-    [-0.2832, -0.2832, -0.2832, -0.2832, -0.2832]
-    """
-    return np.where(periodic(record), np.remainder(change + np.pi, 2 * np.pi) - np.pi, change)
 
 
 def screws_among(record: MechanismRecord) -> BoolArray:

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from assur.kinematics.closure import characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.status import scale
+from assur.kinematics.turns import counted
 from assur.model.mechanism import MechanismRecord
-from assur.model.turns import counted
 from assur.page import kernel
 from assur.page.branches import branches, modes
 from assur.page.facts import errata, errata_note, facts

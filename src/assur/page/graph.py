@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from assur.kinematics.turns import counted
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import Joint, MechanismRecord
-from assur.model.turns import counted
 
 
 def graph(record: MechanismRecord) -> dict[str, Any]:

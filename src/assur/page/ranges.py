@@ -10,9 +10,9 @@ from assur.kinematics.closure import characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import inverse
+from assur.kinematics.turns import counted, lasting_relations
 from assur.model.mechanism import Input, MechanismRecord
 from assur.model.pose import LENGTHS, QUATERNION
-from assur.model.turns import counted, turn_relations
 
 FloatArray = NDArray[np.float64]
 SAMPLES = 2000
@@ -103,7 +103,7 @@ def _range(record: MechanismRecord, item: Input, here: float, needed: FloatArray
 def _turns(record: MechanismRecord, item: Input) -> int:
     """Whole turns of a driven screw, or of a shaft that drives one, that advance it by the characteristic length."""
     index = item.coordinate.index
-    together = [row for row in turn_relations(record) if row[index]]
+    together = [row for row in lasting_relations(record) if row[index]]
     screws = {record.coordinates[k].joint for row in together for k in np.flatnonzero(row)} | {item.coordinate.joint}
     pitch = max(abs(record.joints[name].pitch) for name in screws)
     return max(1, round(characteristic_length(record) / pitch))

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.turns import periodic
 from assur.model.mechanism import Coordinate, Input, Joint, MechanismRecord
-from assur.model.turns import periodic
 from assur.numerics.intervals.functions import cosine_sine, from_degrees
 from assur.numerics.intervals.interval import Interval
 

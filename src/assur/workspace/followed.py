@@ -29,10 +29,10 @@ from assur.kinematics.paths.followed_grid import Continuation, Followed
 from assur.kinematics.paths.following import follow
 from assur.kinematics.paths.neighbours import working_signs
 from assur.kinematics.position import inverse
+from assur.kinematics.turns import periodic
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
-from assur.model.turns import periodic
 from assur.numerics import rotations
 from assur.singularity.loci import OUTPUT
 from assur.topology.joints import SPHERICAL

@@ -25,10 +25,9 @@ from assur.kinematics.closure import characteristic_length, closing_system
 from assur.kinematics.modes import Problem
 from assur.kinematics.position import Method
 from assur.kinematics.search import distinct
-from assur.kinematics.turns import in_one_turn
+from assur.kinematics.turns import in_one_turn, periodic
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
-from assur.model.turns import periodic
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.krawczyk import Equations, image, parts, proves, stacked
 from assur.topology.joints import SPHERICAL

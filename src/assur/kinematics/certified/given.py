@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.turns import periodic_inputs
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
-from assur.model.turns import periodic_inputs
 from assur.numerics.dual import Dual
 from assur.numerics.intervals.functions import ERROR, TURN, cosine_sine, from_degrees
 from assur.numerics.intervals.interval import Interval, as_interval

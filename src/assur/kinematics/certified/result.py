@@ -14,9 +14,9 @@ from assur.kinematics.answers.at_border import inputs_at_border, limits_at_borde
 from assur.kinematics.closure import characteristic_length
 from assur.kinematics.limits import limits_stated
 from assur.kinematics.modes import Problem
+from assur.kinematics.turns import periodic_inputs
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, QUATERNION, is_angle
-from assur.model.turns import periodic_inputs
 from assur.numerics.intervals.functions import TURN
 from assur.numerics.intervals.interval import Interval
 from assur.results.json_text import plain

@@ -21,10 +21,10 @@ from assur.kinematics import border
 from assur.kinematics.closed_form.existence import tolerance
 from assur.kinematics.modes import Problem, sign_names
 from assur.kinematics.status import branch_kernel, closed_form_of
+from assur.kinematics.turns import periodic_inputs
 from assur.model.closed_form import Branch, Margin
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
-from assur.model.turns import periodic_inputs
 from assur.numerics.recording.loops import Loop, compiled
 from assur.numerics.recording.tape import Recorded, Recorder, Tape
 from assur.numerics.singular_values import SIZES, condition_index

@@ -11,10 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.border import checked, checked_poses, input_names
 from assur.kinematics.rates.motions import pose_units
-from assur.kinematics.turns import joint_units
+from assur.kinematics.turns import joint_units, periodic_inputs
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
-from assur.model.turns import periodic_inputs
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border
 from assur.kinematics.closure import characteristic_length
 from assur.kinematics.paths.course import Prescribed
+from assur.kinematics.turns import periodic_inputs
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
-from assur.model.turns import periodic_inputs
 from assur.results.json_text import plain
 
 FloatArray = NDArray[np.float64]

@@ -16,9 +16,9 @@ from assur.kinematics.paths.stepping import COARSE, NEWTON, Blocked, Point, asse
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.status import closed_form_of, relative_factors
+from assur.kinematics.turns import unwrapped
 from assur.model.closed_form import ClosedForm
 from assur.model.mechanism import MechanismRecord
-from assur.model.turns import unwrapped
 
 FloatArray = NDArray[np.float64]
 SINGULAR = 1e-6

@@ -1,6 +1,7 @@
 """The motions that keep every loop of the joint graph closed: their null space, and what of inputs and pose they move.
 
-All of it is scaled to plain numbers: lengths count in units of the characteristic length.
+All of it is scaled to plain numbers: lengths count in units of the characteristic length, the angle of a screw in turns
+that advance it by as much, so that a fine thread is no nearer to a singularity than a coarse one.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 from assur.kinematics.closure import RANK_GAP, assemble, characteristic_length, loop_twists
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import platform_twists, turning_rates
+from assur.kinematics.turns import joint_units
 from assur.model.joint_graph import frames, screws
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
@@ -85,9 +87,8 @@ def pose_units(record: MechanismRecord) -> FloatArray:
 
 
 def input_units(record: MechanismRecord) -> FloatArray:
-    """What each input (F,) is divided by to be a number: the characteristic length, or 1."""
-    length = characteristic_length(record)
-    return np.array([length if item.coordinate.kind == "length" else 1.0 for item in record.inputs])
+    """What each input (F,) is divided by to be a number: the characteristic length, 1, or a screw's turns for it."""
+    return joint_units(record)[list(record.input_indices)]
 
 
 def twist_units(record: MechanismRecord) -> FloatArray:
@@ -138,8 +139,7 @@ def motions(record: MechanismRecord, values: FloatArray, threshold: float | None
     threshold = SINGULAR * general_share(record) if threshold is None else threshold
     placed = frames(record, values)
     unit_twists = screws(record, placed, values)
-    length = characteristic_length(record)
-    scale = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
+    scale = joint_units(record)
     closure = closure_at_platform(record, values) * scale  # (..., 6 v, n)
     left, singular, right = np.linalg.svd(closure, full_matrices=closure.shape[-2] < closure.shape[-1])
     rank, gap = _rank(singular, threshold * singular[..., 0])

@@ -14,12 +14,12 @@ from assur.kinematics.pose import pose_of
 from assur.kinematics.soundness.claims import Claims, axis_name, claims
 from assur.kinematics.soundness.freedoms import freedom_problems, pose_problems
 from assur.kinematics.soundness.gaps import gap_problems
+from assur.kinematics.turns import periodic, unwrapped
 from assur.model.file.key_path import KeyPath
 from assur.model.file.place import input_place, place, problem, table_place
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
-from assur.model.turns import periodic, unwrapped
 
 SMALLEST, LARGEST = 1e-3, 50.0
 """A mechanism smaller or larger than this, in metres, has probably its lengths in another unit."""

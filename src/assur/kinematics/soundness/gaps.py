@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from assur.errors import Problem
 from assur.kinematics.closure import Assembly, assemble, characteristic_length, residuals
 from assur.kinematics.soundness.axes import axes_hint
+from assur.kinematics.turns import unwrapped
 from assur.model.file.place import place, problem, table_place
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import Coordinate, Joint, MechanismRecord
-from assur.model.turns import unwrapped
 from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC
 
 FloatArray = NDArray[np.float64]

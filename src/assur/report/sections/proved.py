@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from assur.kinematics.certified.result import CertifiedSolutions, ProvedSolution
 from assur.kinematics.modes import Problem
+from assur.kinematics.turns import periodic_inputs
 from assur.model.pose import QUATERNION
-from assur.model.turns import periodic_inputs
 from assur.report.findings import Findings
 from assur.report.numbers import pose_angles, short, shown_unit
 from assur.results.kinds import FLOATING, PROVED
