@@ -52,13 +52,20 @@ def _shown(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
     near = ", near_singular" if data["near"] else ""
     yield heading(f"{data['mechanism']}, singularity: {data['kind']}{near}")
     yield f"at {pose_text(style_of(record), data['coordinates'], data['pose'])}, {mode_words(record, data['mode'])}"
-    if data["home_by"]:
-        yield data["home_by"]
+    yield from of_modes(data)
     yield ""
     if data["failures"]:
         yield failures(data["failures"])
     if data["factors"]:
         yield from _factors(record, data) if record.closed_form else _measures(data)
+
+
+def of_modes(data: dict[str, Any]) -> Iterable[str]:
+    """By what it is home's mode or is not; else, where a mode does not reach the pose, which others do."""
+    if data["home_by"]:
+        yield data["home_by"]
+    elif data["known_modes"]:
+        yield f"in other modes there are solutions: {', '.join(data['known_modes'])}"
 
 
 def _measures(data: dict[str, Any]) -> Iterable[RenderableType]:

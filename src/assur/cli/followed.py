@@ -69,8 +69,9 @@ def _from_home_mode(
     start = home_mode_at(record, place, "poses" if along == "pose" else "inputs")
     if start.joints is None:
         said = f"{record.name}, no path: --from is not reached in home's mode: {start.words}"
-        data = {"mechanism": record.name, "status": "undecided", "why": said}
-        return Outcome(data, lambda: [said, "hint: name another mode at --from by --mode"], exit_codes.UNDECIDED)
+        data = {"mechanism": record.name, "status": start.status.name, "why": said}
+        code = exit_codes.of_status(start.status.name)
+        return Outcome(data, lambda: [said, "hint: name another mode at --from by --mode"], code)
     return _followed(record, start.joints, along, goal, turns=turns, use_limits=use_limits)
 
 

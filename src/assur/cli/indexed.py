@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Literal
 
 from assur.cli import exit_codes
+from assur.cli.configuration import of_modes
 from assur.cli.numbers import number, whole_number
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
@@ -50,6 +51,7 @@ def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) ->
     from assur.kinematics.paths.home_mode import home_mode_at
     from assur.performance.indices import indices
     from assur.results.json_text import plain
+    from assur.singularity.verdict import modes_at
 
     of_home = record.closed_form is None and (not mode or mode == record.modes.default_working)
     home = home_mode_at(record, pose) if record.closed_form is None else None
@@ -69,7 +71,10 @@ def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) ->
         **_distance(record, pose, mode),
         "failures": lost,
         "home_by": "" if home is None else home.words if solved is None else _other(record, solved, home),
+        "known_modes": list(home.others) if of_home and home is not None else [],
     }
+    if not of_home and data["status"] == "unreachable":
+        data["known_modes"] = list(modes_at(record, pose))
     units = _units(found)
     return Outcome(data, lambda: _pose_shown(record, data, units), exit_codes.of_status(data["status"]))
 
@@ -147,8 +152,7 @@ def _pose_shown(record: Mechanism, data: dict[str, Any], units: dict[str, str]) 
     yield heading(f"{data['mechanism']}, indices: {data['status']}")
     of_mode = f", working mode {data['mode']}" if data["mode"] else ""
     yield f"at {pose_text(style_of(record), data['coordinates'], data['pose'])}{of_mode}"
-    if data["home_by"]:
-        yield data["home_by"]
+    yield from of_modes(data)
     yield ""
     if data["failures"]:
         yield failures(data["failures"])

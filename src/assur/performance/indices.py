@@ -239,18 +239,18 @@ def _at_poses(record: MechanismRecord, poses: FloatArray, mode: str) -> Part:
 
 
 def _of_home(record: MechanismRecord, poses: FloatArray) -> Part:
-    """Home's mode at poses (N, m), pose by pose followed from home; undecided where no path leads there."""
+    """Home's mode at poses (N, m), pose by pose followed from home; undecided where no path leads there, unreachable
+    where it is proved that none does.
+    """
     joints = np.full((len(poses), len(record.coordinates)), np.nan)
-    for row, pose in zip(joints, poses, strict=True):
-        there = home_mode_at(record, pose).joints
-        if there is not None:
-            row[:] = there
+    reached = [home_mode_at(record, pose) for pose in poses]
+    for row, there in zip(joints, reached, strict=True):
+        if there.joints is not None:
+            row[:] = there.joints
     status, matrices, inputs, outputs = _at_joints(record, joints)
-    lost = np.flatnonzero(~np.isfinite(joints[:, 0]))
-    for k in lost:
-        found = inverse(record, poses[k])
-        nowhere = found.complete and not np.any(found.exists)
-        status[k] = Status.unreachable if nowhere else Status.undecided
+    for k, there in enumerate(reached):
+        if there.joints is None:
+            status[k] = there.status
     return status, matrices, inputs, outputs
 
 

@@ -47,6 +47,8 @@ class Verdict:
         platform_gains: whether the platform has more freedoms than in general, all inputs free; None where not asked.
         home: without a closed form, whether the configuration belongs to home's mode, as paths from home decide; None
             where there is a closed form, or joint values were given. `home_by` says by what.
+        known_modes: where the mode that was asked for does not reach the pose, the modes of the solutions that are
+            known there.
         gap: of the ranks on the joint graph, the least ratio of a singular value kept to the largest dropped.
     """
 
@@ -67,6 +69,7 @@ class Verdict:
     gap: float | None = None
     home: bool | None = None
     home_by: str = ""
+    known_modes: tuple[str, ...] = ()
 
 
 @lru_cache(maxsize=64)
@@ -90,8 +93,9 @@ def verdict(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) -
 
     The kind is the most severe of what the factors say and what the rank of the joint graph says. A mechanism without
     closed form is followed from home to the pose where no mode is named; where no path leads there the kind is
-    undecided, or unreachable where it is proved that there is no solution. Of another mode the one assembly is found by
-    a search and judged by `verdict_at`, and `home` says whether it is that of home's mode.
+    undecided, or unreachable where it is proved that home's mode does not reach it (`home_by` says by what). Of another
+    mode the one assembly is found by a search and judged by `verdict_at`, and `home` says whether it is that of home's
+    mode.
 
     >>> from assur.model.registry import load_record
     >>> verdict(load_record("zeng2019"), [-15.4714, 9.6849, 456.3315], "++-++").kind
@@ -107,7 +111,9 @@ def verdict(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) -
     if record.closed_form is None:
         return _of_the_one(record, found)
     status = Status(int(found.status[0]))
-    if status in (Status.not_closed, Status.unreachable, Status.undecided):
+    if status is Status.unreachable:
+        return replace(_nothing(status), known_modes=modes_at(record, found.given))
+    if status in (Status.not_closed, Status.undecided):
         return _nothing(status)
     free = mobility(record, found.joints[0])
     general = max(generic_rank(record), int(free.rank))
@@ -181,14 +187,23 @@ def checked_pose(record: MechanismRecord, pose: ArrayLike) -> FloatArray:
     return given
 
 
+def modes_at(record: MechanismRecord, pose: FloatArray) -> tuple[str, ...]:
+    """The modes of all solutions that are known at a pose (m,).
+
+    >>> from assur.model.registry import load_record
+    >>> modes_at(load_record("fivebar"), np.array([0.0, 200.0]))
+    ('++', '+-', '-+', '--')
+    """
+    found = inverse(record, pose)
+    return tuple(str(label) for label in found.labels[found.exists])
+
+
 def _of_home(record: MechanismRecord, pose: FloatArray) -> Verdict:
     """The verdict on home's mode at a pose (m,)."""
     there = home_mode_at(record, pose)
     if there.joints is not None:
         return replace(verdict_at(record, there.joints), home=True, home_by=there.words)
-    found = inverse(record, pose)
-    status = Status.unreachable if found.complete and not np.any(found.exists) else Status.undecided
-    return replace(_nothing(status), home=False, home_by=there.words)
+    return replace(_nothing(there.status), home=False, home_by=there.words, known_modes=there.others)
 
 
 def _of_the_one(record: MechanismRecord, found: SolutionSet) -> Verdict:
