@@ -373,13 +373,18 @@ def outcomes(texts, seed=0, count=12):
 def least_sum_of_degrees(texts, driven, seed=0):
     """The least sum of |degrees| over all orders of loops, Eqs. (4) to (6), by trying them; None where nothing was met.
 
-    `driven` names joints, "R3", or components, "C1.1". A parallelogram is one joint, with the motion of its far link.
+    A sum of degrees is what some loops can do with the drives locked, less what they still do in the whole mechanism.
+    `driven` are pairs from 0: a joint's place among all as they are written, and its component. A parallelogram is one
+    joint, with the motion of its far link. Infinite where the platform moves although the drives are locked.
     """
     linkage = Linkage(placed(texts, seed))
-    ends = [values for number, values in enumerate(walks(linkage, 12, seed)) if outcome(linkage, values, number).real]
-    if not ends:
+    ends = [(values, outcome(linkage, values, number)) for number, values in enumerate(walks(linkage, 12, seed))]
+    met = Counter(item for _, item in ends if item.real)
+    if not met:
         return None
-    return _Orders(linkage, ends[0], driven).least(frozenset())
+    (usual, _), *_ = met.most_common(1)
+    orders = _Orders(linkage, next(values for values, item in ends if item == usual), driven)
+    return orders.least(frozenset()) if orders.fixed else np.inf
 
 
 class _Orders:
@@ -389,18 +394,11 @@ class _Orders:
         self.edges = _generalised(linkage, values)
         columns = [np.concatenate([[index] * twists.shape[1]]) for index, (*_, twists) in enumerate(self.edges)]
         self.owner = np.concatenate(columns).astype(int)
-        names = [
-            f"{name}.{k + 1}" if twists.shape[1] > 1 else name
-            for name, _, _, twists in self.edges
-            for k in range(twists.shape[1])
-        ]
-        self.driven = np.array([name in driven for name in names])
-        assert self.driven.sum() == len(driven), (names, driven)
-        (moves,) = _null(self._closure(frozenset(range(len(self.edges))))[None])[0]
-        way = self._way(0, 1)
-        platform = sum(sense * self._spread(index) for index, sense in way) @ moves
-        (rests,) = _null(np.concatenate([platform, moves[self.driven]])[None])[0]
-        self.internal = moves @ rests
+        starts = np.searchsorted(self.owner, [place for place, _ in driven])
+        self.driven = np.isin(np.arange(len(self.owner)), starts + [component for _, component in driven])
+        self.rests = self._locked(frozenset(range(len(self.edges))))
+        platform = sum(sense * self._spread(index) for index, sense in self._way(0, 1))
+        self.fixed = not _rank(platform @ self.rests)
         self.known, self.ranks = {}, {}
 
     def _spread(self, index):
@@ -434,13 +432,20 @@ class _Orders:
                 rows.append(self._spread(index) - sum((sense * self._spread(i) for i, sense in way), np.zeros((6, 1))))
         return np.concatenate(rows) if rows else np.zeros((0, len(self.owner)))
 
+    def _locked(self, taken):
+        """Basis of the motions of some loops with the drives locked, all other joints at rest."""
+        free = np.isin(self.owner, list(taken)) & ~self.driven
+        (basis,) = _null(self._closure(taken)[None][..., free])[0]
+        found = np.zeros((len(self.owner), basis.shape[1]))
+        found[free] = basis
+        return found
+
     def left(self, taken):
-        """Freedoms less internal ones, less inputs, less the rank of the closure."""
+        """Freedoms of some loops with the drives locked, less those that the whole mechanism leaves them."""
         if taken not in self.ranks:
             inside = np.isin(self.owner, list(taken))
-            internal = self.internal.shape[1] - _rank(self.internal[~inside])
-            self.ranks[taken] = inside.sum() - internal - self.driven[inside].sum() - _rank(self._closure(taken))
-        return int(self.ranks[taken])
+            self.ranks[taken] = self._locked(taken).shape[1] - _rank(self.rests[inside])
+        return self.ranks[taken]
 
     def least(self, taken):
         if taken not in self.known:

@@ -11,7 +11,7 @@ from assur.model.file.schema import Entry
 from assur.model.mechanism import MechanismRecord
 from assur.topology.analysis import COUNT
 from assur.topology.counting.coupling import coupling, coupling_of
-from assur.topology.counting.mobility import mobility
+from assur.topology.counting.mobility import mobility, motions
 from assur.topology.rules.derivation import counted, matrix
 
 TWISTS = f"rank of twists at {COUNT} random finite displacements"
@@ -126,9 +126,10 @@ def decomposition_rows(record: MechanismRecord, entry: Decomposition) -> list[Ro
     """
     here = sampled(record)
     free = mobility(here.collapsed, here.linkage.base, here.linkage.platform)
+    internal = motions(here.collapsed, here.linkage.base, here.linkage.platform).internal
     order = [called(record, loop.joints) for loop in entry.loops]
     rows: list[Row] = []
-    for printed, loop in zip(entry.loops, coupling_of(here.collapsed, order, free.internal).loops, strict=True):
+    for printed, loop in zip(entry.loops, coupling_of(here.collapsed, order, internal).loops, strict=True):
         rows += [
             _row(
                 entry.sources["freedoms"], f"sum of f, {printed.name}", printed.freedoms, loop.freedoms, "joint graph"
@@ -137,7 +138,7 @@ def decomposition_rows(record: MechanismRecord, entry: Decomposition) -> list[Ro
             _row(entry.sources["xi"], f"xi, {printed.name}", printed.xi, loop.xi, TWISTS),
             _row(entry.sources["delta"], f"Delta, {printed.name}", printed.delta, loop.delta, TWISTS),
         ]
-    kappa = coupling(here.collapsed, free.internal).coupling_degree
+    kappa = coupling(here.collapsed, internal).coupling_degree
     least = f"{TWISTS}; the least of all orders of loops"
     return [
         *rows,

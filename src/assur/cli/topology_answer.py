@@ -100,11 +100,7 @@ def _result(found: Topology) -> Iterator[str]:
     loops = "; ".join(f"ξ{k} = {loop.xi}, Δ{k} = {signed(loop.delta)}" for k, loop in enumerate(found.loops, 1))
     yield f"loops        {len(found.loops)}" + (f": {loops}" if loops else "")
     degree = found.coupling_degree
-    yield (
-        f"coupling     κ = {degree}"
-        if degree is not None
-        else "coupling     none: the inputs do not determine the mechanism"
-    )
+    yield (f"coupling     κ = {degree}" if degree is not None else f"coupling     none: {found.coupling_refusal}")
     redundant = found.redundant_constraints
     yield f"redundant    {redundant.collapsed} with parallelograms as one joint, {redundant.joint_graph} of all joints"
 
@@ -163,13 +159,15 @@ def _refused(name: str, known: Known) -> Iterator[str]:
 def _loops(found: Topology, say: Said) -> Iterator[RenderableType]:
     if not found.loops:
         return
+    internal = ["internal"] if any(loop.internal for loop in found.loops) else []
     yield table(
-        ("loop", "joints that it adds", say("Σf"), "I", say("ξ"), say("Δ"), "redundant"),
+        ("loop", "joints that it adds", say("Σf"), *internal, "I", say("ξ"), say("Δ"), "redundant"),
         [
             (
                 str(number),
                 " ".join(loop.edges),
                 str(loop.freedoms),
+                *([str(loop.internal)] if internal else []),
                 str(loop.inputs),
                 str(loop.xi),
                 f"{signed(loop.delta)}",

@@ -19,7 +19,7 @@ from assur.topology.counting.coupling import Loop, coupling
 from assur.topology.counting.decoupling import Decoupling, Judged, by_jacobian, judged
 from assur.topology.counting.decoupling import by_rules as decoupled_by_rules
 from assur.topology.counting.drives import admissible_drives
-from assur.topology.counting.mobility import Mobility, mobility
+from assur.topology.counting.mobility import Mobility, mobility, motions
 from assur.topology.counting.relaxation import relaxation
 from assur.topology.counting.solution_plan import solution_plan
 from assur.topology.facts import InputsBy, Known, Limb, OperationModeFacts, RedundantConstraints, Topology
@@ -166,7 +166,7 @@ def analyse(
     rules = by_rules(chains, still=still, held=held, at=at)
     limbs = _limbs(here, chains or (), rules)
     rules = as_the_limbs_are(rules, limbs)
-    order = coupling(here.collapsed, collapsed.internal)
+    order = coupling(here.collapsed, motions(here.collapsed, base, platform).internal)
     if not here.is_branch_point:  # the rules may speak of another mode
         check_xi(chains or (), [limb.here for limb in limbs], order.loops, held=held)
     decoupling = _decoupling(by_jacobian(here.collapsed, base, platform), chains, rules.platform, still=still)

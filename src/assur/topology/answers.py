@@ -39,6 +39,7 @@ def answers(found: Topology) -> dict[str, Any]:
             {"loops": list(chain.loops), "coupling_degree": chain.coupling_degree} for chain in found.assur_chains
         ],
         "coupling_degree": found.coupling_degree,
+        "coupling_refusal": found.coupling_refusal,
         "redundant_constraints": {
             "collapsed": found.redundant_constraints.collapsed,
             "joint_graph": found.redundant_constraints.joint_graph,

@@ -81,7 +81,9 @@ class Topology:
         dof: F of Eq. (3), with parallelograms as generalised joints.
         internal_freedoms: those of F that leave the platform at rest, such as a rod's spin.
         loops: in the order that attains the coupling degree.
-        assur_chains: each with the indices of its loops.
+        assur_chains: each with the indices of its loops; none where the inputs do not determine the mechanism.
+        coupling_degree: kappa of Eq. (6); None where the inputs do not determine the mechanism, for reasons that
+            `coupling_refusal` has.
         redundant_by_loop: 6 - xi of each loop in that order, then of the loop inside each parallelogram, by name; all
             together are those of the joint graph.
         inputs_by: who chose the inputs.
@@ -132,6 +134,11 @@ class Topology:
     def xi(self) -> tuple[int, ...]:
         """Independent equations of each loop, Eq. (4), in the order of the loops."""
         return tuple(loop.xi for loop in self.loops)
+
+    @property
+    def coupling_refusal(self) -> str:
+        """Why there is no coupling degree; empty where there is one."""
+        return self.plan.refusal
 
     @property
     def delta(self) -> tuple[int, ...]:

@@ -11,7 +11,8 @@ from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.structure import linkage
 from assur.model.registry import load_record
 from assur.topology.counting.coupling import coupling, coupling_of
-from assur.topology.counting.mobility import InternalFreedom, mobility
+from assur.topology.counting.mobility import motions
+from assur.topology.counting.solution_plan import solution_plan
 from assur.topology.linkages.twists import generic_edges
 from coupled_mechanisms import (
     crr,
@@ -34,7 +35,7 @@ from coupled_mechanisms import (
     zeng,
     zeng_with_one_five_dof_limb,
 )
-from twist_chains import X, Z, slide, turn, turns
+from twist_chains import X, Y, Z, chain, slide, turn, turns
 
 # ---- printed and tabulated values ----------------------------------------------------------------------------
 
@@ -207,18 +208,49 @@ def test_too_few_or_too_many_inputs_have_no_coupling_degree(inputs, remainder):
 
 def test_spins_of_the_legs_are_left_out():
     edges = gough_sps(np.random.default_rng(4))
-    found = mobility(edges, "base", "p")
+    internal = motions(edges, "base", "p").internal
     assert coupling(edges).remainder == 6
-    reduced = coupling(edges, found.internal)
+    reduced = coupling(edges, internal)
     assert ([loop.delta for loop in reduced.loops], reduced.coupling_degree) == ([4, -1, -1, -1, -1], 4)
     assert [loop.internal for loop in reduced.loops] == [2, 1, 1, 1, 1]
 
 
-def test_an_internal_freedom_counts_where_its_last_joint_comes_in():
+@pytest.mark.parametrize(("joints", "by_loop"), [(["AJ1", "CJ1"], [1, 0]), (["CJ1", "CJ2"], [0, 1])])
+def test_an_internal_freedom_counts_with_the_first_loop_that_it_moves(joints, by_loop):
     edges = zeng(np.random.default_rng(3))
     order = [names(edges, "A", "B"), names(edges, "C", "D")]
-    found = coupling_of(edges, order, [InternalFreedom(("AJ1", "CJ1"), 1)])
-    assert [loop.internal for loop in found.loops] == [0, 1]
+    columns = np.array([edge.name for edge in edges for _ in range(edge.freedoms)])
+    internal = np.isin(columns, joints)[None, :, None] / np.sqrt(2)
+    assert [loop.internal for loop in coupling_of(edges, order, internal).loops] == by_loop
+
+
+def loose_inner_loop(inputs):
+    """A planar loop of two arms, carried on by a fourth R that is parallel, beside a limb whose joints are driven."""
+    rng = np.random.default_rng(6)
+    return [
+        *chain("A", "base", "m", turns(rng, Y, 3)),
+        *chain("B", "base", "m", turns(rng, Y, 3)),
+        *chain("C", "m", "p", turns(rng, Y, 1)),
+        *driven("D", "base", "p", turns(rng, Y, 3), inputs),
+    ]
+
+
+def test_what_may_have_any_value_is_neither_assumed_nor_searched():
+    """With D driven the platform is known. The link m keeps one freedom, to which any value may be given.
+
+    So each loop is solved in turn: D with C and one arm, then the other arm. Were the freedom counted with the loop
+    that closes all its joints, the first would need a virtual variable, and the second an equation for it.
+    """
+    edges = loose_inner_loop((0, 1, 2))
+    internal = motions(edges, "base", "p").internal
+    assert internal.shape[-1] == 1
+    found = coupling(edges, internal)
+    assert [(loop.internal, loop.delta) for loop in found.loops] == [(1, 0), (0, 0)]
+    assert (found.remainder, found.coupling_degree) == (0, 0)
+    inner_first = coupling_of(edges, [names(edges, "A", "B"), names(edges, "C", "D")], internal)
+    assert [(loop.internal, loop.delta) for loop in inner_first.loops] == [(1, 2), (0, -2)]
+    plan = solution_plan(found, edges, "base", "p")
+    assert (plan.search, plan.free) == (0, 0)
 
 
 # ---- limits -------------------------------------------------------------------------------------------------

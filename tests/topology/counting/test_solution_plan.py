@@ -11,9 +11,10 @@ import pytest
 
 import assur
 from assur.model.registry import topology_names
+from assur.topology.answers import answers
 from assur.topology.counting.coupling import coupling, coupling_of
 from assur.topology.counting.inputs import default_inputs, numbered_inputs
-from assur.topology.counting.mobility import mobility
+from assur.topology.counting.mobility import motions
 from assur.topology.counting.solution_plan import AssurPlan, SolutionPlan, Step, solution_plan
 from assur.topology.linkages.configurations import configurations
 from assur.topology.linkages.linkage import part
@@ -60,7 +61,7 @@ def planned(*texts, actuate=(), order=None):
     names = numbered_inputs(chains, actuate) if actuate else default_inputs(chains)
     linkage = place(chains, actuated=names)
     given = edges(linkage, generic_values(linkage))
-    internal = mobility(given, "base", "platform").internal
+    internal = motions(given, "base", "platform").internal
     loops = coupling_of(given, order, internal) if order else coupling(given, internal)
     return linkage, loops, solution_plan(loops, given, "base", "platform")
 
@@ -200,7 +201,16 @@ def test_inputs_that_determine_no_solution_have_no_plan(actuate, free):
     _, _, plan = planned(*(f"P[{u}] R[{u}] R[{u}] R[{u}]" for u in "xyz"), actuate=actuate)
     assert (plan.parts, plan.free, plan.search) == ((), free, None)
     left = "1 freedom" if free == 1 else f"{free} freedoms"
-    assert plan.words == (f"These inputs determine no solution: with all of them locked the loops have {left} left.",)
+    assert plan.words == (f"These inputs determine no solution: with all inputs locked the mechanism has {left} left.",)
+
+
+def test_a_joint_beyond_the_loops_that_nothing_drives_leaves_no_coupling_degree():
+    texts = ["{P[x] R[y] R[y] | P[x] R[y] R[y]} R[x]"]
+    loose = assur.topology(texts, actuate=["1.1", "1.2", "1.4"])
+    assert (loose.delta, loose.coupling_degree, loose.plan.free) == ((0,), None, 1)
+    assert answers(loose)["coupling_refusal"] == "with all inputs locked the mechanism has 1 freedom left"
+    driven = assur.topology(texts, actuate=["1.1", "1.2", "1.4", "1.7"])
+    assert (driven.delta, driven.coupling_degree, driven.coupling_refusal) == ((0,), 0, "")
 
 
 def test_without_loops_there_is_nothing_to_solve():

@@ -96,12 +96,14 @@ def _limbs(topology: Topology) -> Table:
 
 
 def _loops(topology: Topology) -> Table:
+    internal = ["internal"] if any(loop.internal for loop in topology.loops) else []
     chain_of = {index: str(k) for k, chain in enumerate(topology.assur_chains, 1) for index in chain.loops}
     rows = tuple(
         (
             str(number),
             " ".join(loop.edges),
             str(loop.freedoms),
+            *([str(loop.internal)] if internal else []),
             str(loop.inputs),
             str(loop.xi),
             f"{loop.delta:+d}".replace("-", "\N{MINUS SIGN}") if loop.delta else "0",
@@ -109,7 +111,7 @@ def _loops(topology: Topology) -> Table:
         )
         for number, loop in enumerate(topology.loops, 1)
     )
-    columns = ("loop", "joints that it adds", "Σf", "I", "ξ", "Δ", "Assur chain")
+    columns = ("loop", "joints that it adds", "Σf", *internal, "I", "ξ", "Δ", "Assur chain")
     caption = f"In the order that attains the coupling degree, {COLLAPSED}."
     return Table("Loops and Assur chains", columns, rows, caption, known_by=EXACT)
 

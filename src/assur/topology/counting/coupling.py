@@ -9,9 +9,13 @@ with N a basis of the motions that A leaves, rank closure(S_j) = rank A + rank [
 the links that the SOC joins can move against each other in what is already there (∩ M_bi), those of C how the SOC
 lets them (M_b(j+1)): rank [B N | C] = dim{(∩ M_bi) ∪ M_b(j+1)}.
 
-So Δ_j is the change of D(S) = Σ f - internal freedoms - inputs - rank closure(S), which depends on the set alone:
-with independent inputs, the freedoms that S has left when they are locked. An Assur chain ends where D is zero, and
-the least Σ|Δ_j| over all orders is a shortest path over sets.
+So Δ_j is the change of D(S) = Σ f - internal freedoms - inputs - rank closure(S), which depends on the set alone. An
+Assur chain ends where D is zero, and the least Σ|Δ_j| over all orders is a shortest path over sets.
+
+With the inputs locked, S has Σ f - inputs - rank closure(S) freedoms. The whole mechanism leaves those of them that
+belong to its internal freedoms: rank N_S, with N a basis of the internal motions and N_S its rows of the joints in S.
+So an internal freedom counts with the first loop that it moves. Any value may be given to it there: what later loops
+decide, and a search must find, is the rest, D(S) = Σ f - rank N_S - inputs - rank closure(S) >= 0.
 """
 
 from __future__ import annotations
@@ -21,11 +25,13 @@ from dataclasses import dataclass
 from heapq import heappop, heappush
 
 import numpy as np
+from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
 from assur.topology.counting.branches import Branch, branches, names_along, next_loops
-from assur.topology.counting.mobility import InternalFreedom
 from assur.topology.linkages.edges import Edge, closure, rank
+
+FloatArray = NDArray[np.float64]
 
 SETS = 200_000
 """Sets of branches that the search for the least coupled order may look at."""
@@ -40,7 +46,8 @@ class Loop:
         freedoms: sum of f_i over the chain.
         inputs: I_j, how many of them are actuated.
         xi: ξ_Lj of Eq. (4), its number of independent equations.
-        internal: internal freedoms that it completes; they take no part in the solution and are not counted.
+        internal: internal freedoms that move it and no loop before it; any value may be given to them, and they are not
+            counted.
     """
 
     edges: tuple[str, ...]
@@ -88,7 +95,7 @@ class Decomposition:
         return max((chain.coupling_degree for chain in self.assur_chains), default=0)
 
 
-def coupling(edges: Sequence[Edge], internal: Sequence[InternalFreedom] = (), limit: int = SETS) -> Decomposition:
+def coupling(edges: Sequence[Edge], internal: FloatArray | None = None, limit: int = SETS) -> Decomposition:
     """The decomposition with the least Σ|Δ_j| over all orders of loops, Eqs. (5) and (6).
 
     Among equals the one with most Assur chains, then the one whose loops have fewest branches and are named first.
@@ -96,7 +103,8 @@ def coupling(edges: Sequence[Edge], internal: Sequence[InternalFreedom] = (), li
 
     Args:
         edges: with twists at generic configurations; parallelograms as one edge, by the convention of the theory.
-        internal: internal freedoms, from `assur.topology.counting.mobility`.
+        internal: (N, c, i) basis of the internal motions, columns of the edges in their order, from
+            `assur.topology.counting.mobility.motions`; none by default.
         limit: sets of branches to look at before giving up.
 
     Raises UsageError where there are more sets than that; `coupling_of` then takes an order.
@@ -117,7 +125,7 @@ def coupling(edges: Sequence[Edge], internal: Sequence[InternalFreedom] = (), li
 
 
 def coupling_of(
-    edges: Sequence[Edge], order: Sequence[Sequence[str]], internal: Sequence[InternalFreedom] = ()
+    edges: Sequence[Edge], order: Sequence[Sequence[str]], internal: FloatArray | None = None
 ) -> Decomposition:
     """The decomposition in a given order of loops, such as one that a paper prints; nothing is minimised.
 
@@ -160,13 +168,15 @@ def _as_loop(parts: Sequence[Branch], taken: frozenset[int], wanted: frozenset[i
 class _Counted:
     """Freedoms, inputs and ranks of sets of branches; a rank is computed once for each set."""
 
-    def __init__(self, edges: Sequence[Edge], internal: Sequence[InternalFreedom]) -> None:
+    def __init__(self, edges: Sequence[Edge], internal: FloatArray | None) -> None:
         self.parts = branches(edges)
         self._place = {edge.name: edge for edge in edges}
         self._internal = internal
+        self._owner = np.array([edge.name for edge in edges for _ in range(edge.freedoms)])  # (c,)
         self._chains = [_in_series(part, self._place) for part in self.parts]
         self._sums = [_sums(part, self._place) for part in self.parts]
         self._ranks: dict[frozenset[int], int] = {frozenset(): 0}
+        self._internal_ranks: dict[frozenset[int], int] = {frozenset(): 0}
 
     def rank(self, taken: frozenset[int]) -> int:
         """Rank of the closure of a set of branches."""
@@ -180,11 +190,13 @@ class _Counted:
         return free - self.internal(taken) - self.rank(taken)
 
     def internal(self, taken: frozenset[int]) -> int:
-        """Internal freedoms of a set of branches."""
-        if not self._internal:
+        """How many ways internal motions move a set of branches."""
+        if self._internal is None:
             return 0
-        names = {name for index in taken for name in self.parts[index].edges}
-        return sum(item.count for item in self._internal if names.issuperset(item.joints))
+        if taken not in self._internal_ranks:
+            names = [name for index in taken for name in self.parts[index].edges]
+            self._internal_ranks[taken] = rank(self._internal[:, np.isin(self._owner, names)], scale=1.0)
+        return self._internal_ranks[taken]
 
     def decomposition(self, order: Sequence[tuple[int, ...]]) -> Decomposition:
         """The loops and Assur chains of an order."""

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.topology.counting.actuation import locked_freedoms
 from assur.topology.counting.coupling import AssurChain, Decomposition, Loop
 from assur.topology.counting.special_constraints import SpecialConstraint, connected, special_constraints, way_to
 from assur.topology.linkages.edges import Edge, along, at_generic, closure, input_columns, null_basis, rank
@@ -58,7 +59,8 @@ class AssurPlan:
 class SolutionPlan:
     """The order in which the direct problem is solved, Assur chain by Assur chain.
 
-    `free` is how many freedoms the loops have left when the inputs are locked; unless it is 0 there is no plan.
+    `free` is how many freedoms the mechanism has left, beyond internal ones, when the inputs are locked; unless it is 0
+    there is no plan.
     """
 
     parts: tuple[AssurPlan, ...]
@@ -70,11 +72,18 @@ class SolutionPlan:
         return None if self.free else max((part.search for part in self.parts), default=0)
 
     @property
+    def refusal(self) -> str:
+        """Why there is no plan and no coupling degree; empty where there are both."""
+        if not self.free:
+            return ""
+        left = "1 freedom" if self.free == 1 else f"{self.free} freedoms"
+        return f"with all inputs locked the mechanism has {left} left"
+
+    @property
     def words(self) -> tuple[str, ...]:
         """The plan in sentences."""
         if self.free:
-            left = "1 freedom" if self.free == 1 else f"{self.free} freedoms"
-            return (f"These inputs determine no solution: with all of them locked the loops have {left} left.",)
+            return (f"These inputs determine no solution: {self.refusal}.",)
         return tuple(
             line for number, part in enumerate(self.parts, 1) for line in _sentences(part, number, len(self.parts))
         )
@@ -90,10 +99,10 @@ def solution_plan(decomposition: Decomposition, edges: Sequence[Edge], base: str
         platform: a link.
     """
     edges = at_generic(edges)
-    stages = _stages(decomposition.loops, edges, base, platform)
-    free = stages[-1].unknowns(()) if stages else 0
+    free = locked_freedoms(edges, input_columns(edges), base, platform) if decomposition.loops else 0
     if free:
         return SolutionPlan((), free)
+    stages = _stages(decomposition.loops, edges, base, platform)
     known = special_constraints(edges, base, platform) if decomposition.coupling_degree else ()
     return SolutionPlan(tuple(_plan(chain, decomposition.loops, stages, known) for chain in decomposition.assur_chains))
 
