@@ -16,11 +16,10 @@ from assur.kinematics.closure import RANK_GAP, assemble, characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
 from assur.kinematics.rates.motions import motions
-from assur.kinematics.turns import joint_units
+from assur.kinematics.turns import joint_units, periodic
 from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.points import quantities
-from assur.model.turns import periodic
 from assur.topology.joints import SPHERICAL
 
 FloatArray = NDArray[np.float64]
@@ -30,7 +29,7 @@ AWAY, SAMPLES = 0.1, 24
 
 STILL, OTHER = 1e-7, 1e-2
 """What changes by less about home stands still; what is further from its value there is another. Cosines, lengths in
-characteristic lengths. Five digits lie between the two, so that neither rounding nor a small motion is taken for one."""
+characteristic lengths. Five digits lie between, so that neither rounding nor a small motion is taken for one."""
 
 MERGED = 1e-6
 """A quantity that names a mode has no sign below this, in its own unit of an angle or of a characteristic length."""

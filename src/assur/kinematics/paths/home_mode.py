@@ -30,8 +30,8 @@ from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.search import SAME, places
 from assur.kinematics.status import Status
+from assur.kinematics.turns import periodic_inputs
 from assur.model.mechanism import MechanismRecord
-from assur.model.turns import periodic_inputs
 
 FloatArray = NDArray[np.float64]
 DETOURS = 6
