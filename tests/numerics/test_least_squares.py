@@ -40,6 +40,19 @@ def test_an_underdetermined_system_moves_little():
     np.testing.assert_allclose(found.x[0], [5 / 3, 2 / 3, 2 / 3], atol=1e-6)
 
 
+def test_damping_that_is_lost_in_rounding_does_no_harm():
+    """Two long columns of forty: the damping is a share of the mean square, too little to change 100."""
+
+    def system(x, rows):
+        row = np.zeros((len(x), 1, 40))
+        row[:, 0, :2] = 10.0
+        return 10.0 * x[:, :1] + 10.0 * x[:, 1:2] - 1.0, row
+
+    found = minimise(system, np.zeros((2, 40)), tolerance=1e-14, damping=1e-15)
+    assert found.converged.all()
+    np.testing.assert_allclose(found.x[:, :2], 0.05, rtol=1e-12)
+
+
 def test_an_empty_batch_is_an_empty_answer():
     found = minimise(_circles, np.empty((0, 2)), tolerance=1e-12)
     assert found.x.shape == (0, 2)

@@ -82,7 +82,18 @@ def _step(residual: FloatArray, jacobian: FloatArray, damping: FloatArray, max_c
     scale = np.einsum("nii->n", normal) / normal.shape[-1] + 1e-300
     normal += (damping * scale)[:, None, None] * np.eye(normal.shape[-1])
     gradient = (residual[:, None, :] @ jacobian)[:, 0]
-    change = -np.linalg.solve(normal, gradient[..., None])[..., 0]
+    try:
+        change = -np.linalg.solve(normal, gradient[..., None])[..., 0]
+    except np.linalg.LinAlgError:  # damping that is lost in the rounding of long columns
+        change = _step_by_singular_values(residual, jacobian, damping * scale)
     length = np.max(np.abs(change), axis=1, keepdims=True)
     limited: FloatArray = change * np.minimum(1.0, max_change / np.maximum(length, 1e-300))
     return limited
+
+
+def _step_by_singular_values(residual: FloatArray, jacobian: FloatArray, damping: FloatArray) -> FloatArray:
+    """The same steps (N, n) without a product of the Jacobian with itself, a pivot of which may be zero."""
+    left, singular, turned = np.linalg.svd(jacobian, full_matrices=False)
+    gain = singular / (singular**2 + damping[:, None])
+    step: FloatArray = -((residual[:, None, :] @ left)[:, 0] * gain)[:, None, :] @ turned
+    return step[:, 0]
