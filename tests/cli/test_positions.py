@@ -158,6 +158,7 @@ def test_a_search_that_finds_nothing_proves_nothing(assur_cli, tmp_path):
     searched = assur_cli(*words, "--method", "search")
     assert searched.code == 5
     assert searched.out.splitlines()[0] == "driven, direct: nothing was found, not proved"
+    assert "starts, none of which found one." in " ".join(searched.out.split())
     proved = assur_cli(*words)
     assert (proved.code, proved.out.splitlines()[0][:28]) == (4, "driven, direct: unreachable,")
 

@@ -7,6 +7,7 @@ import pytest
 
 import assur
 from assur.workspace.region import workspace
+from screw_mechanisms import JACK, loaded
 
 SHAPE = {"volume", "volume_error", "unit", "mode", "coordinates", "box", "held", "parallel_singular", "sections", "how"}
 COARSE = ("--resolution", "12")
@@ -157,3 +158,12 @@ def test_the_largest_cylinder_says_so_too(assur_cli):
         "limits: no limits are stated",
         "inside: every pose is reached, and none is singular",
     ]
+
+
+def test_of_a_single_coordinate_the_extent_is_a_length(assur_cli, tmp_path):
+    loaded(tmp_path, JACK)
+    shown = assur_cli(
+        "workspace", str(tmp_path / "jack.toml"), "--box", "z=-10:10", "--stroke", "0:90", "--resolution", "8"
+    )
+    assert "length: 2" in shown.out
+    assert "area:" not in shown.out

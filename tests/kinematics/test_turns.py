@@ -9,7 +9,9 @@ from assur.kinematics.answers.excess import excesses
 from assur.kinematics.home import home_values
 from assur.kinematics.limits import limits
 from assur.kinematics.paths.following import follow
+from assur.kinematics.pose import pose_of
 from assur.kinematics.postures import unwound
+from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.search import places, search
 from assur.kinematics.turns import (
     counted,
@@ -20,8 +22,11 @@ from assur.kinematics.turns import (
     unwrapped,
     with_turns_of_home,
 )
-from assur.model.registry import with_parameters
+from assur.model.joint_graph import joint_graph
+from assur.model.registry import load_record, with_parameters
 from assur.model.turns import turn_relations
+from assur.numerics import components
+from assur.topology.joints import SPHERICAL
 from assur.workspace.region import workspace
 from screw_mechanisms import DIFFERENTIAL, FIVEBAR, JACK, TRIPOD, loaded
 
@@ -210,3 +215,32 @@ def test_a_fine_thread_is_no_singularity(folder, lead):
     """Where the velocity ratio is the lead everywhere, nothing that is said of singular and regular depends on it."""
     found = with_parameters(loaded(folder, JACK), lead=lead).direct([2.5])
     assert {item.status.name for item in found} == {"regular"}
+
+
+@pytest.mark.parametrize("length", [0.0, 1.0, np.pi - 1e-9, np.pi + 1e-9, 2 * np.pi, 5 * np.pi, 10 * np.pi])
+def test_rotation_vectors_are_those_of_the_same_rotation_at_most_half_a_turn_long(length):
+    record = load_record("delta_4s")
+    place = next(joint_graph(record).slices[name] for name, joint in record.joints.items() if joint.type is SPHERICAL)
+    joints = np.zeros(len(record.coordinates))
+    joints[place] = length * np.array([2.0, -1.0, 2.0]) / 3.0
+    short = in_one_turn(record, joints)[place]
+    assert np.allclose(components.from_vector(short), components.from_vector(joints[place]), rtol=0, atol=1e-14)
+    assert np.linalg.norm(short) <= np.pi + 1e-12
+
+
+def test_a_ball_joint_that_made_whole_turns_is_no_constraint_singularity():
+    """Its rates are singular at a rotation vector of length 2 pi, which says nothing about the mechanism."""
+    record = load_record("three_rps")
+    slices = joint_graph(record).slices
+    balls = [slices[name] for name, joint in record.joints.items() if joint.type is SPHERICAL]
+    turned = home_values(record).copy()
+    for place in balls:
+        vector = turned[place]
+        size = np.linalg.norm(vector)
+        turned[place] = 2 * np.pi * np.array([0.0, 0.0, 1.0]) if size < 1e-9 else vector * (1 + 2 * np.pi / size)
+    found = search(record, "inverse", pose_of(record, home_values(record)))
+    assert np.max([np.linalg.norm(found.joints[:, place], axis=-1) for place in balls]) <= np.pi + 1e-12
+    here = instantaneous(record, in_one_turn(record, turned))
+    usual = instantaneous(record, home_values(record))
+    assert float(here.measures["closure"]) == pytest.approx(float(usual.measures["closure"]), abs=1e-9)
+    assert not any(here.types.values())

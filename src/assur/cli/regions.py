@@ -131,7 +131,7 @@ def _shown(record: Mechanism, data: dict[str, Any], written: Path | None) -> Ite
         yield f"strokes: {_intervals(record, data['strokes'])}"
     if not data["limits_stated"]:
         yield f"limits: {NO_LIMITS}"
-    what = "volume" if dimension == 3 else "area"
+    what = ("length", "area", "volume")[dimension - 1]
     size = f"{with_error(data['volume'], data['volume_error'])} {data['unit']}"
     if data["empty"] == "proved":
         yield f"{what}: 0 {data['unit']}: nothing is reached, proved"

@@ -212,7 +212,10 @@ def _assemblies(
         found = search(record, problem, given)
     except Interrupted as stop:
         found, interrupted = stop.answer, True
-    reason = f"not proved: a search from {found.starts} starts, of which number {found.last_new} found the last new one"
+    last = (
+        f"of which number {found.last_new} found the last new one" if len(found.joints) else "none of which found one"
+    )
+    reason = f"not proved: a search from {found.starts} starts, {last}"
     if crossed or not record.generalised or crossed_parallelograms(record, home_values(record)):
         return _Assemblies(found.joints, False, reason, found.nearest, False, interrupted)
     kept = found.joints[[not crossed_parallelograms(record, row) for row in found.joints]]

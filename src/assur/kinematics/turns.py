@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from assur.errors import MechanismFileError, UsageError
 from assur.kinematics.closure import assemble, characteristic_length
 from assur.kinematics.home import home_values
+from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.model.turns import screws_among, turn_relations
 from assur.topology.joints import SPHERICAL
@@ -144,8 +145,23 @@ def _about_axis(record: MechanismRecord) -> BoolArray:
 
 
 def in_one_turn(record: MechanismRecord, joints: FloatArray) -> FloatArray:
-    """Joint values (..., n) with every angle that is the same after a whole turn between -pi and pi."""
-    return np.where(periodic(record), (joints + np.pi) % (2 * np.pi) - np.pi, joints)
+    """Joint values (..., n) with every angle that is the same after a whole turn between -pi and pi.
+
+    Rotation vectors of spherical joints too: as a vector of length 2 pi the identity has no rates, and looks singular.
+    """
+    answer = np.where(periodic(record), (joints + np.pi) % (2 * np.pi) - np.pi, joints)
+    for name, joint in record.joints.items():
+        if joint.type is SPHERICAL:
+            place = joint_graph(record).slices[name]
+            answer[..., place] = _shortest(answer[..., place])
+    return answer
+
+
+def _shortest(vectors: FloatArray) -> FloatArray:
+    """Rotation vectors (..., 3) of the same rotations, none longer than pi."""
+    angle = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    turns = np.ceil(angle / (2 * np.pi) - 0.5)
+    return np.asarray(vectors * (1.0 - 2 * np.pi * turns / np.where(angle > 0.0, angle, 1.0)))
 
 
 def with_turns_of_home(

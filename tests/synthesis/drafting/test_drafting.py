@@ -177,3 +177,19 @@ def check_or_refuse(chains):
     record = read(found)
     assert faults(record) == ()
     assert facts(assur.topology(record)) == facts(found.topology)
+
+
+def test_the_title_has_the_limbs_as_they_stand():
+    """Limbs that are turns of one another have other axes, and a template shows the first one's alone."""
+    chains = ["H[x] R[x] R[x] R[x]", "H[y] R[y] R[y] R[y]", "H[z] R[z] R[z] R[z]"]
+    title = "Draft of 1 x H[x] R[x] R[x] R[x], 1 x H[y] R[y] R[y] R[y], 1 x H[z] R[z] R[z] R[z]"
+    assert f'title  = "{title}"' in drafted(parse_chains(chains), PATH).text
+
+
+@pytest.mark.parametrize(
+    "chains",
+    [["R[z]@A H[z]@A", "P[z]"], ["R[z]@A H[z]@A R[x]", "P[z] R[x]"], ["R[x]@A H[x]@A R[z] R[z]", "R[z] R[z] R[z]"]],
+)
+def test_screws_are_drafted_without_a_word_about_singularities(chains):
+    """Their leads are short against the links, which makes them slow and not singular."""
+    assert drafted(parse_chains(chains), PATH).notes == ()

@@ -48,7 +48,8 @@ class Instant:
             leaves the sign of det Jp: that of det Jp det Jq, the only one that does not depend on the basis.
         measures: "output" and "input", the smallest singular value of Jp and Jq with lengths in units of the
             characteristic length and screws in turns for it (a sine: 0 where singular, at most 1), and "closure", the
-            smallest singular value of the closure that counts in general: as a share of what it is around home, at most 1.
+            smallest singular value of the closure that counts in general: as a share of what it is around home, at
+            most 1.
         ranks, general: here, and in general (see `general`).
         gap: of all ranks here, the least ratio of a singular value kept to the largest dropped.
         constraint_jacobian: (..., c, 6), rows that annul the platform's twist (angular velocity, velocity of the

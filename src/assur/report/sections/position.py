@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
-from assur.kinematics.answers.solution import Solution
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.modes import Problem
-from assur.kinematics.status import Status
 from assur.model.closed_form import Eliminant, Margin, PolynomialSystem, SelfMotion
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
@@ -17,10 +15,11 @@ from assur.report.formulas.mathml import equation, inline, letter_mathml, term_m
 from assur.report.formulas.normal import text
 from assur.report.formulas.reading import Line
 from assur.report.formulas.symbols import GREEK
-from assur.report.numbers import Style, count, input_angles, pose_angles, pose_words, short, shown_unit
+from assur.report.numbers import count, input_angles, pose_words, short, shown_unit
 from assur.report.sections.polynomial import polynomial, polynomial_words, system_words
 from assur.report.sections.printed import solutions_beside
-from assur.report.sections.proved import proof_words, right
+from assur.report.sections.proved import proof_words
+from assur.report.sections.solutions import solutions
 from assur.results.kinds import FLOATING, Formula, Formulas, Result, Section, Table
 
 READ = (
@@ -105,7 +104,7 @@ def _direct(found: Findings) -> Section:
         said += f"\n\n{system_words(found, kernel)}"
     elif kernel is not None:
         results += _formulas(found, "direct")
-    results.append(_solutions(found, "direct"))
+    results += solutions(found, "direct")
     return Section("Direct problem", said, [*results, *_beside(found, "direct"), *found.picture("solutions")])
 
 
@@ -113,7 +112,7 @@ def _inverse(found: Findings) -> Section:
     given = pose_words(found.record, found.style, pose_at_border(found.record, found.pose).tolist())
     said = f"Inputs from a pose. At the pose {given} {among(found, 'inverse')}."
     said += f"\n\n{proof_words(found, 'inverse')}"
-    results = [*(_formulas(found, "inverse") if found.kernel("inverse") else ()), _solutions(found, "inverse")]
+    results = [*(_formulas(found, "inverse") if found.kernel("inverse") else ()), *solutions(found, "inverse")]
     return Section("Inverse problem", said, [*results, *_beside(found, "inverse")])
 
 
@@ -219,46 +218,6 @@ def _condition(margin: Margin, formula: str) -> Formula:
 
 def _zero(margin: Margin) -> str:
     return "two branches merge" if margin.zero == "merge" else "the formulas degenerate"
-
-
-def _solutions(found: Findings, problem: Problem) -> Table:
-    """Every real solution: its mode, values, the other mode, status and the gap that is left."""
-    record, style = found.record, found.style
-    direct = problem == "direct"
-    answer = found.direct if direct else found.inverse
-    names = record.platform.pose if direct else tuple(item.name for item in record.inputs)
-    angles = pose_angles(record) if direct else input_angles(record)
-    other = "working mode" if direct else "assembly mode"
-    rows = tuple(
-        (
-            item.mode,
-            *_values(record, style, item, angles, direct=direct),
-            item.working_mode if direct else item.assembly_mode,
-            item.status.name.replace("_", " "),
-            short(item.residual, 2),
-        )
-        for item in answer
-    )
-    titles = tuple(style.title(name, angle=angle) for name, angle in zip(names, angles, strict=True))
-    columns = ("mode", *titles, other, "status", style.title("gap", angle=False))
-    listed = "All real solutions." if answer.complete else "What was found; it is not proved to be all."
-    numbered = any("/" in item.mode for item in answer)
-    told = " A number tells solutions of the same signs apart." if numbered else ""
-    caption = (
-        f"{listed} The gap is the largest that remains over the cut joints of the whole joint graph, or to what was "
-        "asked, orientation errors times its characteristic length included. A sign written 0 has merged."
-        f"{told}"
-    )
-    marks = tuple("" if item.status <= Status.near_singular else "singular" for item in answer)
-    known = right(found, problem)[0]
-    return Table(f"Solutions of the {problem} problem", columns, rows, caption, marks, known_by=known)
-
-
-def _values(
-    record: MechanismRecord, style: Style, item: Solution, angles: Sequence[bool], *, direct: bool
-) -> tuple[str, ...]:
-    values = pose_at_border(record, item.pose) if direct else inputs_at_border(record, item.inputs)
-    return tuple(style.written(float(value), angle=angle) for value, angle in zip(values, angles, strict=True))
 
 
 def _beside(found: Findings, problem: Problem) -> list[Result | Section]:

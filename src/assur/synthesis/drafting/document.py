@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -87,8 +88,8 @@ def _head(draft: Draft, chosen: Chosen) -> list[str]:
 
 
 def _title(draft: Draft) -> str:
-    texts = [f"{len(template.members)} x {template.text}" for template in draft.templates]
-    return f"Draft of {', '.join(texts)}"
+    """The limbs as they stand: what a template turns about z has other axes there."""
+    return f"Draft of {', '.join(f'{number} x {text}' for text, number in Counter(draft.chains).items())}"
 
 
 def _parameters(draft: Draft) -> list[str]:

@@ -30,11 +30,13 @@ class Draft:
     Attributes:
         dimensions: those that belong to no limb.
         flat: whether all motion is in planes perpendicular to z, so that nothing has a height.
+        chains: the limbs in notation, each as it stands, in their order.
     """
 
     dimensions: tuple[Dimension, ...]
     templates: tuple[Template, ...]
     flat: bool
+    chains: tuple[str, ...] = ()
 
     def joint_of(self, chain: int, place: int) -> str:
         """The full name in the file of a joint of a chain, both counted from 0, branches flattened."""
@@ -73,7 +75,7 @@ def draft(chains: Sequence[Chain], layout: Layout) -> Draft:
         for number, (label, name) in enumerate(centres.items())
         if name not in ("", HEIGHT_NAME)
     ]
-    return Draft(tuple(shared), templates, flat)
+    return Draft(tuple(shared), templates, flat, tuple(map(plain_text, chains)))
 
 
 def _centre(label: str) -> str:

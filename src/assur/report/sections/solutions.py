@@ -1,0 +1,100 @@
+"""Every solution of a problem: its values, limits that it exceeds, and what the pose leaves out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from assur.kinematics.answers.at_border import answer, inputs_at_border, pose_at_border
+from assur.kinematics.answers.solution import Solution
+from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.limits import NO_LIMITS
+from assur.kinematics.modes import Problem
+from assur.kinematics.status import Status
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import is_angle
+from assur.report.findings import Findings
+from assur.report.numbers import Style, input_angles, pose_angles, short
+from assur.report.sections.proved import right
+from assur.results.kinds import Result, Table
+
+
+def solutions(found: Findings, problem: Problem) -> list[Result]:
+    """Every real solution: its mode, values, the other mode, status, the gap that is left, whether it keeps the limits;
+    and of each the platform's coordinates that the pose leaves out.
+    """
+    listed = found.direct if problem == "direct" else found.inverse
+    data = answer(listed)
+    return [_listed(found, problem, listed, data), *_left_out(found, problem, data["solutions"])]
+
+
+def _listed(found: Findings, problem: Problem, listed: SolutionSet, data: dict[str, Any]) -> Table:
+    record, style = found.record, found.style
+    direct = problem == "direct"
+    names = record.platform.pose if direct else tuple(item.name for item in record.inputs)
+    angles = pose_angles(record) if direct else input_angles(record)
+    other = "working mode" if direct else "assembly mode"
+    limited = data["limits_stated"]
+    rows = tuple(
+        (
+            item.mode,
+            *_values(record, style, item, angles, direct=direct),
+            item.working_mode if direct else item.assembly_mode,
+            item.status.name.replace("_", " "),
+            short(item.residual, 2),
+            *([_limits(told["limits"]["outside"])] if limited else []),
+        )
+        for item, told in zip(listed, data["solutions"], strict=True)
+    )
+    titles = tuple(style.title(name, angle=angle) for name, angle in zip(names, angles, strict=True))
+    columns = ("mode", *titles, other, "status", style.title("gap", angle=False), *(["limits"] if limited else []))
+    caption = " ".join(_caption(listed, data))
+    marks = tuple("" if item.status <= Status.near_singular else "singular" for item in listed)
+    known = right(found, problem)[0]
+    return Table(f"Solutions of the {problem} problem", columns, rows, caption, marks, known_by=known)
+
+
+def _values(
+    record: MechanismRecord, style: Style, item: Solution, angles: Sequence[bool], *, direct: bool
+) -> tuple[str, ...]:
+    values = pose_at_border(record, item.pose) if direct else inputs_at_border(record, item.inputs)
+    return tuple(style.written(float(value), angle=angle) for value, angle in zip(values, angles, strict=True))
+
+
+def _limits(outside: Sequence[dict[str, Any]]) -> str:
+    """Each limit that a solution exceeds, and by how much."""
+    return "; ".join(f"{item['limit']}: by {short(item['by'])} {item['unit']}" for item in outside) or "within"
+
+
+def _caption(listed: SolutionSet, data: dict[str, Any]) -> Iterator[str]:
+    yield "All real solutions." if listed.complete else "What was found; it is not proved to be all."
+    if not data["limits_stated"]:
+        yield f"{NO_LIMITS[0].upper()}{NO_LIMITS[1:]}."
+    yield (
+        "The gap is the largest that remains over the cut joints of the whole joint graph, or to what was "
+        "asked, orientation errors times its characteristic length included. A sign written 0 has merged."
+    )
+    if any("/" in item.mode for item in listed):
+        yield "A number tells solutions of the same signs apart."
+    for pair in data["doubles"]:
+        yield f"{' and '.join(pair['modes'])} are a double: one solution, or two too near to tell."
+    for text in dict.fromkeys(item["angles"] for item in data["solutions"] if item["angles"]):
+        modes = ", ".join(item["mode"] for item in data["solutions"] if item["angles"] == text)
+        yield f"{modes}: {text}; phi and psi are one choice of many."
+
+
+def _left_out(found: Findings, problem: Problem, listed: Sequence[dict[str, Any]]) -> list[Table]:
+    """Without these, solutions that differ in nothing else look the same."""
+    if not any(item["parasitic"] for item in listed):
+        return []
+    style, names = found.style, tuple(next(item["parasitic"] for item in listed if item["parasitic"]))
+    rows = tuple(
+        (item["mode"], *(style.written(item["parasitic"][name], angle=is_angle(name)) for name in names))
+        for item in listed
+        if item["parasitic"]
+    )
+    columns = ("mode", *(style.title(name, angle=is_angle(name)) for name in names))
+    caption = "The platform's coordinates that the pose leaves out, of each solution."
+    return [
+        Table(f"What the pose leaves out, {problem} problem", columns, rows, caption, known_by=right(found, problem)[0])
+    ]
