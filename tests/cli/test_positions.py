@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.answers.at_border import answer
+from assur.kinematics.answers.answer import answer
 from screw_mechanisms import DIFFERENTIAL, FIVEBAR, loaded
 from wrong_formulas import with_wrong_joints
 
@@ -99,8 +99,9 @@ def test_a_person_sees_units_modes_status_and_the_gap(assur_cli):
     head, given, _, titles, _, first, *_ = run.out.splitlines()
     assert head == "zeng2019, direct: regular, 4 solutions among 8 branches"
     assert given == "at yA1 = 162.6907 mm, yA2 = -143.3209 mm, yA3 = -24.6776 mm"
-    assert titles.split() == ["mode", "x", "[mm]", "y", "[mm]", "z", "[mm]", "working", "status", "gap", "[mm]"]
-    assert first.split()[:6] == ["+++", "-15.4714", "9.6849", "456.3315", "++-++", "regular"]
+    assert titles.split() == ["mode", "x", "[mm]", "y", "[mm]", "z", "[mm]", "working", "home", "status", "gap", "[mm]"]
+    assert first.split()[:6] == ["+++", "-15.4714", "9.6849", "456.3315", "++-++", "yes"]
+    assert "home: mode +++, by its signs" in run.out
     assert "Complete for the reduced model" in run.out
     assert "mode: the signs of e1, e2, e3" in run.out
 
@@ -115,11 +116,14 @@ def test_lines_fit_into_80_columns_and_have_no_colour_codes(assur_cli, words):
 def test_the_headline_counts_solutions_by_status(assur_cli):
     inputs = ["1", "0.645275", "1.086284", "1.503439", "1.281933", "0.771071"]
     run = assur_cli("direct", "gough_stewart", *inputs)
-    each = [item["status"] for item in assur_cli("direct", "gough_stewart", *inputs, "--json").json["solutions"]]
+    solutions = assur_cli("direct", "gough_stewart", *inputs, "--json").json["solutions"]
+    each, own = [item["status"] for item in solutions], next(item for item in solutions if item["home"])
     assert (len(each), set(each)) == (40, {"regular", "near_singular"})
     listed = f"({each.count('regular')} regular, {each.count('near_singular')} near_singular)"
     text = " ".join(run.out.split())
-    assert text.startswith(f"gough_stewart, direct: near_singular at worst, 40 solutions {listed} among 40 branches")
+    first = f"gough_stewart, direct: {own['status']} in mode {own['mode']}, near_singular at worst, 40 solutions"
+    assert own["status"] == "regular"
+    assert text.startswith(f"{first} {listed} among 40 branches")
     assert "half round add no pose): all 40 complex solutions" in text
 
 

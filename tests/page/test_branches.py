@@ -27,6 +27,7 @@ def test_every_ghost_is_an_assembly_at_homes_inputs_or_at_homes_pose(name):
     found = found_of(name)
     assert [item["values"] for item in (found["assembly"][0], found["working"][0])] == [home.tolist()] * 2
     for kind in ("assembly", "working"):
+        assert [item.get("home", False) for item in found[kind]] == [True] + [False] * (len(found[kind]) - 1)
         values = np.array([item["values"] for item in found[kind]])
         assert np.max(closure_error(record, values)) < 1e-11 * length
         assert len({item["label"] for item in found[kind]}) == len(values)

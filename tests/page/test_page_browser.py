@@ -193,7 +193,8 @@ def test_the_pressed_assembly_mode_is_that_of_the_working_mode_that_was_chosen(s
     for index in range(len(here.scene["branches"]["working"])):
         here.open()
         values = np.array(here.tab.evaluate("(index) => window.assur.work(index)", index)["values"])
-        assert here.tab.evaluate(pressed).replace("\u2212", "-") == mode_names(here.record, values)[1]
+        marked = " (home)" if index == 0 else ""
+        assert here.tab.evaluate(pressed).replace("\u2212", "-") == mode_names(here.record, values)[1] + marked
     here.open()
 
 

@@ -3,13 +3,16 @@
 import { el, minus } from "./dom.js";
 import { COLOURS } from "./ghosts.js";
 
-/** A mode's name as a person reads it. */
-const label = (text, k) => minus(text) || `mode ${k + 1}`;
+/** A mode's name as a person reads it, and whether it is that of home. */
+export function named({ label, home }, k) {
+  const name = minus(label) || `mode ${k + 1}`;
+  return home && label !== "home" ? `${name} (home)` : name;
+}
 
 /** The name, and what is not as usual. */
-function told({ label: name, status }, k, gone = false) {
-  const unusual = gone ? "not at these inputs" : status === "regular" ? "" : status;
-  return unusual ? `${label(name, k)}: ${unusual}` : label(name, k);
+function told(item, k, gone = false) {
+  const unusual = gone ? "not at these inputs" : item.status === "regular" ? "" : item.status;
+  return unusual ? `${named(item, k)}: ${unusual}` : named(item, k);
 }
 
 /** @returns {{assembly: HTMLElement, working: HTMLElement}} */
@@ -33,7 +36,7 @@ export function modeLists(mechanism, ghosts) {
           : {}),
       },
       colour ? el("i", { style: `--colour:${colour}` }) : null,
-      label(item.label, k),
+      named(item, k),
     );
   const group = (name) => el("div", { class: "modes", role: "group", "aria-label": name });
   const [assembly, working] = [group("Assembly modes"), group("Working modes")];

@@ -26,7 +26,8 @@ def outcome(record: Mechanism, pose: NDArray[Any], mode: str) -> Outcome:
 
 def verdict_data(record: Mechanism, pose: NDArray[Any], mode: str) -> dict[str, Any]:
     """The verdict as plain data; for a pose that the mode does not reach, which quantity is negative."""
-    from assur.kinematics.answers.at_border import answer, pose_at_border
+    from assur.kinematics.answers.answer import answer
+    from assur.kinematics.answers.at_border import pose_at_border
     from assur.kinematics.rates.units import unit_length
     from assur.results.json_text import plain
 

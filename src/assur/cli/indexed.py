@@ -47,7 +47,8 @@ def length_asked(text: str | None) -> Length:
 
 def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) -> Outcome:
     """Every index at one pose (m,) in a working mode."""
-    from assur.kinematics.answers.at_border import answer, pose_at_border
+    from assur.kinematics.answers.answer import answer
+    from assur.kinematics.answers.at_border import pose_at_border
     from assur.kinematics.paths.home_mode import home_mode_at
     from assur.performance.indices import indices
     from assur.results.json_text import plain

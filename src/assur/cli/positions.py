@@ -23,7 +23,7 @@ def outcome(record: Mechanism, found: SolutionSet) -> Outcome:
 
     Exit code 4 where it is proved that no solution exists, 5 where that is undecided, 3 where one is not closed.
     """
-    from assur.kinematics.answers.at_border import answer
+    from assur.kinematics.answers.answer import answer
 
     data = answer(found)
     return Outcome(data, lambda: _shown(record, data, found.candidates), exit_codes.of_status(data["status"]))
@@ -31,7 +31,7 @@ def outcome(record: Mechanism, found: SolutionSet) -> Outcome:
 
 def lines(record: Mechanism, found: SolutionSet) -> Iterable[RenderableType]:
     """An answer as a person reads it."""
-    from assur.kinematics.answers.at_border import answer
+    from assur.kinematics.answers.answer import answer
 
     return _shown(record, answer(found), found.candidates)
 
@@ -83,8 +83,9 @@ def _own_row(record: Mechanism, data: dict[str, Any]) -> dict[str, Any] | None:
     """The solution that is home, else that of the file's own mode; None where there is neither."""
     modes = record.modes
     default = modes.default_assembly if "inputs" in data else modes.default_working
-    rows = {item["mode"]: item for item in data["solutions"]}
-    return next((rows[mode] for mode in (*data["home"], default) if mode in rows), None)
+    home = [item for item in data["solutions"] if item["home"]]
+    of_file = [item for item in data["solutions"] if item["mode"] == default]
+    return next(iter(home + of_file), None)
 
 
 def _given(record: Mechanism, data: dict[str, Any], style: Style) -> str:
@@ -113,18 +114,26 @@ def _solutions(record: Mechanism, data: dict[str, Any], style: Style) -> Rendera
         return [style.kind(*pair) for pair in zip(kinds, item["inputs"], strict=True)]
 
     rows = [
-        (item["mode"], *values(item), item[other], item["status"], tiny(item["residual"]), limits_cell(item))
+        (
+            item["mode"],
+            *values(item),
+            item[other],
+            "yes" if item["home"] else "",
+            item["status"],
+            tiny(item["residual"]),
+            limits_cell(item),
+        )
         for item in data["solutions"]
     ]
     usual = [item["status"] == "regular" and not item["limits"]["outside"] for item in data["solutions"]]
-    columns = ("mode", *titles, other.partition("_")[0], "status", f"gap [{style.unit}]", "limits")
+    columns = ("mode", *titles, other.partition("_")[0], "home", "status", f"gap [{style.unit}]", "limits")
     told = [any(row[k] for row in rows) for k in range(len(columns))]
     told[-1] = data["limits_stated"]
-    kept = [k for k in range(len(columns)) if told[k] or columns[k] not in ("working", "assembly", "limits")]
+    kept = [k for k in range(len(columns)) if told[k] or columns[k] not in ("working", "assembly", "home", "limits")]
     return table(
         [columns[k] for k in kept],
         [[row[k] for k in kept] for row in rows],
-        left=("status", "limits"),
+        left=("home", "status", "limits"),
         styles=["" if same else "yellow" for same in usual],
     )
 
@@ -241,8 +250,8 @@ def _modes(record: Mechanism, data: dict[str, Any]) -> Iterable[str]:
     if any("/" in text for text in texts) or not signs:
         parts.append("a number among those that share the rest" if parts else "a number")
     yield f"mode: {', '.join(parts)}"
-    if any(data["home"]):
-        yield f"home: mode {', '.join(data['home'])}"
+    if data["home_by"]:
+        yield data["home_by"]
 
 
 def _signs(record: Mechanism, data: dict[str, Any]) -> str:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.home import home_values
-from assur.kinematics.search import SAME, places
+from assur.kinematics.search import places
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -43,8 +43,3 @@ def nearest_first(record: MechanismRecord, joints: FloatArray) -> NDArray[np.int
         return np.empty(0, dtype=np.intp)
     keys = np.round(np.column_stack([distances(record, joints), places(record, joints)]), DIGITS)
     return np.asarray(np.lexsort(keys.T[::-1]))
-
-
-def is_home(record: MechanismRecord, joints: FloatArray) -> NDArray[np.bool_]:
-    """Which of the configurations (N, coordinates) are home itself."""
-    return np.asarray(distances(record, joints) <= SAME)

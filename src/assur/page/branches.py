@@ -21,10 +21,10 @@ FloatArray = NDArray[np.float64]
 def branches(record: MechanismRecord) -> dict[str, list[dict[str, Any]]]:
     """Assembly modes at home's inputs and working modes at home's pose: label, joint values and status of each.
 
-    Home itself stands first in both, with its joint values as they are; it is called "home" where no solution is it
-    (an arc of a self-motion, a crossed parallelogram), and has its own status. Every other working mode has "assembly"
-    too: the assembly modes at its own inputs, itself first; it is alone there where the inputs do not hold the
-    platform. Angles are those nearest to home's.
+    Home itself stands first in both, with its joint values as they are, and is marked: its "home" is true. It is called
+    "home" where no solution is it (an arc of a self-motion, a crossed parallelogram), and has its own status. Every
+    other working mode has "assembly" too: the assembly modes at its own inputs, itself first; it is alone there where
+    the inputs do not hold the platform. Angles are those nearest to home's.
 
     >>> from assur.model.registry import load_record
     >>> found = branches(load_record("fivebar"))
@@ -35,9 +35,13 @@ def branches(record: MechanismRecord) -> dict[str, list[dict[str, Any]]]:
     """
     home = home_values(record)
     first, *others = _listed(record, home, "inverse", "home")
+    own, *poses = _listed(record, home, "direct", "home")
     return {
-        "assembly": [_plain(item) for item in _listed(record, home, "direct", "home")],
-        "working": [_plain(first), *({**_plain(item), "assembly": _assembly(record, home, item)} for item in others)],
+        "assembly": [{**_plain(own), "home": True}, *map(_plain, poses)],
+        "working": [
+            {**_plain(first), "home": True},
+            *({**_plain(item), "assembly": _assembly(record, home, item)} for item in others),
+        ],
     }
 
 

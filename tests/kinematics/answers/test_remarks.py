@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.answers.at_border import answer
+from assur.kinematics.answers.answer import answer
 from assur.kinematics.answers.remarks import angles_remark
 from assur.numerics import rotations
 

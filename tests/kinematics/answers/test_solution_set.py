@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.answers.at_border import answer
+from assur.kinematics.answers.answer import answer
 from assur.kinematics.status import MARGIN_TOLERANCE, NEAR_SINGULAR, Status
 from assur.numerics.number_types import Floats
 from assur.results.json_text import json_text

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from assur.kinematics.answers.at_border import answer, inputs_at_border, pose_at_border
+from assur.kinematics.answers.answer import answer
+from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border
 from assur.kinematics.answers.solution import Solution
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.limits import NO_LIMITS
@@ -40,6 +41,7 @@ def _listed(found: Findings, problem: Problem, listed: SolutionSet, data: dict[s
             item.mode,
             *_values(record, style, item, angles, direct=direct),
             item.working_mode if direct else item.assembly_mode,
+            "yes" if told["home"] else "",
             item.status.name.replace("_", " "),
             short(item.residual, 2),
             *([_limits(told["limits"]["outside"])] if limited else []),
@@ -47,7 +49,8 @@ def _listed(found: Findings, problem: Problem, listed: SolutionSet, data: dict[s
         for item, told in zip(listed, data["solutions"], strict=True)
     )
     titles = tuple(style.title(name, angle=angle) for name, angle in zip(names, angles, strict=True))
-    columns = ("mode", *titles, other, "status", style.title("gap", angle=False), *(["limits"] if limited else []))
+    after = ("home", "status", style.title("gap", angle=False), *(["limits"] if limited else []))
+    columns = ("mode", *titles, other, *after)
     caption = " ".join(_caption(listed, data))
     marks = tuple("" if item.status <= Status.near_singular else "singular" for item in listed)
     known = right(found, problem)[0]
@@ -76,6 +79,8 @@ def _caption(listed: SolutionSet, data: dict[str, Any]) -> Iterator[str]:
     )
     if any("/" in item.mode for item in listed):
         yield "A number tells solutions of the same signs apart."
+    if data["home_by"]:
+        yield f"{data['home_by'][0].upper()}{data['home_by'][1:]}."
     for pair in data["doubles"]:
         yield f"{' and '.join(pair['modes'])} are a double: one solution, or two too near to tell."
     for text in dict.fromkeys(item["angles"] for item in data["solutions"] if item["angles"]):
