@@ -129,6 +129,13 @@ def test_all_operation_modes_that_meet_at_home_are_named(texts, modes):
     assert {(item.freedoms, item.t, item.r) for item in outcomes(texts) if item.real} <= modes
 
 
+def test_modes_of_the_same_numbers_are_not_mixed():
+    """The orientations are R(x, a) R(y, b) = R(y, c) R(x, d): turns about x alone, or about y alone, with t³ each."""
+    found = assur.topology(["R[x] R[x] C[y] P[y] R[y]", "R[y] R[y] C[x] P[x] R[x]", "R[x] R[x] C[y] P[y] R[y]"])
+    assert [(mode.dof, mode.t, mode.r, mode.real) for mode in found.modes] == [(7, 3, 1, True)] * 2
+    assert str(found.poc) in ("t³ r¹(∥[1, 0, 0])", "t³ r¹(∥[0, 1, 0])")
+
+
 def test_a_mechanism_that_only_seems_to_move_is_said_not_to():
     texts = ["S R[z] R[z]", "R[x] R[x] P[x] P(4R)[y]", "U[0.6,0.8,0; 0,1,0] R[0.6,0.8,0]"]
     with pytest.raises(ImmobileError, match="at home it has 1 instantaneous freedom, and no finite step follows"):

@@ -157,7 +157,9 @@ def scattered(
     return np.asarray(found.x[found.converged] * tree.scales)
 
 
-def walked(linkage: Linkage, start: FloatArray, seed: int = 0, hold: Hold | None = None) -> FloatArray:
+def walked(
+    linkage: Linkage, start: FloatArray, seed: int = 0, hold: Hold | None = None, step: float = WALK_STEP
+) -> FloatArray:
     """Joint values (M, n), M <= N, where walks from assemblies (N, n) end after several small steps.
 
     Each walk goes on in the direction in which it went, roughly, so that it follows a motion that starts at a branch
@@ -168,6 +170,7 @@ def walked(linkage: Linkage, start: FloatArray, seed: int = 0, hold: Hold | None
         start: assemblies of it.
         seed: of the random directions.
         hold: as in `configurations`.
+        step: the largest displacement of a joint (rad, lengths) in each step.
     """
     tree = screw_tree(linkage)
     system = _System.of(linkage, tree, hold)
@@ -179,13 +182,13 @@ def walked(linkage: Linkage, start: FloatArray, seed: int = 0, hold: Hold | None
     for number in range(WALK):
         direction = _projected(system.at(values, np.arange(len(values)))[1], heading)
         size = np.max(np.abs(direction), axis=1, keepdims=True)
-        aim = values + WALK_STEP * direction / np.maximum(size, STILL)
+        aim = values + step * direction / np.maximum(size, STILL)
         closed = minimise(system.at, aim, tolerance=CLOSED, max_steps=60)
         moved = closed.x - values
         gone = np.max(np.abs(moved), axis=1)
-        alive &= closed.converged & (size[:, 0] > STILL) & (gone < 2 * WALK_STEP)
+        alive &= closed.converged & (size[:, 0] > STILL) & (gone < 2 * step)
         # a first step in a direction of no motion may come back nearly to the start
-        alive &= (gone > STUCK * WALK_STEP) | (number == 0)
+        alive &= (gone > STUCK * step) | (number == 0)
         heading = moved / np.maximum(gone, STILL)[:, None] + 0.2 * rng.normal(size=values.shape)
         values = closed.x
     if not np.any(alive):

@@ -44,7 +44,12 @@ ROUNDS = 2
 """How often walks are started."""
 
 AROUND = 6
-"""Walks from a singular configuration: where any of them meets a regular one, it was no motion of its own."""
+"""Walks from one configuration: to close neighbours; or from a singular one, which is no motion of its own where any
+of them meets a regular one."""
+
+CLOSE = 2e-3
+"""Steps (rad, lengths) of walks to close neighbours: short beside the way to another mode, and an axis that moves with
+the mode turns by much more than its direction is known to."""
 
 MOST = 6
 """Operation modes that are told apart; a home where more meet is answered for these."""
@@ -172,15 +177,18 @@ def _roughly(matrix: FloatArray) -> int:
 def _around(
     linkage: Linkage, value: FloatArray, seed: int, hold: Hold | None, count: int, here: OperationMode
 ) -> OperationMode | None:
-    """A mode with more configurations, walked to from one of them; None where there are not enough of its kind."""
+    """A mode with more configurations, walked to from one of them; None where there are not enough of its kind.
+
+    A walk may come back to where modes meet and leave by another one, of the same numbers. So what close neighbours
+    of the one have in common, the ends of walks must have too.
+    """
+    neighbours = walked(linkage, np.repeat(value[None], AROUND, axis=0), seed, hold, CLOSE)
+    near = replace(here, values=np.concatenate([value[None], neighbours]))
     ends = walked(linkage, np.repeat(value[None], 4 * count, axis=0), seed, hold)
     kept = []
     for end in ends:
-        try:
-            there = _mode(linkage, end[None])
-        except UnclearRankError:
-            continue
-        if (there.freedoms, there.poc, there.moving) == (here.freedoms, here.poc, here.moving):
+        there = _regular(linkage, end)
+        if there and _are_one(linkage, near, there):
             kept.append(end)
     if len(kept) < count:
         return None
