@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.limits import limits
+from assur.kinematics.limits import joint_limits, limits
 from assur.kinematics.position import inverse
 from assur.numerics import rotations
-from assur.workspace.bounds import bounds
+from assur.workspace.bounds import bounds, not_reached
 from assur.workspace.fields import margin_fields
 from assur.workspace.slices import slice_at
 
@@ -59,7 +59,7 @@ def test_a_cone_is_kept_exactly_where_the_tilt_is_within_it():
     record = limited(DELTA, "leg1.B1", cone=0.6, cone_axis=axis)
     poses, joints = solutions(record)
     (limit,) = (item for item in limits(record, joints[0]) if "cone" in item.name)
-    field = margin_fields(record, "+++")["tilt of leg1.B1 <= 0.6"]
+    field = margin_fields(record, "+++")["tilt of leg1.B1 <= 34.3775 deg"]
     inside = limit.margin(joints) >= 0
     assert 10 < np.sum(inside) < len(inside) - 10
     np.testing.assert_array_equal(field(tuple(poses.T)) >= 0, inside)
@@ -74,8 +74,8 @@ def test_a_stroke_replaces_that_of_the_file_and_none_takes_it_away():
     names = [item.name for item in inputs]
     assert len(bounds(record)) == 3
     assert list(bounds(record, {names[0]: None, names[1]: (0.5, 2.0)})) == [
-        f"0.5 <= {names[1]} <= 2",
-        f"0 <= {names[2]} <= 1",
+        f"28.6479 deg <= {names[1]} <= 114.592 deg",
+        f"0 deg <= {names[2]} <= 57.2958 deg",
     ]
     assert bounds(PLANAR) == {}
 
@@ -83,3 +83,11 @@ def test_a_stroke_replaces_that_of_the_file_and_none_takes_it_away():
 def test_a_whole_turn_is_no_bound():
     assert bounds(limited(PLANAR, "leg1.B", limits=((-4.0, 4.0),))) == {}
     assert slice_at(PLANAR).free == ("x", "y", "phi")
+
+
+def test_what_a_bound_forbids_is_said_in_the_unit_of_the_file():
+    record = limited(PLANAR, "leg1.B", limits=((0.5, 1.0),))
+    (name,) = bounds(record)
+    assert name == "28.6479 deg <= leg1.B <= 57.2958 deg"
+    assert not_reached(name) == f"not {name}: not reached"
+    assert joint_limits(record) == ["limit of leg1.B"]

@@ -258,10 +258,15 @@ def _known(record: Mechanism, name: str) -> None:
 
 
 def _data(record: Mechanism, question: Question, found: dict[str, Any]) -> dict[str, Any]:
-    from assur.kinematics.limits import limits_stated
+    from assur.kinematics.limits import joint_limits, limits_stated
 
     stated = limits_stated(record, question.strokes)
-    return {"mechanism": record.name, **_outside(record, found), "limits_stated": stated}
+    return {
+        "mechanism": record.name,
+        **_outside(record, found),
+        "limits_stated": stated,
+        "joint_limits": joint_limits(record),
+    }
 
 
 def _limits(data: Mapping[str, Any]) -> Iterable[str]:
@@ -270,6 +275,8 @@ def _limits(data: Mapping[str, Any]) -> Iterable[str]:
 
     if not data["limits_stated"]:
         yield f"limits: {NO_LIMITS}"
+    if data["joint_limits"]:
+        yield f"limits of the file: {', '.join(data['joint_limits'])}"
 
 
 def _reached(data: Mapping[str, Any]) -> str:

@@ -56,7 +56,7 @@ def outcome(record: Mechanism, asked: Question, written: Path | None, shared: Sh
 
 def _data(record: Mechanism, asked: Question, found: Workspace) -> dict[str, Any]:
     """The answer as plain data; angles in the mechanism's angle unit."""
-    from assur.kinematics.limits import limits_stated
+    from assur.kinematics.limits import joint_limits, limits_stated
     from assur.workspace.region import default_resolution
 
     names = found.box.names
@@ -74,6 +74,7 @@ def _data(record: Mechanism, asked: Question, found: Workspace) -> dict[str, Any
         "resolution": asked.resolution or default_resolution(record, found.slice),
         "strokes": {name: _outside(record, pair, lengths[name]) for name, pair in limits.items()},
         "limits_stated": limits_stated(record, asked.strokes),
+        "joint_limits": joint_limits(record),
         "parasitic": parasitic.largest(record, found),
         "nowhere": _nowhere(record, asked, found),
         "empty": _empty(record, asked, found),
@@ -131,6 +132,8 @@ def _shown(record: Mechanism, data: dict[str, Any], written: Path | None) -> Ite
         yield f"strokes: {_intervals(record, data['strokes'])}"
     if not data["limits_stated"]:
         yield f"limits: {NO_LIMITS}"
+    if data["joint_limits"]:
+        yield f"limits of the file: {', '.join(data['joint_limits'])}"
     what = ("length", "area", "volume")[dimension - 1]
     size = f"{with_error(data['volume'], data['volume_error'])} {data['unit']}"
     if data["empty"] == "proved":

@@ -97,6 +97,16 @@ def stated_limits(record: MechanismRecord) -> tuple[Limit, ...]:
     return tuple(found)
 
 
+def joint_limits(record: MechanismRecord) -> list[str]:
+    """Which limits of joints and cones the file states, besides strokes of inputs.
+
+    >>> from assur.model.registry import load_record
+    >>> joint_limits(load_record("three_rps"))
+    []
+    """
+    return [item.name for item in stated_limits(record) if not item.name.startswith("stroke")]
+
+
 def limits_stated(record: MechanismRecord, strokes: Mapping[str, object] | None = None) -> bool:
     """Whether the file states any stroke, joint limit or cone; `strokes` of inputs stand for those of the file.
 

@@ -64,16 +64,36 @@ def bounds(
         if stroke is not None:
             key = record.coordinate_label(item.coordinate)
             kind: Kind = "turn" if same[item.coordinate.index] else "value"
-            found |= _interval(item.name, key, kind, stroke, constant, item.sign, item.offset)
+            shown = _shown(record, stroke, angular=item.coordinate.kind == "angle")
+            found |= _interval(item.name, key, kind, stroke, shown, constant, item.sign, item.offset)
     for coordinate in record.coordinates:
         limit = _limit(record, coordinate)
         if limit is not None:
             key = record.coordinate_label(coordinate)
-            found |= _interval(key, key, "turn" if same[coordinate.index] else "value", limit, constant)
+            shown = _shown(record, limit, angular=coordinate.kind == "angle")
+            found |= _interval(key, key, "turn" if same[coordinate.index] else "value", limit, shown, constant)
     for joint in record.joints.values():
         if joint.cone is not None and joint.cone_axis is not None:
-            found[f"tilt of {joint.name} <= {joint.cone:g}"] = partial(_cone, joint, constant)
+            _, cone = _shown(record, (0.0, joint.cone), angular=True)
+            found[f"tilt of {joint.name} <= {cone}"] = partial(_cone, joint, constant)
     return found
+
+
+def not_reached(margin: str) -> str:
+    """Why a pose is not reached at which a margin is negative: what a bound asks does not hold.
+
+    >>> not_reached("M3"), not_reached("-95 deg <= B1 <= -60 deg")
+    ('M3 < 0: not reached', 'not -95 deg <= B1 <= -60 deg: not reached')
+    """
+    return f"not {margin}: not reached" if "<=" in margin or ">=" in margin else f"{margin} < 0: not reached"
+
+
+def _shown(record: MechanismRecord, ends: Stroke, *, angular: bool) -> tuple[str, str]:
+    """Both ends of an interval as the file would have them, with a unit where they are angles."""
+    if not angular:
+        return f"{ends[0]:g}", f"{ends[1]:g}"
+    factor = math.degrees(1.0) if record.angle == "deg" else 1.0
+    return f"{ends[0] * factor:g} {record.angle}", f"{ends[1] * factor:g} {record.angle}"
 
 
 def _limit(record: MechanismRecord, coordinate: Coordinate) -> Stroke | None:
@@ -109,6 +129,7 @@ def _interval(
     key: str,
     kind: Kind,
     interval: Stroke,
+    shown: tuple[str, str],
     constant: Constant,
     sign: float = 1.0,
     offset: float = 0.0,
@@ -121,12 +142,12 @@ def _interval(
         first, last = from_degrees(low), from_degrees(high)
         middle, half = ((first + last) / 2 - offset) * sign, (last - first) / 2
         circle = (*cosine_sine(middle), cosine_sine(half)[0])
-        return {f"{low:g} <= {name} <= {high:g}": partial(_angle, key, *map(constant, circle))}
+        return {f"{shown[0]} <= {name} <= {shown[1]}": partial(_angle, key, *map(constant, circle))}
     found: dict[str, Bound] = {}
     if math.isfinite(low):
-        found[f"{name} >= {low:g}"] = partial(_value, key, sign, constant(Interval.of(offset) - low))
+        found[f"{name} >= {shown[0]}"] = partial(_value, key, sign, constant(Interval.of(offset) - low))
     if math.isfinite(high):
-        found[f"{name} <= {high:g}"] = partial(_value, key, -sign, constant(Interval.of(high) - offset))
+        found[f"{name} <= {shown[1]}"] = partial(_value, key, -sign, constant(Interval.of(high) - offset))
     return found
 
 

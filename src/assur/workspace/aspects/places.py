@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.numerics.intervals.interval import Interval
 from assur.workspace.aspects.search import Search
+from assur.workspace.bounds import not_reached
 from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.planes import judged
 from assur.workspace.domain import Box
@@ -88,7 +89,7 @@ def place(state: Search, labels: Sequence[str], point: FloatArray) -> Place:
     signs = {name: 1 if found[name].positive[0] else -1 for name in criteria.names if found[name].nonzero[0]}
     negative = [name for name in criteria.margins if found[name].high[0] < 0]
     if negative:
-        return Place("outside", "", {}, f"{', '.join(negative)} < 0: not reached", here, nothing)
+        return Place("outside", "", {}, not_reached(", ".join(negative)), here, nothing)
     for k in holding(state.certain, at)[:1]:
         return Place("inside", labels[state.links.component[k]], signs, "", here, nothing, int(k))
     unclear = [name for name in criteria.names if name not in signs]

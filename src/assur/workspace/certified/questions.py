@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from assur.errors import UnknownNameError
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.intervals.interval import Interval
-from assur.workspace.bounds import Stroke
+from assur.workspace.bounds import Stroke, not_reached
 from assur.workspace.certified.criteria import Criteria, criteria
 from assur.workspace.domain import Box
 
@@ -70,7 +70,7 @@ def violations(asked: Criteria, points: Sequence[FloatArray], at: Mapping[str, I
     found = asked.over([Interval.of(row) for row in points])
     why = np.full(len(points[0]), "", dtype="<U200")
     for name in asked.margins:
-        why[found[name].high < 0] = f"{name} < 0: not reached"
+        why[found[name].high < 0] = not_reached(name)
     for name in asked.regular:
         here, there = found[name], at[name]
         changed = (here.negative & there.positive) | (here.positive & there.negative)
