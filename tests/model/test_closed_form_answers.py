@@ -36,6 +36,7 @@ def test_every_built_in_kernel_answers_in_the_shape_of_its_mechanism(name):
         ("_core(p, pose, crank1, crank2))\n\n\ndef _leg", "1)\n\n\ndef _leg", "a core that is a number"),
         ('        "A1": core.crank1,\n', "", "joints returns no value of 'A1'"),
         ('"A1": core.crank1', '"A1": "a"', "joints returns 'A1' as a text"),
+        ('"A1": core.crank1', '"A9": 1, "A1": core.crank1', "joints returns a value of 'A9', which is no joint"),
         ('        "arm2": p.l1 * core.sin_b2,\n', "", "factors returns no factor 'arm2'"),
         (
             "return (core.rod1, core.rod2), (",
@@ -61,6 +62,36 @@ def test_a_slip_of_the_pen_is_a_fault_with_a_line(old, new, told, tmp_path):
         load_record(folder)
     assert any(told in str(problem) for problem in caught.value.problems), caught.value
     assert all(problem.line for problem in caught.value.problems)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        (
+            'unit=4, signs=("s1",)',
+            'unit=4, signs=("s9",)',
+            "the sign 's9' of inverse margin reach1; signs of modes.working",
+        ),
+        (
+            'unit=4, signs=("s1",)',
+            'unit=4, signs=("e",)',
+            "the sign 'e' of inverse margin reach1; signs of modes.working",
+        ),
+        ('Factor("gap_y"', 'Factor("gap_x"', "factor_list: 'gap_x' 2 times; each name once"),
+        ('Margin("gap"', f'Margin("{"g" * 101}"', "has 101 characters; 1 to 100"),
+        ("# crank", "# \u202e crank", r"closed_form.py:6: \u202e, a character that nobody sees"),
+    ],
+)
+def test_a_slip_in_what_is_declared_is_a_fault(old, new, told, tmp_path):
+    folder = tmp_path / "own"
+    shutil.copytree(HOME, folder)
+    path = folder / "closed_form.py"
+    text = path.read_text(encoding="utf-8").replace("\n\n\ndef inverse", "\n# crank\n\ndef inverse", 1)
+    assert old in text
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    with pytest.raises(MechanismFileError) as caught:
+        load_record(folder)
+    assert any(told in str(problem) for problem in caught.value.problems), caught.value
 
 
 def lengthened(folder, times):

@@ -180,6 +180,12 @@ def _joints(record: MechanismRecord, values: Any) -> Told:
                 yield f"no rotation of joint '{name}'", "three rows of three numbers, the child against the parent"
         else:
             yield from _joint(name, joint, values)
+    known = set(record.joints) | {
+        f"{name}.{component}" for name, joint in record.joints.items() for component in joint.type.components
+    }
+    for name in values:
+        if name not in known:
+            yield f"a value of '{name}', which is no joint", f"a value for each joint: {listed(record.joints)}"
 
 
 def _joint(name: str, joint: Joint, values: Mapping[str, Any]) -> Told:

@@ -12,10 +12,11 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from assur.errors import AssurError, MechanismFileError, Problem, UsageError
+from assur.errors import AssurError, MechanismFileError, Problem, UsageError, hidden, visible
 from assur.model.closed_form import ClosedForm, Eliminant, PolynomialSystem, SelfMotion
 from assur.model.consent import may_run
 from assur.model.file.faults import listed
+from assur.model.file.texts import MAX_NAME
 from assur.model.formula import parse
 from assur.model.kernels.faults import FormFault
 from assur.model.kernels.reading import names_of
@@ -36,6 +37,7 @@ def read_closed_form(path: Path, name: str, text: str) -> ClosedForm | None:
     Errors:
         MechanismFileError: it cannot be worked out, or defines no CLOSED_FORM.
     """
+    _seen_as_read(text, path)
     try:
         names = names_of(text, path)
     except FormFault as fault:
@@ -46,6 +48,15 @@ def read_closed_form(path: Path, name: str, text: str) -> ClosedForm | None:
         guarded: ClosedForm = _guarded(_form(names, path), path)
         return guarded
     return _form(names, path)
+
+
+def _seen_as_read(text: str, path: Path) -> None:
+    """Refuse a text of which a reader does not see what it says, in comments too: who gives leave must have seen it."""
+    for number, line in enumerate(text.removeprefix("\ufeff").split("\n"), start=1):
+        unseen = hidden(line, kept="\t\r\f")
+        if unseen:
+            found = f"{visible(unseen[0])}, a character that nobody sees"
+            raise MechanismFileError([_problem(path, found, "allowed: text that is seen as it is read", line=number)])
 
 
 def _form(names: Mapping[str, Any], path: Path) -> ClosedForm:
@@ -109,7 +120,7 @@ def disagreements(
         scales: whether its parameters are.
     """
     other = list(_signs(record, form, path)) if signs else []
-    named = (*other, *_names(form, path))
+    named = (*other, *_names(record, form, path, signs=signs))
     # that of another mechanism has other parameters as well, which says nothing more
     return tuple(dict.fromkeys([*named, *(_scales(record, form, path) if scales and not other else ())]))
 
@@ -125,8 +136,8 @@ def _signs(record: MechanismRecord, form: ClosedForm, path: Path) -> Iterator[Pr
         yield _problem(path, found, f"those of [modes] in {record.file.name}: {listed(own)}", hint)
 
 
-def _names(form: ClosedForm, path: Path) -> Iterator[Problem]:
-    """Groups name factors, a self-motion a margin."""
+def _names(record: MechanismRecord, form: ClosedForm, path: Path, *, signs: bool) -> Iterator[Problem]:
+    """Groups name factors, a self-motion a margin, a margin signs of its own problem; and no name stands twice."""
     factors = {item.name for item in form.factor_list}
     for group in (*form.constraint_singular, *form.self_motion_singular):
         if not set(group) <= factors:
@@ -135,6 +146,29 @@ def _names(form: ClosedForm, path: Path) -> Iterator[Problem]:
     if form.self_motion and form.self_motion.margin not in margins:
         found = f"self_motion.margin = '{form.self_motion.margin}'"
         yield _problem(path, found, f"a name of direct_margins: {listed(margins)}")
+    if signs:
+        yield from _margin_signs(record, form, path)
+    for where in ("direct_margins", "inverse_margins", "factor_list", "quantity_list"):
+        own = [item.name for item in getattr(form, where)]
+        for name in dict.fromkeys(own):
+            if own.count(name) > 1:
+                yield _problem(path, f"{where}: '{name}' {own.count(name)} times", "each name once")
+            if not 0 < len(name) <= MAX_NAME:
+                cut_name = f"'{name[:20]}...' has {len(name)} characters" if name else "an empty name"
+                yield _problem(path, f"{where}: {cut_name}", f"1 to {MAX_NAME}")
+
+
+def _margin_signs(record: MechanismRecord, form: ClosedForm, path: Path) -> Iterator[Problem]:
+    """Margins of the direct problem name assembly signs, those of the inverse one working signs."""
+    for problem, margins, modes, own in (
+        ("direct", form.direct_margins, "assembly", record.modes.assembly),
+        ("inverse", form.inverse_margins, "working", record.modes.working),
+    ):
+        for margin in margins:
+            for sign in margin.signs:
+                if sign not in own:
+                    found = f"the sign '{sign}' of {problem} margin {margin.name}"
+                    yield _problem(path, found, f"signs of modes.{modes} in {record.file.name}: {listed(own)}")
 
 
 def _scales(record: MechanismRecord, form: ClosedForm, path: Path) -> Iterator[Problem]:

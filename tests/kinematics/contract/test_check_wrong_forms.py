@@ -82,6 +82,12 @@ BIGLIDE = [
           "y = sign.e * ns.sqrt(square)", "mode sign e", "sign.e"),
     Wrong("biglide", "the sign of a Jacobian", "jq = ((core.arm1, 0), (0, core.arm2))",
           "jq = ((core.arm1, 0), (0, -core.arm2))", "Jp and Jq row 2", "def jacobians"),
+    Wrong("biglide", "a scale that is far too large", 'Factor("gap", "parallel", "r1"',
+          'Factor("gap", "parallel", "1e9 * r1"', "status gap", 'Factor("gap"'),
+    Wrong("biglide", "a singularity of constraints that is none", "    factor_list=(",
+          '    constraint_singular=(("arm1",),),\n    factor_list=(', "status arm1", 'Factor("arm1"'),
+    Wrong("biglide", "a self-motion that is none", "    factor_list=(",
+          '    self_motion_singular=(("y",),),\n    factor_list=(', "status y", 'Factor("y"'),
     Wrong("biglide", "a reach that is too short", '"square": square}', '"square": square - 900}', "margin square",
           '"square": square - 900'),
 ]  # fmt: skip
@@ -98,6 +104,13 @@ def test_a_wrong_form_is_refused_by_name_and_line(copied, wrong):
     assert first.file == str(folder / CLOSED_FORM)
     assert first.line is not None
     assert wrong.line in (folder / CLOSED_FORM).read_text(encoding="utf-8").splitlines()[first.line - 1]
+
+
+def test_inputs_without_measure_are_a_fault_of_the_form(copied):
+    height = "height1 = p.r1 * p.r1 - y * y"
+    folder = copied("biglide", (height, height + "\n    " + "\n    ".join(["x = x**16"] * 40)))
+    found, _ = problems(load_record(folder))
+    assert found
 
 
 def test_loading_a_wrong_form_says_where_and_by_how_much(copied):

@@ -19,7 +19,7 @@ WRONG = {
     "a constraint singularity that is not named": (
         "zeng2019", ('singular=(("v",), ("sin_beta",), ', 'singular=(("sin_beta",), '), "factor v"),
     "one that is none": (
-        "zeng2019", ('constraint_singular=(("v",), ', 'constraint_singular=(("w",), ("v",), '), "factor w"),
+        "zeng2019", ('constraint_singular=(("v",), ', 'constraint_singular=(("w",), ("v",), '), "status w"),
     "a system that poses do not solve": (
         "gough_stewart", ("+ 2 * dot(b, on_platform)", "+ dot(b, on_platform)"), "branch"),
     "unknowns that do not come back": (

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+import numpy as np
+
 from assur.errors import MechanismFileError, Problem, cut
 from assur.kinematics.contract.dimensions import of_file
 from assur.kinematics.contract.held import (
@@ -104,11 +106,12 @@ def problems(record: MechanismRecord, extent: Extent = AT_LOAD) -> tuple[tuple[P
     >>> problems(load_record("fivebar"))
     ((), True)
     """
-    found, general = at_places(record, extent), False
-    if not found:
-        found, general = at_other_dimensions(record, extent)
-    if not found and extent.formulas:
-        found = of_formulas(record, extent)
+    with np.errstate(all="ignore"):  # of a wrong form any number may come, and laws are not met by what is none
+        found, general = at_places(record, extent), False
+        if not found:
+            found, general = at_other_dimensions(record, extent)
+        if not found and extent.formulas:
+            found = of_formulas(record, extent)
     parts = {(item.part, item.name): item for item in reversed(found)}
     return tuple(_problem(record, item) for item in reversed(parts.values())), general
 

@@ -23,6 +23,7 @@ from assur.kinematics.contract.rates import wrong_rates
 from assur.kinematics.contract.signs import wrong_signs
 from assur.kinematics.contract.solutions import Solutions, solutions, solves
 from assur.kinematics.contract.solvers import lacking
+from assur.kinematics.contract.statuses import false_statuses
 from assur.kinematics.contract.systems import unsolved
 from assur.kinematics.contract.undeclared import undeclared
 from assur.kinematics.contract.zeros import false_zeros
@@ -67,6 +68,8 @@ EXTENTS = (AT_LOAD, IN_FULL, DEEP)
 SIZE = 700
 """Of a mechanism of many joints fewer motions are looked at: its number of joint values, squared, over this many."""
 FEWEST = 16
+AT_ENDS = 24
+"""Solutions at ends of branches whose status is held against the joint graph's."""
 JOINTS = 24
 """The same for solutions, of which each takes as long as there are joint values."""
 
@@ -93,7 +96,12 @@ def at_places(record: MechanismRecord, extent: Extent, seed: int = 0) -> list[Mi
     asked += [
         solutions(record, problem, reached.given).spread(_most(record, extent)) for problem, reached in near.items()
     ]
-    broken = _first(_positions, asked) or unsolved(there) or _first(_motions(extent, there), asked[: len(drawn)])
+    broken = (
+        _first(_positions, asked)
+        or unsolved(there)
+        or _first(_motions(extent, there), asked[: len(drawn)])
+        or _first(false_statuses, [found.spread(AT_ENDS) for found in asked[len(drawn) :]])
+    )
     if broken:
         return broken
     joints = random_assemblies(record, extent.assemblies, random)
@@ -167,6 +175,11 @@ def _motions(extent: Extent, there: Solutions) -> Callable[[Solutions], list[Mis
         share = min(1.0, SIZE / len(record.coordinates) ** 2)
         some = found.spread(max(FEWEST, int(share * extent.motions)))
         motion = motions(record, some.joints, RANK_GAP)
-        return wrong_rates(some, motion) or wrong_factors(found) or missing(there, some.joints, motion)
+        return (
+            wrong_rates(some, motion)
+            or wrong_factors(found)
+            or false_statuses(some, motion)
+            or missing(there, some.joints, motion)
+        )
 
     return laws

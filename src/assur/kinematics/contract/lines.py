@@ -39,6 +39,8 @@ def _places(tree: ast.Module, mismatch: Mismatch) -> Iterator[int | None]:
         yield _entry(problem, name)
         yield from (_entry(function, name) for function in _functions(tree))
         yield _declared(tree, "Margin", name)
+    elif mismatch.part == "status":
+        yield _declared(tree, "Factor", name)
     elif mismatch.part == "factor":
         yield _entry(_function(tree, "factors"), name)
         yield _declared(tree, "Factor", name)

@@ -15,7 +15,18 @@ from assur.model.pose import LENGTHS, is_angle
 
 FloatArray = NDArray[np.float64]
 Part = Literal[
-    "branch", "margin", "joint", "factor", "mode sign", "Jp and Jq", "Jp", "Jq", "radicand", "divisor", "self-motion"
+    "branch",
+    "margin",
+    "joint",
+    "factor",
+    "status",
+    "mode sign",
+    "Jp and Jq",
+    "Jp",
+    "Jq",
+    "radicand",
+    "divisor",
+    "self-motion",
 ]
 
 

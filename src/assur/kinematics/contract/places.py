@@ -22,6 +22,9 @@ long."""
 WIDER = 0.5
 """Inputs are drawn from what poses need, and so much of that range further on either side."""
 
+FARTHEST = 1e30
+"""Inputs further away, of a form that is wrong, leave no room for a range."""
+
 
 def poses(record: MechanismRecord, count: int, random: np.random.Generator) -> FloatArray:
     """Poses (count, m): half of them in the workspace box of the file, half in the wider one.
@@ -59,6 +62,7 @@ def inputs(record: MechanismRecord, needed: FloatArray, count: int, random: np.r
     >>> inputs(load_record("fivebar"), np.array([[0.1, 0.2], [0.3, 0.4]]), 6, np.random.default_rng(0)).shape
     (6, 2)
     """
+    needed = np.clip(needed, -FARTHEST, FARTHEST)
     low, high = np.min(needed, axis=0), np.max(needed, axis=0)
     spare = WIDER * (high - low)
     least, most = low - spare, high + spare

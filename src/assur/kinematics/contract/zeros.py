@@ -10,7 +10,7 @@ from assur.kinematics.contract.kernel import Kernel
 from assur.kinematics.contract.mismatch import Mismatch, place_text
 from assur.kinematics.contract.solutions import Solutions, solutions
 from assur.kinematics.rates.motions import general, motions
-from assur.kinematics.status import closed_form_of, relative_factors
+from assur.kinematics.status import Status, classify, closed_form_of, relative_factors
 from assur.model.closed_form import Factor
 
 FloatArray = NDArray[np.float64]
@@ -53,10 +53,10 @@ def _of_factor(kernel: Kernel, found: Solutions, factor: Factor) -> list[Mismatc
     least = np.linalg.svd(part, compute_uv=False)[..., part.shape[-2] - 1]
     usual = motion.ranks.closure == int(general(record).closure)
     crossed = np.abs(own.factors[factor.name]) <= _jump(found, factor.name)
-    unnamed = _unnamed(own, factor, usual, crossed)
+    told = _unnamed(own, factor, usual, crossed) or _unseen(own, factor, (least <= REGULAR) & crossed)
     wrong = np.flatnonzero((least > REGULAR) & usual & crossed)
-    if unnamed or not len(wrong):
-        return unnamed
+    if told or not len(wrong):
+        return told
     row = int(wrong[0])
     label = {"parallel": "det Jp", "serial": "det Jq"}[factor.kind]
     text = (
@@ -82,6 +82,22 @@ def _unnamed(own: Solutions, factor: Factor, usual: BoolArray, crossed: BoolArra
     text = f"where it is zero the closure {what}: in mode {own.labels[row]} at {place}"
     allowed = "constraint_singular must name where the closure loses rank"
     return [Mismatch("factor", factor.name, "inverse", text, allowed)]
+
+
+def _unseen(own: Solutions, factor: Factor, singular: BoolArray) -> list[Mismatch]:
+    """Zeros, to the last digit of a pose, at which the status is regular: the scale is far less than the factor."""
+    status = classify(own.record, own.factors)
+    wrong = np.flatnonzero(singular & (status < Status.near_singular))
+    if not len(wrong):
+        return []
+    row = int(wrong[0])
+    size = float(relative_factors(own.record, own.factors)[factor.name][row])
+    place = place_text(own.record, "inverse", own.given[row])
+    text = (
+        f"it changes sign in mode {own.labels[row]} at {place}, where it is {size:.3g} of its scale and called regular"
+    )
+    hint = "is its scale the size that it has?"
+    return [Mismatch("factor", factor.name, "inverse", text, "where it is zero the status must be singular", hint)]
 
 
 def _opposite(found: Solutions, name: str) -> tuple[FloatArray, FloatArray, NDArray[np.int8]]:
