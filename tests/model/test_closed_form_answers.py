@@ -1,14 +1,15 @@
 """A kernel that answers in another shape than its mechanism asks for is told with the line of its function."""
 
+import os
 import shutil
 from pathlib import Path
 
 import pytest
 
 import assur
-from assur.errors import MechanismFileError
+from assur.errors import MechanismFileError, UsageError
 from assur.model.closed_form_answers import answer_faults
-from assur.model.registry import load_record, names
+from assur.model.registry import examine, load_record, names
 
 HOME = Path(assur.__file__).parent / "mechanisms/fivebar"
 FIRST = "return Branch(pose, (crank1, crank2), margins,"
@@ -92,6 +93,24 @@ def test_a_slip_in_what_is_declared_is_a_fault(old, new, told, tmp_path):
     with pytest.raises(MechanismFileError) as caught:
         load_record(folder)
     assert any(told in str(problem) for problem in caught.value.problems), caught.value
+
+
+@pytest.mark.parametrize("kind", ["pipe", "folder", "device", "link to itself"])
+def test_a_closed_form_that_is_no_file_is_told(kind, tmp_path):
+    folder = tmp_path / "own"
+    shutil.copytree(HOME, folder)
+    path = folder / "closed_form.py"
+    path.unlink()
+    {
+        "pipe": lambda: os.mkfifo(path),
+        "folder": path.mkdir,
+        "device": lambda: path.symlink_to("/dev/zero"),
+        "link to itself": lambda: path.symlink_to(path),
+    }[kind]()
+    with pytest.raises(UsageError, match=r"cannot read '.*closed_form\.py'"):
+        load_record(folder)
+    with pytest.raises(UsageError, match=r"cannot read '.*closed_form\.py'"):
+        examine(folder)
 
 
 def lengthened(folder, times):

@@ -139,7 +139,7 @@ def load_record(name_or_path: str | Path, /, **overrides: Any) -> MechanismRecor
     path = _find(name_or_path, (FILE, TOPOLOGY))
     record = read_mechanism(path)
     beside = path.parent / CLOSED_FORM
-    text = file_text(beside) if beside.is_file() else None
+    text = file_text(beside) if os.path.lexists(beside) else None  # what is there and no file is told
     form = None if text is None else _closed_form(record, beside, text)
     not_run = text is not None and form is None
     record = dataclasses.replace(record, closed_form=form, closed_form_text=text or "", closed_form_not_run=not_run)
@@ -231,7 +231,7 @@ def _faults_beside(path: Path, record: MechanismRecord | None, faults: Faults | 
     """Faults of a closed form; what it claims of a mechanism where that is known."""
     try:
         name = record.name if record else path.parent.name
-        form = read_closed_form(path, name, file_text(path)) if path.is_file() else None
+        form = read_closed_form(path, name, file_text(path)) if os.path.lexists(path) else None
     except MechanismFileError as error:
         return error.problems
     if form is None or record is None or faults is None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 
 import numpy as np
@@ -215,6 +216,24 @@ def test_damage_is_told_with_file_and_block_and_is_repaired(whole, tmp_path, kin
     assert any(f"{folder}/{said}" in str(fault.problem) for fault in faults)
     assert files_of(folder) == files_of(whole)
     assert filled(folder) == ()
+
+
+@pytest.mark.parametrize("kind", ["pipe", "device", "another file"])
+def test_what_is_no_file_of_ours_is_replaced_and_never_written_through(whole, tmp_path, kind):
+    folder, other = tmp_path / "damaged", tmp_path / "precious"
+    shutil.copytree(whole, folder)
+    other.write_bytes(b"of somebody else")
+    (folder / "many.npy").unlink()
+    if kind == "pipe":
+        os.mkfifo(folder / "many.npy")
+    else:
+        (folder / "many.npy").symlink_to("/dev/zero" if kind == "device" else other)
+    with pytest.raises(DamagedStoreError, match=r"many\.npy: "):
+        filled(folder)
+    filled(folder, repair=True)
+    assert files_of(folder) == files_of(whole)
+    assert not (folder / "many.npy").is_symlink()
+    assert other.read_bytes() == b"of somebody else"
 
 
 def test_of_a_flipped_bit_one_block_alone_is_computed_again(whole, tmp_path):

@@ -104,8 +104,8 @@ def _digest_of(path: Path, array: Array, part: slice) -> str:
 
 def _of_file(path: Path, array: Array, done: tuple[int, ...]) -> Iterator[Fault]:
     """What can be said of a file without reading its numbers."""
-    if not path.is_file():
-        what = "is no file" if path.exists() else "is missing"
+    if path.is_symlink() or not path.is_file():
+        what = "is a link" if path.is_symlink() else "is no file" if path.exists() else "is missing"
         yield Fault(path.with_name(f"{array.name}.npy"), what, f"a file of {array.file_size} bytes is due", done)
         return
     size = path.stat().st_size

@@ -303,6 +303,9 @@ class Store:
         for array in self.plan.files:
             path = self.folder / f"{array.name}.npy"
             part = part_of(path)
+            for place in (path, part):  # a pipe would be waited for, and through a link another file be written
+                if place.is_symlink() or (place.exists() and not place.is_file() and not place.is_dir()):
+                    self.disk.remove(place)
             if path.is_file():
                 self.disk.rename(path, part)
             if not part.is_file():
