@@ -31,6 +31,7 @@ from assur.topology.linkages.recognition import recognised
 from assur.topology.linkages.shared_points import point_of_platform
 from assur.topology.linkages.twists import dimensions, edges, motion_space
 from assur.topology.notation import plain_text, symbolic_text
+from assur.topology.poc import PocSet
 from assur.topology.routes import KnownLimb, Rules, as_the_limbs_are, both, by_rules, check_xi, limb_known
 from assur.topology.rules.motion import Motion
 from assur.topology.rules.refusals import Refusal
@@ -172,6 +173,7 @@ def analyse(
     decoupling = _decoupling(by_jacobian(here.collapsed, base, platform), chains, rules.platform, still=still)
     plan = solution_plan(order, here.collapsed, base, platform)
     solvable = not plan.free
+    modes = tuple(_mode_facts(linkage, item) for item in here.modes)
     return Topology(
         name=name,
         title=title,
@@ -194,8 +196,8 @@ def analyse(
         decoupling_refusal=decoupling.refusal,
         plan=plan,
         linkage=linkage,
-        modes=tuple(OperationModeFacts(item.freedoms, *item.poc, item.real) for item in here.modes),
-        notes=(*notes, _met_at_home(here)) if here.special or here.is_branch_point else notes,
+        modes=modes,
+        notes=(*notes, _met_at_home(modes)) if here.special or here.is_branch_point else notes,
         derive=rules.derivations,
         actuate=partial(actuation, here.collapsed, base, platform),
         relax=partial(relaxation, here.joints, base, platform),
@@ -213,16 +215,24 @@ def _platform_known(rules: Motion | Refusal, here: Sample) -> Known:
         return Known(by_twists(here.space), "twists", reason)
 
 
-def _met_at_home(here: Sample) -> str:
+def _mode_facts(linkage: Linkage, mode: OperationMode) -> OperationModeFacts:
+    """The numbers of a mode; of a real one also the directions that its configurations have in common."""
+    poc = PocSet(*mode.poc)
+    if mode.real:
+        poc = by_twists(motion_space(edges(linkage, mode.values), linkage.base, linkage.platform))
+    return OperationModeFacts(mode.freedoms, *mode.poc, mode.real, str(poc))
+
+
+def _met_at_home(modes: Sequence[OperationModeFacts]) -> str:
     """What is special about home."""
-    if not here.is_branch_point:
+    if len(modes) == 1:
         return SPECIAL
-    others = "; ".join(f"({number}) {mode}" for number, mode in enumerate(here.modes[1:], 2))
-    translating = any(mode.poc[1] == 0 < mode.poc[2] for mode in here.modes[1:])
+    others = "; ".join(f"({number}) {mode}" for number, mode in enumerate(modes[1:], 2))
+    translating = any(mode.r == 0 < mode.dim for mode in modes[1:])
     ask = "; mode translation asks for one that does not turn" if translating else ""
     return (
-        f"home is a branch point, where {len(here.modes)} operation modes meet; all this is said of (1) "
-        f"{here.modes[0]}; the others: {others}{ask}"
+        f"home is a branch point, where {len(modes)} operation modes meet; all this is said of (1) "
+        f"{modes[0]}; the others: {others}{ask}"
     )
 
 

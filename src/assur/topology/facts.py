@@ -52,13 +52,21 @@ class Limb:
 
 @dataclass(frozen=True)
 class OperationModeFacts:
-    """A motion that starts at home: F, the platform's POC set, and whether its freedoms are real or it is shaky."""
+    """A motion that starts at home: F, the platform's POC set, and whether its freedoms are real or it is shaky.
+
+    `poc` is the set as text, with the directions that a real motion keeps.
+    """
 
     dof: int
     t: int
     r: int
     dim: int
     real: bool
+    poc: str
+
+    def __str__(self) -> str:
+        shaky = "" if self.real else " (shaky: singular all along, with instantaneous freedoms that lead nowhere)"
+        return f"F = {self.dof}, {self.poc} with dim {self.dim}{shaky}"
 
 
 @dataclass(frozen=True)

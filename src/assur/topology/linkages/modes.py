@@ -84,9 +84,7 @@ class OperationMode:
     met: int = 1
 
     def __str__(self) -> str:
-        t, r, dim = self.poc
-        shaky = "" if self.real else " (shaky: singular all along, with instantaneous freedoms that lead nowhere)"
-        return f"F = {self.freedoms}, {PocSet(t, r, dim)} with dim {dim}{shaky}"
+        return f"F = {self.freedoms}, {PocSet(*self.poc)} with dim {self.poc[-1]}"
 
 
 def operation_modes(
@@ -243,6 +241,6 @@ def _immobile(linkage: Linkage) -> ImmobileError:
 def _shaky(modes: Sequence[OperationMode]) -> ShakyError:
     return ShakyError(
         "the mechanism is shaky: its loops close only where they are singular, and it has instantaneous freedoms that "
-        f"finite steps do not follow; those that they do: {'; '.join(str(mode).split(' (')[0] for mode in modes)}",
+        f"finite steps do not follow; those that they do: {'; '.join(map(str, modes))}",
         hint="its axes are special as written: other directions or another number of limbs avoid that",
     )
