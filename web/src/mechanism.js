@@ -7,7 +7,7 @@ import { inputsOf, toInputs, toPose } from "./solver/motion.js";
 import { closestApproach } from "./solver/newton.js";
 import { poseOf } from "./solver/pose.js";
 import { add, apply, nearestTurn, times } from "./solver/rotation.js";
-import { measuresAt } from "./solver/rates.js";
+import { conditionAt, measuresAt } from "./solver/rates.js";
 
 const SAME = 1e-4;
 const FREELY = { limits: false, through: true };
@@ -281,7 +281,7 @@ export class Mechanism {
   /** Everything that is known of the present configuration. */
   state() {
     if (!this.known) {
-      const { condition, parallel, serial } = measuresAt(this.model, this.values);
+      const { parallel, serial } = measuresAt(this.model, this.values);
       this.known = {
         values: this.values.slice(),
         pose: this.pose,
@@ -291,7 +291,7 @@ export class Mechanism {
         status: this.status,
         reason: this.reason,
         limits: { stated: limitsOf(this.model).length > 0, exceeded: exceeded(this.model, this.values) },
-        condition,
+        condition: conditionAt(this.model, this.values),
         smallest: parallel,
         serial,
         factor: this.nearestFactor(),

@@ -14,6 +14,9 @@ FloatArray = NDArray[np.float64]
 LEAST_COSINE = 1e-12
 """Where theta is a right angle, phi and psi turn about one axis; this keeps their rates finite."""
 
+UPRIGHT = 1e-9
+"""Cosine of theta below which phi is rounding: loops close to so much."""
+
 
 def pose_of(record: MechanismRecord, values: FloatArray) -> FloatArray:
     """Pose (..., m) of the platform along the spanning tree, at joint values (..., n), in lengths and rad.
@@ -68,7 +71,7 @@ def pose_error(record: MechanismRecord, placed: dict[str, Frame], poses: FloatAr
     names = record.platform.pose
     given = {name: poses[..., k] for k, name in enumerate(names)}
     rows = [point[..., LENGTHS.index(name)] - given[name] for name in names if name in LENGTHS]
-    if _whole_orientation(names):
+    if whole_orientation(names):
         turn = rotations.to_vector(rotation @ np.swapaxes(_orientation(names, given), -1, -2))
         rows += [length * turn[..., k] for k in range(3)]
     elif any(name in ANGLES for name in names):
@@ -80,7 +83,7 @@ def pose_error(record: MechanismRecord, placed: dict[str, Frame], poses: FloatAr
 def error_rates(record: MechanismRecord, placed: dict[str, Frame], twists: FloatArray) -> FloatArray:
     """Rates (..., k, n) of the rows of `pose_error`, lengths first, then rad: per rate of each joint."""
     names = record.platform.pose
-    if _whole_orientation(names):
+    if whole_orientation(names):
         moves = platform_twists(record, placed, twists)
         lengths = [3 + LENGTHS.index(name) for name in names if name in LENGTHS]
         return np.asarray(moves[..., [*lengths, 0, 1, 2], :])
@@ -92,7 +95,7 @@ def _is_length(names: tuple[str, ...]) -> NDArray[np.bool_]:
     return np.array([name in LENGTHS for name in names], dtype=bool)
 
 
-def _whole_orientation(names: tuple[str, ...]) -> bool:
+def whole_orientation(names: tuple[str, ...]) -> bool:
     """Whether a pose tells the platform's whole orientation."""
     return has_quaternion(names) or all(name in names for name in ANGLES)
 
@@ -133,12 +136,21 @@ def turning_matrix(record: MechanismRecord, values: FloatArray) -> FloatArray:
     The angular velocity is phi' z + theta' (Rz y) + psi' (Rz Ry x); E is the unit matrix for other poses. Its
     determinant is the cosine of theta but for its sign.
     """
-    names = rate_names(record.platform.pose)
-    matrix = np.broadcast_to(np.eye(len(names)), (*values.shape[:-1], len(names), len(names))).copy()
-    if not all(name in names for name in ANGLES):
-        return matrix
     rotation, _ = _platform(record, frames(record, values))
     phi, theta, _ = rotations.to_angles(rotation)
+    return turning_of(record.platform.pose, phi, theta)
+
+
+def turning_of(pose: tuple[str, ...], phi: FloatArray, theta: FloatArray) -> FloatArray:
+    """As `turning_matrix`, E (..., k, k) of the coordinates of a pose at angles (...), in rad.
+
+    >>> turning_of(("phi", "theta", "psi"), np.array(0.0), np.array(np.pi / 2)).round(9).tolist()
+    [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, -1.0]]
+    """
+    names = rate_names(pose)
+    matrix = np.broadcast_to(np.eye(len(names)), (*np.shape(phi), len(names), len(names))).copy()
+    if not all(name in names for name in ANGLES):
+        return matrix
     zero, one = np.zeros_like(phi), np.ones_like(phi)
     columns = {
         "phi": (zero, zero, one),
@@ -149,6 +161,22 @@ def turning_matrix(record: MechanismRecord, values: FloatArray) -> FloatArray:
         for row, value in zip(ANGLES, column, strict=True):
             matrix[..., names.index(row), names.index(name)] = value
     return matrix
+
+
+def turned_alike(pose: tuple[str, ...], start: FloatArray, end: FloatArray) -> FloatArray:
+    """The pose `start` (m,) with phi that of `end`, where theta is a right angle and only psi -+ phi counts.
+
+    The orientation stays what it is. Elsewhere, and where a pose does not tell all three angles, nothing changes.
+    """
+    if not all(name in pose for name in ANGLES):
+        return start
+    phi, theta, psi = (pose.index(name) for name in ANGLES)
+    if abs(np.cos(start[theta])) > UPRIGHT:
+        return start
+    found = start.copy()
+    found[phi] = end[phi]
+    found[psi] += np.sign(start[theta]) * (end[phi] - start[phi])
+    return found
 
 
 def _angle_rates(rotation: FloatArray, angular: FloatArray) -> tuple[FloatArray, ...]:

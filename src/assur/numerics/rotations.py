@@ -138,6 +138,10 @@ def to_quaternion(rotation: FloatArray) -> FloatArray:
     return np.asarray(np.where(unit[..., :1] < 0.0, -unit, unit)) + 0.0
 
 
+NEARLY_UPRIGHT = 1e-4
+"""Cosine of theta below which psi is told from what phi leaves, so that psi -+ phi is not lost in rounding."""
+
+
 def to_angles(rotation: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Angles (...) phi, theta, psi in rad of rotations (..., 3, 3) = Rz(phi) Ry(theta) Rx(psi).
 
@@ -152,7 +156,10 @@ def to_angles(rotation: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]
     upright = across <= 1e-15
     phi = np.where(upright, 0.0, np.arctan2(rotation[..., 1, 0], rotation[..., 0, 0]))
     level = np.arctan2(rotation[..., 2, 1], rotation[..., 2, 2])
-    psi = np.where(upright, np.arctan2(-rotation[..., 1, 2], rotation[..., 1, 1]), level)
+    # near a right angle rounding decides phi; what is left after it, Ry(theta) Rx(psi), tells psi as well as anywhere
+    cosine, sine = np.cos(phi), np.sin(phi)
+    middle = [cosine * rotation[..., 1, k] - sine * rotation[..., 0, k] for k in (1, 2)]
+    psi = np.where(across < NEARLY_UPRIGHT, np.arctan2(-middle[1], middle[0]), level)
     return phi, theta, psi
 
 

@@ -26,7 +26,7 @@ def test_shares_are_by_length_and_repeated_vertices_are_left_out():
     np.testing.assert_allclose(way.at(0.125, 0), [1.5, 2.0])
     np.testing.assert_allclose(way.at(0.25, 0), way.at(0.25, 1))
     np.testing.assert_array_equal(way.at(1.0, 1), [3.0, 19.0])
-    np.testing.assert_allclose(way.rate(1) * pose_units(record), [0.0, 20.0])
+    np.testing.assert_allclose(way.rate(0.5, 1) * pose_units(record), [0.0, 20.0])
 
 
 def test_angles_turn_the_short_way_or_as_given():
@@ -54,7 +54,7 @@ def test_an_input_that_runs_against_its_joint_has_a_negative_rate():
     record = load_record("fivebar")
     turned = (dataclasses.replace(record.inputs[0], sign=-1.0), record.inputs[1])
     way = course(dataclasses.replace(record, inputs=turned), "inputs", np.zeros(2), [0.3, 0.4])
-    np.testing.assert_allclose(way.rate(0), [-0.3, 0.4])
+    np.testing.assert_allclose(way.rate(0.5, 0), [-0.3, 0.4])
 
 
 def test_what_is_no_target_is_refused():

@@ -80,9 +80,8 @@ export function closureRows(model, placed, twists) {
 }
 
 /** Rates of the pose, without dimensions, per scaled rate of the joint values. @returns {Float64Array[]} */
-export function scaledPoseRates(model, placed, twists) {
-  const names = rateNames(model.pose);
-  return poseRates(model, placed, twists).map((row, k) =>
+export function scaledPoseRates(model, placed, twists, names = rateNames(model.pose)) {
+  return poseRates(model, placed, twists, names).map((row, k) =>
     row.map((value, column) => (value * model.scale[column]) / (isLength(names[k]) ? model.length : 1)),
   );
 }

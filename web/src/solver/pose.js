@@ -19,14 +19,21 @@ import {
 const LENGTHS = ["x", "y", "z"];
 const ANGLES = ["phi", "theta", "psi"];
 const QUATERNION = ["qw", "qx", "qy", "qz"];
+const TURNS = ["wx", "wy", "wz"];
 const LEAST_COSINE = 1e-12;
+const UPRIGHT = 1e-9; // cosine of theta below which phi is rounding: loops close to so much
 
 /** @param {string} name */
 export const isLength = (name) => LENGTHS.includes(name);
 
-/** Names of the velocity's parts: the coordinates', but wx, wy, wz for a quaternion. @param {string[]} pose */
-export const rateNames = (pose) =>
-  pose.includes("qw") ? [...pose.filter((name) => !QUATERNION.includes(name)), "wx", "wy", "wz"] : pose;
+/** Whether a pose tells phi, theta and psi. @param {string[]} pose */
+export const hasAngles = (pose) => ANGLES.every((name) => pose.includes(name));
+
+/**
+ * Names of the velocity's parts: the coordinates', but wx, wy, wz for a pose that tells the whole orientation, as phi and
+ * psi have no rates of their own where theta is a right angle. @param {string[]} pose
+ */
+export const rateNames = (pose) => (pose.includes("qw") || hasAngles(pose) ? [...pose.filter(isLength), ...TURNS] : pose);
 
 /** @returns {{turn: number[], point: number[]}} orientation of the platform, and its point */
 export function platformOf(model, placed) {
@@ -50,32 +57,33 @@ export function poseOf(model, placed) {
 
 const part = (model, pose, names) => names.map((name) => pose[model.pose.indexOf(name)]);
 
-/** The unit quaternion of a pose with one. @returns {number[]} its orientation as nine numbers */
-export const turnOfPose = (model, pose) => fromQuaternion(part(model, pose, QUATERNION));
+/** The orientation that a pose tells, as nine numbers. @returns {number[]} */
+export const turnOfPose = (model, pose) =>
+  model.pose.includes("qw") ? fromQuaternion(part(model, pose, QUATERNION)) : fromAngles(...part(model, pose, ANGLES));
 
 /** How far the platform is from a pose: lengths, and rotations times the model's length. @returns {number[]} */
 export function poseError(model, placed, wanted) {
   const { turn, point } = platformOf(model, placed);
+  const whole = rateNames(model.pose) !== model.pose;
   const angles = toAngles(turn);
   const rows = [];
   model.pose.forEach((name, k) => {
     if (isLength(name)) rows.push(point[LENGTHS.indexOf(name)] - wanted[k]);
-    else if (ANGLES.includes(name)) rows.push(model.length * nearestTurn(angles[ANGLES.indexOf(name)] - wanted[k]));
+    else if (!whole) rows.push(model.length * nearestTurn(angles[ANGLES.indexOf(name)] - wanted[k]));
   });
-  if (model.pose.includes("qw"))
+  if (whole)
     rows.push(...times(model.length, toVector(multiply(turn, transpose(turnOfPose(model, wanted))))));
   return rows;
 }
 
 /**
- * Rates of the pose per rate of each joint value, rows as `rateNames` names them.
+ * Rates of the pose per rate of each joint value, rows as names have it: by default those of `rateNames`.
  * @returns {number[][]} one row of n numbers for each
  */
-export function poseRates(model, placed, twists) {
+export function poseRates(model, placed, twists, names = rateNames(model.pose)) {
   const { turn, point } = platformOf(model, placed);
-  const angles = model.pose.some((name) => ANGLES.includes(name)) ? toAngles(turn) : null;
-  const rows = rateNames(model.pose).map(() => new Array(model.count).fill(0));
-  const names = rateNames(model.pose);
+  const angles = names.some((name) => ANGLES.includes(name)) ? toAngles(turn) : null;
+  const rows = names.map(() => new Array(model.count).fill(0));
   for (const [k, sense] of model.pathToPlatform) {
     const { first, freedoms } = model.joints[k];
     for (let column = first; column < first + freedoms; column++) {
@@ -100,8 +108,20 @@ function angleRates([phi, theta], [wx, wy, wz]) {
   return [wz + Math.sin(theta) * psi, Math.cos(phi) * wy - Math.sin(phi) * wx, psi];
 }
 
+/** The pose with phi that of another one, where theta is a right angle and only psi -+ phi counts. */
+function turnedAlike(model, pose, other) {
+  if (!hasAngles(model.pose)) return pose;
+  const [phi, theta, psi] = ANGLES.map((name) => model.pose.indexOf(name));
+  if (Math.abs(Math.cos(pose[theta])) > UPRIGHT) return pose;
+  const found = pose.slice();
+  found[phi] = other[phi];
+  found[psi] += Math.sign(pose[theta]) * (other[phi] - pose[phi]);
+  return found;
+}
+
 /** A pose between two, straight in lengths and angles, one turn for a quaternion. @returns {(t: number) => number[]} */
-export function between(model, start, end) {
+export function between(model, from, to) {
+  const [start, end] = [turnedAlike(model, from, to), turnedAlike(model, to, from)];
   const change = model.pose.map((name, k) =>
     ANGLES.includes(name) ? nearestTurn(end[k] - start[k]) : end[k] - start[k],
   );

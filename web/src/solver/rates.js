@@ -3,6 +3,7 @@
 import { closureRows, scaledPoseRates } from "./closure.js";
 import { frames, screws } from "./frames.js";
 import { determinant, nullSpace, singular } from "./leastsquares.js";
+import { hasAngles, rateNames } from "./pose.js";
 
 /** A measure below this is 0: rounding alone leaves some 1e-14. */
 export const ZERO = 1e-12;
@@ -12,11 +13,11 @@ const SHARES = [0.5, 0.25, 0.75, 0.125, 0.875]; // of a step, where its chord is
 const PARTS = 8; // of a step, in each of which its chord is looked at
 
 /** A basis of all motions at an assembly, scaled rates of the joint values, and the pair that belongs to each of them. */
-function pairsAt(model, values) {
+function pairsAt(model, values, names) {
   const placed = frames(model, values);
   const twists = screws(model, placed, values);
   const free = nullSpace(closureRows(model, placed, twists), model.count);
-  const rows = scaledPoseRates(model, placed, twists);
+  const rows = scaledPoseRates(model, placed, twists, names);
   for (const { index, sign } of model.inputs) rows.push(model.scale.map((_, k) => (k === index ? sign : 0)));
   const pairs = free.map((motion) => rows.map((row) => sum(row, (value, k) => value * motion[k])));
   return { free, rows, pairs };
@@ -42,10 +43,11 @@ const counts = new WeakMap();
  * of r numbers: one for each rate of the pose; each input; each scaled rate of a joint value, for orthonormal motions of
  * the joints; each number of the pairs that these have; and the least size of the latter, as many as at home: none where
  * a leg moves between input and platform alone
+ * @param {string[]} [names] of the rates of the pose, those of `rateNames` if none are given
  * @returns {Motions}
  */
-export function motionsAt(model, values) {
-  const { free, rows, pairs } = pairsAt(model, values);
+export function motionsAt(model, values, names) {
+  const { free, rows, pairs } = pairsAt(model, values, names);
   if (!pairs.length) return { pose: [], inputs: [], joints: [], pairs: [], passive: 0 };
   const { values: sizes, left, right } = singular(pairs);
   const basis = right.slice(0, ranked(sizes));
@@ -93,6 +95,13 @@ export function measuresAt(model, values) {
   const motions = motionsAt(model, values);
   return { ...motions, ...measures(motions) };
 }
+
+/**
+ * The condition number of the map from the inputs' rates to those of the pose's own coordinates, phi, theta and psi among
+ * them: what Python calls that of J. A right angle of theta leaves it without bound.
+ * @returns {number}
+ */
+export const conditionAt = (model, values) => measures(motionsAt(model, values, hasAngles(model.pose) ? model.pose : rateNames(model.pose))).condition;
 
 /** The input that moves most where the platform moves least: at a serial singularity its leg is stretched or folded. */
 export function looseInput({ pose, inputs }) {

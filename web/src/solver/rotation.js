@@ -10,6 +10,7 @@
 
 /** @type {Matrix} */
 export const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1];
+const NEARLY_UPRIGHT = 1e-4; // cosine of theta
 const SMALL = 1e-2;
 
 /** @param {Vector} a @param {Vector} b @returns {Vector} a + b */
@@ -133,8 +134,11 @@ export function toQuaternion(r) {
 export function toAngles(r) {
   const across = Math.hypot(r[0], r[3]);
   const theta = Math.atan2(-r[6], across);
-  if (across <= 1e-15) return [0, theta, Math.atan2(-r[5], r[4])];
-  return [Math.atan2(r[3], r[0]), theta, Math.atan2(r[7], r[8])];
+  if (across >= NEARLY_UPRIGHT) return [Math.atan2(r[3], r[0]), theta, Math.atan2(r[7], r[8])];
+  // near a right angle rounding decides phi; what is left after it tells psi as well as anywhere
+  const phi = across <= 1e-15 ? 0 : Math.atan2(r[3], r[0]);
+  const [cosine, sine] = [Math.cos(phi), Math.sin(phi)];
+  return [phi, theta, Math.atan2(sine * r[2] - cosine * r[5], cosine * r[4] - sine * r[1])];
 }
 
 /** @param {number} phi @param {number} theta @param {number} psi @returns {Matrix} */

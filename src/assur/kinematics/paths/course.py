@@ -10,10 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.border import checked, checked_poses, input_names
+from assur.kinematics.pose import turned_alike, turning_of
 from assur.kinematics.rates.motions import pose_units
 from assur.kinematics.turns import joint_units, periodic_inputs
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import QUATERNION, has_quaternion, is_angle
+from assur.model.pose import ANGLES, QUATERNION, has_quaternion, is_angle
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
@@ -48,11 +49,12 @@ class Course:
         """The inputs (n,) or the pose (m,) at a share of the way, on the segment that follows a vertex."""
         low, high = self.shares[segment : segment + 2]
         part = (share - low) / (high - low)
+        if not (self.prescribed == "poses" and has_quaternion(self.names)):
+            # from its end: where theta is a right angle a segment may begin with another phi than the one before ends
+            return np.asarray(self.vertices[segment + 1] - (1.0 - part) * self.changes[segment])
         if part == 1.0:
             return np.asarray(self.vertices[segment + 1])
         here: FloatArray = self.vertices[segment]
-        if not (self.prescribed == "poses" and has_quaternion(self.names)):
-            return np.asarray(here + part * self.changes[segment])
         columns = [self.names.index(name) for name in QUATERNION]
         others = [k for k, name in enumerate(self.names) if name not in QUATERNION]
         found: FloatArray = np.array(here)
@@ -61,9 +63,18 @@ class Course:
         found[columns] = rotations.to_quaternion(turn @ rotations.from_quaternion(here[columns]))
         return found
 
-    def rate(self, segment: int) -> FloatArray:
-        """Change (r,) of the driven joint values or of the pose per share of the way, in units of `scales`."""
-        return np.asarray(self.changes[segment] / self.scales / (self.shares[segment + 1] - self.shares[segment]))
+    def rate(self, share: float, segment: int) -> FloatArray:
+        """Change (r,) of the driven joint values or of the pose per share of the way, in units of `scales`.
+
+        Of a pose with phi, theta and psi it is that of the angular velocity, which exists at every orientation
+        (`assur.kinematics.pose.turning_rates`).
+        """
+        found = self.changes[segment] / (self.shares[segment + 1] - self.shares[segment])
+        if self.prescribed == "poses" and all(name in self.names for name in ANGLES):
+            here = self.at(share, segment)
+            phi, theta = (here[self.names.index(name)] for name in ("phi", "theta"))
+            found = turning_of(self.names, phi, theta) @ found
+        return np.asarray(found / self.scales)
 
 
 def course(
@@ -94,6 +105,8 @@ def course(
         here = vertices[-1]
         there = target.copy()
         if turns == "short":
+            if prescribed == "poses":
+                here, there = turned_alike(names, here, there), turned_alike(names, there, here)
             there[turning] = here[turning] + _short(there[turning] - here[turning])
         change = _change(names, prescribed, here, there)
         if np.linalg.norm(change / sizes) <= LEAST:

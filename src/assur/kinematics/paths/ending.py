@@ -16,8 +16,8 @@ from assur.kinematics.paths.locked import units
 from assur.kinematics.paths.neighbours import FURTHEST, Steps, pose_change
 from assur.kinematics.paths.platform_held import platform_held
 from assur.kinematics.paths.turning import turnings
+from assur.kinematics.pose import whole_orientation
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import has_quaternion
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -73,7 +73,7 @@ class Mode:
     def _turnings(
         self, joints: FloatArray, inside: FloatArray, outside: FloatArray
     ) -> tuple[FloatArray, FloatArray, BoolArray]:
-        if has_quaternion(self.record.platform.pose):  # its rates change along the way
+        if whole_orientation(self.record.platform.pose):  # its rates change along the way
             return np.ones(len(joints)), joints, np.zeros(len(joints), dtype=bool)
         here = self.steps(joints, inside)
         change = pose_change(self.record, here.poses, self.poses(outside))

@@ -120,7 +120,7 @@ def _walk(task: Task, start: FloatArray) -> tuple[list[Point], Blocked | None]:
     for segment, end in enumerate(task.way.shares[1:]):
         while blocked is None and points[-1].share < end:
             here = points[-1]
-            tangent, missed = here.own.tangent(task.way.rate(segment))
+            tangent, missed = here.own.tangent(task.way.rate(here.share, segment))
             if missed > MISSED:
                 blocked = Blocked("missed", segment)
                 break

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.border import checked_poses
+from assur.kinematics.closure import characteristic_length
 from assur.kinematics.paths.correcting import Corrected, corrected
 from assur.kinematics.paths.locked import units
 from assur.kinematics.paths.platform_held import PlatformHeld, held_system, passes_zero, platform_held
@@ -15,7 +16,7 @@ from assur.kinematics.rates.motions import pose_units
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.model.points import quantities
-from assur.model.pose import LENGTHS, QUATERNION, has_quaternion
+from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion
 from assur.numerics import rotations
 from assur.topology.joints import SPHERICAL
 
@@ -108,8 +109,16 @@ def working_signs(record: MechanismRecord, joints: FloatArray) -> NDArray[np.int
 
 
 def pose_change(record: MechanismRecord, start: FloatArray, end: FloatArray) -> FloatArray:
-    """Change (N, k) from poses to poses (N, m), as rates name it, lengths in characteristic lengths, angles short."""
+    """Change (N, k) from poses to poses (N, m), as `assur.kinematics.pose.error_rates` has it, without dimensions.
+
+    Lengths are in characteristic lengths; angles go the short way; a whole orientation changes by a rotation vector.
+    """
     pose = record.platform.pose
+    if all(name in pose for name in ANGLES):
+        first, second = (_rotation(pose, poses) for poses in (start, end))
+        place = [k for k, name in enumerate(pose) if name in LENGTHS]
+        turn = rotations.to_vector(second @ np.swapaxes(first, -1, -2))
+        return np.concatenate([(end - start)[:, place] / characteristic_length(record), turn], axis=1)
     columns = []
     for k, name in enumerate(pose):
         if name in LENGTHS:
@@ -121,6 +130,11 @@ def pose_change(record: MechanismRecord, start: FloatArray, end: FloatArray) -> 
         first, second = (rotations.from_quaternion(_unit(poses[:, place])) for poses in (start, end))
         columns += list(rotations.to_vector(second @ np.swapaxes(first, -1, -2)).T)
     return np.stack(columns, axis=1) / pose_units(record)
+
+
+def _rotation(pose: tuple[str, ...], poses: FloatArray) -> FloatArray:
+    """Orientations (N, 3, 3) of poses (N, m) with phi, theta and psi."""
+    return rotations.from_angles(*(poses[:, pose.index(name)] for name in ANGLES))
 
 
 def _unit(quaternion: FloatArray) -> FloatArray:

@@ -186,7 +186,7 @@ def _try(task: Task, here: Point, segment: int, tangent: FloatArray, share: floa
     if there.own.sizes[-1] < FLOOR or there.other.sizes[-1] < SAFE * there.noise:
         return Blocked("lost", segment), step
     following = step * min(2.0, AIM * CLOSE * moved / away if away > 0.0 else 2.0)
-    if there.own.drives(task.way.rate(segment)) and kept < MERGING:
+    if there.own.drives(task.way.rate(share, segment)) and kept < MERGING:
         # near a merging the square of the singular value goes to zero linearly
         there = dataclasses.replace(there, ahead=step * kept**2 / (1.0 - kept**2))
         following = AHEAD * there.ahead

@@ -68,7 +68,7 @@ def stop_at(
     else:
         kind, name, mine = _kind(way, blocked, sizes)
     kind, factor, meaning, size = _nearest_factor(record, way, kind, points)
-    turns_back = mine and last.own.drives(way.rate(blocked.segment))
+    turns_back = mine and last.own.drives(way.rate(last.share, blocked.segment))
     gap = None
     if turns_back:
         beyond = assembled(record, way, last.joints, last.share + BEYOND, blocked.segment, 5 * NEWTON, COARSE)
