@@ -88,3 +88,10 @@ def test_the_slider_of_a_screw_covers_turns(tmp_path):
     record = loaded(tmp_path, FIVEBAR)
     assert np.allclose(input_ranges(record), 2 * np.pi * np.array([[-13.0, 13.0], [-26.0, 26.0]]))
     assert [item["counted"] for item in coordinates(record)] == [bool(item) for item in counted(record)]
+
+
+def test_the_page_weighs_screws_by_their_leads(tmp_path):
+    """A turn of the first screw is 10 mm: a rad of it is a share of 10 mm / 2 pi of the longest link, 130 mm."""
+    record = loaded(tmp_path, FIVEBAR)
+    sizes = {item["label"]: item["size"] / (2 * np.pi) for item in coordinates(record)}
+    assert [sizes[name] for name in ("M1", "S1", "M2", "S2")] == pytest.approx([13.0, 13.0, 26.0, 26.0])

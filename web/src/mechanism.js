@@ -7,7 +7,7 @@ import { inputsOf, toInputs, toPose } from "./solver/motion.js";
 import { closestApproach } from "./solver/newton.js";
 import { poseOf } from "./solver/pose.js";
 import { add, apply, nearestTurn, times } from "./solver/rotation.js";
-import { conditionAt, measuresAt } from "./solver/rates.js";
+import { conditionAt, nearness } from "./solver/rates.js";
 
 const SAME = 1e-4;
 const FREELY = { limits: false, through: true };
@@ -281,7 +281,7 @@ export class Mechanism {
   /** Everything that is known of the present configuration. */
   state() {
     if (!this.known) {
-      const { parallel, serial } = measuresAt(this.model, this.values);
+      const { parallel, serial } = nearness(this.model, this.values);
       this.known = {
         values: this.values.slice(),
         pose: this.pose,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from assur.kinematics.turns import counted
+from assur.kinematics.turns import counted, joint_units
 from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import Joint, MechanismRecord
 
@@ -28,11 +28,11 @@ def graph(record: MechanismRecord) -> dict[str, Any]:
     }
 
 
-def coordinates(record: MechanismRecord) -> list[dict[str, str | bool]]:
-    """Name and kind of each joint value, and whether its whole turns count, in their order."""
+def coordinates(record: MechanismRecord) -> list[dict[str, str | bool | float]]:
+    """Name and kind of each joint value, whether its whole turns count, and what a change of one is of it, in order."""
     return [
-        {"label": record.coordinate_label(item), "kind": item.kind, "counted": bool(turns)}
-        for item, turns in zip(record.coordinates, counted(record), strict=True)
+        {"label": record.coordinate_label(item), "kind": item.kind, "counted": bool(turns), "size": float(size)}
+        for item, turns, size in zip(record.coordinates, counted(record), joint_units(record), strict=True)
     ]
 
 

@@ -21,8 +21,8 @@ import {
  *   cone: number|null, coneAxis: number[]|null}} Joint
  * @typedef {{joints: Joint[], links: string[], base: number, tree: {joint: number, forward: boolean}[], cut: number[],
  *   loops: Map<number, number>[], pathToPlatform: Map<number, number>, platform: number, point: number[],
- *   pose: string[], count: number, length: number, scale: number[],
- *   coordinates: {label: string, kind: string, counted: boolean}[],
+ *   pose: string[], count: number, length: number, scale: number[], units: number[],
+ *   coordinates: {label: string, kind: string, counted: boolean, size: number}[],
  *   inputs: {name: string, index: number, sign: number, offset: number, kind: string, counted: boolean,
  *   stroke: number[]|null, range: number[]}[], unit: string, home: number[]}} Model
  */
@@ -57,6 +57,7 @@ export function modelOf(scene) {
     count: scene.home.length,
     length: scene.characteristicLength,
     scale: scene.coordinates.map((item) => (item.kind === "length" ? scene.characteristicLength : 1)),
+    units: scene.coordinates.map((item) => item.size ?? (item.kind === "length" ? scene.characteristicLength : 1)),
     coordinates: scene.coordinates,
     inputs: scene.inputs,
     unit: scene.unit,

@@ -103,6 +103,18 @@ export function measuresAt(model, values) {
  */
 export const conditionAt = (model, values) => measures(motionsAt(model, values, hasAngles(model.pose) ? model.pose : rateNames(model.pose))).condition;
 
+/**
+ * How near joint values are to a singularity: the measures with screws, and shafts that drive them, in turns that advance
+ * them by the model's length. In rad a fine thread would look singular everywhere.
+ * @returns {{parallel: number, serial: number}}
+ */
+export function nearness(model, values) {
+  if (!weighed.has(model)) weighed.set(model, { ...model, scale: model.units });
+  const { parallel, serial } = measuresAt(weighed.get(model), values);
+  return { parallel, serial };
+}
+const weighed = new WeakMap();
+
 /** The input that moves most where the platform moves least: at a serial singularity its leg is stretched or folded. */
 export function looseInput({ pose, inputs }) {
   if (!pose.length) return 0;
