@@ -21,13 +21,13 @@ from importlib.util import find_spec
 from statistics import median
 
 import numpy as np
+from assur.kinematics.compiled_closure import BLOCK, compiled_closure
 from rich.console import Console
 from rich.table import Table
 
 import assur
+from assur.joint_graph.state import state_of
 from assur.kinematics.closure import FloatArray, assemble
-from assur.kinematics.compiled_closure import BLOCK, compiled_closure
-from assur.kinematics.loop_state import state_of
 from assur.kinematics.pose import pose_of
 
 RNG = np.random.default_rng(0)

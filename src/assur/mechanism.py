@@ -16,6 +16,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UnknownNameError, UsageError
+from assur.joint_graph.frames import Frame, frames
+from assur.joint_graph.points import point
 from assur.kinematics import closure, position
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.border import Named, checked_joints, joint_array
@@ -26,9 +28,7 @@ from assur.kinematics.rates import velocity
 from assur.kinematics.rates.instantaneous import Instant, instantaneous
 from assur.kinematics.structure import linkage
 from assur.model import registry
-from assur.model.joint_graph import Frame, frames
 from assur.model.mechanism import MechanismRecord
-from assur.model.points import point
 from assur.singularity.verdict import Verdict, verdict, verdict_at
 from assur.topology.analysis import Mode, analyse
 from assur.topology.chains import Chain
@@ -159,7 +159,7 @@ class Mechanism(MechanismRecord):
         return topology(self, actuate=actuate, mode=mode)
 
     def point(self, name: str, joint_values: Named) -> FloatArray:
-        """Position (..., 3) of a lettered point or of a joint: see `assur.model.points.point`."""
+        """Position (..., 3) of a lettered point or of a joint: see `assur.joint_graph.points.point`."""
         return point(self, name, joint_array(self, joint_values))
 
     @property

@@ -9,10 +9,11 @@ from assur.audit import parts
 from assur.audit.configurations import configurations, scaled_closure
 from assur.audit.parts import called, link_motion, sampled, square, within
 from assur.errors import UnknownNameError, UsageError
+from assur.joint_graph.frames import screws
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import mobility
 from assur.kinematics.home import home_values
 from assur.mechanism import topology
-from assur.model.joint_graph import frames, joint_graph, screws
 from assur.model.registry import load_record
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.analysis import sample
@@ -85,8 +86,7 @@ def test_the_sample_has_the_rank_that_the_closed_form_leads_to():
 
 def test_axes_are_those_of_the_joint_graph():
     found = link_motion(RECORD, "link9", ("P1", "B1"))
-    placed = frames(RECORD, RECORD_HOME)
-    twists = screws(RECORD, placed, RECORD_HOME)
+    twists = screws(RECORD, RECORD_HOME)
     slices = joint_graph(RECORD).slices
     assert np.allclose(found.axes(["P1"])[..., 0], twists[3:, slices["P1"]].T)
     assert np.allclose(found.axes(["B1"])[..., 0], twists[:3, slices["B1"]].T)

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import assur
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.modes import all_modes
 from assur.kinematics.status import Status
 from assur.model.pose import QUATERNION, has_quaternion, is_angle

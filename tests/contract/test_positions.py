@@ -6,16 +6,17 @@ import numpy as np
 import pytest
 
 from assur import load, names
+from assur.joint_graph.frames import frames
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.points import quantity
 from assur.kinematics import border
-from assur.kinematics.closure import characteristic_length, closure_error
+from assur.kinematics.closure import closure_error
 from assur.kinematics.modes import mode_text
 from assur.kinematics.pose import pose_of
 from assur.kinematics.search import search
 from assur.kinematics.status import NEAR_SINGULAR, Status, closed_form_of, relative_factors
 from assur.model.closed_form import Eliminant
 from assur.model.file.place import table_place
-from assur.model.joint_graph import frames
-from assur.model.points import quantity
 
 SHAPES = [(), (1,), (3, 1, 2), (0,)]
 SEARCHED = 4

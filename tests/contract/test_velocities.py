@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assur.kinematics.closure import characteristic_length, loop_twists, mobility
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closure import loop_twists, mobility
 from assur.kinematics.modes import all_modes
 from assur.kinematics.pose import pose_rates
 from assur.kinematics.rates.velocity import printed_velocity_map

@@ -9,7 +9,8 @@ import numpy as np
 import assur
 from assur.crosscheck import samples
 from assur.crosscheck.samples import configurations
-from assur.kinematics.closure import characteristic_length, closure_error
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closure import closure_error
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import inverse
 

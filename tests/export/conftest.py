@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.closure import assemble, characteristic_length
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closure import assemble
 from assur.model.file.reader import read_text
 from assur.model.registry import load_record
 from assur.synthesis.drafting.drafting import drafted

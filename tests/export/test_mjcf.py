@@ -12,8 +12,8 @@ from scipy.spatial.transform import Rotation
 
 from assur.export.bodies import bodies, singly_jointed
 from assur.export.mjcf import mjcf
-from assur.model.joint_graph import frames
-from assur.model.points import point
+from assur.joint_graph.frames import frames
+from assur.joint_graph.points import point
 
 
 def floats(text):

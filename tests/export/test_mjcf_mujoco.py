@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from assur.crosscheck import engine as engines
+from assur.joint_graph.frames import frames
 from assur.kinematics.closure import mobility
-from assur.model.joint_graph import frames
 
 pytestmark = pytest.mark.sim
 

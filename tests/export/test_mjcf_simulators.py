@@ -11,7 +11,7 @@ import pytest
 import assur
 import simulators
 from assur.export.mjcf import mjcf
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.geometry import characteristic_length
 from simulators import CLOSED, MECHANISMS, SCREWS, SIMULATORS
 
 ROOT = Path(__file__).parents[2]

@@ -10,8 +10,8 @@ from scipy.spatial.transform import Rotation
 
 from assur.export.names import Names
 from assur.export.sdf import sdf
-from assur.model.joint_graph import frames
-from assur.model.points import point
+from assur.joint_graph.frames import frames
+from assur.joint_graph.points import point
 
 TURNING = {"revolute": 1, "universal": 2, "screw": 1}
 

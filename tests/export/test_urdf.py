@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from assur.export.sidecar import sidecar
 from assur.export.urdf import roll_pitch_yaw, urdf
-from assur.model.joint_graph import frames
+from assur.joint_graph.frames import frames
 
 
 def link(name):

@@ -10,8 +10,8 @@ import pytest
 from assur.export.bodies import bodies
 from assur.export.names import link_name
 from assur.export.urdf import anchor, urdf
-from assur.kinematics.closure import characteristic_length
-from assur.model.joint_graph import frames
+from assur.joint_graph.frames import frames
+from assur.joint_graph.geometry import characteristic_length
 from simulators import TREES
 
 pytestmark = pytest.mark.engines

@@ -12,10 +12,10 @@ import assur
 from assur.figures.encode import encoded
 from assur.figures.graph import edges, graph_drawing
 from assur.figures.style import ORANGE, SERIES, styled
+from assur.joints.catalogue import JOINT_TYPES
 from assur.mechanism import topology
 from assur.model.registry import topology_names
 from assur.topology.counting.coupling import AssurChain, Loop
-from assur.topology.joints import JOINT_TYPES
 from assur.topology.linkages.linkage import Group, Linkage, LinkageJoint
 from catalogue import each
 

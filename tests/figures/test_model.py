@@ -2,8 +2,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from assur.joint_graph.points import point
 from assur.kinematics.closure import closure_error
-from assur.model.points import point
 
 
 def test_points_are_those_of_the_joint_graph(every, data_of_every):

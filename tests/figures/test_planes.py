@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assur.model.points import point
+from assur.joint_graph.points import point
 from assur.scene.companion import length
 
 pytestmark = pytest.mark.parametrize("context", ["zeng2019"], indirect=True)

@@ -9,10 +9,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from assur import figures
 from assur.figures.meaning import named, typeset
 from assur.figures.singular import symbol_of
+from assur.joint_graph.points import point
 from assur.kinematics.closure import closure_error
 from assur.kinematics.position import inverse
 from assur.kinematics.status import FACTOR_TOLERANCE, relative_factors
-from assur.model.points import point
 from assur.scene.skeleton import skeleton
 from catalogue import each
 

@@ -4,8 +4,8 @@ import numpy as np
 
 import assur
 from assur.figures.catalogue import drawing
+from assur.joint_graph.points import point
 from assur.kinematics.position import direct
-from assur.model.points import point
 from spherical import spherical
 
 

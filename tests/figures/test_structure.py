@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from assur.model.points import point
+from assur.joint_graph.points import point
 from assur.scene.skeleton import link_point
 
 

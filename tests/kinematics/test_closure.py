@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.closure import assemble, characteristic_length, closure_error, loop_twists, mobility, residuals
+from assur.joint_graph.frames import child_frame, frames
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.tree import joint_graph
+from assur.kinematics.closure import assemble, closure_error, loop_twists, mobility, residuals
 from assur.kinematics.home import home_values
-from assur.model.joint_graph import child_frame, frames, joint_graph
 from assur.model.registry import load_record
 from catalogue import each
 

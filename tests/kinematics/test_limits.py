@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import assur
+from assur.joint_graph.frames import frames
 from assur.kinematics.limits import limits
-from assur.model.joint_graph import frames
 from assur.model.registry import load_record
 
 DELTA = Path(__file__).parents[1] / "model" / "file" / "delta.toml"

@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 
 import assur
+from assur.joint_graph.geometry import characteristic_length
+from assur.joints.spherical import SPHERICAL
 from assur.kinematics import postures as module
 from assur.kinematics.border import inputs_of
-from assur.kinematics.closure import assemble, characteristic_length, closure_error
+from assur.kinematics.closure import assemble, closure_error
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct
 from assur.kinematics.postures import postures, unwound
-from assur.topology.joints import SPHERICAL
 
 QUICK = sorted(set(assur.names()) - {"gough_stewart", "three_rrrp4r"})
 

@@ -5,12 +5,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from assur.joint_graph.tree import joint_graph
+from assur.joints.helical import HELICAL
 from assur.kinematics.closure import loop_twists
 from assur.kinematics.home import home_values
 from assur.kinematics.structure import linkage
-from assur.model.joint_graph import joint_graph
 from assur.model.registry import load_record, names
-from assur.topology.joints import HELICAL
 
 FILES = Path(__file__).parents[1] / "model"
 

@@ -5,6 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from assur.joint_graph.tree import joint_graph
+from assur.joint_graph.turns import turn_relations
+from assur.joints.spherical import SPHERICAL
 from assur.kinematics.answers.excess import excesses
 from assur.kinematics.home import home_values
 from assur.kinematics.limits import limits
@@ -22,11 +25,8 @@ from assur.kinematics.turns import (
     unwrapped,
     with_turns_of_home,
 )
-from assur.model.joint_graph import joint_graph
 from assur.model.registry import load_record, with_parameters
-from assur.model.turns import turn_relations
 from assur.numerics import components
-from assur.topology.joints import SPHERICAL
 from assur.workspace.region import workspace
 from screw_mechanisms import DIFFERENTIAL, FIVEBAR, JACK, TRIPOD, loaded
 

@@ -9,8 +9,8 @@ import pytest
 import sympy
 
 import assur
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import checked_poses
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.modes import mode_signs, sign_names
 from assur.model.pose import is_angle
 from assur.numerics.dual import Dual, Duals

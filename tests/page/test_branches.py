@@ -5,14 +5,15 @@ from functools import cache
 import numpy as np
 import pytest
 
+from assur.joint_graph.geometry import characteristic_length
+from assur.joints.spherical import SPHERICAL
 from assur.kinematics.border import inputs_of
-from assur.kinematics.closure import characteristic_length, closure_error
+from assur.kinematics.closure import closure_error
 from assur.kinematics.paths.following import mode_names
 from assur.kinematics.pose import pose_of
 from assur.mechanism import load, names
 from assur.page import branches as page
 from assur.page.branches import modes
-from assur.topology.joints import SPHERICAL
 
 
 @cache

@@ -5,7 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from assur.kinematics.closure import characteristic_length, residuals
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closure import residuals
 from assur.mechanism import load, names
 from assur.numerics import rotations
 from assur.page.graph import coordinates, graph

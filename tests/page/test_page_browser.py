@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from assur.joint_graph.frames import frames
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import inputs_of
-from assur.kinematics.closure import characteristic_length, closure_error
+from assur.kinematics.closure import closure_error
 from assur.kinematics.paths.following import mode_names
 from assur.kinematics.pose import pose_of
 from assur.mechanism import load
-from assur.model.joint_graph import frames
 from assur.model.pose import is_angle
 from catalogue import each
 from pages import page_of, scene_of

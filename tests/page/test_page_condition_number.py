@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from assur.cli.main import main
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.paths.following import follow
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.rates.units import is_mixed

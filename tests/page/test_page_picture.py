@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from assur.joint_graph.frames import frames
 from assur.mechanism import load
-from assur.model.joint_graph import frames
 from pages import scene_of
 from tabs import load_page
 

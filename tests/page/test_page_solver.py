@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import inputs_of
-from assur.kinematics.closure import characteristic_length, closing_system
+from assur.kinematics.closure import closing_system
 from assur.kinematics.paths.following import mode_names
 from assur.kinematics.pose import pose_of
 from assur.mechanism import load, names

@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import inputs_of
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.pose import pose_of
 from assur.kinematics.turns import counted
 from assur.mechanism import load, names

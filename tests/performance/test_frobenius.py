@@ -9,7 +9,7 @@ import pytest
 
 import assur
 from assur.errors import UsageError
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.geometry import characteristic_length
 from assur.model.pose import LENGTHS, QUATERNION, rate_names
 from assur.numerics import rotations
 from assur.performance.frobenius import smooth_condition

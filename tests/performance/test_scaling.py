@@ -9,7 +9,7 @@ import pytest
 
 import assur
 from assur.errors import UsageError
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.rates.units import factor_unit, is_mixed, scaled
 from assur.performance.scaling import chosen_length, isotropic_length
 

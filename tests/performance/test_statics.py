@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.frames import frames
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.rates.motions import input_units
-from assur.model.joint_graph import frames
 from assur.model.pose import LENGTHS, rate_names
 from assur.performance.statics import is_point, transmitted
 

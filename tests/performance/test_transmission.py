@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.closure import assemble, characteristic_length
-from assur.model.points import point
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.points import point
+from assur.kinematics.closure import assemble
 from assur.model.pose import LENGTHS
 from assur.performance.transmission import transmission_at
 from assur.singularity.examples import singular_examples

@@ -7,11 +7,12 @@ import pytest
 from manifold3d import Manifold, OpType
 
 from assur.errors import UsageError
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.universal import UNIVERSAL
 from assur.scene.bodies import PLAY, bodies, fused, grown, solid
 from assur.scene.parts import parts, unit
 from assur.scene.shapes import Ball, Bar, Box, Cylinder
 from assur.scene.yokes import ASIDE, PIN, THIN
-from assur.topology.joints import PRISMATIC, UNIVERSAL
 
 MOVING_PIECES = 1
 BETWEEN = ASIDE - 0.5 * THIN - PIN

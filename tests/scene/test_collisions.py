@@ -7,7 +7,7 @@ import pytest
 
 import assur
 from assur.errors import UsageError
-from assur.model.joint_graph import frames
+from assur.joint_graph.frames import frames
 from assur.scene.bodies import bodies, solid
 from assur.scene.collisions import collisions
 from assur.scene.sampled import sampled

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from assur.joints.universal import UNIVERSAL
 from assur.scene.ground import across, upright
 from assur.scene.parts import parts
 from assur.scene.skeleton import Skeleton
-from assur.topology.joints import UNIVERSAL
 
 
 def of_base(every):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur.model.joint_graph import frames
+from assur.joint_graph.frames import frames
 from assur.scene.companion import companion
 from assur.scene.letters import CLOSE, letters
 from assur.scene.skeleton import skeleton

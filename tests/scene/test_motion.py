@@ -7,8 +7,9 @@ import pytest
 
 import assur
 from assur.errors import UsageError
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import inputs_of
-from assur.kinematics.closure import characteristic_length, closure_error
+from assur.kinematics.closure import closure_error
 from assur.kinematics.limits import limits
 from assur.kinematics.paths.neighbours import working_signs
 from assur.scene import motion

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 
 import assur
+from assur.joints.universal import UNIVERSAL
 from assur.scene.companion import Companion
 from assur.scene.mesh import rgb
 from assur.scene.parts import link_layers, model, parts, unit
 from assur.scene.skeleton import link_point, skeleton
 from assur.scene.yokes import ASIDE, trimmed, yokes
-from assur.topology.joints import UNIVERSAL
 
 
 def test_links_that_are_hinged_together_lie_in_different_layers(every):

@@ -9,7 +9,8 @@ import pytest
 
 import assur
 from assur.errors import UsageError
-from assur.kinematics.closure import characteristic_length, closure_error
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closure import closure_error
 from assur.kinematics.limits import limits
 from assur.kinematics.pose import pose_of
 from assur.scene.sampled import from_box, sampled

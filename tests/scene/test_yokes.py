@@ -7,14 +7,14 @@ import pytest
 from manifold3d import Manifold, OpType
 
 import assur
+from assur.joint_graph.frames import frames
+from assur.joints.universal import UNIVERSAL
 from assur.kinematics.home import home_values
-from assur.model.joint_graph import frames
 from assur.scene.bodies import bodies, home_skeleton, solid
 from assur.scene.companion import companion
 from assur.scene.parts import parts
 from assur.scene.sizes import thickness
 from assur.scene.yokes import ARM, ASIDE, HUB, yokes
-from assur.topology.joints import UNIVERSAL
 
 NAMES = ("three_upu", "gough_stewart", "three_p2us")
 TILT = 40.0

@@ -5,9 +5,9 @@ import pytest
 
 import assur
 from assur.errors import UsageError
+from assur.joints.revolute import REVOLUTE
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.analysis import analyse, sample
-from assur.topology.joints import REVOLUTE
 from assur.topology.linkages.linkage import Linkage, LinkageJoint
 from assur.topology.linkages.placing import place
 from assur.topology.notation import parse_chains

@@ -3,8 +3,11 @@
 import pytest
 
 from assur.errors import UsageError
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.revolute import REVOLUTE
+from assur.joints.spherical import SPHERICAL
+from assur.joints.universal import UNIVERSAL
 from assur.topology.chains import Chain, ChainJoint, InnerLoop, Parallelogram, inner_loops
-from assur.topology.joints import PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL
 
 X, Y = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 R = ChainJoint(REVOLUTE, (X,), name="R1")

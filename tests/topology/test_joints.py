@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from assur.topology.joints import JOINT_TYPES
+from assur.joints.catalogue import JOINT_TYPES
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import pytest
 
 import assur
 from assur.errors import UsageError
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.paths.locked import general_ranks
 from assur.view import snapshot
 from assur.view.dials import dials, read

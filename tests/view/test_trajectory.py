@@ -5,7 +5,8 @@ import pytest
 
 import assur
 from assur.errors import UsageError
-from assur.kinematics.closure import characteristic_length, closure_error
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closure import closure_error
 from assur.kinematics.paths.following import mode_names
 from assur.view.snapshot import start, to_poses
 from assur.view.trajectory import around, through

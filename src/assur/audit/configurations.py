@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
+from assur.joint_graph.frames import frames
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import in_range
-from assur.kinematics.closure import assemble, characteristic_length, loop_twists
+from assur.kinematics.closure import assemble, loop_twists
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import all_modes
 from assur.kinematics.position import inverse
 from assur.kinematics.status import Status
-from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]

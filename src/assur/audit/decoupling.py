@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 from assur.audit.configurations import configurations
 from assur.audit.rows import Row
 from assur.errors import UnknownNameError
+from assur.joint_graph.frames import frames
 from assur.kinematics.border import input_names
 from assur.kinematics.rates.velocity import velocity_map
 from assur.model.file.schema import Entry
-from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]

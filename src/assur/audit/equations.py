@@ -11,12 +11,12 @@ from assur.audit.configurations import configurations
 from assur.audit.reference import Components
 from assur.audit.rows import Row
 from assur.errors import UsageError
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.points import quantity
 from assur.kinematics.answers.at_border import power
-from assur.kinematics.closure import characteristic_length
 from assur.model.file.schema import Entry
 from assur.model.formula import Formula, parse
 from assur.model.mechanism import MechanismRecord
-from assur.model.points import quantity
 
 FloatArray = NDArray[np.float64]
 Letters = Mapping[str, Formula]

@@ -10,8 +10,8 @@ from assur.audit.printed import Printed
 from assur.audit.reference import Digits
 from assur.audit.rows import Row
 from assur.errors import UnknownNameError, UsageError
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closed_form.sweep import inverse_sweep
-from assur.kinematics.closure import characteristic_length
 from assur.model.file.schema import Entry
 from assur.model.mechanism import MechanismRecord
 

@@ -14,17 +14,17 @@ from assur.audit.reference import Digits
 from assur.audit.rows import Row
 from assur.audit.tolerance import half_units, tolerances
 from assur.errors import UsageError
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.points import quantity
 from assur.kinematics import border
 from assur.kinematics.answers import at_border
 from assur.kinematics.answers.solution import Solution
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.modes import Problem
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.status import Status
 from assur.model.file.schema import Entry
 from assur.model.file.values import Value
 from assur.model.mechanism import MechanismRecord
-from assur.model.points import quantity
 from assur.model.pose import is_angle
 
 FloatArray = NDArray[np.float64]

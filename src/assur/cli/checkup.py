@@ -138,7 +138,8 @@ def _numbers() -> Iterator[Check]:
 
 def _home(record: Mechanism) -> Check:
     from assur.errors import UsageError
-    from assur.kinematics.closure import CLOSED, characteristic_length, closure_error
+    from assur.joint_graph.geometry import characteristic_length
+    from assur.kinematics.closure import CLOSED, closure_error
 
     try:
         gap = float(closure_error(record, record.home_values))
@@ -152,7 +153,7 @@ def _agreement(record: Mechanism) -> Check:
     """The closed form at home's inputs must list home, and each of its solutions must close the joint graph."""
     import numpy as np
 
-    from assur.kinematics.closure import characteristic_length
+    from assur.joint_graph.geometry import characteristic_length
     from assur.kinematics.search import places
 
     home, length = record.home_values, characteristic_length(record)

@@ -69,7 +69,7 @@ def _difference(record: Mechanism, pose: NDArray[Any], mode: str, matrix: NDArra
     """How far central differences are from dq/dx (n, m), and how far from those of twice the step; relative."""
     import numpy as np
 
-    from assur.kinematics.closure import characteristic_length
+    from assur.joint_graph.geometry import characteristic_length
 
     def numeric(step: float) -> NDArray[Any]:
         steps = step * np.eye(len(pose))

@@ -109,7 +109,8 @@ def entry_of(record: Mechanism, kind: str) -> Any:
 
 
 def _closes(ledger: Ledger, record: Mechanism, found: SolutionSet) -> None:
-    from assur.kinematics.closure import CLOSED, characteristic_length
+    from assur.joint_graph.geometry import characteristic_length
+    from assur.kinematics.closure import CLOSED
 
     worst = max(item.residual for item in found)
     ledger.claim(
@@ -120,7 +121,7 @@ def _closes(ledger: Ledger, record: Mechanism, found: SolutionSet) -> None:
 
 
 def _comes_back(ledger: Ledger, record: Mechanism, text: str, gaps: list[float]) -> None:
-    from assur.kinematics.closure import characteristic_length
+    from assur.joint_graph.geometry import characteristic_length
 
     worst = max(gaps, default=float("inf"))  # no solution that could come back is no claim that holds
     ledger.claim(
@@ -139,7 +140,8 @@ def _span(found: SolutionSet) -> float:
     """How far the platform gets on the longest curve, 0 where the loops do not close on the way."""
     import numpy as np
 
-    from assur.kinematics.closure import CLOSED, characteristic_length, closure_error
+    from assur.joint_graph.geometry import characteristic_length
+    from assur.kinematics.closure import CLOSED, closure_error
 
     reach = [0.0]
     for curve in found.curves:

@@ -117,7 +117,7 @@ def _nearest_home(record: Mechanism, found: SolutionSet, default: str) -> int | 
 
 
 def _shown(record: Mechanism, path: Path) -> Iterable[RenderableType]:
-    from assur.kinematics.closure import characteristic_length
+    from assur.joint_graph.geometry import characteristic_length
 
     style, data = style_of(record), path.to_json()
     stop = path.stopped

@@ -55,7 +55,7 @@ class Style:
 
 def style_of(record: MechanismRecord) -> Style:
     """The style for a mechanism: seven digits of its characteristic length."""
-    from assur.kinematics.closure import characteristic_length
+    from assur.joint_graph.geometry import characteristic_length
 
     size = characteristic_length(record)
     decimals = min(12, max(0, 6 - math.floor(math.log10(size)))) if size > 0 else 6

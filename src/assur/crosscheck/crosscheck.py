@@ -18,11 +18,12 @@ from assur.crosscheck import engine as engines
 from assur.crosscheck.engine import Engine
 from assur.crosscheck.samples import Configuration, configurations
 from assur.errors import Interrupted
-from assur.kinematics.closure import characteristic_length, mobility
+from assur.joint_graph.frames import Frame, frames
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closure import mobility
 from assur.kinematics.rates.velocity import velocity_map, velocity_map_at
 from assur.kinematics.status import Status
 from assur.kinematics.turns import periodic_inputs
-from assur.model.joint_graph import Frame, frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
 

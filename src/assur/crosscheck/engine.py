@@ -17,7 +17,7 @@ from assur.errors import UsageError, extra_hint
 from assur.export.bodies import Bodies, bodies
 from assur.export.mjcf import mjcf, printed
 from assur.export.names import link_name
-from assur.model.joint_graph import Frame
+from assur.joint_graph.frames import Frame
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, rate_names
 from assur.numerics import rotations

@@ -16,10 +16,11 @@ from numpy.typing import NDArray
 
 from assur.export.names import Names
 from assur.export.steps import Step, joint_steps
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.frames import Frame, child_frame, frames
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics.home import home_values
 from assur.kinematics.soundness.check import METRES
-from assur.model.joint_graph import Frame, child_frame, frames, joint_graph
 from assur.model.mechanism import Joint, MechanismRecord
 
 FloatArray = NDArray[np.float64]

@@ -23,8 +23,8 @@ from assur.export.names import Names, link_name
 from assur.export.shapes import arms, radius
 from assur.export.steps import Step
 from assur.export.xml_text import Element, child, comment, document, number, numbers, quaternion
+from assur.joints.helical import HELICAL
 from assur.model.mechanism import MechanismRecord
-from assur.topology.joints import HELICAL
 
 NOTE = "masses and sizes of bodies are nominal; lengths in m, angles in rad; key 'home' is the assembled home"
 TIMESTEP = 5e-4

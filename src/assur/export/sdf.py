@@ -18,10 +18,13 @@ from assur.export.names import Names
 from assur.export.shapes import arms, radius
 from assur.export.steps import Step, joint_steps
 from assur.export.xml_text import Element, child, comment, document, number, numbers
-from assur.model.joint_graph import frames
+from assur.joint_graph.frames import frames
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.helical import HELICAL
+from assur.joints.spherical import SPHERICAL
+from assur.joints.universal import UNIVERSAL
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.numerics import rotations
-from assur.topology.joints import CYLINDRICAL, HELICAL, SPHERICAL, UNIVERSAL
 
 FloatArray = NDArray[np.float64]
 VERSION = "1.9"

@@ -26,11 +26,12 @@ from assur.export.bodies import Bodies, bodies
 from assur.export.names import link_name
 from assur.export.steps import Step, joint_steps
 from assur.export.urdf import anchor, single_steps, tree_links
-from assur.model.joint_graph import child_frame, frames, joint_graph
+from assur.joint_graph.frames import child_frame, frames
+from assur.joint_graph.tree import joint_graph
+from assur.joints.helical import HELICAL
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.numerics import rotations
 from assur.results.json_text import plain
-from assur.topology.joints import HELICAL
 
 FloatArray = NDArray[np.float64]
 

@@ -8,10 +8,11 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.model.joint_graph import joint_graph
+from assur.joint_graph.tree import joint_graph
+from assur.joints.helical import HELICAL
+from assur.joints.spherical import SPHERICAL
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.numerics import rotations
-from assur.topology.joints import HELICAL, SPHERICAL
 
 FloatArray = NDArray[np.float64]
 

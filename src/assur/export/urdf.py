@@ -18,7 +18,7 @@ from assur.export.names import Names, link_name
 from assur.export.shapes import arms, radius
 from assur.export.steps import Step
 from assur.export.xml_text import Element, child, comment, document, number, numbers
-from assur.model.joint_graph import joint_graph
+from assur.joint_graph.tree import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import rotations
 

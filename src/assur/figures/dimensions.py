@@ -14,7 +14,7 @@ from assur.figures.letters import mathematics
 from assur.figures.placing import Letters
 from assur.figures.style import BLUE, INK, RED, TEXT
 from assur.figures.symbols import direction
-from assur.model.joint_graph import Frame
+from assur.joint_graph.frames import Frame
 from assur.numerics import rotations
 from assur.scene.skeleton import Mark, Skeleton
 

@@ -7,8 +7,9 @@ from numpy.typing import NDArray
 
 from assur.figures.canvas import Canvas, View, guide
 from assur.figures.style import INK, ORANGE, PAPER
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.spherical import SPHERICAL
 from assur.scene.skeleton import Mark
-from assur.topology.joints import PRISMATIC, SPHERICAL
 
 FloatArray = NDArray[np.float64]
 RADIUS = 3.6

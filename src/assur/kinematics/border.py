@@ -9,14 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UnknownNameError, UsageError
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.geometry import characteristic_length
+from assur.joints.spherical import SPHERICAL
 from assur.kinematics.pose import pose_error
 from assur.kinematics.turns import periodic_inputs
-from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
 from assur.numerics import rotations
-from assur.topology.joints import SPHERICAL
 
 FloatArray = NDArray[np.float64]
 Named = ArrayLike | Mapping[str, ArrayLike]
@@ -185,7 +184,7 @@ def distance(record: MechanismRecord, joints: FloatArray, poses: FloatArray, inp
     Rotations count times the characteristic length.
     """
     length = characteristic_length(record)
-    gaps = np.max(np.abs(pose_error(record, frames(record, joints), poses, length)), axis=-1)
+    gaps = np.max(np.abs(pose_error(record, joints, poses, length)), axis=-1)
     for k, (item, same) in enumerate(zip(record.inputs, periodic_inputs(record), strict=True)):
         gap = np.abs(item.sign * joints[:, item.coordinate.index] + item.offset - inputs[:, k])
         if same:

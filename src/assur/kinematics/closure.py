@@ -8,26 +8,31 @@ the identity only, so an axis that is turned round is never taken for an assembl
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.kinematics.pose import error_rates, pose_error
-from assur.model.joint_graph import Frame, child_frame, frames, joint_graph, screws
+from assur.joint_graph.configuration import Configuration
+from assur.joint_graph.frames import flat, screws
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.programs import Outputs, program
+from assur.joint_graph.tree import joint_graph
+from assur.kinematics.pose import error_of, error_rates, frame_of, platform_moves, platform_numbers, pose_error
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
-from assur.numerics import components, least_squares, rotations
+from assur.numerics import least_squares, rotations
 
 FloatArray = NDArray[np.float64]
 
 CLOSED = 1e-9
 """A loop counts as closed when its residual is at most this times the characteristic length."""
 
-BLOCK = 1024
+BLOCK = 256
 """Configurations that are closed at a time: their matrices stay in the cache."""
 
 NEAR_DAMPING = 1e-8
@@ -51,30 +56,30 @@ class Assembly:
     steps: int
 
 
-@lru_cache(maxsize=256)
-def characteristic_length(record: MechanismRecord) -> float:
-    """The length that turns an angle into a length: the largest distance of a joint from its link's origin."""
-    spans = [np.linalg.norm(vector) for joint in record.joints.values() for vector in (joint.at, joint.child_at)]
-    return float(max(spans)) or 1.0
-
-
 def residuals(record: MechanismRecord, values: FloatArray) -> FloatArray:
     """Gaps (..., v, 6) over the v cut joints: three lengths and three rotations times the characteristic length."""
-    return _residuals(record, values, frames(record, values))
+    numbers = program(record, _gaps)(record, flat(record, values))
+    gaps = _gap_rows(numbers, characteristic_length(record))
+    return gaps.reshape(*values.shape[:-1], len(joint_graph(record).cut), 6)
 
 
-def _residuals(record: MechanismRecord, values: FloatArray, placed: dict[str, Frame]) -> FloatArray:
-    graph = joint_graph(record)
-    length = characteristic_length(record)
-    gaps = np.zeros((*values.shape[:-1], len(graph.cut), 6))
-    for index, joint in enumerate(graph.cut):
-        reached = child_frame(joint, placed[joint.parent], values[..., graph.slices[joint.name]])
-        rotation, origin = placed[joint.child]
-        at_joint = components.applied(rotation, joint.child_at) + origin
-        gaps[..., index, :3] = components.applied(reached[0], joint.child_at) + reached[1] - at_joint
-        error = components.product_turned_back(reached[0], rotation)
-        gaps[..., index, 3:] = length * rotations.to_vector(error)
-    return gaps
+def _gaps(configuration: Configuration) -> Outputs:
+    """Twelve numbers for each cut joint: the distance, and the turn row by row."""
+    gaps = [configuration.gap(joint) for joint in configuration.graph.cut]
+    return {
+        f"gap {index} {k}": number
+        for index, (distance, (a, b, c)) in enumerate(gaps)
+        for k, number in enumerate((*distance, *a, *b, *c))
+    }
+
+
+def _gap_rows(numbers: FloatArray, length: float) -> FloatArray:
+    """Gaps (N, 6 v) from the numbers (12 v, N) of `_gaps`: distances, and rotation vectors times a length."""
+    blocks = numbers.reshape(len(numbers) // 12, 12, numbers.shape[1])
+    rows = np.empty((numbers.shape[1], len(blocks), 6))
+    rows[:, :, :3] = np.moveaxis(blocks[:, :3], -1, 0)
+    rows[:, :, 3:] = length * rotations.to_vector(np.moveaxis(blocks[:, 3:], -1, 0).reshape(*rows.shape[:2], 3, 3))
+    return rows.reshape(len(rows), 6 * len(blocks))
 
 
 def closure_error(record: MechanismRecord, values: FloatArray) -> FloatArray:
@@ -93,7 +98,7 @@ def _largest(gaps: FloatArray) -> FloatArray:
 
 def loop_twists(record: MechanismRecord, values: FloatArray) -> FloatArray:
     """Closure Jacobian (..., 6 v, n): per loop the joint twists, signed along it; J qdot = 0 at an assembly."""
-    return _loop_twists(record, screws(record, frames(record, values), values))
+    return _loop_twists(record, screws(record, values))
 
 
 def _loop_twists(record: MechanismRecord, twists: FloatArray) -> FloatArray:
@@ -106,24 +111,45 @@ def _loop_twists(record: MechanismRecord, twists: FloatArray) -> FloatArray:
     return matrix.reshape(*twists.shape[:-2], 6 * len(graph.cut), twists.shape[-1])
 
 
-def _moments(angular: FloatArray, point: FloatArray) -> FloatArray:
-    """Velocities (..., 3, n) at points (..., 3) that angular velocities (..., 3, n) about the origin make."""
-    return rotations.skew(-point) @ angular
-
-
 def _about_cut_joints(record: MechanismRecord, values: FloatArray) -> FloatArray:
     """Closure Jacobian (..., 6 v, n) with each loop's velocities taken at its cut joint.
 
     The rank is the same; but far from the base's origin the moments of the rotations would drown it.
     """
-    placed = frames(record, values)
-    matrix = loop_twists(record, values)
-    for index, joint in enumerate(joint_graph(record).cut):
-        rotation, origin = placed[joint.child]
-        point = (rotation @ joint.child_at) + origin
-        block = matrix[..., 6 * index : 6 * index + 6, :]
-        block[..., 3:, :] += _moments(block[..., :3, :], point)
-    return matrix
+    derivative = program(record, _derivative)
+    shape = 6 * len(joint_graph(record).cut), len(record.coordinates)
+    matrix = derivative.matrix("derivative", derivative(record, flat(record, values)), shape)
+    return matrix.reshape(*values.shape[:-1], *shape)
+
+
+def _derivative(configuration: Configuration) -> Outputs:
+    """Twists around each loop at its cut joint, those entries that are not always zero: "derivative row,column"."""
+    return {
+        f"derivative {6 * index + row},{column}": number for index, row, column, number in _loop_entries(configuration)
+    }
+
+
+def _loop_entries(configuration: Configuration) -> Iterator[tuple[int, int, int, Any]]:
+    """Loop, row, coordinate and value of the twists around the loops."""
+    graph = configuration.graph
+    for index, (cut, loop) in enumerate(zip(graph.cut, graph.loops, strict=True)):
+        point = configuration.child_point(cut)
+        for name, sense in ((cut.name, 1), *loop.items()):
+            for row, column, number in configuration.entries(graph.joint(name), sense, point):
+                yield index, row, column, number
+
+
+def _gaps_and_rates(configuration: Configuration) -> Outputs:
+    """Gaps, and their derivative where they vanish: of each loop lengths first."""
+    rates = {
+        f"derivative {6 * index + (row + 3) % 6},{column}": number
+        for index, row, column, number in _loop_entries(configuration)
+    }
+    return {**_gaps(configuration), **rates}
+
+
+def _at_pose(configuration: Configuration) -> Outputs:
+    return {**_gaps_and_rates(configuration), **platform_numbers(configuration), **platform_moves(configuration)}
 
 
 def closing_system(
@@ -146,30 +172,22 @@ def closing_system(
     >>> bool(abs(gaps).max() < 1e-9), derivative.shape
     (True, (1, 8, 5))
     """
-    graph = joint_graph(record)
-    length = characteristic_length(record)
-    values = components.by_components(values)
-    placed = frames(record, values)
-    twists = screws(record, placed, values)
-    lengths = sum(name in LENGTHS for name in record.platform.pose)
-    units = np.repeat([1.0, length], [lengths, len(rate_names(record.platform.pose)) - lengths])
-    rows = 6 * len(graph.cut)
-    count = rows if poses is None else rows + len(units)
-    residual, jacobian = np.empty((len(values), count)), np.zeros((len(values), count, values.shape[-1]))
-    residual[:, :rows] = _residuals(record, values, placed).reshape(len(values), rows)
-    for index, (joint, loop) in enumerate(zip(graph.cut, graph.loops, strict=True)):
-        rotation, origin = placed[joint.child]
-        point = components.applied(rotation, joint.child_at) + origin
-        block = jacobian[:, 6 * index : 6 * index + 6]
-        for name, sense in ((joint.name, 1), *loop.items()):
-            columns = graph.slices[name]
-            angular = twists[:, :3, columns]
-            block[:, :3, columns] = sense * (twists[:, 3:, columns] + components.crossed(angular, point))
-            block[:, 3:, columns] = sense * length * angular
-    if poses is not None:
-        residual[:, rows:] = pose_error(record, placed, poses, length)
-        jacobian[:, rows:] = error_rates(record, placed, twists) * units[:, None]
-    return residual, jacobian
+    length, count = characteristic_length(record), len(record.coordinates)
+    system = program(record, _gaps_and_rates if poses is None else _at_pose)
+    numbers = system(record, values)
+    rows = 6 * len(joint_graph(record).cut)
+    gaps = _gap_rows(numbers[system.rows("gap")], length)
+    derivative = system.matrix("derivative", numbers, (rows, count))
+    derivative.reshape(len(values), -1, 6, count)[:, :, 3:] *= length
+    if poses is None:
+        return gaps, derivative
+    names = record.platform.pose
+    lengths = sum(name in LENGTHS for name in names)
+    units = np.repeat([1.0, length], [lengths, len(rate_names(names)) - lengths])
+    frame = frame_of(numbers[system.rows("platform")], (len(values),))
+    away = error_of(names, frame, poses, length)
+    rates = error_rates(names, frame[0], system.matrix("move", numbers, (6, count))) * units[:, None]
+    return np.concatenate([gaps, away], axis=1), np.concatenate([derivative, rates], axis=1)
 
 
 def assemble(
@@ -227,10 +245,9 @@ def assemble(
             )
             values[block, free] = found.x * scale
             steps = max(steps, found.steps)
-    placed = frames(record, values)
-    error = _largest(_residuals(record, values, placed))
+    error = closure_error(record, values)
     if wanted is not None:
-        error = np.maximum(error, np.max(np.abs(pose_error(record, placed, wanted, length)), axis=-1))
+        error = np.maximum(error, np.max(np.abs(pose_error(record, values, wanted, length)), axis=-1))
     error = error.reshape(start.shape[:-1])
     return Assembly(values.reshape(start.shape), error, error <= CLOSED * length, steps)
 

@@ -10,11 +10,12 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.points import quantity
 from assur.kinematics.answers.self_motion import SelfMotionCurve
 from assur.kinematics.answers.solution import Failure
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.border import inputs_of
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.modes import Problem, is_of_mode, mode_texts, numbered
 from assur.kinematics.ordered.loops import crossed_parallelograms
 from assur.kinematics.pose import pose_of
@@ -23,7 +24,6 @@ from assur.kinematics.rates.instantaneous import Instant, instantaneous
 from assur.kinematics.status import FACTOR_TOLERANCE, Status
 from assur.model.formula import Formula
 from assur.model.mechanism import MechanismRecord
-from assur.model.points import quantity
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]

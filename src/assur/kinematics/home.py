@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import MechanismFileError, Problem, UsageError
+from assur.joint_graph.points import quantity
 from assur.kinematics.closure import Assembly, assemble
 from assur.kinematics.modes import mode_text
 from assur.model.mechanism import MechanismRecord
-from assur.model.points import quantity
 from assur.model.registry import with_parameters
 
 FloatArray = NDArray[np.float64]

@@ -134,7 +134,7 @@ def limits_note(record: MechanismRecord, strokes: Mapping[str, object] | None = 
 def turns_to(record: MechanismRecord, limit: Limit, value: FloatArray) -> FloatArray:
     """Angles (...) to add to values of a limit that bring them as near to the middle of its bounds as whole turns can.
 
-    Zero for a length, a tilt, and an angle whose turns count (`assur.model.turns`).
+    Zero for a length, a tilt, and an angle whose turns count (`assur.joint_graph.turns`).
     """
     if limit.axis is not None or not periodic(record)[limit.index]:
         return np.zeros(np.shape(value))

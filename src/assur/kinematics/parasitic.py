@@ -7,13 +7,14 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from assur.joint_graph.frames import frames
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border
 from assur.kinematics.border import checked_joints
-from assur.kinematics.closure import assemble, characteristic_length
+from assur.kinematics.closure import assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import inverse
-from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, has_quaternion, is_angle
 from assur.numerics import rotations

@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.model.joint_graph import Frame, frames, joint_graph, screws
+from assur.joint_graph.configuration import Configuration
+from assur.joint_graph.frames import Frame, flat
+from assur.joint_graph.programs import Outputs, program
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion, rate_names
-from assur.numerics import components, rotations
+from assur.model.pose import ANGLES, LENGTHS, QUATERNION, Pose, has_quaternion, rate_names
+from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
 LEAST_COSINE = 1e-12
@@ -16,6 +18,41 @@ LEAST_COSINE = 1e-12
 
 UPRIGHT = 1e-9
 """Cosine of theta below which phi is rounding: loops close to so much."""
+
+
+def platform_frame(record: MechanismRecord, values: FloatArray) -> Frame:
+    """Orientation (..., 3, 3) of the platform and its point (..., 3), along the spanning tree."""
+    return frame_of(program(record, platform_numbers)(record, flat(record, values)), np.shape(values)[:-1])
+
+
+def frame_of(numbers: FloatArray, batch: tuple[int, ...]) -> Frame:
+    """The same from the numbers (12, N) of `platform_numbers`."""
+    rotation = np.moveaxis(numbers[:9].reshape(3, 3, *batch), (0, 1), (-2, -1))
+    return rotation, np.moveaxis(numbers[9:].reshape(3, *batch), 0, -1)
+
+
+def platform_numbers(configuration: Configuration) -> Outputs:
+    """The twelve numbers of the platform's frame: its orientation row by row, and its point."""
+    (a, b, c), point = configuration.platform
+    return {f"platform {k}": number for k, number in enumerate((*a, *b, *c, *point))}
+
+
+def platform_moves(configuration: Configuration) -> Outputs:
+    """Twists of the platform at its point, those entries that are not zero: "move row,column"."""
+    _, point = configuration.platform
+    graph = configuration.graph
+    return {
+        f"move {row},{column}": number
+        for name, sense in graph.paths[graph.platform].items()
+        for row, column, number in configuration.entries(graph.joint(name), sense, point)
+    }
+
+
+def platform_twists(record: MechanismRecord, values: FloatArray) -> FloatArray:
+    """Angular velocity and velocity of the platform's point (..., 6, n) per rate of each joint, along the tree."""
+    moves = program(record, platform_moves)
+    matrix = moves.matrix("move", moves(record, flat(record, values)), (6, len(record.coordinates)))
+    return matrix.reshape(*np.shape(values)[:-1], 6, len(record.coordinates))
 
 
 def pose_of(record: MechanismRecord, values: FloatArray) -> FloatArray:
@@ -27,7 +64,7 @@ def pose_of(record: MechanismRecord, values: FloatArray) -> FloatArray:
     >>> pose_of(record, home_values(record)).round(0) + 0.0
     array([  0., 224.])
     """
-    rotation, point = _platform(record, frames(record, values))
+    rotation, point = platform_frame(record, values)
     named = dict(zip(LENGTHS, np.moveaxis(point, -1, 0), strict=True))
     if has_quaternion(record.platform.pose):
         named |= zip(QUATERNION, np.moveaxis(rotations.to_quaternion(rotation), -1, 0), strict=True)
@@ -41,34 +78,22 @@ def pose_rates(record: MechanismRecord, values: FloatArray) -> FloatArray:
 
     For a quaternion the last three rows are the angular velocity in the base frame.
     """
-    placed = frames(record, values)
-    return platform_rates(record, placed, screws(record, placed, values))
+    return _rates(record.platform.pose, platform_frame(record, values)[0], platform_twists(record, values))
 
 
-def platform_twists(record: MechanismRecord, placed: dict[str, Frame], twists: FloatArray) -> FloatArray:
-    """Angular velocity and velocity of the platform's point (..., 6, n) per rate of each joint, along the tree.
-
-    `twists` (..., 6, n) are those of `assur.model.joint_graph.screws`.
-    """
-    graph = joint_graph(record)
-    _, point = _platform(record, placed)
-    moves = components.zeros(twists.shape[:-2], *twists.shape[-2:])
-    for name, sense in graph.paths[record.platform.link].items():
-        own, columns = moves[..., graph.slices[name]], twists[..., graph.slices[name]]
-        own[...] = sense * columns
-        own[..., 3:, :] += components.crossed(own[..., :3, :], point)
-    return moves
-
-
-def pose_error(record: MechanismRecord, placed: dict[str, Frame], poses: FloatArray, length: float) -> FloatArray:
-    """How far (N, k) the platform is from poses (N, m): lengths, and rotations times `length`.
+def pose_error(record: MechanismRecord, values: FloatArray, poses: FloatArray, length: float) -> FloatArray:
+    """How far (N, k) the platform is from poses (N, m) at joint values (N, n): lengths, and rotations times `length`.
 
     Its derivative by the joint values is that of `error_rates`, angular rows times `length`, exact where it is zero. A
     pose that tells the whole orientation is compared by the rotation between the two, since three angles lose one
     direction where theta is a right angle.
     """
-    rotation, point = _platform(record, placed)
-    names = record.platform.pose
+    return error_of(record.platform.pose, platform_frame(record, values), poses, length)
+
+
+def error_of(names: Pose, frame: Frame, poses: FloatArray, length: float) -> FloatArray:
+    """The same for a platform's frame."""
+    rotation, point = frame
     given = {name: poses[..., k] for k, name in enumerate(names)}
     rows = [point[..., LENGTHS.index(name)] - given[name] for name in names if name in LENGTHS]
     if whole_orientation(names):
@@ -80,14 +105,15 @@ def pose_error(record: MechanismRecord, placed: dict[str, Frame], poses: FloatAr
     return np.stack(rows, axis=-1)
 
 
-def error_rates(record: MechanismRecord, placed: dict[str, Frame], twists: FloatArray) -> FloatArray:
-    """Rates (..., k, n) of the rows of `pose_error`, lengths first, then rad: per rate of each joint."""
-    names = record.platform.pose
+def error_rates(names: Pose, rotation: FloatArray, moves: FloatArray) -> FloatArray:
+    """Rates (..., k, n) of the rows of `pose_error`, lengths first, then rad: per rate of each joint.
+
+    `moves` (..., 6, n) are the platform's twists, `rotation` (..., 3, 3) is its orientation.
+    """
     if whole_orientation(names):
-        moves = platform_twists(record, placed, twists)
         lengths = [3 + LENGTHS.index(name) for name in names if name in LENGTHS]
         return np.asarray(moves[..., [*lengths, 0, 1, 2], :])
-    rates = platform_rates(record, placed, twists)
+    rates = _rates(names, rotation, moves)
     return np.asarray(rates[..., [*np.flatnonzero(_is_length(names)), *np.flatnonzero(~_is_length(names))], :])
 
 
@@ -107,27 +133,23 @@ def _orientation(names: tuple[str, ...], given: dict[str, FloatArray]) -> FloatA
     return rotations.from_angles(*(given[name] for name in ANGLES))
 
 
-def platform_rates(record: MechanismRecord, placed: dict[str, Frame], twists: FloatArray) -> FloatArray:
-    """As `pose_rates`, of frames and twists that are known already."""
-    moves = platform_twists(record, placed, twists)
+def _rates(names: Pose, rotation: FloatArray, moves: FloatArray) -> FloatArray:
     named = dict(zip(("wx", "wy", "wz", *LENGTHS), np.moveaxis(moves, -2, 0), strict=True))
-    if any(name in ANGLES for name in record.platform.pose):
-        rotation, _ = _platform(record, placed)
+    if any(name in ANGLES for name in names):
         named |= zip(ANGLES, _angle_rates(rotation, moves[..., :3, :]), strict=True)
-    return np.stack([named[name] for name in rate_names(record.platform.pose)], axis=-2)
+    return np.stack([named[name] for name in rate_names(names)], axis=-2)
 
 
-def turning_rates(record: MechanismRecord, placed: dict[str, Frame], twists: FloatArray) -> FloatArray:
-    """As `platform_rates`, wx, wy and wz in the places of phi, theta and psi where a pose has all three.
+def turning_rates(record: MechanismRecord, values: FloatArray) -> FloatArray:
+    """As `pose_rates`, wx, wy and wz in the places of phi, theta and psi where a pose has all three.
 
     Those rates exist at every orientation, also where theta is a right angle.
     """
     names = rate_names(record.platform.pose)
     if not all(name in names for name in ANGLES):
-        return platform_rates(record, placed, twists)
-    moves = platform_twists(record, placed, twists)
+        return pose_rates(record, values)
     rows = [3 + LENGTHS.index(name) if name in LENGTHS else ANGLES.index(name) for name in names]
-    return np.asarray(moves[..., rows, :])
+    return np.asarray(platform_twists(record, values)[..., rows, :])
 
 
 def turning_matrix(record: MechanismRecord, values: FloatArray) -> FloatArray:
@@ -136,7 +158,7 @@ def turning_matrix(record: MechanismRecord, values: FloatArray) -> FloatArray:
     The angular velocity is phi' z + theta' (Rz y) + psi' (Rz Ry x); E is the unit matrix for other poses. Its
     determinant is the cosine of theta but for its sign.
     """
-    rotation, _ = _platform(record, frames(record, values))
+    rotation, _ = platform_frame(record, values)
     phi, theta, _ = rotations.to_angles(rotation)
     return turning_of(record.platform.pose, phi, theta)
 
@@ -186,12 +208,6 @@ def _angle_rates(rotation: FloatArray, angular: FloatArray) -> tuple[FloatArray,
     across = np.cos(phi) * angular[..., 1, :] - np.sin(phi) * angular[..., 0, :]
     psi_rate = along / np.maximum(np.cos(theta), LEAST_COSINE)
     return angular[..., 2, :] + np.sin(theta) * psi_rate, across, psi_rate
-
-
-def _platform(record: MechanismRecord, placed: dict[str, Frame]) -> Frame:
-    """Orientation (..., 3, 3) of the platform and its point (..., 3)."""
-    rotation, origin = placed[record.platform.link]
-    return rotation, (rotation @ record.platform.point) + origin
 
 
 def _nearest_turn(angle: FloatArray) -> FloatArray:

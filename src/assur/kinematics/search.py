@@ -8,8 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import Interrupted
+from assur.joint_graph.frames import frames
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import held_inputs, inputs_of
-from assur.kinematics.closure import Assembly, assemble, characteristic_length
+from assur.kinematics.closure import Assembly, assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
 from assur.kinematics.pose import pose_of
@@ -21,7 +23,6 @@ from assur.kinematics.turns import (
     periodic_inputs,
     with_turns_of_home,
 )
-from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.frames import Frame, frames, screws
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.tree import joint_graph
+from assur.joints.spherical import SPHERICAL
 from assur.kinematics.home import home_values
-from assur.model.joint_graph import Frame, frames, joint_graph, screws
 from assur.model.mechanism import Joint, MechanismRecord
-from assur.topology.joints import SPHERICAL
 from assur.topology.linkages.linkage import FloatArray, Group, Linkage, LinkageJoint
 
 
@@ -21,7 +22,7 @@ def linkage(record: MechanismRecord) -> Linkage:
     """
     values = home_values(record)
     placed = frames(record, values)
-    twists = screws(record, placed, values)
+    twists = screws(record, values)
     slices = joint_graph(record).slices
     called = {name: item.alias or name for name, item in record.joints.items()}
     joints = {}

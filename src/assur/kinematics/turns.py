@@ -19,12 +19,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import MechanismFileError, UsageError
-from assur.kinematics.closure import assemble, characteristic_length
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.tree import joint_graph
+from assur.joint_graph.turns import screws_among, turn_relations
+from assur.joints.spherical import SPHERICAL
+from assur.kinematics.closure import assemble
 from assur.kinematics.home import home_values
-from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
-from assur.model.turns import screws_among, turn_relations
-from assur.topology.joints import SPHERICAL
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]

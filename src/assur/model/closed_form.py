@@ -32,7 +32,7 @@ class Branch:
     Attributes:
         pose: the coordinates of the platform, in the file's order; an angle is a pair (cosine, sine).
         inputs: the inputs in the file's order; a revolute input is a pair (cosine, sine), but a
-            number in rad where its turns count, as those of a screw do (`assur.model.turns`).
+            number in rad where its turns count, as those of a screw do (`assur.joint_graph.turns`).
         margins: name -> value; the branch exists where every one of them allows it.
         core: every quantity that factors, Jacobians and joint values are made of.
     """

@@ -14,13 +14,14 @@ from types import SimpleNamespace
 from typing import Any
 
 from assur.errors import MechanismFileError, Problem
+from assur.joints.helical import HELICAL
+from assur.joints.spherical import SPHERICAL
 from assur.model.closed_form import Branch, ClosedForm, Eliminant, Margin, PolynomialSystem
 from assur.model.file.faults import listed
 from assur.model.kernels.values import TABLES, is_number, kind_of
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.model.pose import is_angle
 from assur.numerics.recording.tape import Recorded, Recorder
-from assur.topology.joints import HELICAL, SPHERICAL
 
 OPERATIONS = 8_000
 """Of all kernels together: the longest closed form of the catalogue has 5,638. What is asked of each operation, as on

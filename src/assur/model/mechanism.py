@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError
+from assur.joints.joint_type import JointType
 from assur.model.closed_form import ClosedForm
 from assur.model.file.description import Description
 from assur.model.formula import Formula
-from assur.topology.joints import JointType
 
 FloatArray = NDArray[np.float64]
 

@@ -41,7 +41,9 @@ def minus(a: Any, b: Any) -> Any:
     >>> minus(0, 2.5), minus(2.5, 0)
     (-2.5, 2.5)
     """
-    return plus(a, times(-1, b))
+    if type(a) is int and a == 0:
+        return times(-1, b)
+    return a if type(b) is int and b == 0 else a - b
 
 
 def add(a: Vector, b: Vector) -> Vector:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.status import scale
 from assur.kinematics.turns import counted

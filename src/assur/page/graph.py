@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics.turns import counted, joint_units
-from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import Joint, MechanismRecord
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import checked_poses, inputs_of
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import inverse

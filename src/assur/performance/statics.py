@@ -19,8 +19,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.closure import characteristic_length
-from assur.model.joint_graph import Frame, frames, joint_graph, screws
+from assur.joint_graph.frames import Frame, frames, screws
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.tree import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS
 
@@ -96,7 +97,7 @@ def transmitted(record: MechanismRecord, values: FloatArray) -> Transmitted:
     placed = frames(record, values)
     rotation, origin = placed[record.platform.link]
     point = (rotation @ record.platform.point) + origin
-    twists = _scaled(record, screws(record, placed, values), point)
+    twists = _scaled(record, screws(record, values), point)
     signs, centres = incidence(record), _centres(record, placed, point) / length
     of_joint = np.repeat(np.arange(len(record.joints)), [item.type.freedoms for item in record.joints.values()])
     blocks = signs[of_joint].T[:, None, :] * twists[..., None, :, :]  # (N, v + 1, 6, n)

@@ -23,9 +23,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics.border import checked_joints
-from assur.kinematics.closure import CLOSED, characteristic_length, closure_error
-from assur.model.joint_graph import joint_graph
+from assur.kinematics.closure import CLOSED, closure_error
 from assur.model.mechanism import MechanismRecord
 from assur.performance.power import power_coefficient
 from assur.performance.statics import Transmitted, is_point, transmitted

@@ -17,21 +17,21 @@ from assur.audit.tables import Table
 from assur.errors import UsageError
 from assur.figures import Context
 from assur.figures.aspects import no_aspects
+from assur.joint_graph.frames import frames
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.points import point
 from assur.kinematics.answers.at_border import inputs_from_border, pose_from_border
 from assur.kinematics.answers.solution import Solution
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.certified.certify import certified_direct, certified_inverse
 from assur.kinematics.certified.result import CertifiedSolutions
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.rates.velocity import VelocityMap, velocity_map, velocity_map_at
 from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import Branch, ClosedForm, Eliminant, PolynomialSystem
-from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
-from assur.model.points import point
 from assur.performance.dexterity import GlobalIndex, global_condition_index
 from assur.report.formulas.reading import Reading, reading
 from assur.report.numbers import Style, style_of

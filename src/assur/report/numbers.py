@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.geometry import characteristic_length
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, is_angle
 from assur.results.outward import outward

@@ -13,6 +13,9 @@ from manifold3d import Manifold, OpType
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.helical import HELICAL
+from assur.joints.prismatic import PRISMATIC
 from assur.kinematics.home import home_values
 from assur.model.mechanism import MechanismRecord
 from assur.scene.companion import Companion
@@ -21,7 +24,6 @@ from assur.scene.part import Part
 from assur.scene.parts import parts, unit
 from assur.scene.shapes import Ball, Box, Cylinder, Shape
 from assur.scene.skeleton import Skeleton, skeleton
-from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC
 
 FloatArray = NDArray[np.float64]
 SLIDING = (PRISMATIC, CYLINDRICAL, HELICAL)

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.model.joint_graph import Frame, frames
+from assur.joint_graph.frames import Frame, frames
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.convex_distance import convex_distance, nearest_points
 from assur.numerics.segments import segment_distances

@@ -12,9 +12,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.frames import frames
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
-from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, is_angle
 from assur.scene.refining import combed, refined

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joints.prismatic import PRISMATIC
 from assur.model.mechanism import MechanismRecord
 from assur.scene.skeleton import Skeleton
-from assur.topology.joints import PRISMATIC
 
 FloatArray = NDArray[np.float64]
 CLOSE = 0.03

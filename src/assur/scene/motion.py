@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import held_inputs, inputs_of
-from assur.kinematics.closure import assemble, characteristic_length
+from assur.kinematics.closure import assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.limits import limits
 from assur.kinematics.near_home import distances

@@ -12,6 +12,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joints.spherical import SPHERICAL
+from assur.joints.universal import UNIVERSAL
 from assur.scene.companion import Companion
 from assur.scene.ground import bed, depth, ground, held, upright
 from assur.scene.hull import hull
@@ -22,7 +24,6 @@ from assur.scene.shapes import Ball, Bar, Box, Cylinder, Slab
 from assur.scene.sizes import thickness
 from assur.scene.skeleton import Mark, Rod, Skeleton
 from assur.scene.yokes import ASIDE, Yoke, cross, trimmed, yokes
-from assur.topology.joints import SPHERICAL, UNIVERSAL
 
 FloatArray = NDArray[np.float64]
 FLAT = 0.1

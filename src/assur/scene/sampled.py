@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import checked_poses
-from assur.kinematics.closure import assemble, characteristic_length
+from assur.kinematics.closure import assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.limits import limits
 from assur.kinematics.position import inverse

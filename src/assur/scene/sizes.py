@@ -18,12 +18,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.joint_type import JointType
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.spherical import SPHERICAL
+from assur.joints.universal import UNIVERSAL
 from assur.kinematics.home import home_values
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.segments import segment_distances
 from assur.scene.companion import Companion, companion, length
 from assur.scene.skeleton import Mark, Skeleton, skeleton
-from assur.topology.joints import CYLINDRICAL, PRISMATIC, SPHERICAL, UNIVERSAL, JointType
 
 FloatArray = NDArray[np.float64]
 Record = TypeVar("Record", bound=MechanismRecord)

@@ -8,11 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.closure import characteristic_length
-from assur.model.joint_graph import Frame, frames
+from assur.joint_graph.frames import Frame, frames
+from assur.joint_graph.geometry import characteristic_length
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.universal import UNIVERSAL
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.scene.companion import Companion
-from assur.topology.joints import CYLINDRICAL, PRISMATIC, UNIVERSAL
 
 FloatArray = NDArray[np.float64]
 

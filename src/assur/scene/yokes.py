@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joints.universal import UNIVERSAL
 from assur.scene.shapes import Ball, Bar, Cylinder
 from assur.scene.skeleton import Mark, Plate, Rod, Skeleton
-from assur.topology.joints import UNIVERSAL
 
 FloatArray = NDArray[np.float64]
 ARM, ASIDE = 3.0, 1.7

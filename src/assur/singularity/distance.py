@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border
 from assur.kinematics.closed_form.filling import Engine
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS

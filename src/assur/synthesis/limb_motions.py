@@ -11,6 +11,7 @@ from zlib import crc32
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joints.spherical import SPHERICAL
 from assur.synthesis.limbs import LimbType
 from assur.synthesis.poses import twists_at_poses
 from assur.synthesis.positions import turned
@@ -18,7 +19,6 @@ from assur.synthesis.wanted import WantedMotion
 from assur.topology.agreement import RoutesDisagreeError, agreed, by_twists
 from assur.topology.chains import Chain
 from assur.topology.facts import Known
-from assur.topology.joints import SPHERICAL
 from assur.topology.linkages.edges import rank
 from assur.topology.notation import parse_chain, plain_text
 from assur.topology.rules.motion import Motion, motion_of

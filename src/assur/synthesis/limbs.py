@@ -6,6 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.revolute import REVOLUTE
+from assur.joints.spherical import SPHERICAL
+from assur.joints.universal import UNIVERSAL
 from assur.synthesis.isomorphism import Key, limb_key
 from assur.synthesis.poses import is_special
 from assur.synthesis.positions import upright
@@ -13,7 +18,6 @@ from assur.synthesis.wanted import WantedMotion
 from assur.synthesis.words import Word, crossing, words
 from assur.topology.chains import Chain, ChainJoint, Element, Parallelogram
 from assur.topology.directions import NAMED, Vector
-from assur.topology.joints import CYLINDRICAL, PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL
 
 Actuators = Literal["base", "leg"]
 """Where the driven joint of a limb stands: the first joint, or the first P between two joints that turn."""

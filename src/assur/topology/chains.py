@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from assur.errors import UnknownNameError, UsageError
+from assur.joints.joint_type import JointType
 from assur.topology.directions import EXACT, Vector, parallel
-from assur.topology.joints import JointType
 
 ParallelogramKind = Literal["4R", "4S", "4U", "2US"]
 

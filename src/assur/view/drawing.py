@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.model.joint_graph import frames
+from assur.joint_graph.frames import frames
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import rotations
 from assur.scene.companion import companion

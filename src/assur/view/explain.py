@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics.border import held_inputs
 from assur.kinematics.closure import assemble, residuals
 from assur.kinematics.limits import Limit, limits
 from assur.kinematics.paths.path import Path, Stop
-from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.view.missing import Miss, misses
 

@@ -15,12 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import null_space
 
-from assur.kinematics.closure import CLOSED, RANK_GAP, assemble, characteristic_length, closing_system
-from assur.model.joint_graph import frames
+from assur.joint_graph.frames import frames
+from assur.joint_graph.geometry import characteristic_length
+from assur.joints.prismatic import PRISMATIC
+from assur.kinematics.closure import CLOSED, RANK_GAP, assemble, closing_system
 from assur.model.mechanism import Coordinate, Joint, Link, MechanismRecord
 from assur.model.pose import LENGTHS, QUATERNION
 from assur.numerics import rotations
-from assur.topology.joints import PRISMATIC
 
 FloatArray = NDArray[np.float64]
 MISSED = 1e3 * CLOSED

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from assur.errors import AssurError
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.answers.at_border import angle_at_border
 from assur.kinematics.answers.excess import excesses
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.limits import limits_note
 from assur.kinematics.postures import Postures
 from assur.kinematics.rates.units import unit_length

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.kinematics.closure import assemble, characteristic_length, closing_system
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closure import assemble, closing_system
 from assur.kinematics.limits import limits
 from assur.kinematics.paths.course import Prescribed
 from assur.kinematics.paths.following import FURTHEST

@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import AssurError, UsageError
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import inputs_of
-from assur.kinematics.closure import CLOSED, assemble, characteristic_length, closure_error
+from assur.kinematics.closure import CLOSED, assemble, closure_error
 from assur.kinematics.home import home_values
 from assur.kinematics.paths.course import Prescribed, Turns
 from assur.kinematics.paths.following import follow, mode_names

@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
 from assur.errors import UsageError
+from assur.joint_graph.tree import joint_graph
+from assur.joints.spherical import SPHERICAL
 from assur.kinematics.answers.at_border import angle_at_border
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import mode_signs, sign_names
@@ -30,12 +32,10 @@ from assur.kinematics.paths.following import follow
 from assur.kinematics.paths.neighbours import working_signs
 from assur.kinematics.position import inverse
 from assur.kinematics.turns import periodic
-from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.numerics import rotations
 from assur.singularity.loci import OUTPUT
-from assur.topology.joints import SPHERICAL
 from assur.workspace.bounds import Bound, Stroke, Values, bounds
 from assur.workspace.grid import UniformGrid
 from assur.workspace.slices import Columns, Slice

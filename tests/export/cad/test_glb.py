@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur.export.cad.glb import glb
-from assur.model.joint_graph import frames
+from assur.joint_graph.frames import frames
 from assur.numerics import rotations
 from assur.scene.bodies import home_skeleton
 from assur.scene.companion import companion

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur.model.joint_graph import frames
+from assur.joint_graph.frames import frames
 from assur.scene import mesh
 from assur.scene.bodies import bodies, fused, home_skeleton
 

@@ -7,9 +7,9 @@ import pytest
 
 import assur
 from assur.errors import UnknownNameError, UsageError
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import inputs_of
 from assur.kinematics.certified.certify import certified_direct, certified_inverse
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.pose import pose_of
 from assur.model.registry import names
 from assur.numerics.intervals.interval import Interval

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import assur
+from assur.joint_graph.frames import frames
 from assur.kinematics.border import inputs_of
 from assur.kinematics.certified.domain import Reach, _by_both, pose_box, reaches
-from assur.model.joint_graph import frames
 from assur.model.pose import is_angle
 from assur.model.registry import names
 from catalogue import each

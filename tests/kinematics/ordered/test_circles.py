@@ -7,7 +7,8 @@ import dataclasses
 import numpy as np
 import pytest
 
-from assur.kinematics.closure import characteristic_length, closure_error
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closure import closure_error
 from assur.kinematics.home import home_values
 from assur.kinematics.ordered.circles import System, joint_values, system
 from assur.kinematics.ordered.orientations import turnings

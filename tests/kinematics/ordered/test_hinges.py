@@ -7,6 +7,8 @@ import dataclasses
 import numpy as np
 import pytest
 
+from assur.joint_graph.frames import frames
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.ordered.hinges import (
@@ -18,7 +20,6 @@ from assur.kinematics.ordered.hinges import (
     turns_of_joints,
     turns_of_parallelograms,
 )
-from assur.model.joint_graph import frames, joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import load_record
 

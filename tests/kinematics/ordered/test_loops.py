@@ -9,13 +9,14 @@ import pytest
 
 import assur
 from assur.errors import UsageError
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.points import point
 from assur.kinematics.border import inputs_of
-from assur.kinematics.closure import assemble, characteristic_length, closure_error, loop_twists
+from assur.kinematics.closure import assemble, closure_error, loop_twists
 from assur.kinematics.ordered.loops import crossed_parallelograms, solve_by_loops
 from assur.kinematics.pose import pose_of
 from assur.kinematics.search import places, search
 from assur.model.mechanism import MechanismRecord
-from assur.model.points import point
 from assur.model.registry import names
 from assur.synthesis.drafting.copying import copied
 from assur.synthesis.drafting.drafting import drafted

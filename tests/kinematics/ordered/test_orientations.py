@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from assur.joint_graph.frames import frames
 from assur.kinematics.home import home_values
 from assur.kinematics.ordered.hinges import NoAssemblyError, NotCirclesError
 from assur.kinematics.ordered.orientations import turnings
-from assur.model.joint_graph import frames
 from assur.model.registry import load_record
 from assur.numerics import rotations
 

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import assur
+from assur.joint_graph.points import quantity
 from assur.kinematics.closure import closure_error
 from assur.kinematics.home import home_values
 from assur.kinematics.paths.continuation import continued
 from assur.kinematics.paths.ending import Mode
 from assur.kinematics.paths.neighbours import working_signs
 from assur.kinematics.pose import pose_of
-from assur.model.points import quantity
 
 RECORD = assur.load("fivebar")
 HOME = home_values(RECORD)

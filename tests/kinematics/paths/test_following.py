@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 
 import assur
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.points import point
 from assur.kinematics.border import inputs_of
-from assur.kinematics.closure import assemble, characteristic_length, closure_error
+from assur.kinematics.closure import assemble, closure_error
 from assur.kinematics.paths.following import follow
 from assur.kinematics.pose import pose_of
-from assur.model.points import point
 from assur.singularity.examples import singular_examples
 from work import calls
 

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from assur.cli.main import main
+from assur.joint_graph.frames import frames
 from assur.kinematics.paths.following import follow
 from assur.kinematics.paths.home_mode import home_mode_at
 from assur.kinematics.pose import pose_of
 from assur.kinematics.status import Status
 from assur.mechanism import load
-from assur.model.joint_graph import frames
 from assur.performance.indices import indices
 from assur.singularity.verdict import verdict
 

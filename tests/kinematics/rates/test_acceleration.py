@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 import assur
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import held_inputs, inputs_of
-from assur.kinematics.closure import assemble, characteristic_length
+from assur.kinematics.closure import assemble
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.acceleration import acceleration_at
 from assur.model.pose import LENGTHS

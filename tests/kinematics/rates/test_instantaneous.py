@@ -10,8 +10,9 @@ import pytest
 import sympy
 
 import assur
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import held_inputs, inputs_of
-from assur.kinematics.closure import assemble, characteristic_length, loop_twists
+from assur.kinematics.closure import assemble, loop_twists
 from assur.kinematics.pose import pose_of, pose_rates
 from assur.kinematics.rates.instantaneous import SINGULAR, instantaneous
 from assur.kinematics.rates.velocity import velocity_map

@@ -15,12 +15,12 @@ import pytest
 
 import assur
 from assur.errors import MechanismFileError
+from assur.joint_graph.frames import frames
 from assur.kinematics.closure import closure_error
 from assur.kinematics.home import home_values
 from assur.kinematics.soundness.check import check, doubts, faults
 from assur.kinematics.soundness.gaps import loops
 from assur.model.file.reader import read_text
-from assur.model.joint_graph import frames
 from assur.model.registry import load_record, names, with_parameters
 
 TESTS = Path(__file__).parents[2]

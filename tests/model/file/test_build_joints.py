@@ -8,8 +8,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from assur.joints.catalogue import JOINT_TYPES
 from assur.model.mechanism import Joint, MechanismRecord
-from assur.topology.joints import JOINT_TYPES
 
 Read = Callable[[str], MechanismRecord]
 FRAME = """

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from assur.model.joint_graph import frames
+from assur.joint_graph.frames import frames
 from assur.model.mechanism import MechanismRecord
 
 Read = Callable[[str], MechanismRecord]

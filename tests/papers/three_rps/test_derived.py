@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.search import distinct
 from assur.kinematics.status import Status
 

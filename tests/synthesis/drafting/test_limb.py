@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from assur.joint_graph.frames import frames
 from assur.kinematics.closure import closure_error
 from assur.model.file.reader import read_text
-from assur.model.joint_graph import frames
 from assur.synthesis.drafting.document import Chosen, Input, document
 from assur.synthesis.drafting.layout import LAYOUTS, own_stations
 from assur.synthesis.drafting.templates import draft

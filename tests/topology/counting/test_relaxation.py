@@ -8,12 +8,15 @@ from functools import partial
 import numpy as np
 import pytest
 
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.revolute import REVOLUTE
+from assur.joints.spherical import SPHERICAL
+from assur.joints.universal import UNIVERSAL
 from assur.kinematics.structure import linkage
 from assur.model.registry import load_record
 from assur.topology.counting.coupling import coupling
 from assur.topology.counting.mobility import mobility
 from assur.topology.counting.relaxation import Replacement, relaxation
-from assur.topology.joints import CYLINDRICAL, REVOLUTE, SPHERICAL, UNIVERSAL
 from assur.topology.linkages.twists import generic_edges
 from twist_chains import X, Y, Z, slide, turn
 from twist_chains import chain as named_chain

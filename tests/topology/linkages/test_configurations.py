@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
+from assur.joints.revolute import REVOLUTE
 from assur.numerics.rotations import to_vector
-from assur.topology.joints import REVOLUTE
 from assur.topology.linkages.configurations import ImmobileError, configurations, home_is_special, scattered
 from assur.topology.linkages.linkage import Linkage, LinkageJoint
 from assur.topology.linkages.placing import place

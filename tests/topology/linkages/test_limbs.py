@@ -2,8 +2,9 @@
 
 import pytest
 
+from assur.joints.revolute import REVOLUTE
+from assur.joints.universal import UNIVERSAL
 from assur.topology.chains import ChainJoint, InnerLoop
-from assur.topology.joints import REVOLUTE, UNIVERSAL
 from assur.topology.linkages.limbs import Path, limbs
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)

@@ -9,11 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from assur.errors import UnknownNameError, UsageError
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.revolute import REVOLUTE
+from assur.joints.spherical import SPHERICAL
+from assur.joints.universal import UNIVERSAL
 from assur.numerics.least_squares import minimise
 from assur.numerics.rotations import from_vector, to_vector
 from assur.topology.chains import Chain, ChainJoint
 from assur.topology.directions import unit
-from assur.topology.joints import PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL
 from assur.topology.linkages.configurations import configurations, home_is_special, scattered
 from assur.topology.linkages.edges import closure
 from assur.topology.linkages.linkage import part

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from hypothesis import strategies as st
 
+from assur.joints.catalogue import JOINT_TYPES
 from assur.topology.chains import Chain, ChainJoint, InnerLoop, Parallelogram
 from assur.topology.directions import parallel, unit
-from assur.topology.joints import JOINT_TYPES
 from assur.topology.notation.reader import MAX_JOINTS
 
 # Whole numbers up to 3 give right angles and parallels exactly, and no angle within 2 degrees of either.

@@ -1,7 +1,11 @@
 """From sketch to chain: types, points, what is general."""
 
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.revolute import REVOLUTE
+from assur.joints.spherical import SPHERICAL
+from assur.joints.universal import UNIVERSAL
 from assur.topology.chains import ChainJoint, InnerLoop, Parallelogram
-from assur.topology.joints import CYLINDRICAL, PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL
 from assur.topology.notation import parse_chain, parse_chains
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)

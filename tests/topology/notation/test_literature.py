@@ -8,8 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import assur
+from assur.joints.catalogue import JOINT_TYPES
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.revolute import REVOLUTE
 from assur.topology.chains import Chain, ChainJoint, InnerLoop, Parallelogram
-from assur.topology.joints import JOINT_TYPES, PRISMATIC, REVOLUTE
 from assur.topology.notation import parse_chain, parse_chains, plain_text, symbolic_text
 from examples import examples
 

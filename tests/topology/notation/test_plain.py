@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from assur.joints.revolute import REVOLUTE
 from assur.topology.chains import Chain, ChainJoint
-from assur.topology.joints import REVOLUTE
 from assur.topology.notation import parse_chain, plain_text
 from examples import examples
 

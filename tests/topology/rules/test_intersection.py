@@ -7,9 +7,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from assur.errors import UsageError
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.revolute import REVOLUTE
+from assur.joints.spherical import SPHERICAL
+from assur.joints.universal import UNIVERSAL
 from assur.topology.chains import Chain, ChainJoint, Parallelogram
 from assur.topology.directions import unit
-from assur.topology.joints import CYLINDRICAL, PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL
 from assur.topology.linkages.placing import place
 from assur.topology.linkages.twists import generic_edges, poc_dimensions
 from assur.topology.notation import parse_chains

@@ -15,12 +15,16 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.helical import HELICAL
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.revolute import REVOLUTE
+from assur.joints.universal import UNIVERSAL
 from assur.kinematics.soundness.check import METRES
 from assur.model.mechanism import Input, Joint, MechanismRecord
 from assur.scene.bodies import Body, bodies, corners, fused
 from assur.scene.part import Part
 from assur.scene.shapes import Ball, Bar, Box, Cylinder, Shape, Slab
-from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC, REVOLUTE, UNIVERSAL
 
 FloatArray = NDArray[np.float64]
 

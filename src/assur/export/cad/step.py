@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from assur.errors import AssurError
 from assur.export.cad import kernel
+from assur.joint_graph.frames import frames
 from assur.kinematics.soundness.check import METRES
-from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 from assur.scene.bodies import CHIP, Body, bodies
 from assur.scene.mesh import rgb

@@ -10,11 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.closure import CLOSED, characteristic_length, residuals
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.tree import joint_graph
+from assur.kinematics.closure import CLOSED, residuals
 from assur.kinematics.limits import Limit, stated_limits, turns_to
 from assur.kinematics.modes import Problem
 from assur.kinematics.soundness.gaps import loops
-from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -56,7 +57,7 @@ class OpenLoop:
 def beyond(record: MechanismRecord, problem: Problem, given: FloatArray, joints: FloatArray) -> FloatArray:
     """How far (N, l) solutions with joint values (N, n) lie beyond each of the l stated limits; negative within them.
 
-    Angles count but for whole turns, except those whose turns count (`assur.model.turns`), and given inputs (N, k) of a
+    Angles count but for whole turns, except those that count (`assur.joint_graph.turns`), and given inputs (N, k) of a
     direct problem whose stroke is longer than a turn: such a stroke says that turns are meant.
     """
     columns = [_beyond(limit, _value(record, problem, given, limit, joints)) for limit in stated_limits(record)]

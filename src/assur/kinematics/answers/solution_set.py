@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import BatchError
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border
 from assur.kinematics.answers.excess import beyond, excesses, open_loop, within
 from assur.kinematics.answers.self_motion import SelfMotionCurve
 from assur.kinematics.answers.solution import Failure, Solution
-from assur.kinematics.closure import CLOSED, characteristic_length, closure_error
+from assur.kinematics.closure import CLOSED, closure_error
 from assur.kinematics.limits import limits_stated
 from assur.kinematics.modes import Problem
 from assur.kinematics.status import Status

@@ -15,22 +15,23 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.tree import joint_graph
+from assur.joints.spherical import SPHERICAL
 from assur.kinematics import position
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.certified.given import inputs_meant, number, pose_meant
 from assur.kinematics.certified.joint_frames import JointFrames, Placed
 from assur.kinematics.certified.platform import pose_parts, pose_rows
 from assur.kinematics.certified.result import CertifiedSolutions, Doubt, ProvedSolution, at_most
-from assur.kinematics.closure import characteristic_length, closing_system
+from assur.kinematics.closure import closing_system
 from assur.kinematics.modes import Problem
 from assur.kinematics.position import Method
 from assur.kinematics.search import distinct
 from assur.kinematics.turns import in_one_turn, periodic
-from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.krawczyk import Equations, image, parts, proves, stacked
-from assur.topology.joints import SPHERICAL
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]

@@ -19,9 +19,10 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joints.helical import HELICAL
+from assur.joints.prismatic import PRISMATIC
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.model.pose import LENGTHS, has_quaternion, is_angle
-from assur.topology.joints import HELICAL, PRISMATIC
 
 FloatArray = NDArray[np.float64]
 SPARE = 1e-9

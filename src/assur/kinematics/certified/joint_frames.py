@@ -15,8 +15,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.tree import joint_graph
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.helical import HELICAL
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.revolute import REVOLUTE
+from assur.joints.spherical import SPHERICAL
+from assur.joints.universal import UNIVERSAL
 from assur.kinematics.certified.given import turn
-from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.numerics import rotations
 from assur.numerics.intervals.functions import TURN
@@ -36,7 +42,6 @@ from assur.numerics.sparse_vectors import (
     times,
     transposed,
 )
-from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL
 
 FloatArray = NDArray[np.float64]
 Placed = tuple[Matrix, Vector]

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.certified.legs import Legs
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.modes import mode_signs, sign_names
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import has_quaternion, is_angle

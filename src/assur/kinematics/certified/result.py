@@ -9,9 +9,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border, position
 from assur.kinematics.answers.at_border import inputs_at_border, limits_at_border, pose_at_border, power
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.limits import limits_stated
 from assur.kinematics.modes import Problem
 from assur.kinematics.turns import periodic_inputs

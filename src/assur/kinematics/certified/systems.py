@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import position
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.certified.given import inputs_meant, joint_inputs, number, parameters
 from assur.kinematics.certified.result import CertifiedSolutions, Doubt, ProvedSolution
 from assur.kinematics.closed_form.systems import ends
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import PolynomialSystem
 from assur.model.mechanism import MechanismRecord

@@ -10,9 +10,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closed_form.branches import Branches
 from assur.kinematics.closed_form.existence import vanishes
-from assur.kinematics.closure import CLOSED, assemble, characteristic_length
+from assur.kinematics.closure import CLOSED, assemble
 from assur.kinematics.search import distinct
 from assur.kinematics.status import Status, scale
 from assur.kinematics.turns import in_one_turn

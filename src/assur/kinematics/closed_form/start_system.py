@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.geometry import characteristic_length
 from assur.model.closed_form import ClosedForm, PolynomialSystem
 from assur.model.file.toml_source import read_toml
 from assur.model.mechanism import MechanismRecord

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border
 from assur.kinematics.closed_form.roots import RootBranches
 from assur.kinematics.closed_form.start_system import dimensions, family, start_system
-from assur.kinematics.closure import characteristic_length
 from assur.model.closed_form import Branch, Margin, PolynomialSystem
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.closure import assemble, characteristic_length
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closure import assemble
 from assur.kinematics.contract.borders import named_by_signs
 from assur.kinematics.contract.kernel import Kernel, recorded
 from assur.kinematics.contract.mismatch import Part

@@ -5,8 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.frames import frames
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.points import quantities
 from assur.kinematics import border
-from assur.kinematics.closure import assemble, characteristic_length
+from assur.kinematics.closure import assemble
 from assur.kinematics.contract.borders import named_by_signs, refusing
 from assur.kinematics.contract.mismatch import Mismatch, place_text
 from assur.kinematics.contract.solutions import Solutions, solutions, solves
@@ -16,9 +19,7 @@ from assur.kinematics.ordered.loops import crossed_parallelograms
 from assur.kinematics.pose import pose_error, pose_of
 from assur.kinematics.rates.motions import Motion
 from assur.kinematics.status import closed_form_of
-from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
-from assur.model.points import quantities
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -96,7 +97,7 @@ def _apart(listed: Solutions, joints: FloatArray, found: Solutions) -> FloatArra
     if not len(listed):
         return np.zeros(0)
     if listed.problem == "direct":
-        return np.asarray(np.max(np.abs(pose_error(record, frames(record, joints), listed.poses, length)), axis=-1))
+        return np.asarray(np.max(np.abs(pose_error(record, joints, listed.poses, length)), axis=-1))
     offsets, signs = (np.array([getattr(item, name) for item in record.inputs]) for name in ("offset", "sign"))
     claimed, there = (listed.inputs - offsets) * signs, joints[:, list(record.input_indices)]
     angular = np.array([item.coordinate.kind == "angle" for item in record.inputs])

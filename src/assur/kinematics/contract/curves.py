@@ -7,11 +7,12 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border
 from assur.kinematics.answers.self_motion import self_motion_curves
 from assur.kinematics.closed_form.branches import Branches
 from assur.kinematics.closed_form.existence import vanishes
-from assur.kinematics.closure import characteristic_length, closure_error
+from assur.kinematics.closure import closure_error
 from assur.kinematics.contract.kernel import Kernel
 from assur.kinematics.contract.mismatch import Mismatch, place_text, quantity_text
 from assur.kinematics.contract.solutions import Solutions
@@ -19,7 +20,6 @@ from assur.kinematics.contract.undeclared import zeros
 from assur.kinematics.pose import pose_error
 from assur.kinematics.position import direct
 from assur.kinematics.status import closed_form_of
-from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -61,7 +61,7 @@ def _at(record: MechanismRecord, inputs: FloatArray) -> Iterator[list[Mismatch]]
         joints = one.joints(POINTS)
         turned = border.inputs_of(record, joints) - inputs
         turned = np.where(angular, length * ((turned + np.pi) % (2 * np.pi) - np.pi), turned)
-        moved = pose_error(record, frames(record, joints), one.poses(POINTS), length)
+        moved = pose_error(record, joints, one.poses(POINTS), length)
         misses = (closure_error(record, joints), np.abs(turned), np.abs(moved))
         worst = float(np.nan_to_num(max(float(np.max(item)) for item in misses), nan=np.inf))
         if worst > OPEN * length:
@@ -88,7 +88,7 @@ def lacking_curves(there: Solutions) -> list[Mismatch]:
         poses = np.concatenate([np.zeros((0, there.poses.shape[-1])), *(curve.poses(FINE) for curve in curves)])
         joints = np.broadcast_to(there.joints[row], (len(poses), there.joints.shape[-1]))
         length = characteristic_length(record)
-        away = np.max(np.abs(pose_error(record, frames(record, joints), poses, length)), axis=-1, initial=0.0)
+        away = np.max(np.abs(pose_error(record, joints, poses, length)), axis=-1, initial=0.0)
         if not len(poses) or np.min(away) > NEAR * length:
             text = (
                 f"a pose with inputs at which the platform moves, {place_text(record, 'inverse', there.poses[row])} at "

@@ -7,7 +7,8 @@ import dataclasses
 import numpy as np
 
 from assur.errors import MechanismFileError, UsageError
-from assur.kinematics.closure import RANK_GAP, characteristic_length
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closure import RANK_GAP
 from assur.kinematics.home import home_values
 from assur.kinematics.rates.motions import motions
 from assur.model.mechanism import MechanismRecord, Parameter

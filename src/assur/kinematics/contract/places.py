@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord

@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics import border
-from assur.kinematics.closure import CLOSED, characteristic_length, residuals
+from assur.kinematics.closure import CLOSED, residuals
 from assur.kinematics.contract.blame import blamed
 from assur.kinematics.contract.mismatch import Mismatch, place_text, quantity_text
 from assur.kinematics.contract.solutions import Solutions
 from assur.kinematics.pose import pose_error
-from assur.model.joint_graph import frames, joint_graph
 
 FloatArray = NDArray[np.float64]
 
@@ -72,7 +73,7 @@ def other_questions(found: Solutions) -> list[Mismatch]:
     record, tolerance = found.record, gap_tolerance(found)
     asked = {"direct": (found.poses, found.given), "inverse": (found.given, found.inputs)}[found.problem]
     length = characteristic_length(record)
-    away = pose_error(record, frames(record, found.joints), asked[0], length)
+    away = pose_error(record, found.joints, asked[0], length)
     turned = border.inputs_of(record, found.joints) - asked[1]
     angular = np.array([item.coordinate.kind == "angle" for item in record.inputs])
     turned = np.where(angular, length * ((turned + np.pi) % (2 * np.pi) - np.pi), turned)

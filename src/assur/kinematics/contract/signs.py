@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.points import quantities
 from assur.kinematics.contract.mismatch import Mismatch, place_text
 from assur.kinematics.contract.solutions import Solutions
 from assur.kinematics.modes import sign_names
 from assur.kinematics.status import closed_form_of, scale
 from assur.model.formula import Formula
-from assur.model.points import quantities
 
 FloatArray = NDArray[np.float64]
 

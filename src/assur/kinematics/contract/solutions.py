@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closed_form.branches import Branches
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.modes import Problem, mode_texts, sign_names
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.status import Status, closed_form_of, scale

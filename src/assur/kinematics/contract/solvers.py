@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border
-from assur.kinematics.closure import RANK_GAP, assemble, characteristic_length
+from assur.kinematics.closure import RANK_GAP, assemble
 from assur.kinematics.contract.completeness import missing
 from assur.kinematics.contract.mismatch import Mismatch
 from assur.kinematics.contract.solutions import Solutions, solves

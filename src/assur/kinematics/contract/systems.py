@@ -5,14 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.contract.mismatch import Mismatch, place_text
 from assur.kinematics.contract.solutions import Solutions
 from assur.kinematics.pose import pose_error
 from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import PolynomialSystem
-from assur.model.joint_graph import frames
 from assur.numerics.number_types import Floats
 
 FloatArray = NDArray[np.float64]
@@ -45,7 +44,7 @@ def unsolved(found: Solutions) -> list[Mismatch]:
     back = system.back(ns, p, inputs, unknowns).pose
     poses = np.stack([np.broadcast_to(border.scalar(value), (len(found),)) for value in back], axis=-1)
     length = characteristic_length(record)
-    away = np.max(np.abs(pose_error(record, frames(record, found.joints), poses, length)), axis=-1)
+    away = np.max(np.abs(pose_error(record, found.joints, poses, length)), axis=-1)
     worst = int(np.argmax(away))
     if not away[worst] <= AWAY * length:
         place = place_text(record, "direct", found.inputs[worst])

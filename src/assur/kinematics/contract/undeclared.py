@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closed_form.existence import allows
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.contract.algebra import Algebra
 from assur.kinematics.contract.kernel import Kernel, line_where
 from assur.kinematics.contract.mismatch import Mismatch, place_text

@@ -18,15 +18,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.tree import joint_graph
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.helical import HELICAL
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.revolute import REVOLUTE
+from assur.joints.spherical import SPHERICAL
+from assur.joints.universal import UNIVERSAL
 from assur.kinematics.ordered.hinges import NotCirclesError, middle
 from assur.kinematics.ordered.items import Item
 from assur.kinematics.ordered.orientations import Turning
-from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.model.pose import LENGTHS
 from assur.numerics import rotations
-from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]

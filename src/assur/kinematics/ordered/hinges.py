@@ -13,11 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.frames import frames
+from assur.joint_graph.tree import joint_graph
+from assur.joints.spherical import SPHERICAL
+from assur.joints.steps import Step
+from assur.joints.universal import UNIVERSAL
 from assur.kinematics.home import home_values
-from assur.model.joint_graph import frames, joint_graph, motion
 from assur.model.mechanism import GeneralisedJoint, Joint, MechanismRecord
 from assur.numerics import rotations
-from assur.topology.joints import CYLINDRICAL, PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL
 
 FloatArray = NDArray[np.float64]
 
@@ -66,25 +69,27 @@ def turns_of_joints(record: MechanismRecord, locked: Mapping[int, float]) -> Ite
     """What each joint allows, joint values `locked` (index -> value) given; a universal joint by way of its cross."""
     slices = joint_graph(record).slices
     for name, joint in record.joints.items():
-        values = np.array([locked.get(index, np.nan) for index in range(slices[name].start, slices[name].stop)])
-        if joint.type is CYLINDRICAL:
-            values[0] = 0.0
-        if joint.type is PRISMATIC:
+        turning = [(step, first) for step, first in joint.type.places if step.kind != "slide"]
+        if not turning:
             yield Stiff(joint.parent, joint.child, joint.turn)
-        elif np.all(np.isfinite(values)):
-            own, _ = motion(joint, values)
-            yield Stiff(joint.parent, joint.child, joint.turn if own is None else own @ joint.turn)
-        elif joint.type in (REVOLUTE, CYLINDRICAL):
-            yield Turn(joint.parent, joint.child, joint.turn, joint.axes[0])
-        elif joint.type is UNIVERSAL:
-            links = (joint.parent, middle(joint), joint.child)
-            for k, after in enumerate((np.eye(3), joint.turn)):
-                if np.isnan(values[k]):
-                    yield Turn(links[k], links[k + 1], after, joint.axes[k])
-                else:
-                    yield Stiff(links[k], links[k + 1], rotations.about_axis(joint.axes[k], values[k]) @ after)
-        elif joint.type is not SPHERICAL:
-            raise NotCirclesError(f"{name} is {joint.type.name}")
+        links = (joint.parent, *[middle(joint)] * (len(turning) - 1), joint.child)
+        for k, (step, first) in enumerate(turning):
+            after = joint.turn if links[k + 1] == joint.child else np.eye(3)
+            start = slices[name].start + first
+            values = np.array([locked.get(start + index, np.nan) for index in range(len(step.kinds))])
+            if np.all(np.isfinite(values)):
+                yield Stiff(links[k], links[k + 1], _turned(joint, step, values) @ after)
+            elif step.kind == "turn":
+                yield Turn(links[k], links[k + 1], after, joint.axes[step.direction])
+            elif step.kind == "screw":
+                raise NotCirclesError(f"{name} is {joint.type.name}")
+
+
+def _turned(joint: Joint, step: Step, values: FloatArray) -> FloatArray:
+    """What a step turns by (3, 3) at given values."""
+    if step.kind == "ball":
+        return rotations.from_vector(values)
+    return rotations.about_axis(joint.axes[step.direction], values[0])
 
 
 def turns_of_parallelograms(record: MechanismRecord, parallel: Collection[str]) -> Iterable[Stiff | Turn]:

@@ -9,8 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.points import point
+from assur.joint_graph.turns import turn_relations
 from assur.kinematics import border
-from assur.kinematics.closure import assemble, characteristic_length
+from assur.kinematics.closure import assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
 from assur.kinematics.ordered.circles import System, joint_values, system
@@ -20,9 +23,7 @@ from assur.kinematics.ordered.solving import DOUBTFUL, CurveError, Solved, solve
 from assur.kinematics.search import SAME, distinct, search
 from assur.kinematics.turns import told_by_turns, with_turns_of_home
 from assur.model.mechanism import MechanismRecord
-from assur.model.points import point
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion
-from assur.model.turns import turn_relations
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]

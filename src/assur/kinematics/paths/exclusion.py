@@ -12,15 +12,16 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.closure import RANK_GAP, assemble, characteristic_length
+from assur.joint_graph.frames import frames
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.points import quantities
+from assur.joints.spherical import SPHERICAL
+from assur.kinematics.closure import RANK_GAP, assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
 from assur.kinematics.rates.motions import motions
 from assur.kinematics.turns import joint_units, periodic
-from assur.model.joint_graph import frames
 from assur.model.mechanism import MechanismRecord
-from assur.model.points import quantities
-from assur.topology.joints import SPHERICAL
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]

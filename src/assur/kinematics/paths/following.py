@@ -10,8 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.points import quantity
 from assur.kinematics.border import checked, inputs_of
-from assur.kinematics.closure import CLOSED, characteristic_length, closure_error
+from assur.kinematics.closure import CLOSED, closure_error
 from assur.kinematics.limits import limits
 from assur.kinematics.modes import mode_text
 from assur.kinematics.paths.course import Prescribed, Turns, course
@@ -21,7 +23,6 @@ from assur.kinematics.paths.stepping import Blocked, Point, Task, outside, point
 from assur.kinematics.paths.stopping import SINGULAR, stop_at
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
-from assur.model.points import quantity
 
 FloatArray = NDArray[np.float64]
 TOLERANCE = 1e-9

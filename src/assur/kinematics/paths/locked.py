@@ -17,7 +17,6 @@ from assur.kinematics.paths.course import Prescribed
 from assur.kinematics.pose import turning_rates
 from assur.kinematics.rates.motions import closure_at_platform, general, pose_units
 from assur.kinematics.turns import joint_units
-from assur.model.joint_graph import frames, screws
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -45,8 +44,7 @@ def matrices(record: MechanismRecord, values: FloatArray) -> Matrices:
     """`closure` (..., 6 v, n), and with the rows of what is locked below it `inputs` and `poses`; no dimensions."""
     size = units(record)
     closure = closure_at_platform(record, values) * size
-    placed = frames(record, values)
-    moves = turning_rates(record, placed, screws(record, placed, values)) * size / pose_units(record)[:, None]
+    moves = turning_rates(record, values) * size / pose_units(record)[:, None]
     driven = np.eye(values.shape[-1])[list(record.input_indices)]
     return {
         "closure": closure,

@@ -7,18 +7,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.points import quantities
+from assur.joint_graph.tree import joint_graph
+from assur.joints.spherical import SPHERICAL
 from assur.kinematics.border import checked_poses
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.paths.correcting import Corrected, corrected
 from assur.kinematics.paths.locked import units
 from assur.kinematics.paths.platform_held import PlatformHeld, held_system, passes_zero, platform_held
 from assur.kinematics.rates.motions import pose_units
-from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
-from assur.model.points import quantities
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion
 from assur.numerics import rotations
-from assur.topology.joints import SPHERICAL
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]

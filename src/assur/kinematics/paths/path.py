@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border
-from assur.kinematics.closure import characteristic_length
 from assur.kinematics.paths.course import Prescribed
 from assur.kinematics.turns import periodic_inputs
 from assur.model.mechanism import MechanismRecord

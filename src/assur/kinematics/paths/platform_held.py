@@ -12,7 +12,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.closure import characteristic_length, closing_system
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closure import closing_system
 from assur.kinematics.paths.correcting import damped, solved
 from assur.kinematics.paths.locked import units
 from assur.kinematics.rates.motions import input_units, pose_units

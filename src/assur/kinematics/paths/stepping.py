@@ -14,14 +14,15 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.tree import joint_graph
+from assur.joints.spherical import SPHERICAL
 from assur.kinematics.border import held_inputs
-from assur.kinematics.closure import Assembly, assemble, characteristic_length
+from assur.kinematics.closure import Assembly, assemble
 from assur.kinematics.limits import Limit
 from assur.kinematics.paths.course import Course
 from assur.kinematics.paths.locked import Locked, locked, matrices, own, units
-from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
-from assur.topology.joints import SPHERICAL
 
 FloatArray = NDArray[np.float64]
 CLOSE = 0.1

@@ -10,10 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from assur.joint_graph.frames import frames
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics import border
 from assur.kinematics.border import checked_joints
-from assur.kinematics.closure import CLOSED, characteristic_length, closure_error
-from assur.kinematics.pose import LEAST_COSINE, platform_twists, pose_rates
+from assur.kinematics.closure import CLOSED, closure_error
+from assur.kinematics.pose import LEAST_COSINE, platform_frame, platform_twists, pose_rates
 from assur.kinematics.rates.motions import (
     SINGULAR,
     Motion,
@@ -23,7 +26,6 @@ from assur.kinematics.rates.motions import (
     twist_units,
 )
 from assur.kinematics.rates.screw_rates import screw_rates
-from assur.model.joint_graph import frames, joint_graph, screws
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, rate_names
 from assur.numerics import rotations
@@ -122,8 +124,7 @@ def _pose_acceleration(
     record: MechanismRecord, values: FloatArray, rates: FloatArray, second: FloatArray, bias: FloatArray
 ) -> FloatArray:
     """Acceleration (..., k) of the pose for joint rates and accelerations (..., n) and the platform's bias (..., 6)."""
-    placed = frames(record, values)
-    moves = platform_twists(record, placed, screws(record, placed, values))
+    moves = platform_twists(record, values)
     twist = (moves @ rates[..., None])[..., 0]
     change = (moves @ second[..., None])[..., 0] + bias
     turn, speed = twist[..., :3], twist[..., 3:]
@@ -131,7 +132,7 @@ def _pose_acceleration(
     named = dict(zip(("wx", "wy", "wz"), np.moveaxis(angular, -1, 0), strict=True))
     named |= zip(LENGTHS, np.moveaxis(linear, -1, 0), strict=True)
     if any(name in ANGLES for name in record.platform.pose):
-        rotation, _ = placed[record.platform.link]
+        rotation, _ = platform_frame(record, values)
         named |= zip(ANGLES, _angle_accelerations(rotation, turn, angular), strict=True)
     return np.stack([named[name] for name in rate_names(record.platform.pose)], axis=-1)
 

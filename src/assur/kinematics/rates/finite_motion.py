@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from assur.joint_graph.frames import Frame, frames
 from assur.kinematics.border import checked_joints
 from assur.kinematics.closure import assemble
 from assur.kinematics.rates.instantaneous import Instant, instantaneous
 from assur.kinematics.rates.motions import SINGULAR, motions, twist_units
 from assur.kinematics.status import NEAR_SINGULAR, Status
-from assur.model.joint_graph import Frame, frames
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import rotations
 

@@ -16,8 +16,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import Named, checked_joints
-from assur.kinematics.closure import CLOSED, characteristic_length, closure_error
+from assur.kinematics.closure import CLOSED, closure_error
 from assur.kinematics.pose import turning_matrix
 from assur.kinematics.rates.motions import (
     SINGULAR,

@@ -12,11 +12,12 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.closure import RANK_GAP, assemble, characteristic_length, loop_twists
+from assur.joint_graph.frames import frames
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closure import RANK_GAP, assemble, loop_twists
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import platform_twists, turning_rates
 from assur.kinematics.turns import joint_units
-from assur.model.joint_graph import frames, screws
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
 
@@ -137,8 +138,6 @@ def motions(record: MechanismRecord, values: FloatArray, threshold: float | None
     `SINGULAR` times the share that the smallest has around home.
     """
     threshold = SINGULAR * general_share(record) if threshold is None else threshold
-    placed = frames(record, values)
-    unit_twists = screws(record, placed, values)
     scale = joint_units(record)
     closure = closure_at_platform(record, values) * scale  # (..., 6 v, n)
     left, singular, right = np.linalg.svd(closure, full_matrices=closure.shape[-2] < closure.shape[-1])
@@ -148,8 +147,8 @@ def motions(record: MechanismRecord, values: FloatArray, threshold: float | None
     for row, item in enumerate(record.inputs):
         inputs[row, item.coordinate.index] = item.sign
     inputs = np.broadcast_to(inputs * scale / input_units(record)[:, None], (*values.shape[:-1], *inputs.shape))
-    pose = turning_rates(record, placed, unit_twists) * scale / pose_units(record)[:, None]
-    twists = platform_twists(record, placed, unit_twists) * scale / twist_units(record)[:, None]
+    pose = turning_rates(record, values) * scale / pose_units(record)[:, None]
+    twists = platform_twists(record, values) * scale / twist_units(record)[:, None]
     parts = {
         "inputs": inputs,
         "pose": pose,

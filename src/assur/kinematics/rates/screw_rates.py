@@ -12,10 +12,12 @@ from math import factorial
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.model.joint_graph import Frame, frames, joint_graph, screws
+from assur.joint_graph.frames import Frame, frames, screws
+from assur.joint_graph.tree import joint_graph
+from assur.joints.spherical import SPHERICAL
+from assur.joints.universal import UNIVERSAL
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.numerics import rotations
-from assur.topology.joints import SPHERICAL, UNIVERSAL
 
 FloatArray = NDArray[np.float64]
 
@@ -24,7 +26,7 @@ TERMS = 9
 
 
 def screw_rates(record: MechanismRecord, values: FloatArray, rates: FloatArray) -> FloatArray:
-    """Derivative (..., 6, n) of the unit twists of `assur.model.joint_graph.screws` along joint rates (..., n).
+    """Derivative (..., 6, n) of the unit twists of `assur.joint_graph.tree.screws` along joint rates (..., n).
 
     Example: the driven crank's own axis stands still.
 
@@ -35,7 +37,7 @@ def screw_rates(record: MechanismRecord, values: FloatArray, rates: FloatArray) 
     """
     graph = joint_graph(record)
     placed = frames(record, values)
-    unit = screws(record, placed, values)
+    unit = screws(record, values)
     bodies = _body_twists(record, unit, rates)
     change = np.zeros_like(unit)
     for name, joint in record.joints.items():

@@ -7,9 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.model.joint_graph import frames
+from assur.joint_graph.frames import frames
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.helical import HELICAL
+from assur.joints.revolute import REVOLUTE
 from assur.model.mechanism import MechanismRecord
-from assur.topology.joints import CYLINDRICAL, HELICAL, REVOLUTE
 
 FloatArray = NDArray[np.float64]
 

@@ -7,7 +7,8 @@ from functools import lru_cache
 import numpy as np
 
 from assur.errors import MechanismFileError, Problem
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics.home import home_values
 from assur.kinematics.limits import Limit, limits
 from assur.kinematics.pose import pose_of
@@ -17,7 +18,6 @@ from assur.kinematics.soundness.gaps import gap_problems
 from assur.kinematics.turns import periodic, unwrapped
 from assur.model.file.key_path import KeyPath
 from assur.model.file.place import input_place, place, problem, table_place
-from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 

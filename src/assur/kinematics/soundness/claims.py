@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 
 from assur.kinematics.closure import RANK_GAP, assemble
 from assur.kinematics.home import home_values
-from assur.kinematics.pose import platform_rates
+from assur.kinematics.pose import pose_rates
 from assur.kinematics.rates.motions import SINGULAR, Motion, Ranks, general, motions, pose_units
-from assur.model.joint_graph import frames, screws
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import rate_names
 
@@ -70,13 +69,11 @@ class Claims:
     def lacking(self, names: tuple[str, ...]) -> list[str]:
         """Coordinates among `names` that would add to what the pose says."""
         record, values = self.record, self.values[self.at]
-        placed = frames(record, values)
-        twists = screws(record, placed, values)
         found = []
         for name in names:
             pose = (*record.platform.pose, name)
             wider = replace(record, platform=replace(record.platform, pose=pose))
-            rates = platform_rates(wider, placed, twists) * self.motion.scale / pose_units(wider)[:, None]
+            rates = pose_rates(wider, values) * self.motion.scale / pose_units(wider)[:, None]
             if _rank(rates @ self.motion.null[self.at]) > int(self.general.pose):
                 found.append(name)
         return found

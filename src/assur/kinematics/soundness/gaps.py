@@ -10,13 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import Problem
-from assur.kinematics.closure import Assembly, assemble, characteristic_length, residuals
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.tree import joint_graph
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.helical import HELICAL
+from assur.joints.prismatic import PRISMATIC
+from assur.kinematics.closure import Assembly, assemble, residuals
 from assur.kinematics.soundness.axes import axes_hint
 from assur.kinematics.turns import unwrapped
 from assur.model.file.place import place, problem, table_place
-from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import Coordinate, Joint, MechanismRecord
-from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC
 
 FloatArray = NDArray[np.float64]
 

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joints.spherical import SPHERICAL
 from assur.model.file import schema
 from assur.model.file.build_joints import Geometry
 from assur.model.file.faults import listed
@@ -15,7 +16,6 @@ from assur.model.file.limbs import Tables
 from assur.model.file.numbers import Numbers
 from assur.model.file.scope import Scope
 from assur.model.mechanism import Input
-from assur.topology.joints import SPHERICAL
 
 FloatArray = NDArray[np.float64]
 

@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joints.catalogue import JOINT_TYPES
 from assur.model.file import schema
 from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Instance, Placed
@@ -14,7 +15,6 @@ from assur.model.file.numbers import Numbers, Triple
 from assur.model.file.scope import Scope
 from assur.model.mechanism import Joint
 from assur.numerics import rotations
-from assur.topology.joints import JOINT_TYPES
 
 FloatArray = NDArray[np.float64]
 SMALL = 1e-9

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TypeVar
 
+from assur.joints.catalogue import JOINT_TYPES
+from assur.joints.joint_type import JointType
 from assur.model.file.faults import Faults
 from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Instance, Tables
 from assur.model.file.numbers import Kind
 from assur.model.formula import Formula
 from assur.model.mechanism import Coordinate
-from assur.topology.joints import JOINT_TYPES, JointType
 
 Target = TypeVar("Target")
 

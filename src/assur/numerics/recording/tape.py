@@ -255,3 +255,26 @@ def pruned(
         for k in kept
     )
     return Tape(moved, varying, uniform, {name: place[k] for name, k in outputs.items()})
+
+
+def without_unused(tape: Tape) -> tuple[Tape, tuple[int, ...]]:
+    """The tape without varying numbers that no output needs, and the places of the others among them.
+
+    >>> recorder = Recorder()
+    >>> x, y = recorder.varying("x"), recorder.varying("y")
+    >>> fewer, places = without_unused(recorder.tape({"twice": y + y}))
+    >>> fewer.varying, places
+    (('y',), (1,))
+    """
+    used = {argument for item in tape.operations for argument in item.arguments} | set(tape.outputs.values())
+    given = [k for k, item in enumerate(tape.operations) if item.name == "varying"]
+    places = tuple(place for place, k in enumerate(given) if k in used)
+    dropped = {k for k in given if k not in used}
+    kept = [k for k in range(len(tape.operations)) if k not in dropped]
+    new = {k: place for place, k in enumerate(kept)}
+    operations = tuple(
+        Operation(item.name, tuple(new[argument] for argument in item.arguments), item.number)
+        for item in (tape.operations[k] for k in kept)
+    )
+    outputs = {name: new[k] for name, k in tape.outputs.items()}
+    return Tape(operations, tuple(tape.varying[place] for place in places), tape.uniform, outputs), places

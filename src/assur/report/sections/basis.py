@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from assur.figures import left_out
-from assur.kinematics.closure import CLOSED, RANK_GAP, characteristic_length
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closure import CLOSED, RANK_GAP
 from assur.kinematics.rates.units import is_mixed
 from assur.kinematics.status import FACTOR_TOLERANCE, MARGIN_TOLERANCE, NEAR_SINGULAR, Status
 from assur.model.mechanism import MechanismRecord

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from assur.errors import UsageError
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics.answers.at_border import angle_at_border
-from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import Input, Joint, MechanismRecord
 from assur.report.findings import Findings
 from assur.report.formulas.latex import name_mathml, symbol_mathml

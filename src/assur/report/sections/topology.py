@@ -6,9 +6,9 @@ from typing import cast
 
 from assur.audit.rows import Row
 from assur.audit.topology import Decomposition
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import mobility
 from assur.kinematics.rates.instantaneous import instantaneous
-from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
 from assur.report.formulas.latex import latex_mathml

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from assur.errors import AssurError
+from assur.joint_graph.points import quantity
 from assur.kinematics.closure import RANK_GAP
 from assur.kinematics.home import home_values
 from assur.kinematics.rates.motions import motions
@@ -17,7 +18,6 @@ from assur.kinematics.soundness.check import faults
 from assur.kinematics.structure import linkage
 from assur.model.file.reader import read_text
 from assur.model.mechanism import MechanismRecord
-from assur.model.points import quantity
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION
 from assur.synthesis.drafting.copying import next_steps
 from assur.synthesis.drafting.document import Chosen, Input, document

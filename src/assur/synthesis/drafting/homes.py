@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import RANK_GAP, assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.rates.motions import motions
-from assur.model.joint_graph import joint_graph
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]

@@ -6,10 +6,13 @@ import math
 from collections.abc import Sequence
 from typing import TypeGuard
 
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.revolute import REVOLUTE
+from assur.joints.spherical import SPHERICAL
 from assur.synthesis.drafting.tables import Knee
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.directions import Vector, parallel
-from assur.topology.joints import CYLINDRICAL, PRISMATIC, REVOLUTE, SPHERICAL
 
 DUST = 1e-12
 

@@ -10,9 +10,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from assur.joints.prismatic import PRISMATIC
 from assur.topology.chains import ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.directions import Vector
-from assur.topology.joints import PRISMATIC
 
 BASE, PLATFORM, HEIGHT = 200.0, 100.0, 300.0
 """Radii of base and platform and the height between them."""

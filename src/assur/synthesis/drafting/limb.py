@@ -10,6 +10,12 @@ import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from assur.joints.helical import HELICAL
+from assur.joints.joint_type import JointType
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.revolute import REVOLUTE
+from assur.joints.spherical import SPHERICAL
+from assur.joints.universal import UNIVERSAL
 from assur.model.mechanism import GeneralisedJoint
 from assur.synthesis.drafting.layout import (
     SPREAD,
@@ -27,7 +33,6 @@ from assur.synthesis.drafting.linear import ORIGIN, Linear, Point, along, dimens
 from assur.synthesis.drafting.tables import Dimension, DraftJoint, DraftLink
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram, flattened
 from assur.topology.directions import NAMED, Vector
-from assur.topology.joints import HELICAL, PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL, JointType
 from assur.topology.notation.brackets import direction_text
 
 BASE_LINK, PLATFORM_LINK = "base", "platform"

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from assur.joints.joint_type import JointType
 from assur.model.mechanism import GeneralisedJoint
 from assur.synthesis.drafting.linear import Point
-from assur.topology.joints import JointType
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import count, islice
 
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.revolute import REVOLUTE
 from assur.synthesis.drafting.families import Family, apart, families, shared_labels
 from assur.synthesis.drafting.knees import knee
 from assur.synthesis.drafting.layout import BASE, HEIGHT, PLATFORM, Layout, Stand
@@ -14,7 +16,6 @@ from assur.synthesis.drafting.limb import HEIGHT_NAME, Drawing
 from assur.synthesis.drafting.tables import Dimension, DraftChain, Template
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, flattened
 from assur.topology.directions import NAMED, parallel, perpendicular
-from assur.topology.joints import PRISMATIC, REVOLUTE
 from assur.topology.linkages.shared_points import common_end
 from assur.topology.notation import plain_text
 

@@ -5,8 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from assur.errors import UsageError
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.helical import HELICAL
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.revolute import REVOLUTE
+from assur.joints.spherical import SPHERICAL
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
-from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC, REVOLUTE, SPHERICAL
 
 DRIVEN = (PRISMATIC, REVOLUTE, CYLINDRICAL, HELICAL)
 

@@ -104,7 +104,7 @@ def configurations(linkage: Linkage, count: int = 4, seed: int = 0, hold: Hold |
         ImmobileError: the loops do not close anywhere but at home although they have a freedom there.
 
     >>> from assur.topology.chains import Chain, ChainJoint
-    >>> from assur.topology.joints import REVOLUTE
+    >>> from assur.joints.revolute import REVOLUTE
     >>> from assur.topology.linkages.placing import place
     >>> from assur.topology.linkages.screws import residuals
     >>> limb = Chain(tuple(ChainJoint(REVOLUTE, ((0.0, 0.0, 1.0),)) for _ in range(3)))

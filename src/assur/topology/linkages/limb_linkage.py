@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joints.prismatic import PRISMATIC
 from assur.topology.chains import Chain, Element, InnerLoop, Parallelogram
-from assur.topology.joints import PRISMATIC
 from assur.topology.linkages.linkage import Linkage, part
 from assur.topology.linkages.shared_points import end_point
 

@@ -42,7 +42,7 @@ def limbs(paths: Iterable[Path], base: str, platform: str) -> tuple[Chain, ...] 
     Links that carry nothing (an arm with a free end) are dropped.
 
     >>> from assur.topology.chains import ChainJoint
-    >>> from assur.topology.joints import REVOLUTE
+    >>> from assur.joints.revolute import REVOLUTE
     >>> joint = lambda name: (ChainJoint(REVOLUTE, ((0.0, 0.0, 1.0),), name=name),)
     >>> crank, rod = Path("base", "crank", joint("A")), Path("crank", "rod", joint("B"))
     >>> [chain.joints[1].name for chain in limbs([crank, rod], "base", "rod")]

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError
-from assur.topology.joints import JointType
+from assur.joints.joint_type import JointType
 
 FloatArray = NDArray[np.float64]
 

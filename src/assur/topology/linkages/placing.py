@@ -14,16 +14,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UnknownNameError, UsageError
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.helical import HELICAL
+from assur.joints.joint_type import JointType
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.revolute import REVOLUTE
+from assur.joints.spherical import SPHERICAL
+from assur.joints.universal import UNIVERSAL
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
-from assur.topology.joints import (
-    CYLINDRICAL,
-    HELICAL,
-    PRISMATIC,
-    REVOLUTE,
-    SPHERICAL,
-    UNIVERSAL,
-    JointType,
-)
 from assur.topology.linkages.linkage import Group, Linkage, LinkageJoint
 from assur.topology.linkages.shared_points import common_end
 

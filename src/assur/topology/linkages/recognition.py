@@ -8,9 +8,9 @@ from collections.abc import Iterator, Mapping
 from itertools import count
 from typing import cast
 
+from assur.joints.prismatic import PRISMATIC
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram, ParallelogramKind
 from assur.topology.directions import unit
-from assur.topology.joints import PRISMATIC
 from assur.topology.linkages.limbs import Path, limbs
 from assur.topology.linkages.linkage import Group, Linkage, LinkageJoint
 from assur.topology.linkages.shared_points import TURNING, Line, line_of, meet, size_of, with_shared_points

@@ -97,7 +97,7 @@ def poses(linkage: Linkage, values: FloatArray) -> dict[str, tuple[FloatArray, F
         linkage: whose home configuration all poses are relative to.
         values: (N, n) joint values, rad and the linkage's own unit of length.
 
-    >>> from assur.topology.joints import REVOLUTE
+    >>> from assur.joints.revolute import REVOLUTE
     >>> hinge = LinkageJoint("R", REVOLUTE, "base", "arm", np.array([[0.0, 0, 1, 0, 0, 0]]), np.zeros(3))
     >>> arm = Linkage({"R": hinge}, "base", "arm", np.array([1.0, 0.0, 0.0]))
     >>> rotation, shift = poses(arm, np.array([[np.pi / 2]]))["arm"]

@@ -15,8 +15,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joints.helical import HELICAL
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.revolute import REVOLUTE
+from assur.joints.spherical import SPHERICAL
+from assur.joints.universal import UNIVERSAL
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop
-from assur.topology.joints import HELICAL, PRISMATIC, REVOLUTE, SPHERICAL, UNIVERSAL
 from assur.topology.linkages.linkage import Linkage, LinkageJoint
 from assur.topology.rules.vectors import aligned
 

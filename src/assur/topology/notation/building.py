@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from assur.joints.catalogue import JOINT_TYPES
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.directions import Vector
-from assur.topology.joints import JOINT_TYPES
 from assur.topology.notation.groups import Groups
 from assur.topology.notation.names import Names
 from assur.topology.notation.sketch import ElementSketch, JointSketch, Sketch

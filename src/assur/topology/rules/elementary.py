@@ -9,9 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.helical import HELICAL
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.spherical import SPHERICAL
 from assur.topology.chains import ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.directions import Vector
-from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC, SPHERICAL
 from assur.topology.rules.refusals import Refusal
 from assur.topology.rules.spans import Span, along
 

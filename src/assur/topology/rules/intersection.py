@@ -31,7 +31,8 @@ def parallel(
         UsageError: no limb, or another mode.
 
     >>> from assur.topology.chains import ChainJoint
-    >>> from assur.topology.joints import PRISMATIC, REVOLUTE
+    >>> from assur.joints.prismatic import PRISMATIC
+    >>> from assur.joints.revolute import REVOLUTE
     >>> from assur.topology.rules.union import serial
     >>> x, y = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
     >>> limbs = [serial([ChainJoint(PRISMATIC, (u,)), *[ChainJoint(REVOLUTE, (u,))] * 3]) for u in (x, y)]

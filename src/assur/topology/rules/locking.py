@@ -11,9 +11,11 @@ import dataclasses
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.revolute import REVOLUTE
 from assur.topology.chains import ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.directions import Vector, span
-from assur.topology.joints import CYLINDRICAL, PRISMATIC, REVOLUTE
 from assur.topology.rules.motion import Motion
 from assur.topology.rules.refusals import Refusal
 from assur.topology.rules.union import inner_loop

@@ -30,7 +30,8 @@ def serial(chain: Chain | Sequence[Element], mode: Mode = "free", name: str = "t
         UsageError: another mode.
 
     >>> from assur.topology.chains import ChainJoint
-    >>> from assur.topology.joints import PRISMATIC, REVOLUTE
+    >>> from assur.joints.prismatic import PRISMATIC
+    >>> from assur.joints.revolute import REVOLUTE
     >>> x = (1.0, 0.0, 0.0)
     >>> limb = [ChainJoint(PRISMATIC, (x,)), *[ChainJoint(REVOLUTE, (x,))] * 3]
     >>> print(serial(limb).poc)

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.modes import all_modes
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.geometry import characteristic_length
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.intervals.interval import Interval
 from assur.workspace.bounds import Stroke

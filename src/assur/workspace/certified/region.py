@@ -14,7 +14,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from assur.errors import UsageError
-from assur.kinematics.closure import characteristic_length
+from assur.joint_graph.geometry import characteristic_length
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.workspace.bounds import Stroke

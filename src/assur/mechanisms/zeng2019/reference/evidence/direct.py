@@ -13,10 +13,10 @@ from assur.audit.constraints import broken, needs
 from assur.audit.decoupling import jacobians
 from assur.audit.rows import Evidence
 from assur.audit.tolerance import half_units
+from assur.joint_graph.points import point, quantity
 from assur.kinematics.closure import loop_twists
 from assur.kinematics.position import direct
 from assur.model.formula import parse
-from assur.model.points import point, quantity
 from assur.model.registry import with_parameters
 from assur.numerics.number_types import Symbols
 

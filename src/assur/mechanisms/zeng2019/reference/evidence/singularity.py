@@ -19,12 +19,12 @@ from assur.audit.configurations import (
 )
 from assur.audit.equations import rates_of
 from assur.audit.rows import Evidence
+from assur.joint_graph.points import quantity
 from assur.kinematics.closure import mobility
 from assur.kinematics.modes import all_modes
 from assur.kinematics.position import inverse
 from assur.kinematics.rates.velocity import printed_velocity_map, velocity_map
 from assur.kinematics.status import FACTOR_TOLERANCE
-from assur.model.points import quantity
 from assur.numerics.number_types import Symbols
 from assur.singularity.examples import singular_examples
 from assur.singularity.verdict import verdict

@@ -9,12 +9,12 @@ from assur.audit.configurations import configurations, random_assemblies
 from assur.audit.parts import called, sampled
 from assur.audit.rows import Evidence
 from assur.audit.topology import decomposition_rows
+from assur.joint_graph.points import quantity
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import closure_error, mobility
 from assur.kinematics.position import direct
 from assur.mechanism import topology
 from assur.model.formula import parse
-from assur.model.joint_graph import joint_graph
-from assur.model.points import quantity
 from assur.topology.analysis import sample
 from assur.topology.counting.coupling import coupling_of
 from assur.topology.counting.mobility import mobility as counted

@@ -9,10 +9,10 @@ from assur.audit.configurations import configurations
 from assur.audit.parts import link_motion
 from assur.audit.rows import Evidence
 from assur.audit.tables import solve
+from assur.joint_graph.points import quantity
 from assur.kinematics.modes import all_modes
 from assur.kinematics.position import direct
 from assur.model.formula import parse
-from assur.model.points import quantity
 from assur.model.registry import with_parameters
 
 CLOSE = 1e-6

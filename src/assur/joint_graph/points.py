@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError
+from assur.joint_graph.frames import Frame, frames
 from assur.model.formula import Formula
-from assur.model.joint_graph import Frame, frames
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import components
 

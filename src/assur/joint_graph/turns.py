@@ -9,9 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.model.joint_graph import joint_graph
+from assur.joint_graph.tree import joint_graph
+from assur.joints.cylindrical import CYLINDRICAL
+from assur.joints.helical import HELICAL
+from assur.joints.prismatic import PRISMATIC
+from assur.joints.revolute import REVOLUTE
 from assur.model.mechanism import Joint, MechanismRecord
-from assur.topology.joints import CYLINDRICAL, HELICAL, PRISMATIC, REVOLUTE
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]

@@ -6,13 +6,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.linalg import expm
 
 import assur
-from assur.model.joint_graph import child_frame, frames, joint_graph, parent_frame, screws
-from assur.model.points import point
+from assur.joint_graph.frames import child_frame, frames, screws
+from assur.joint_graph.points import point
+from assur.joint_graph.tree import joint_graph
+from assur.joints.catalogue import JOINT_TYPES
 from assur.model.registry import load_record
 from assur.numerics import rotations
-from assur.topology.joints import JOINT_TYPES
 
 EVERY_TYPE = Path(__file__).parents[1] / "kinematics" / "rates" / "every_type.toml"
 
@@ -29,15 +31,51 @@ def test_a_spanning_tree_reaches_every_link_and_leaves_the_independent_loops(eve
     assert {name for loop in graph.loops for name in loop} <= set(every.joints)
 
 
-def test_parent_frame_undoes_child_frame(every):
+def exponential(joint, values):
+    """What a joint does to its child (4, 4), as exponentials of its definition: an oracle that knows no steps."""
+    axes = [np.r_[axis, 0, 0, 0] for axis in joint.axes]
+    slides = [np.r_[0, 0, 0, axis] for axis in joint.axes]
+    twists = {
+        "revolute": lambda a: [a * axes[0]],
+        "prismatic": lambda a: [a * slides[0]],
+        "helical": lambda a: [a * (axes[0] + joint.pitch / (2 * np.pi) * slides[0])],
+        "cylindrical": lambda a, b: [a * slides[0] + b * axes[0]],
+        "universal": lambda a, b: [a * axes[0], b * axes[1]],
+        "spherical": lambda a, b, c: [np.array([a, b, c, 0, 0, 0])],
+    }[joint.type.name](*values)
+    displaced = np.eye(4)
+    for twist in twists:
+        matrix = np.zeros((4, 4))
+        matrix[:3, :3], matrix[:3, 3] = rotations.skew(twist[:3]), twist[3:]
+        displaced = displaced @ expm(matrix)
+    return displaced
+
+
+def test_a_child_is_displaced_by_the_exponential_of_its_joint(every):
     rng = np.random.default_rng(0)
-    frame = (rotations.from_vector(rng.normal(size=3)), rng.normal(size=3))
+    parent = np.eye(4)
+    parent[:3, :3], parent[:3, 3] = rotations.from_vector(rng.normal(size=3)), rng.normal(size=3)
     for joint in every.joints.values():
         values = rng.normal(size=joint.type.freedoms)
-        there = child_frame(joint, frame, values)
-        back = parent_frame(joint, there, values)
-        np.testing.assert_allclose(back[0], frame[0], atol=1e-13)
-        np.testing.assert_allclose(back[1], frame[1], atol=1e-12)
+        before, after = np.eye(4), np.eye(4)
+        before[:3, 3], after[:3, :3], after[:3, 3] = joint.at, joint.turn, -joint.turn @ joint.child_at
+        expected = parent @ before @ exponential(joint, values) @ after
+        rotation, origin = child_frame(joint, (parent[:3, :3], parent[:3, 3]), values)
+        np.testing.assert_allclose(rotation, expected[:3, :3], atol=1e-13)
+        np.testing.assert_allclose(origin, expected[:3, 3], atol=1e-12)
+
+
+def test_links_are_where_their_joints_put_them(every):
+    """Along the spanning tree, from parent to child and from child to parent."""
+    values = np.random.default_rng(1).normal(size=(7, len(every.coordinates)))
+    graph, placed = joint_graph(every), frames(every, values)
+    assert {forward for _, forward in graph.tree} == {True, False}
+    for joint, _ in graph.tree:
+        for k, own in enumerate(values[:, graph.slices[joint.name]]):
+            parent, child = ([part[k] for part in placed[link]] for link in (joint.parent, joint.child))
+            rotation, origin = child_frame(joint, tuple(parent), own)
+            np.testing.assert_allclose(rotation, child[0], atol=1e-13)
+            np.testing.assert_allclose(origin, child[1], atol=1e-11)
 
 
 def test_at_zero_every_frame_is_parallel_to_the_base(every):
@@ -66,7 +104,7 @@ def test_screws_are_the_derivatives_of_the_frames(every):
     """Every component of every joint, cut ones too, moves its child against its parent as its screw says."""
     values = np.random.default_rng(3).normal(size=len(every.coordinates))
     graph, placed = joint_graph(every), frames(every, values)
-    twists = screws(every, placed, values)
+    twists = screws(every, values)
     step, seen = 1e-6, set()
     for joint in every.joints.values():
         columns, parent = graph.slices[joint.name], placed[joint.parent]

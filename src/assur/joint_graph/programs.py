@@ -1,0 +1,188 @@
+"""The joint graph as straight-line programs: recorded once for all mechanisms of one structure, run over arrays.
+
+Dimensions are uniform numbers of a program, so that a mechanism with other dimensions runs the same one. Dimensions
+that are 0, 1 or -1, or equal one another, are structure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.joint_graph.configuration import Configuration
+from assur.joint_graph.geometry import geometry
+from assur.joint_graph.state import ball_rates, state_names, state_of
+from assur.joint_graph.tree import joint_graph
+from assur.model.mechanism import MechanismRecord
+from assur.numerics.recording.straight_line import StraightLine
+from assur.numerics.recording.tape import Recorded, Recorder, Tape, without_unused
+from assur.numerics.sparse_vectors import Matrix
+
+FloatArray = NDArray[np.float64]
+Outputs = Mapping[str, Any]
+Wanted = Callable[..., Outputs]
+"""What a configuration, and other numbers that are given, are asked for."""
+
+
+@dataclass(frozen=True, eq=False)
+class GraphProgram:
+    """Numbers of a configuration as a program of its state.
+
+    Attributes:
+        tape: varying numbers are of the state, rates of ball joints, others that are given; uniform ones dimensions.
+        places: of the varying numbers among all these.
+        names: of all outputs, in their order.
+        constants: outputs that are the same at every configuration of every mechanism of the structure.
+    """
+
+    tape: Tape
+    places: tuple[int, ...]
+    names: tuple[str, ...]
+    constants: Mapping[str, float]
+
+    def __call__(self, record: MechanismRecord, values: FloatArray, given: FloatArray | None = None) -> FloatArray:
+        """All outputs (m, N) at joint values (N, n) of a mechanism of the structure, and other given numbers (g, N)."""
+        answer = np.empty((len(self.names), len(values)))
+        numbers = self._varying(record, np.ascontiguousarray(values.T), given)
+        self.straight_line.fill(answer, self._rows, numbers, dimensions(record))
+        answer[self._constant_rows] = self._constant_values[:, None]
+        return answer
+
+    def _varying(self, record: MechanismRecord, columns: FloatArray, given: FloatArray | None) -> FloatArray:
+        """The varying numbers (k, N) of the tape, of all that there are."""
+        parts = [state_of(record, columns)]
+        count = len(parts[0])
+        if any(place >= count for place in self.places):
+            parts.append(ball_rates(record, columns))
+        numbers = np.concatenate(parts if given is None else [*parts, given])
+        return numbers if len(self.places) == len(numbers) else numbers[list(self.places)]
+
+    def matrix(self, kind: str, numbers: FloatArray, shape: tuple[int, int]) -> FloatArray:
+        """Matrices (N, rows, columns) of the outputs "kind row,column" among all (m, N); others are zero."""
+        outputs, places = self._entries(kind, shape[1])
+        filled = np.zeros((numbers.shape[1], shape[0] * shape[1]))
+        filled[:, places] = numbers[outputs].T
+        return filled.reshape(numbers.shape[1], *shape)
+
+    def rows(self, kind: str) -> slice:
+        """Where the outputs of a kind stand, which follow each other."""
+        places = [k for k, name in enumerate(self.names) if name.partition(" ")[0] == kind]
+        return slice(places[0], places[-1] + 1) if places else slice(0, 0)
+
+    @lru_cache(maxsize=8)  # noqa: B019  # programs are kept anyway
+    def _entries(self, kind: str, columns: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        outputs, places = list[int](), list[int]()
+        for k, name in enumerate(self.names):
+            if name.partition(" ")[0] == kind:
+                row, column = name.partition(" ")[2].split(",")
+                outputs.append(k)
+                places.append(int(row) * columns + int(column))
+        return np.array(outputs, dtype=np.intp), np.array(places, dtype=np.intp)
+
+    @cached_property
+    def straight_line(self) -> StraightLine:
+        """The program's code."""
+        return StraightLine(self.tape)
+
+    @cached_property
+    def _rows(self) -> list[int]:
+        return [k for k, name in enumerate(self.names) if name not in self.constants]
+
+    @cached_property
+    def _constant_rows(self) -> list[int]:
+        return [k for k, name in enumerate(self.names) if name in self.constants]
+
+    @cached_property
+    def _constant_values(self) -> FloatArray:
+        return np.array([self.constants[name] for name in self.names if name in self.constants], dtype=float)
+
+
+def program(record: MechanismRecord, wanted: Wanted, given: tuple[str, ...] = ()) -> GraphProgram:
+    """The program of what a function asks of a configuration.
+
+    Args:
+        record: the mechanism.
+        wanted: names numbers of a configuration; the same function gives the same program.
+        given: names of other varying numbers, which the function takes after the configuration.
+
+    Example: the frame of the platform of a five-bar turns and moves in the plane.
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("fivebar")
+    >>> def height(configuration):
+    ...     return {"y": configuration.frames["rod1"][1][1]}
+    >>> program(record, height)(record, np.array([[np.pi / 2, 0.0, 0.0, 0.0, 0.0]])).shape
+    (1, 1)
+    """
+    return _programs(_Structure(record), wanted, given)
+
+
+@lru_cache(maxsize=256)
+def _programs(structure: _Structure, wanted: Wanted, given: tuple[str, ...]) -> GraphProgram:
+    return structure.program(wanted, given)
+
+
+class _Structure:
+    """What mechanisms have in common that run the same programs."""
+
+    def __init__(self, record: MechanismRecord) -> None:
+        self.record = record
+        places: dict[float, int] = {}
+
+        def placed(number: float) -> str:
+            return f"number {places.setdefault(number, len(places))}"
+
+        self.pattern = geometry(record).mapped(placed)
+        joints = tuple((joint.type.name, joint.parent, joint.child) for joint in record.joints.values())
+        self._key = (record.base, record.platform.link, joints, self.pattern.key)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Structure) and self._key == other._key
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+    def program(self, wanted: Wanted, given: tuple[str, ...]) -> GraphProgram:
+        recorder, record = Recorder(), self.record
+        varying = {name: tuple(map(recorder.varying, own)) for name, own in state_names(record).items()}
+        rates = {
+            name: _matrix(recorder.varying(f"rate {name} {k}") for k in range(9))
+            for name, joint in record.joints.items()
+            for step in joint.type.steps
+            if step.kind == "ball"
+        }
+        uniform: dict[str, Recorded] = {}
+
+        def number(name: str) -> Recorded:
+            if name not in uniform:
+                uniform[name] = recorder.uniform(name)
+            return uniform[name]
+
+        others = [recorder.varying(name) for name in given]
+        outputs = wanted(Configuration(joint_graph(record), self.pattern.mapped(number), varying, rates), *others)
+        constants = {name: float(value) for name, value in outputs.items() if not isinstance(value, Recorded)}
+        tape = recorder.tape({name: value for name, value in outputs.items() if name not in constants})
+        return GraphProgram(*without_unused(tape), tuple(outputs), constants)
+
+
+@lru_cache(maxsize=64)
+def dimensions(record: MechanismRecord) -> list[float]:
+    """The uniform numbers of a mechanism's programs."""
+    numbers: dict[float, None] = {}
+
+    def noted(number: float) -> float:
+        numbers[number] = None
+        return number
+
+    geometry(record).mapped(noted)
+    return list(numbers)
+
+
+def _matrix(numbers: Iterator[Recorded]) -> Matrix:
+    a, b, c, d, e, f, g, h, i = numbers
+    return (a, b, c), (d, e, f), (g, h, i)

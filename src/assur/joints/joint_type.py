@@ -1,0 +1,89 @@
+"""What a joint type is: its names, and the steps that it is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from assur.joints.steps import STILL, UNTURNED, CoordinateKind, Motion, Step, Twist
+from assur.numerics.sparse_vectors import Matrix, Vector, add, apply, product
+
+
+@dataclass(frozen=True)
+class JointType:
+    """A pair of links that move against each other.
+
+    `components` name its coordinates in the order in which they move the child. An "angle" is in rad, a "length" in the
+    unit of the mechanism. The three components of a spherical joint are the parts of one rotation vector.
+
+    Attributes:
+        name, letter: as files and as notation write it.
+        components: names of its coordinates.
+        steps: what moves the child, one after the other.
+        axes: how many unit vectors are written for it.
+    """
+
+    name: str
+    letter: str
+    components: tuple[str, ...]
+    steps: tuple[Step, ...]
+    axes: int
+
+    @property
+    def kinds(self) -> tuple[CoordinateKind, ...]:
+        """Whether each coordinate is an angle or a length."""
+        return tuple(kind for step in self.steps for kind in step.kinds)
+
+    @property
+    def freedoms(self) -> int:
+        """Number of freedoms f_i of Eq. (3)."""
+        return len(self.components)
+
+    @property
+    def places(self) -> Iterator[tuple[Step, int]]:
+        """Each step, and the place of its first coordinate."""
+        first = 0
+        for step in self.steps:
+            yield step, first
+            first += len(step.kinds)
+
+    def numbers(self, state: Sequence[Any]) -> Iterator[tuple[Any, ...]]:
+        """Those of each step, of the numbers of all."""
+        start = 0
+        for step in self.steps:
+            yield tuple(state[start : start + len(step.numbers)])
+            start += len(step.numbers)
+
+    def motion(self, axes: Sequence[Vector], advance: Any, state: Sequence[Any]) -> Motion:
+        """Turn and shift of the child's joint frame in the parent's.
+
+        >>> from assur.joints.universal import UNIVERSAL
+        >>> UNIVERSAL.motion([(0, 0, 1), (1, 0, 0)], 0, [0, 1, 1, 0])
+        (((0, -1, 0), (1, 0, 0), (0, 0, 1)), (0, 0, 0))
+        """
+        turned, shift = UNTURNED, STILL
+        for step, numbers in zip(self.steps, self.numbers(state), strict=True):
+            own, way = step.motion(_axis(axes, step), advance, numbers)
+            turned, shift = product(turned, own), add(shift, apply(turned, way))
+        return turned, shift
+
+    def twists(
+        self, axes: Sequence[Vector], advance: Any, state: Sequence[Any], rates: Matrix = UNTURNED
+    ) -> Iterator[tuple[Vector, Twist]]:
+        """For each coordinate the point that it moves, and angular velocity and that point's, in the parent's frame.
+
+        The point is the origin of the child's joint frame before the step, from the joint's point. The columns of
+        `rates` are the angular velocities that a ball joint's three coordinates stand for.
+        """
+        turned, shift = UNTURNED, STILL
+        for step, numbers in zip(self.steps, self.numbers(state), strict=True):
+            axis = _axis(axes, step)
+            for angular, velocity in step.twists(axis, advance, rates):
+                yield shift, (apply(turned, angular), apply(turned, velocity))
+            own, way = step.motion(axis, advance, numbers)
+            turned, shift = product(turned, own), add(shift, apply(turned, way))
+
+
+def _axis(axes: Sequence[Vector], step: Step) -> Vector:
+    return axes[step.direction] if axes else STILL

@@ -1,0 +1,8 @@
+"""The prismatic joint: a slide along an axis."""
+
+from __future__ import annotations
+
+from assur.joints.joint_type import JointType
+from assur.joints.steps import SLIDE
+
+PRISMATIC = JointType("prismatic", "P", ("translation",), (SLIDE,), 1)

@@ -1,0 +1,109 @@
+"""Tapes as straight-line Python of ours: arrays go through NumPy, a few elements through Python's own floats.
+
+The lines are like `v7 = v3 * v5`; nothing but the tape's operations and numbers is in them. A name is used again once
+its number is no longer needed, so that a long tape over arrays stays in the processor's cache.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import sqrt
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.numerics.recording.tape import Tape
+
+FloatArray = NDArray[np.float64]
+
+FEW = 12
+"""So many elements take less time one by one as Python's floats than as arrays, by some 40 against 500 ns a line."""
+TEXT = {"+": "{} + {}", "-": "{} - {}", "*": "{} * {}", "/": "{} / {}", "negative": "-{}", "root": "root({})"}
+
+
+@dataclass(frozen=True, eq=False)
+class StraightLine:
+    """A tape without comparisons, ready to be called.
+
+    >>> from assur.numerics.recording.tape import Recorder
+    >>> recorder = Recorder()
+    >>> x, p = recorder.varying("x"), recorder.uniform("p")
+    >>> StraightLine(recorder.tape({"y": x * p, "z": recorder.sqrt(x)}))(np.array([[4.0, 9.0]]), [0.5])
+    array([[2. , 4.5],
+           [2. , 3. ]])
+    """
+
+    tape: Tape
+
+    def __call__(self, varying: FloatArray, uniform: Sequence[float]) -> FloatArray:
+        """Outputs (m, N) in the tape's order, of numbers (k, N) and (u,)."""
+        answer = np.empty((len(self.tape.outputs), varying.shape[1]))
+        self.fill(answer, range(len(answer)), varying, uniform)
+        return answer
+
+    def fill(self, answer: FloatArray, rows: Sequence[int], varying: FloatArray, uniform: Sequence[float]) -> None:
+        """The same, each output into its row of a larger answer (M, N)."""
+        if varying.shape[1] <= FEW and self._filled_one_by_one(answer, rows, varying, uniform):
+            return
+        with np.errstate(all="ignore"):
+            for row, numbers in zip(rows, self._run(list(varying), uniform, _roots), strict=True):
+                answer[row] = numbers
+
+    def _filled_one_by_one(
+        self, answer: FloatArray, rows: Sequence[int], varying: FloatArray, uniform: Sequence[float]
+    ) -> bool:
+        """Whether Python's floats came to the end; where they would be infinite they stop."""
+        try:
+            columns = [self._run(column, uniform, _root) for column in varying.T.tolist()]
+        except (ZeroDivisionError, OverflowError):
+            return False
+        answer[rows] = np.transpose(columns)
+        return True
+
+    @cached_property
+    def _run(self) -> Callable[..., Sequence[Any]]:
+        names: dict[str, Any] = {"inf": float("inf"), "nan": float("nan")}
+        exec(compile("\n".join(lines(self.tape)), "<tape>", "exec"), names)
+        run: Callable[..., Sequence[Any]] = names["run"]
+        return run
+
+
+def lines(tape: Tape) -> list[str]:
+    """The text of `run(varying, uniform, root)`, which returns the tape's outputs in their order.
+
+    >>> from assur.numerics.recording.tape import Recorder
+    >>> recorder = Recorder()
+    >>> x = recorder.varying("x")
+    >>> lines(recorder.tape({"y": -(x * x)}))
+    ['def run(varying, uniform, root):', '    v0 = varying[0]', '    v1 = v0 * v0', '    v0 = -v1', '    return [v0]']
+    """
+    last = {argument: k for k, item in enumerate(tape.operations) for argument in item.arguments}
+    last |= dict.fromkeys(tape.outputs.values(), len(tape.operations))
+    text, place, free, used = ["def run(varying, uniform, root):"], dict[int, int](), list[int](), 0
+    given = {"varying": 0, "uniform": 0}
+    for k, item in enumerate(tape.operations):
+        own = [f"v{place[argument]}" for argument in item.arguments]
+        free += [place.pop(argument) for argument in set(item.arguments) if last[argument] == k]
+        if item.name in given:
+            value = f"{item.name}[{given[item.name]}]"
+            given[item.name] += 1
+        else:
+            value = repr(item.number) if item.name == "number" else TEXT[item.name].format(*own)
+        if k not in last:
+            continue
+        if not free:
+            free, used = [used], used + 1
+        place[k] = free.pop()
+        text.append(f"    v{place[k]} = {value}")
+    return [*text, f"    return [{', '.join(f'v{place[k]}' for k in tape.outputs.values())}]"]
+
+
+def _root(radicand: float) -> float:
+    return sqrt(radicand) if radicand > 0.0 else 0.0 * radicand
+
+
+def _roots(radicand: Any) -> Any:
+    return np.sqrt(np.maximum(radicand, 0.0))
