@@ -15,13 +15,14 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.configuration import Placed
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
 from assur.joints.spherical import SPHERICAL
 from assur.kinematics import position
 from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.certified.enclosed import enclosed, loop_rows
 from assur.kinematics.certified.given import inputs_meant, number, pose_meant
-from assur.kinematics.certified.joint_frames import JointFrames, Placed
 from assur.kinematics.certified.platform import pose_parts, pose_rows
 from assur.kinematics.certified.result import CertifiedSolutions, Doubt, ProvedSolution, at_most
 from assur.kinematics.closure import closing_system
@@ -88,21 +89,20 @@ class _Assemblies:
         length = characteristic_length(self.record)
         return np.array([length if self.record.coordinates[k].kind == "length" else 1.0 for k in self.unknown])
 
-    def evaluated(self, numbers: Sequence[Any]) -> tuple[list[Any], list[Any], dict[str, Placed]]:
-        """Equations, what must be positive, and the frames, at unknowns (K,) of any number type."""
+    def evaluated(self, numbers: Sequence[Any]) -> tuple[list[Any], list[Any], Placed]:
+        """Equations, what must be positive, and the platform's frame at O', at unknowns (K,) of any number type."""
         values: list[Any] = [None] * self.near.shape[-1]
         for k, value in zip(self.unknown, numbers, strict=True):
             values[k] = value
         if self.problem == "direct":
             for item, printed in zip(self.record.inputs, parts(self.asked), strict=True):
                 values[item.coordinate.index] = (printed - item.offset) * item.sign
-        frames = JointFrames(self.record, self.near)
-        placed = frames.frames(values)
-        rows, positive = frames.loops(placed, values)
+        configuration = enclosed(self.record, self.near, values)
+        rows, positive = loop_rows(configuration)
         if self.problem == "inverse":
-            own, more = pose_rows(self.record, placed, self.asked)
+            own, more = pose_rows(self.record.platform.pose, configuration.platform, self.asked)
             rows, positive = rows + own, positive + more
-        return rows, positive, placed
+        return rows, positive, configuration.platform
 
     def equations(self, chosen: list[int]) -> Equations:
         """Some of the equations alone."""
@@ -192,14 +192,14 @@ def _proved(
         if not np.any(one):
             continue
         near, narrow, proved = near.of(np.flatnonzero(one)), picture[one], open_[one]
-        values, positive, placed = near.evaluated(parts(narrow))
+        values, positive, platform = near.evaluated(parts(narrow))
         sure = np.ones(len(proved), dtype=bool)
         for value in positive:
             sure &= as_interval(value).positive
         rest = [as_interval(value) for k, value in enumerate(values) if k not in chosen and type(value) is not int]
         left = float(max((np.max(value.magnitude) for value in rest), default=0.0))
         how = _how(near.record, len(chosen), len(rest), left)
-        bounds = _bounds(near, narrow, placed)
+        bounds = _bounds(near, narrow, platform)
         told, turning = near.told
         for j in np.flatnonzero(sure):
             row = rows[proved[j]]
@@ -235,10 +235,10 @@ def _independent(every: _Assemblies, k: int) -> list[int] | None:
     return sorted(chosen)
 
 
-def _bounds(near: _Assemblies, narrow: Interval, placed: dict[str, Placed]) -> Interval:
+def _bounds(near: _Assemblies, narrow: Interval, platform: Placed) -> Interval:
     """What was asked for, (K, m) or (K, n): the poses, or the printed inputs."""
     if near.problem == "direct":
-        return stacked([number(value) for value in pose_parts(near.record, placed)], len(near.near))
+        return stacked([number(value) for value in pose_parts(near.record.platform.pose, platform)], len(near.near))
     columns = [narrow[:, near.unknown.index(item.coordinate.index)] for item in near.record.inputs]
     printed = [value * item.sign + item.offset for value, item in zip(columns, near.record.inputs, strict=True)]
     return stacked(printed, len(near.near))

@@ -8,33 +8,29 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.configuration import Placed
 from assur.kinematics.certified.given import turn
-from assur.kinematics.certified.joint_frames import Placed
-from assur.model.mechanism import MechanismRecord
-from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion, is_angle
+from assur.model.pose import ANGLES, LENGTHS, QUATERNION, Pose, has_quaternion, is_angle
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.krawczyk import parts
 from assur.numerics.number_types import Intervals
-from assur.numerics.sparse_vectors import add, apply, minus, plus, times
+from assur.numerics.sparse_vectors import minus, plus, times
 
 FloatArray = NDArray[np.float64]
 
 
-def pose_parts(record: MechanismRecord, placed: dict[str, Placed]) -> list[Any]:
-    """The pose's coordinates over bounds of frames, an angle as (cosine, sine) up to a positive factor.
+def pose_parts(names: Pose, platform: Placed) -> list[Any]:
+    """A pose's coordinates over bounds of the platform's frame, an angle as (cosine, sine) up to a positive factor.
 
     Theta is between -90 and 90 deg, qw not negative. Where qw may be 0 the other parts may have either sign, since q
     and -q are one orientation.
 
-    >>> from assur.model.registry import load_record
-    >>> record = load_record("planar_3rpr")
     >>> level = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
-    >>> x, y, _ = pose_parts(record, {record.platform.link: (level, (Interval.of(1.0), 2, 0))})
+    >>> x, y, _ = pose_parts(("x", "y", "phi"), (level, (Interval.of(1.0), 2, 0)))
     >>> float(x.middle), y
     (1.0, 2)
     """
-    rotation, origin = placed[record.platform.link]
-    point = add(origin, apply(rotation, _exact(record.platform.point)))
+    rotation, point = platform
     level = plus(times(rotation[0][0], rotation[0][0]), times(rotation[1][0], rotation[1][0]))
     scalar = Intervals().sqrt(plus(plus(plus(1, rotation[0][0]), rotation[1][1]), rotation[2][2])) / 2
     found: dict[str, Any] = {
@@ -47,7 +43,7 @@ def pose_parts(record: MechanismRecord, placed: dict[str, Placed]) -> list[Any]:
     for k, (i, j) in enumerate(((2, 1), (0, 2), (1, 0))):
         quotient = as_interval(minus(rotation[i][j], rotation[j][i])) / (scalar * 4)
         found[QUATERNION[k + 1]] = _at_most(quotient, _size(rotation, k))
-    return [found[name] for name in record.platform.pose]
+    return [found[name] for name in names]
 
 
 def _size(rotation: Any, axis: int) -> Interval:
@@ -62,14 +58,13 @@ def _at_most(number: Interval, size: Interval) -> Interval:
     return Interval(np.where(known, number.low, -size.high), np.where(known, number.high, size.high), number.defined)
 
 
-def pose_rows(record: MechanismRecord, placed: dict[str, Placed], pose: Interval) -> tuple[list[Any], list[Any]]:
+def pose_rows(names: Pose, platform: Placed, pose: Interval) -> tuple[list[Any], list[Any]]:
     """What is zero, and what is positive, where the platform is at a pose (m,) within bounds."""
-    rotation, origin = placed[record.platform.link]
-    point = add(origin, apply(rotation, _exact(record.platform.point)))
-    wanted = dict(zip(record.platform.pose, parts(pose), strict=True))
+    rotation, point = platform
+    wanted = dict(zip(names, parts(pose), strict=True))
     rows: list[Any] = [minus(point[LENGTHS.index(name)], wanted[name]) for name in LENGTHS if name in wanted]
     positive: list[Any] = []
-    if has_quaternion(record.platform.pose) or all(name in wanted for name in ANGLES):
+    if has_quaternion(names) or all(name in wanted for name in ANGLES):
         # the whole orientation by one rotation: three angles lose a direction where theta is a right angle
         own, more = _turned_to(rotation, _wanted_rotation(wanted))
         return rows + own, positive + more
@@ -111,7 +106,3 @@ def _turned_to(rotation: Any, wanted: Any) -> tuple[list[Any], list[Any]]:
 
 def _dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
     return plus(plus(times(a[0], b[0]), times(a[1], b[1])), times(a[2], b[2]))
-
-
-def _exact(point: FloatArray) -> Any:
-    return tuple(0 if value == 0 else Interval.of(value) for value in point.tolist())

@@ -4,7 +4,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from assur.kinematics.certified.joint_frames import _rotation
+from assur.kinematics.certified.enclosed import _rotation
 from assur.numerics import rotations
 from assur.numerics.intervals.interval import as_interval
 
