@@ -52,6 +52,22 @@ def from_vector(vector: FloatArray) -> FloatArray:
     return np.asarray(np.eye(3) + first * cross + second * (cross @ cross))
 
 
+def vector_rates(vector: FloatArray, angular: FloatArray) -> FloatArray:
+    """Rates (..., 3) of rotation vectors (..., 3) at angular velocities (..., 3) in the frame that they turn from.
+
+    The inverse of the left Jacobian: w - v x w / 2 + (1 - (r/2) cot(r/2)) / r^2 v x (v x w), r the vector's length. At
+    whole turns no rates make every angular velocity; there they are large.
+
+    >>> vector_rates(np.array([0.0, 0.0, np.pi]), np.array([0.0, 0.0, 1.0]))
+    array([0., 0., 1.])
+    """
+    size = np.linalg.norm(vector, axis=-1)[..., None]
+    half = 0.5 * np.maximum(size, 1e-3)
+    along = np.where(size < 1e-3, 1 / 12, (1 - half / np.tan(half)) / np.maximum(size, 1e-3) ** 2)
+    once = cross(vector, angular)
+    return np.asarray(angular - 0.5 * once + along * cross(vector, once))
+
+
 def to_vector(rotation: FloatArray) -> FloatArray:
     """Rotation vector (..., 3) in rad, of length at most pi, of a rotation (..., 3, 3).
 
