@@ -24,9 +24,10 @@ from assur.joint_graph.programs import Outputs, program
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.newton import ENOUGH, Newton, NewtonStep
 from assur.kinematics.pose import error_of, error_rates, frame_of, platform_moves, platform_numbers, pose_error
-from assur.model.mechanism import MechanismRecord
+from assur.model.mechanism import Joint, MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
 from assur.numerics import least_squares, rotations
+from assur.numerics.sparse_vectors import add, apply, times
 
 FloatArray = NDArray[np.float64]
 
@@ -144,12 +145,34 @@ def _loop_entries(configuration: Configuration) -> Iterator[tuple[int, int, int,
 
 
 def _gaps_and_rates(configuration: Configuration) -> Outputs:
-    """Gaps, and their derivative where they vanish: of each loop lengths first."""
+    """Gaps, and how fast they change: of each loop lengths first, then the angular velocity of the turn that is left."""
     rates = {
         f"derivative {6 * index + (row + 3) % 6},{column}": number
-        for index, row, column, number in _loop_entries(configuration)
+        for index, cut in enumerate(configuration.graph.cut)
+        for row, column, number in _gap_rates(configuration, index, cut)
     }
     return {**_gaps(configuration), **rates}
+
+
+def _gap_rates(configuration: Configuration, index: int, cut: Joint) -> Iterator[tuple[int, int, Any]]:
+    """Row, coordinate and value: the near side moves the point that is reached, the far side the child's own.
+
+    The turn E = R1 R2^T from the child's frame to the one that is reached has the angular velocity w1 - E w2.
+    """
+    graph = configuration.graph
+    distance, turned = configuration.gap(cut)
+    own = configuration.child_point(cut)
+    reached = add(own, distance)
+    for name, sense in ((cut.name, 1), *graph.loops[index].items()):
+        joint = graph.joint(name)
+        if name == cut.name or name in graph.paths[cut.parent]:
+            yield from configuration.entries(joint, sense, reached)
+            continue
+        first = graph.slices[name].start
+        for column, (angular, velocity) in enumerate(configuration.twists(joint, own), start=first):
+            for row, number in enumerate((*apply(turned, angular), *velocity)):
+                if not (type(number) is int and number == 0):
+                    yield row, column, times(sense, number)
 
 
 def _at_pose(configuration: Configuration) -> Outputs:
@@ -182,7 +205,9 @@ def closing_system(
     rows = 6 * len(joint_graph(record).cut)
     gaps = _gap_rows(numbers[system.rows("gap")], length)
     derivative = system.matrix("derivative", numbers, (rows, count))
-    derivative.reshape(len(values), -1, 6, count)[:, :, 3:] *= length
+    turning = derivative.reshape(len(values), -1, 6, count)[:, :, 3:]
+    vectors = gaps.reshape(len(values), -1, 6)[:, :, 3:] / length
+    turning[:] = length * (rotations.vector_rates_matrix(vectors) @ turning)
     if poses is None:
         return gaps, derivative
     names = record.platform.pose

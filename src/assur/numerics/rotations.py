@@ -68,6 +68,15 @@ def vector_rates(vector: FloatArray, angular: FloatArray) -> FloatArray:
     return np.asarray(angular - 0.5 * once + along * cross(vector, once))
 
 
+def vector_rates_matrix(vector: FloatArray) -> FloatArray:
+    """The matrix (..., 3, 3) of `vector_rates`."""
+    size = np.linalg.norm(vector, axis=-1)[..., None, None]
+    half = 0.5 * np.maximum(size, 1e-3)
+    along = np.where(size < 1e-3, 1 / 12, (1 - half / np.tan(half)) / np.maximum(size, 1e-3) ** 2)
+    once = skew(vector)
+    return np.asarray(np.eye(3) - 0.5 * once + along * (once @ once))
+
+
 def to_vector(rotation: FloatArray) -> FloatArray:
     """Rotation vector (..., 3) in rad, of length at most pi, of a rotation (..., 3, 3).
 
