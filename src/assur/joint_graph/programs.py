@@ -119,12 +119,17 @@ def program(record: MechanismRecord, wanted: Wanted, given: tuple[str, ...] = ()
     >>> program(record, height)(record, np.array([[np.pi / 2, 0.0, 0.0, 0.0, 0.0]])).shape
     (1, 1)
     """
-    return _programs(_Structure(record), wanted, given)
+    return _programs(_structure(record), wanted, given)
 
 
 @lru_cache(maxsize=256)
 def _programs(structure: _Structure, wanted: Wanted, given: tuple[str, ...]) -> GraphProgram:
     return structure.program(wanted, given)
+
+
+@lru_cache(maxsize=64)
+def _structure(record: MechanismRecord) -> _Structure:
+    return _Structure(record)
 
 
 class _Structure:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -9,10 +10,12 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.tree import joint_graph
 from assur.joints.joint_type import JointType
+from assur.joints.steps import Step
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import components
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.intp]
 
 
 @lru_cache(maxsize=64)
@@ -31,6 +34,32 @@ def state_names(record: MechanismRecord) -> dict[str, tuple[str, ...]]:
     return names
 
 
+@dataclass(frozen=True, eq=False)
+class _Alike:
+    """Steps of one kind: places (c, s) of their coordinates among the joint values, (k, s) of their numbers."""
+
+    step: Step
+    coordinates: IntArray
+    numbers: IntArray
+
+
+@lru_cache(maxsize=64)
+def _alike(record: MechanismRecord) -> tuple[_Alike, ...]:
+    slices = joint_graph(record).slices
+    places: dict[str, list[tuple[Step, range, range]]] = {}
+    row = 0
+    for name, joint in record.joints.items():
+        for step, first in joint.type.places:
+            start = slices[name].start + first
+            own = step, range(start, start + len(step.kinds)), range(row, row + len(step.numbers))
+            places.setdefault(step.kind, []).append(own)
+            row += len(step.numbers)
+    return tuple(
+        _Alike(steps[0], np.array(coordinates).T, np.array(numbers).T)
+        for steps, coordinates, numbers in (zip(*own, strict=True) for own in places.values())
+    )
+
+
 def state_of(record: MechanismRecord, values: FloatArray) -> FloatArray:
     """The state (k, b), in the order of `state_names`, of joint values (n, b).
 
@@ -39,9 +68,10 @@ def state_of(record: MechanismRecord, values: FloatArray) -> FloatArray:
     >>> state_of(record, np.zeros((5, 1)))[:4, 0]
     array([1., 0., 1., 0.])
     """
-    slices = joint_graph(record).slices
-    parts = [joint_state(joint.type, values[slices[name]]) for name, joint in record.joints.items()]
-    return np.concatenate(parts)
+    state = np.empty((sum(own.numbers.size for own in _alike(record)), values.shape[1]))
+    for own in _alike(record):
+        state[own.numbers] = own.step.state(values[own.coordinates])
+    return state
 
 
 def joint_state(joint_type: JointType, values: FloatArray) -> FloatArray:
@@ -54,11 +84,8 @@ def ball_rates(record: MechanismRecord, values: FloatArray) -> FloatArray:
 
     Nine for each of the s ball joints, in the joints' order: the matrix row by row.
     """
-    slices, rows = joint_graph(record).slices, [np.empty((0, values.shape[1]))]
-    for name, joint in record.joints.items():
-        for step, first in joint.type.places:
-            if step.kind == "ball":
-                start = slices[name].start + first
-                matrix = components.left_jacobian(np.moveaxis(values[start : start + 3], 0, -1))
-                rows.append(np.moveaxis(matrix, 0, -1).reshape(9, -1))
-    return np.concatenate(rows)
+    for own in _alike(record):
+        if own.step.kind == "ball":
+            matrices = components.left_jacobian(np.moveaxis(values[own.coordinates], 0, -1))  # (s, b, 3, 3)
+            return np.moveaxis(matrices, 1, -1).reshape(-1, values.shape[1])
+    return np.empty((0, values.shape[1]))

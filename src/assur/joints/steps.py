@@ -35,7 +35,7 @@ class Step:
         kind: what it is called.
         kinds: of its coordinates.
         numbers: names of the numbers that say where it stands.
-        state: these numbers (k, b) of joint values (c, b).
+        state: these numbers (k, ...) of joint values (c, ...).
         motion: turn and shift by them along a unit vector; a screw advances by a length per rad.
         twists: one for each coordinate; a ball's are given by a matrix, as its columns.
         direction: which of the joint's axes it is along.
@@ -90,7 +90,7 @@ def of_quaternion(w: Any, x: Any, y: Any, z: Any) -> Matrix:
 
 
 def quaternions(vectors: FloatArray) -> FloatArray:
-    """Unit quaternions (4, b) of rotation vectors (3, b).
+    """Unit quaternions (4, ...) of rotation vectors (3, ...).
 
     >>> quaternions(np.array([[0.0], [0.0], [np.pi]])).round(12).ravel() + 0.0
     array([0., 0., 0., 1.])

@@ -145,7 +145,7 @@ def _loop_entries(configuration: Configuration) -> Iterator[tuple[int, int, int,
 
 
 def _gaps_and_rates(configuration: Configuration) -> Outputs:
-    """Gaps, and how fast they change: of each loop lengths first, then the angular velocity of the turn that is left."""
+    """Gaps, and how fast they change: of each loop lengths first, then angular velocities of the turn that is left."""
     rates = {
         f"derivative {6 * index + (row + 3) % 6},{column}": number
         for index, cut in enumerate(configuration.graph.cut)
@@ -207,7 +207,7 @@ def closing_system(
     derivative = system.matrix("derivative", numbers, (rows, count))
     turning = derivative.reshape(len(values), -1, 6, count)[:, :, 3:]
     vectors = gaps.reshape(len(values), -1, 6)[:, :, 3:] / length
-    turning[:] = length * (rotations.vector_rates_matrix(vectors) @ turning)
+    turning[:] = length * (rotations.vector_rates_matrix(vectors) @ turning)  # (N, v, 3, n)
     if poses is None:
         return gaps, derivative
     names = record.platform.pose

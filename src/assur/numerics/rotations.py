@@ -6,6 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
+SHORT = 1e-3
+"""Rotation vectors below this, in rad, are taken by the first term of a series: the next is 1e-9 of it."""
 
 
 def cross(a: FloatArray, b: FloatArray) -> FloatArray:
@@ -61,18 +63,14 @@ def vector_rates(vector: FloatArray, angular: FloatArray) -> FloatArray:
     >>> vector_rates(np.array([0.0, 0.0, np.pi]), np.array([0.0, 0.0, 1.0]))
     array([0., 0., 1.])
     """
-    size = np.linalg.norm(vector, axis=-1)[..., None]
-    half = 0.5 * np.maximum(size, 1e-3)
-    along = np.where(size < 1e-3, 1 / 12, (1 - half / np.tan(half)) / np.maximum(size, 1e-3) ** 2)
-    once = cross(vector, angular)
-    return np.asarray(angular - 0.5 * once + along * cross(vector, once))
+    return np.asarray((vector_rates_matrix(vector) @ angular[..., None])[..., 0])
 
 
 def vector_rates_matrix(vector: FloatArray) -> FloatArray:
     """The matrix (..., 3, 3) of `vector_rates`."""
     size = np.linalg.norm(vector, axis=-1)[..., None, None]
-    half = 0.5 * np.maximum(size, 1e-3)
-    along = np.where(size < 1e-3, 1 / 12, (1 - half / np.tan(half)) / np.maximum(size, 1e-3) ** 2)
+    safe = np.maximum(size, SHORT)
+    along = np.where(size < SHORT, 1 / 12, (1 - 0.5 * safe / np.tan(0.5 * safe)) / safe**2)
     once = skew(vector)
     return np.asarray(np.eye(3) - 0.5 * once + along * (once @ once))
 
