@@ -17,6 +17,10 @@ IndexArray = NDArray[np.intp]
 DAMPING = 1e-3
 """Damping of the first step from any start."""
 
+LOWERED, RAISED = 0.03, 2.0
+"""After a step that did as well as its linear model said damping falls to this share; after one that made things worse
+it rises by this factor, twice as much each time in a row (Nielsen 1999, Damping parameter in Marquardt's method)."""
+
 
 @dataclass(frozen=True)
 class LeastSquaresResult:
@@ -52,7 +56,7 @@ def minimise(
     array([[1.414214]])
     """
     x = np.array(start, dtype=float)
-    damped = np.full(len(x), damping)
+    damped, raised = np.full(len(x), damping), np.full(len(x), RAISED)
     residual, jacobian = system(x, np.arange(len(x)))
     error = np.einsum("ni,ni->n", residual, residual)
     steps = 0
@@ -65,12 +69,17 @@ def minimise(
         trial = x[active] + change
         new_residual, new_jacobian = system(trial, active)
         new_error = np.einsum("ni,ni->n", new_residual, new_residual)
+        expected = residual[active] + (jacobian[active] @ change[..., None])[..., 0]
+        gain = error[active] - np.einsum("ni,ni->n", expected, expected)
+        ratio = np.clip((error[active] - new_error) / np.maximum(gain, 1e-300), -1.0, 1.0)
         better = new_error < error[active]
-        accepted = active[better]
+        accepted, refused = active[better], active[~better]
         x[accepted], residual[accepted] = trial[better], new_residual[better]
         jacobian[accepted], error[accepted] = new_jacobian[better], new_error[better]
-        damped[accepted] = np.maximum(damped[accepted] * 0.02, 1e-15)
-        damped[active[~better]] = np.minimum(np.maximum(damped[active[~better]], 1e-9) * 8.0, 1e8)
+        lowered = np.maximum(LOWERED, 1.0 - (2.0 * ratio[better] - 1.0) ** 3)
+        damped[accepted] = np.maximum(damped[accepted] * lowered, 1e-15)
+        damped[refused] = np.minimum(np.maximum(damped[refused], 1e-9) * raised[refused], 1e8)
+        raised[accepted], raised[refused] = RAISED, raised[refused] * 2.0
         if np.all(damped[active] >= 1e8):
             break
     cost = np.max(np.abs(residual), axis=1, initial=0.0)
