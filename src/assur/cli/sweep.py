@@ -63,7 +63,8 @@ def sweep(
     refused. --along and --at are given once per coordinate, or with commas
     between; lengths and angles are in the mechanism's units, in the files too.
     Where there is no solution the numbers are NaN. Without a closed form poses
-    are followed to from home, and one that is not reached so is undecided.
+    are followed to from home and from neighbours; one that is not reached so is
+    undecided.
 
     Beyond one machine: --shard 2/7 works out a part, --merge joins the parts to
     the bytes of a single run; --scheduler uses a Dask cluster (pip install

@@ -69,6 +69,7 @@ class GraphProgram:
         filled[:, places] = numbers[outputs].T
         return filled.reshape(numbers.shape[1], *shape)
 
+    @lru_cache(maxsize=8)  # noqa: B019  # programs are kept anyway
     def rows(self, kind: str) -> slice:
         """Where the outputs of a kind stand, which follow each other."""
         places = [k for k, name in enumerate(self.names) if name.partition(" ")[0] == kind]

@@ -8,7 +8,7 @@ import pytest
 import assur
 from assur.kinematics import border
 from assur.kinematics.home import home_values
-from assur.kinematics.paths.from_home import followed_from_home
+from assur.kinematics.paths.from_home import followed_from_home, followed_in_a_row
 from assur.kinematics.pose import pose_of
 from assur.kinematics.status import Status
 
@@ -43,3 +43,28 @@ def test_what_a_pose_gets_depends_on_that_pose_alone():
     for k, pose in enumerate(poses):
         alone, _ = followed_from_home(record, pose[None])
         np.testing.assert_allclose(alone[0], joints[k], rtol=1e-12, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_poses_in_a_row_are_reached_as_from_home(name):
+    """Lines of a grid, several of them, longer than the distance of what is followed from home."""
+    record = assur.load(name)
+    start = pose_of(record, home_values(record))
+    size = np.ptp([record.box[name] for name in record.platform.pose], axis=1)
+    lines = [start + np.outer(np.linspace(-0.2, 0.2, 90), size * way) for way in np.eye(len(start))[:2]]
+    poses = np.concatenate(lines)
+    straight, alone = followed_from_home(record, poses)
+    joints, reached = followed_in_a_row(record, poses)
+    assert reached.sum() > 20
+    assert np.all(reached[alone])
+    assert np.mean(reached == alone) > 0.9
+    np.testing.assert_allclose(pose_of(record, joints[reached]), poses[reached], rtol=0, atol=1e-7 * np.max(size))
+    inputs = [border.inputs_of(record, part)[alone] for part in (straight, joints)]
+    turns = np.array([2 * np.pi if item.coordinate.kind == "angle" else np.inf for item in record.inputs])
+    difference = np.abs(inputs[0] - inputs[1])
+    np.testing.assert_array_less(np.minimum(difference, np.abs(turns - difference)), 1e-6 * np.max(size))
+
+
+def test_an_empty_row():
+    joints, reached = followed_in_a_row(assur.load("fivebar"), np.empty((0, 2)))
+    assert (joints.shape, reached.shape) == ((0, 5), (0,))

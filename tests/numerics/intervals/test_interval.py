@@ -43,7 +43,9 @@ def test_the_float_answer_of_a_number_inside_lies_inside(x, y, s, t, name):
 def test_a_part_of_a_box_has_a_part_of_its_answer(x, y, s, t, name):
     """Inclusion is monotone: to the last bit, because every step outwards is."""
     ends = [sorted((low + 0.5 * s * (high - low), high - 0.5 * t * (high - low))) for low, high in (x, y)]
-    part = [Interval.of(*np.clip(pair, *box)) for pair, box in zip(ends, (x, y), strict=True)]  # halves meet to rounding
+    part = [
+        Interval.of(*np.clip(pair, *box)) for pair, box in zip(ends, (x, y), strict=True)
+    ]  # halves meet to rounding
     small = KERNELS[name](*part, Interval.sqrt)
     large = KERNELS[name](Interval.of(*x), Interval.of(*y), Interval.sqrt)
     assert large.low <= small.low <= small.high <= large.high

@@ -13,20 +13,20 @@ from numpy.typing import NDArray
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closed_form.blocks import FloatArray
 from assur.kinematics.closed_form.grid_sweep import GridSweep
-from assur.kinematics.paths.from_home import followed_from_home
+from assur.kinematics.paths.from_home import followed_in_a_row
 from assur.kinematics.rates.finite_motion import classify_at
 from assur.kinematics.status import Status
 from assur.results.store.layout import block_length
 
 HOME = "home"
 """Stands for the working mode of home."""
-LONGEST = 256
-"""Places in a block: each takes a thousand times as long as by a closed form."""
+LONGEST = 8192
+"""Places in a block: so many that those of a block that are followed from home are worked on together."""
 
 
 @dataclass(frozen=True, eq=False)
 class HomeSweep(GridSweep):
-    """A sweep in which every pose is followed to from home, along a way of its own."""
+    """A sweep in which poses are followed to from home, straight or by way of their neighbours in a block."""
 
     @property
     def formulas(self) -> dict[str, str]:
@@ -38,14 +38,14 @@ class HomeSweep(GridSweep):
     def how(self) -> str:
         """What is not proved."""
         return (
-            "followed on the joint graph from home, straight to each pose; one that is not reached so is undecided: "
-            "another way may lead there"
+            "followed on the joint graph from home, straight or by way of neighbours; one that is not reached so is "
+            "undecided: another way may lead there"
         )
 
     @property
     def existence(self) -> str:
         """That a pose was reached."""
-        return "whether the straight way from home reaches the pose"
+        return "whether the straight way from home, or a neighbour that is reached, leads to the pose"
 
     @property
     def engine(self) -> str:
@@ -59,7 +59,7 @@ class HomeSweep(GridSweep):
 
     def answers(self, given: FloatArray) -> dict[str, NDArray[Any]]:
         """What is kept of poses (m, b), angles in rad, and whether each was reached (b,)."""
-        joints, reached = followed_from_home(self.record, given.T)
+        joints, reached = followed_in_a_row(self.record, given.T)
         found = {"exists": reached, "inputs": inputs_of(self.record, joints).T}
         found["status"] = np.full(reached.shape, Status.undecided, dtype=np.int8)
         if np.any(reached):
