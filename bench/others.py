@@ -23,6 +23,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
 import with_pymadcad
+from assur.kinematics.compiled_closure import compiled_closure
 from bench import MECHANISM, problems
 from codac_process import Codac, Paved
 from rich.console import Console
@@ -33,7 +34,6 @@ import assur
 from assur.kinematics.certified.certify import certified_direct
 from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep
 from assur.kinematics.closed_form.sweep import inverse_sweep
-from assur.kinematics.compiled_closure import compiled_closure
 from assur.kinematics.pose import pose_of
 from assur.workspace.certified.criteria import criteria
 from assur.workspace.certified.paving import Paving, pave

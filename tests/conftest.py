@@ -150,4 +150,4 @@ def by_numpy(monkeypatch):
     """Intervals are computed by NumPy alone: what a test changes there is what is computed with."""
     from assur.numerics.recording import interval_program
 
-    monkeypatch.setattr(interval_program, "_DONE", interval_program._Done(there=False))
+    monkeypatch.setattr(interval_program, "_DONE", interval_program._Done(compilable=False))

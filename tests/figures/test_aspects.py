@@ -15,7 +15,6 @@ from assur.figures.singular import symbol_of
 from assur.figures.style import styled
 from assur.model.registry import load_record
 from assur.workspace.aspects.aspects import aspects
-from assur.workspace.aspects.volumes import undecided_share
 from assur.workspace.region import workspace
 
 
@@ -79,10 +78,10 @@ def test_the_caption_says_how_much_of_the_workspace_is_proved_and_how_much_is_no
     proved = sum(item.volume[0] for item in found.aspects)
     assert found.search.open < 0.1
     assert 1 - proved / whole > 0.6
-    assert 1 - proved / whole <= undecided_share(found) < 0.8
+    assert 1 - proved / whole <= found.undecided_share < 0.8
     text = caption(context, found)
-    assert f"or {100 - float(shown(100 * undecided_share(found))):.4g} % of the workspace" in text
-    assert f"at most {shown(100 * undecided_share(found))} %" in text
+    assert f"or {100 - float(shown(100 * found.undecided_share)):.4g} % of the workspace" in text
+    assert f"at most {shown(100 * found.undecided_share)} %" in text
 
 
 def test_the_caption_says_where_nothing_is_proved():

@@ -25,7 +25,6 @@ from assur.figures.written import at_least, minus, units
 from assur.model.pose import is_angle
 from assur.workspace.aspects.aspects import KINDS, Aspect, Aspects
 from assur.workspace.aspects.path import AspectPath
-from assur.workspace.aspects.volumes import undecided_share
 from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.criteria import criteria
 
@@ -115,7 +114,7 @@ def _parts(found: Aspects) -> str:
     if not found.aspects:
         return "No part is proved; what there may be of the workspace lies in the grey."
     size = f"{at_least(math.fsum(item.volume[0] for item in found.aspects))} {units(found.unit)}"
-    open_ = shown(100 * undecided_share(found))
+    open_ = shown(100 * found.undecided_share)
     least = f"{100 - float(open_):.4g}"
     return (
         f"In each colour every pose is proved: together at least {size} or {least} % of the workspace;"

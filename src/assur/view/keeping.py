@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import io
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from PIL import Image
 
 from assur.view import link
+from assur.view.host import Host
 from assur.view.link import Viewpoint
-
-if TYPE_CHECKING:
-    from assur.view.window import Window
 
 SECONDS = 20.0
 """How long a browser may take for a picture."""
@@ -21,7 +19,7 @@ SECONDS = 20.0
 class Keeper:
     """A button and a line of text; a link that is pasted into the line is followed."""
 
-    def __init__(self, window: Window) -> None:
+    def __init__(self, window: Host) -> None:
         self.window = window
         with window.gui.add_folder("Keep"):
             self.button = window.gui.add_button("screenshot")

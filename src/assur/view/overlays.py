@@ -9,15 +9,13 @@ from __future__ import annotations
 import html
 import re
 import threading
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from assur.model.mechanism import MechanismRecord
 from assur.scene.layers import Layer, layers, layers_note, region, section_layer
 from assur.view.dials import Dial
+from assur.view.host import Host
 from assur.workspace.region import Workspace
-
-if TYPE_CHECKING:
-    from assur.view.window import Window
 
 COMPUTE, CANCEL = "compute workspace and singular surfaces", "cancel"
 IN_SPACE = 3
@@ -34,7 +32,7 @@ class CancelledError(Exception):
 class Overlays:
     """A button, a box for each layer that was found, the height of a section, and a note on what is seen."""
 
-    def __init__(self, window: Window) -> None:
+    def __init__(self, window: Host) -> None:
         self.window = window
         self.boxes: list[Any] = []
         self.height: Any = None

@@ -6,17 +6,15 @@ import threading
 import time
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import AssurError
 from assur.view.explain import Reason
+from assur.view.host import Host
 from assur.view.trajectory import Trajectory, around, through
-
-if TYPE_CHECKING:
-    from assur.view.window import Window
 
 FloatArray = NDArray[np.float64]
 PERIOD = 8.0
@@ -31,7 +29,7 @@ PLAY, STOP = "play", "stop"
 class Player:
     """Remembers poses, plans the way through them, and plays it: round and round, or as far as it can be gone."""
 
-    def __init__(self, window: Window) -> None:
+    def __init__(self, window: Host) -> None:
         self.window = window
         self.way: Trajectory | None = None
         self.waypoints: list[FloatArray] = []

@@ -11,15 +11,15 @@ import pytest
 
 from assur.numerics.intervals import rounding
 from assur.numerics.intervals.interval import Interval
-from assur.numerics.recording import interval_code, interval_program
-from assur.numerics.recording.interval_program import STEPS, IntervalProgram, _planned
+from assur.numerics.recording import interval_code, interval_plan
+from assur.numerics.recording.interval_program import IntervalProgram
 from assur.numerics.recording.tape import Recorder
 
 NAMES = {"varying": "_VARYING", "store": "_STORE", "+": "_PLUS", "-": "_MINUS", "*": "_TIMES", "/": "_OVER"}
 
 
 def test_steps_have_the_numbers_of_their_names():
-    for number, name in enumerate(STEPS):
+    for number, name in enumerate(interval_plan.STEPS):
         own = NAMES.get(name, "_" + name.upper().replace(" ", "_"))
         assert getattr(interval_code, own) == number
 
@@ -27,7 +27,7 @@ def test_steps_have_the_numbers_of_their_names():
 @pytest.mark.parametrize("name", ["SHARE", "SHARE_OF_SUM", "LEAST", "GREATEST", "STEPS"])
 def test_what_code_on_disk_depends_on_stands_in_its_own_file(monkeypatch, name):
     """Numba compares that file alone; where another says something else it is not imported."""
-    place = interval_program if name == "STEPS" else rounding
+    place = interval_plan if name == "STEPS" else rounding
     assert getattr(interval_code, name) == getattr(place, name)
     assert f"\n{name} = " in Path(interval_code.__file__).read_text(encoding="utf-8")
     monkeypatch.setattr(place, name, 2 * getattr(place, name))
@@ -54,7 +54,7 @@ def test_a_long_program_needs_few_places():
     for _ in range(300):
         total = recorder.sqrt(total * total + y)
     tape = recorder.tape({"f": total, "x": x})
-    assert _planned(tape).places < 8 < len(_planned(tape).steps)
+    assert interval_plan.interval_plan(tape).places < 8 < len(interval_plan.interval_plan(tape).steps)
     numbers = [Interval.of([0.1, -2.0], [0.2, 1.0]), Interval.of([0.0, -1.0], [1.0, 3.0])]
     one, two = (IntervalProgram(tape)(numbers, [], engine)["f"] for engine in ("compiled", "numpy"))
     np.testing.assert_array_equal(one.low, two.low)

@@ -147,7 +147,7 @@ def test_the_code_is_loaded_once_it_is_repaid(monkeypatch):
     for _ in range(12):
         program([x, x], [])
     assert 0 < len(calls) < 12
-    monkeypatch.setattr(interval_program, "_DONE", interval_program._Done(there=False))
+    monkeypatch.setattr(interval_program, "_DONE", interval_program._Done(compilable=False))
     calls.clear()
     for _ in range(12):
         program([x, x], [])

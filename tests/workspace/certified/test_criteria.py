@@ -162,7 +162,7 @@ def test_machine_code_has_the_bits_of_numpy_for_every_mechanism(name, monkeypatc
         for axis, has, item in zip(asked.slice.free, asked.used, given, strict=True)
     ]
     answers = []
-    for done in (interval_program._Done(work=interval_program.REPAID), interval_program._Done(there=False)):
+    for done in (interval_program._Done(work=interval_program.REPAID), interval_program._Done(compilable=False)):
         monkeypatch.setattr(interval_program, "_DONE", done)
         answers.append((asked.over(given), asked.over(endless), asked.sloped(given, frame.middles(boxes.middles))))
     for one, two in zip(*answers, strict=True):

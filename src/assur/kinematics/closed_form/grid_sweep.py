@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -12,12 +12,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.closed_form.about import about, told
+from assur.kinematics.answers.at_border import power
+from assur.kinematics.closed_form.about import coordinates, factor, told
 from assur.kinematics.closed_form.blocks import FloatArray, Progress
 from assur.kinematics.closed_form.grids import Grid
 from assur.kinematics.closed_form.streamed import KINDS, fill
 from assur.kinematics.modes import Problem, all_modes
-from assur.kinematics.status import Status
+from assur.kinematics.status import Status, closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.results.disk import DISK, Disk
@@ -26,6 +27,8 @@ from assur.results.store.note import Counts
 from assur.results.store.store import Solved, Store
 
 Found = Mapping[str, NDArray[Any]]
+
+_ROWS = {"inputs": "input", "poses": "coordinate", "factors": "factor"}
 
 ALL = "all"
 """Stands for every mode."""
@@ -116,7 +119,7 @@ class GridSweep(ABC):
             "counts": list(self.grid.counts),
             "keep": list(self.keep),
         }
-        return Plan(question, self.arrays, self.block_length, shard, about(self))
+        return Plan(question, self.arrays, self.block_length, shard, _about(self))
 
     def store(self, folder: Path, shard: Shard | None = None, disk: Disk = DISK) -> Store:
         """The store of a folder, not open yet, with a note for people (`sweep.json`)."""
@@ -166,3 +169,69 @@ def _counted(found: Found) -> Counts:
     if "status" in found:
         counts["status"] = {Status(k).name: int(n) for k, n in enumerate(np.bincount(found["status"].ravel())) if n}
     return counts
+
+
+def _about(sweep: GridSweep) -> dict[str, Any]:
+    """The sweep of a whole grid, without what is counted in it."""
+    record = sweep.record
+    kinds = coordinates(record, sweep.problem)
+    units = {"length": record.unit, "angle": record.angle}
+    axes: list[dict[str, Any]] = []
+    held: dict[str, float] = {}
+    scales = sweep.grid.scales or (1.0,) * len(kinds)
+    for k, (name, kind) in enumerate(kinds.items()):
+        scale = scales[k] / factor(record, kind)
+        low, high = (value * scale for value in (sweep.grid.low[k], sweep.grid.high[k]))
+        if sweep.grid.counts[k] == 1:
+            held[name] = low
+        else:
+            axes.append({"name": name, "unit": units[kind], "low": low, "high": high, "count": sweep.grid.counts[k]})
+    return {
+        "mechanism": record.name,
+        "dimensions": {name: float(value) for name, value in vars(record.values).items()},
+        "problem": sweep.problem,
+        "mode": sweep.mode,
+        "modes": list(sweep.modes),
+        "unit": record.unit,
+        "angle": record.angle,
+        "along": axes,
+        "at": held,
+        "how": sweep.how,
+        "files": {array.name: _file(sweep, array, [axis["name"] for axis in axes]) for array in sweep.arrays},
+    }
+
+
+def _file(sweep: GridSweep, array: Array, along: Sequence[str]) -> dict[str, Any]:
+    rows, units, meaning = _rows(sweep, array.name)
+    names = [*(["mode"] if sweep.every else []), *([_ROWS[array.name]] if rows else [])]
+    return {
+        "file": f"{array.name}.npy",
+        "shape": list(array.shape),
+        "dtype": array.dtype,
+        "axes": [*names, *along],
+        "rows": rows,
+        "units": units,
+        "meaning": meaning,
+    }
+
+
+def _rows(sweep: GridSweep, name: str) -> tuple[list[str], list[str], str]:
+    """Names and units of the rows of a file, where it has some, and what stands in it."""
+    record = sweep.record
+    units = {"length": record.unit, "angle": record.angle}
+    if name in ("inputs", "poses"):
+        kinds = coordinates(record, "direct" if name == "inputs" else "inverse")
+        return list(kinds), [units[kind] for kind in kinds.values()], f"the {name}; NaN where `exists` would be false"
+    if name == "factors":
+        items = closed_form_of(record).factor_list
+        names, powers = [item.name for item in items], [power(record.unit, item.unit) for item in items]
+        return names, powers, "factors of det Jp and det Jq"
+    meanings = {
+        "exists": sweep.existence,
+        "status": "status: " + ", ".join(f"{status.value} {status.name}" for status in Status),
+        "det_jp": f"det Jp of the regular Jacobian, {record.unit} and rad",
+        "det_jq": f"det Jq of the regular Jacobian, {record.unit} and rad",
+        "condition_index": f"1/cond2 of Jp^-1 Jq, 0 where singular, {record.unit} and rad",
+        "smallest": f"smallest singular value of Jp^-1 Jq, {record.unit} and rad",
+    }
+    return [], [], meanings[name]

@@ -16,7 +16,7 @@ from typing import Any
 from numba import njit
 
 from assur.numerics.intervals import rounding
-from assur.numerics.recording import interval_program
+from assur.numerics.recording import interval_plan
 
 SHARE = 2.0**-53 * (1 + 2.0**-52)
 SHARE_OF_SUM = 2.0**-52
@@ -25,7 +25,7 @@ GREATEST = (2 - 2.0**-52) * 2.0**1023
 STEPS = ("varying", "store", "+", "-", "*", "/", "negative", "magnitude", "root", "sign rate", "root rate")
 _VARYING, _STORE, _PLUS, _MINUS, _TIMES, _OVER, _NEGATIVE, _MAGNITUDE, _ROOT, _SIGN_RATE, _ROOT_RATE = range(len(STEPS))
 
-_SAME = {rounding: ("SHARE", "SHARE_OF_SUM", "LEAST", "GREATEST"), interval_program: ("STEPS",)}
+_SAME = {rounding: ("SHARE", "SHARE_OF_SUM", "LEAST", "GREATEST"), interval_plan: ("STEPS",)}
 for _place, _name in ((place, name) for place, names in _SAME.items() for name in names):
     if globals()[_name] != getattr(_place, _name):
         raise ImportError(f"{__name__}: {_name} is not that of {_place.__name__}; write the same in both")
@@ -124,7 +124,7 @@ def run(steps: Any, given: Any, answer: Any, work: Any, clamped: bool) -> None:
     """Go through a program for every element, some at a time.
 
     Args:
-        steps: (S, 5) as `interval_program` plans them.
+        steps: (S, 5) as `interval_plan` plans them.
         given: low, high, defined (V, N) and exact (V,), whether both bounds are one object: an exact zero among the
             factors makes an exact zero of the product.
         answer: low, high, defined (R, N).

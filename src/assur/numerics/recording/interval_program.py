@@ -22,14 +22,10 @@ from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.intervals.rates import ClampedIntervals
 from assur.numerics.intervals.shapes import broadcast
 from assur.numerics.number_types import Intervals
+from assur.numerics.recording.interval_plan import IntervalPlan, interval_plan
 from assur.numerics.recording.tape import Tape
 
 Engine = Literal["auto", "numpy", "compiled"]
-
-STEPS = ("varying", "store", "+", "-", "*", "/", "negative", "magnitude", "root", "sign rate", "root rate")
-"""What a program is made of: numbers fetched, answers stored, operations."""
-
-GIVEN = ("varying", "uniform", "number")
 
 AT_ONCE = 64
 """Elements that are worked on at a time."""
@@ -91,55 +87,8 @@ class IntervalProgram:
         return {name: stored[k] for name, k in self.tape.outputs.items()}
 
     @cached_property
-    def _plan(self) -> _Plan:
-        return _planned(self.tape)
-
-
-@dataclass(frozen=True, eq=False)
-class _Plan:
-    """A tape as numbers.
-
-    Attributes:
-        steps: (S, 5) place in `STEPS`, place of the result, those of the arguments, and of a product the row of its
-            second factor among what is given, or -1.
-        places: how many results are kept at a time; in the first ones is what does not vary, uniform numbers first: no
-            step writes there.
-        rows: entry -> row of the answer.
-        numbers: the written ones.
-    """
-
-    steps: NDArray[np.int64]
-    places: int
-    rows: dict[int, int]
-    numbers: list[float]
-
-
-def _planned(tape: Tape) -> _Plan:
-    """Steps in the order of the tape; a place is used again once nothing needs what is there."""
-    operations = tape.operations
-    rows = {k: row for row, k in enumerate(dict.fromkeys(tape.outputs.values()))}
-    last = {argument: k for k, item in enumerate(operations) for argument in item.arguments}
-    varying, *same = ([k for k, item in enumerate(operations) if item.name == kind] for kind in GIVEN)
-    fixed = [k for part in same for k in part]
-    given = {k: row for row, k in enumerate([*varying, *fixed])}
-    place = {k: at for at, k in enumerate(fixed)}
-    steps: list[tuple[int, ...]] = []
-    free: list[int] = []
-    places = len(fixed)
-    for k, item in enumerate(operations):
-        arguments = item.arguments
-        if item.name == "*" and operations[arguments[0]].name == "number":
-            arguments = arguments[::-1]  # as NumPy does it
-        if k not in place:
-            place[k], places = (free.pop(), places) if free else (places, places + 1)
-            one, two = (place[arguments[0]], place[arguments[-1]]) if arguments else (given[k], 0)
-            factor = given.get(arguments[-1], -1) if item.name == "*" else -1
-            steps.append((STEPS.index(item.name), place[k], one, two, factor))
-        if k in rows:
-            steps.append((STEPS.index("store"), rows[k], place[k], 0, -1))
-        free += [place[entry] for entry in {k, *arguments} if last.get(entry, k) == k and place[entry] >= len(fixed)]
-    written = [operations[k].number for k in same[1]]
-    return _Plan(np.array(steps, dtype=np.int64).reshape(-1, 5), places, rows, written)
+    def _plan(self) -> IntervalPlan:
+        return interval_plan(self.tape)
 
 
 def _rows(height: int, count: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
@@ -153,7 +102,7 @@ class _Done:
     """Work done so far that machine code could have done."""
 
     work: int = 0
-    there: bool = field(default_factory=lambda: importlib.util.find_spec("numba") is not None)
+    compilable: bool = field(default_factory=lambda: importlib.util.find_spec("numba") is not None)
 
 
 _DONE = _Done()
@@ -166,4 +115,4 @@ def repaid(operations: int, count: int) -> bool:
     """
     if _DONE.work < REPAID:
         _DONE.work += operations * max(count, SMALL)
-    return _DONE.there and _DONE.work >= REPAID
+    return _DONE.compilable and _DONE.work >= REPAID

@@ -12,7 +12,6 @@ from assur.report.sections.reach import size_name
 from assur.report.sections.singularities import plain
 from assur.results.kinds import PROVED, Cell, Result, Scalar, Section, Table
 from assur.workspace.aspects.aspects import Aspects
-from assur.workspace.aspects.volumes import undecided_share
 
 LISTED = 12
 """Aspects in the table, the largest first."""
@@ -47,7 +46,7 @@ def _counts(answer: Aspects) -> list[Scalar]:
         ),
         Scalar(
             "undecided, at most",
-            float(shown(100 * undecided_share(answer))),
+            float(shown(100 * answer.undecided_share)),
             "% of the workspace",
             PROVED,
             note=f"{count(len(answer.search.undecided), 'box')} over {size}; --finest of assur aspects cuts smaller",

@@ -7,6 +7,7 @@ to be. All of it holds inside the box that is looked at: two aspects may be one 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -128,6 +129,21 @@ class Aspects:
         'connected'
         """
         return path_between(self.search, self._labels, self.names, point_of(self.box, start), point_of(self.box, end))
+
+    @property
+    def undecided_share(self) -> float:
+        """An upper bound of the share of the workspace that no aspect is proved to hold.
+
+        The workspace is what is proved and some of the undecided boxes; the more of them, the larger the share.
+
+        >>> from assur.model.registry import load_record
+        >>> answer = aspects(load_record("fivebar"), finest=20.0)
+        >>> bool(answer.search.open < answer.undecided_share < 1.0)
+        True
+        """
+        proved = math.fsum(aspect.volume[0] for aspect in self.aspects)
+        undecided = self.search.open * math.prod(high - low for low, high in self.search.frame.box.intervals)
+        return undecided / (proved + undecided) if undecided else 0.0
 
     @property
     def _labels(self) -> list[str]:

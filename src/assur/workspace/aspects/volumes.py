@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +15,6 @@ from assur.workspace.aspects.signs import Signs
 from assur.workspace.aspects.turning import ends_of, once
 from assur.workspace.certified import cuts
 from assur.workspace.certified.planes import BLOCK, judged
-
-if TYPE_CHECKING:
-    from assur.workspace.aspects.aspects import Aspects
 
 FloatArray = NDArray[np.float64]
 Pair = tuple[float, float]
@@ -88,20 +84,3 @@ def _open(state: Search) -> _Open:
                 least, most = cuts.shares(values[name].of(open_, len(boxes)), reach[:, open_])
                 found.shares[:, j, row[open_]] = most, rounding.up(1.0 - least)
     return found
-
-
-def undecided_share(found: Aspects) -> float:
-    """An upper bound of the share of the workspace that no aspect is proved to hold.
-
-    The workspace is what is proved and some of the undecided boxes; the more there is of them, the larger the share.
-
-    >>> from assur.model.registry import load_record
-    >>> from assur.workspace.aspects.aspects import aspects
-    >>> found = aspects(load_record("fivebar"), finest=20.0)
-    >>> bool(found.search.open < undecided_share(found) < 1.0)
-    True
-    """
-    proved = math.fsum(item.volume[0] for item in found.aspects)
-    box = found.search.frame.box
-    open_ = found.search.open * math.prod(high - low for low, high in box.intervals)
-    return open_ / (proved + open_) if open_ else 0.0

@@ -1,0 +1,112 @@
+"""Laws about names and imports: a class name means one thing, a name says what it holds, no import comes back."""
+
+from __future__ import annotations
+
+import ast
+from collections import defaultdict
+from collections.abc import Container, Iterator
+from pathlib import Path
+
+import networkx as nx
+import pytest
+
+SOURCE = Path(__file__).parents[1] / "src" / "assur"
+TREES = {path.relative_to(SOURCE): ast.parse(path.read_text(encoding="utf-8")) for path in sorted(SOURCE.rglob("*.py"))}
+"""Every module, by its path; those of mechanisms repeat the names of their kind."""
+
+CORE = {path: tree for path, tree in TREES.items() if path.parts[0] != "mechanisms"}
+
+SHARED_CLASS_NAMES = {
+    "Answer", "Asked", "Assembly", "Bar", "Body", "Box", "Branch", "Chain", "Configuration", "Decomposition",
+    "Distance", "Drawing", "Edge", "End", "Ends", "Entry", "Equation", "Field", "Formula", "Formulas", "Frame",
+    "Geometry", "Input", "Joint", "Judged", "Layout", "Letter", "Limb", "Line", "Links", "Loop", "Mark",
+    "Measure", "Meeting", "Mobility", "Motion", "Named", "Names", "Part", "Path", "Placed", "Plan", "PocSet",
+    "Point", "Program", "Question", "Range", "Reach", "Reading", "Region", "Row", "Scope", "Search", "Section",
+    "Sign", "Solved", "Step", "Style", "System", "Table", "Turn", "Verdict",
+}  # fmt: skip
+"""Public names that several classes still have. A name that has become unique must go from this set."""
+
+FOLDERS_WITH_FOUND = {
+    "audit", "certificates", "cli", "crosscheck", "errors.py", "figures", "kinematics", "model", "numerics",
+    "page", "performance", "report", "scene", "singularity", "synthesis", "topology", "view", "workspace",
+}  # fmt: skip
+"""Folders in which something is still declared as `found`. One in which nothing is must go from this set."""
+
+
+def public_classes() -> dict[str, list[Path]]:
+    """Modules by the name of a public class at their top."""
+    modules = defaultdict(list)
+    for path, tree in CORE.items():
+        for node in tree.body:
+            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+                modules[node.name].append(path)
+    return modules
+
+
+def declared(tree: ast.AST) -> Iterator[tuple[str, int]]:
+    """Names, with their lines, of parameters, fields, methods and attributes that are set."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.arg):
+            yield node.arg, node.lineno
+        elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
+            yield node.attr, node.lineno
+        elif isinstance(node, ast.ClassDef):
+            for member in node.body:
+                if isinstance(member, ast.AnnAssign) and isinstance(member.target, ast.Name):
+                    yield member.target.id, member.lineno
+                elif isinstance(member, ast.Assign):
+                    yield from ((name.id, name.lineno) for name in member.targets if isinstance(name, ast.Name))
+                elif isinstance(member, ast.FunctionDef):
+                    yield member.name, member.lineno
+
+
+def imported(tree: ast.AST, modules: Container[str]) -> Iterator[str]:
+    """Which of some modules one imports, wherever in it."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name in modules)
+        elif isinstance(node, ast.ImportFrom):
+            names = [f"{node.module}.{alias.name}" for alias in node.names]
+            yield from (name if name in modules else str(node.module) for name in names)
+
+
+def circles(imports: dict[str, set[str]]) -> list[list[str]]:
+    """Modules that import one another, at once or through others; by module what it imports."""
+    graph = nx.DiGraph([(module, name) for module, names in imports.items() for name in names])
+    return sorted(sorted(modules) for modules in nx.strongly_connected_components(graph) if len(modules) > 1)
+
+
+def test_a_public_class_name_is_unique():
+    assert {name for name, modules in public_classes().items() if len(modules) > 1} == SHARED_CLASS_NAMES
+
+
+def test_nothing_is_declared_as_found():
+    """What was found has a name in the theory: solutions, roots, assemblies."""
+    places = [(path, line) for path, tree in CORE.items() for name, line in declared(tree) if name == "found"]
+    assert {path.parts[0] for path, _ in places} == FOLDERS_WITH_FOUND, places
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "def f(found): ...",
+        "def f(*, found=1): ...",
+        "lambda found: found",
+        "class A:\n    found: int",
+        "class A:\n    found = 1",
+        "class A:\n    def found(self): ...",
+        "a.found = 1",
+        "a.found: int = 1",
+    ],
+)
+def test_a_declaration_is_seen(text):
+    assert [name for name, _ in declared(ast.parse(text)) if name == "found"] == ["found"]
+
+
+def test_no_import_comes_back():
+    """Also not within a function, nor for types alone."""
+    names = {".".join(("assur", *path.with_suffix("").parts)).removesuffix(".__init__"): path for path in TREES}
+    imports = {name: set(imported(TREES[path], names)) for name, path in names.items()}
+    assert circles(imports) == []
+    assert sum(map(len, imports.values())) > len(imports)
+    assert circles({"a": {"b"}, "b": {"c"}, "c": {"b"}}) == [["b", "c"]]
