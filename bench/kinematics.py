@@ -16,22 +16,27 @@ import argparse
 import sys
 import time
 from collections.abc import Callable
-from functools import partial
 from importlib.util import find_spec
+from pathlib import Path
 from statistics import median
+from tempfile import TemporaryDirectory
 
 import numpy as np
-from assur.kinematics.compiled_closure import BLOCK, compiled_closure
 from rich.console import Console
 from rich.table import Table
 
 import assur
-from assur.joint_graph.state import state_of
-from assur.kinematics.closure import FloatArray, assemble
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.closure import FloatArray, assemble, closure_error
+from assur.kinematics.newton import BLOCK, ENOUGH, Newton, NewtonStep
+from assur.kinematics.paths.from_home import followed_in_a_row
 from assur.kinematics.pose import pose_of
+from assur.synthesis.drafting.drafting import drafted
+from assur.topology.notation import parse_chains
 
 RNG = np.random.default_rng(0)
 MODE = "++-++"
+HYBRID = ["{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", "R[z] R[z] C[z]"]
 
 
 def timed(work: Callable[[], object], repeats: int, clock: Callable[[], float] = time.perf_counter) -> float:
@@ -72,20 +77,36 @@ def closure(rows: Table, poses: int, repeats: int) -> bool:
 
 def newton(rows: Table, mechanism: assur.Mechanism, start: FloatArray, expected: FloatArray, repeats: int) -> bool:
     """The recorded Newton step from the same starts; whether it ends where least squares do."""
-    closure = compiled_closure(mechanism, mechanism.input_indices)
-    size, right = len(start), True
-    for engine in ("numpy", "compiled") if find_spec("numba") else ("numpy",):
-        found = closure(start, engine=engine)
-        right &= bool(np.all(found.closed) and np.abs(found.values - expected).max() < 1e-9)
-        ours = timed(partial(closure, start, engine=engine), repeats, time.process_time)
-        step = closure.stepper(engine, size)
-        state = state_of(mechanism, np.ascontiguousarray(start[:BLOCK].T))
-        answer = np.empty((len(closure.tape.outputs), state.shape[1]))
-        calls = 20 * repeats
-        bare = (found.steps + 1) * timed(partial(step, state, answer), calls, time.process_time) / state.shape[1]
-        took = f"{1e6 * ours / size:.2f} µs a pose", f"{1e6 * bare:.2f} µs", f"{ours / size / bare:.1f}"
-        count = len(closure.tape.operations)
-        rows.add_row(f"closure, recorded, {engine}", *took, f"{found.steps} steps of {count} operations")
+    method = Newton(mechanism, NewtonStep(mechanism.input_indices))
+    values, gaps, steps = method(start)
+    right = bool(np.all(gaps <= ENOUGH) and np.abs(values - expected).max() < 1e-9)
+    ours = timed(lambda: method(start), repeats, time.process_time) / len(start)
+    block = start[:BLOCK]
+    bare = (steps + 1) * timed(lambda: method.program(mechanism, block), 20 * repeats, time.process_time) / len(block)
+    took = f"{1e6 * ours:.2f} µs a pose", f"{1e6 * bare:.2f} µs", f"{ours / bare:.1f}"
+    count = len(method.program.tape.operations)
+    rows.add_row("closure, recorded", *took, f"{steps} steps of {count} operations")
+    return right
+
+
+def followed(rows: Table, repeats: int) -> bool:
+    """A grid without a closed form, home's mode followed over its lines; whether the loops are closed to rounding."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder, "hybrid.toml")
+        path.write_text(drafted(parse_chains(HYBRID), path).text, encoding="utf-8")
+        mechanism = assur.load(path)
+    home = pose_of(mechanism, mechanism.home_values)
+    x, y = np.meshgrid(np.linspace(0.0, 60.0, 64), np.linspace(-60.0, 60.0, 128), indexing="ij")
+    poses = home + np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
+    joints, reached = followed_in_a_row(mechanism, poses)
+    length = characteristic_length(mechanism)
+    right = bool(np.all(reached) and np.max(closure_error(mechanism, joints)) <= 1e-12 * length)
+    ours = timed(lambda: followed_in_a_row(mechanism, poses), repeats, time.process_time) / len(poses)
+    count = len(mechanism.coordinates)
+    matrix = RNG.normal(size=(256, count, count))
+    least = 3 * timed(lambda: np.linalg.solve(matrix, matrix[..., :1]), 20 * repeats, time.process_time) / 256
+    took = f"{1e6 * ours:.1f} µs a pose", f"{1e6 * least:.1f} µs", f"{ours / least:.1f}"
+    rows.add_row(f"grid of a draft, {len(poses)} poses", *took, f"{count} joint values, three solutions of as many")
     return right
 
 
@@ -140,6 +161,7 @@ def main() -> int:
     asked = parser.parse_args()
     rows = Table("what", "ours", "yardstick", "ratio", "found", box=None)
     right = closure(rows, asked.poses, asked.repeats)
+    right &= followed(rows, asked.repeats)
     mujoco(rows, asked.repeats)
     right &= postures(rows, asked.repeats)
     Console(width=140).print(rows)

@@ -23,7 +23,6 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
 import with_pymadcad
-from assur.kinematics.compiled_closure import compiled_closure
 from bench import MECHANISM, problems
 from codac_process import Codac, Paved
 from rich.console import Console
@@ -34,6 +33,7 @@ import assur
 from assur.kinematics.certified.certify import certified_direct
 from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep
 from assur.kinematics.closed_form.sweep import inverse_sweep
+from assur.kinematics.newton import ENOUGH, Newton, NewtonStep
 from assur.kinematics.pose import pose_of
 from assur.workspace.certified.criteria import criteria
 from assur.workspace.certified.paving import Paving, pave
@@ -168,9 +168,9 @@ def closure(rows: Table, record: assur.Mechanism, start: np.ndarray, poses: np.n
     """The pose at given inputs from a neighbour, by the joint graph: 17 joints, 4 loops, 10 redundant constraints."""
     start = start.copy()
     start[:, record.input_indices] = record.inverse(poses, record.modes.default_working).inputs[:, 0]
-    engine = partial(compiled_closure(record, record.input_indices), engine="compiled")
-    found = engine(start)
-    right = bool(np.all(found.closed)) and np.abs(pose_of(record, found.values) - poses).max() < NEAR * ROUNDING
+    engine = Newton(record, NewtonStep(record.input_indices))
+    values, gaps, _ = engine(start)
+    right = bool(np.all(gaps <= ENOUGH)) and np.abs(pose_of(record, values) - poses).max() < NEAR * ROUNDING
     many = np.tile(start, (MANY // len(start), 1))
     took = seconds({"one": lambda: [engine(one[None]) for one in start], "many": lambda: engine(many)}, repeats)
     own = Own(took["one"] / len(start), took["many"] / len(many))
