@@ -156,9 +156,11 @@ class Findings:
         """Inputs (n,) of the configuration that the report is about: the source's, else those of home."""
         table = self.table("direct")
         if table:
-            return inputs_from_border(self.record, np.array([item.value for item in table.given]))
+            return inputs_from_border(self.record, np.array([printed.value for printed in table.given]))
         values = self.home[list(self.record.input_indices)]
-        signs, offsets = (np.array([getattr(item, name) for item in self.record.inputs]) for name in ("sign", "offset"))
+        signs, offsets = (
+            np.array([getattr(actuated, name) for actuated in self.record.inputs]) for name in ("sign", "offset")
+        )
         return np.asarray(signs * values + offsets)
 
     @cached_property
@@ -169,17 +171,21 @@ class Findings:
     @cached_property
     def solution(self) -> Solution:
         """The configuration that the report is about: of the default assembly mode, else the one nearest to home."""
-        found = list(self.direct)
-        if not found:
+        solutions = list(self.direct)
+        if not solutions:
             raise UsageError(f"{self.record.name} has no real solution at the inputs that the report is about")
-        of_mode = [item for item in found if item.assembly_mode == self.record.modes.default_assembly]
+        of_mode = [solution for solution in solutions if solution.assembly_mode == self.record.modes.default_assembly]
         chosen = (
-            of_mode[0] if self.table("direct") and of_mode else min(found, key=lambda it: self._apart(it, self.home))
+            of_mode[0]
+            if self.table("direct") and of_mode
+            else min(solutions, key=lambda solution: self._apart(solution, self.home))
         )
         if self.record.closed_form is None or self.kernel("direct") is not None:
             return chosen
         joints = np.array(list(chosen.joints.values()))  # of a search, which knows no factors
-        return min(inverse(self.record, chosen.pose), key=lambda item: self._apart(item, joints), default=chosen)
+        return min(
+            inverse(self.record, chosen.pose), key=lambda solution: self._apart(solution, joints), default=chosen
+        )
 
     def _apart(self, solution: Solution, joints: FloatArray) -> float:
         """How far joints and platform of a solution are from where they are at joint values (n,); rods may spin."""
@@ -195,7 +201,7 @@ class Findings:
         """Pose (m,) of which the inverse problem is solved: the source's, else that of the configuration."""
         table = self.table("inverse")
         if table:
-            return pose_from_border(self.record, np.array([item.value for item in table.given]))
+            return pose_from_border(self.record, np.array([printed.value for printed in table.given]))
         return self.solution.pose
 
     @cached_property
@@ -288,4 +294,4 @@ class Findings:
 
     def picture(self, *names: str) -> tuple[Picture, ...]:
         """The figures of these names, as far as the mechanism has them and figures are drawn."""
-        return tuple(item for name in names if self.illustrated for item in pictures(self.context, name))
+        return tuple(picture for name in names if self.illustrated for picture in pictures(self.context, name))

@@ -48,9 +48,9 @@ def is_label(latex: str) -> bool:
 
 def _of_inputs(record: MechanismRecord) -> Iterator[Problem]:
     """Of an input without a label of its own its name is one; it is set as words where need be."""
-    for item in record.inputs:
-        path: KeyPath = (*input_place(record, item.coordinate), "latex")
-        if item.latex != item.name and not is_label(item.latex) and _stands(record, path):
+    for actuated in record.inputs:
+        path: KeyPath = (*input_place(record, actuated.coordinate), "latex")
+        if actuated.latex != actuated.name and not is_label(actuated.latex) and _stands(record, path):
             yield problem(record, path, _found(_written(record, path)), ALLOWED)
 
 
@@ -58,8 +58,8 @@ def _of_closed_form(record: MechanismRecord) -> Iterator[Problem]:
     form = record.closed_form
     if form is None:
         return
-    texts = [item.latex for item in (*form.direct_margins, *form.inverse_margins)]
-    texts += [item.latex for item in form.factor_list] + [item.latex for item in form.quantity_list]
+    texts = [margin.latex for margin in (*form.direct_margins, *form.inverse_margins)]
+    texts += [entry.latex for entry in form.factor_list] + [entry.latex for entry in form.quantity_list]
     texts += [form.self_motion.latex] if form.self_motion else []
     wrong = [latex for latex in dict.fromkeys(texts) if latex and not is_label(latex)]
     if wrong:
@@ -71,7 +71,7 @@ def _of_closed_form(record: MechanismRecord) -> Iterator[Problem]:
 
 
 def _of_companion(record: MechanismRecord, drawn: Companion) -> Iterator[Problem]:
-    labels: dict[KeyPath, str] = {("measures", k, "latex"): item.latex for k, item in enumerate(drawn.measures)}
+    labels: dict[KeyPath, str] = {("measures", k, "latex"): measure.latex for k, measure in enumerate(drawn.measures)}
     labels |= {("flow", "steps", name, "latex"): step.latex for name, step in drawn.flow.steps.items() if step.latex}
     wrong = {path: latex for path, latex in labels.items() if not is_label(latex)}
     if wrong and record.folder is not None:
@@ -100,8 +100,8 @@ def _written(record: MechanismRecord, path: KeyPath) -> str:
 
 def _lines_of_texts(path: Path) -> dict[str, int]:
     """Text -> the first line of a Python file on which it stands."""
-    found: dict[str, int] = {}
+    lines: dict[str, int] = {}
     for node in ast.walk(ast.parse(file_text(path))):
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
-            found[node.value] = min(node.lineno, found.get(node.value, node.lineno))
-    return found
+            lines[node.value] = min(node.lineno, lines.get(node.value, node.lineno))
+    return lines

@@ -68,7 +68,7 @@ def pose_angles(record: MechanismRecord) -> tuple[bool, ...]:
 
 def input_angles(record: MechanismRecord) -> tuple[bool, ...]:
     """For every input, whether it is an angle."""
-    return tuple(item.coordinate.kind == "angle" for item in record.inputs)
+    return tuple(actuated.coordinate.kind == "angle" for actuated in record.inputs)
 
 
 def pose_words(record: MechanismRecord, style: Style, pose: Sequence[float]) -> str:

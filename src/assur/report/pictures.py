@@ -24,8 +24,8 @@ def pictures(context: figures.Context, name: str) -> tuple[Picture, ...]:
     figure = figures.draw(context.record, name, context)
     width, height = (round(float(size) * CSS_INCH * ENLARGED) for size in figure.get_size_inches())
     png = _with_palette(figures.encoded(figure, "png", DOTS_PER_INCH))
-    own = context.companion.numbers.get(name)
-    caption = f"{spec.caption} Compare Figure {own} of the source." if own else spec.caption
+    drawn = context.companion.numbers.get(name)
+    caption = f"{spec.caption} Compare Figure {drawn} of the source." if drawn else spec.caption
     return (Picture(spec.name, "", spec.title, caption, png, width, height),)
 
 

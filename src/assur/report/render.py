@@ -113,17 +113,17 @@ def _environment() -> jinja2.Environment:
 
 def blocks(results: Iterable[Result | Section]) -> list[tuple[str, object]]:
     """(macro, item) for each result; scalars and matrices that stand together are one block."""
-    found: list[tuple[str, object]] = []
-    for item in results:
-        name = MACROS[type(item)]
+    grouped: list[tuple[str, object]] = []
+    for result in results:
+        name = MACROS[type(result)]
         if name in ("scalars", "matrix"):
-            if found and found[-1][0] == name:
-                found[-1][1].append(item)  # type: ignore[attr-defined]  # a list, made below
+            if grouped and grouped[-1][0] == name:
+                grouped[-1][1].append(result)  # type: ignore[attr-defined]  # a list, made below
             else:
-                found.append((name, [item]))
+                grouped.append((name, [result]))
         else:
-            found.append((name, item))
-    return found
+            grouped.append((name, result))
+    return grouped
 
 
 @dataclass(frozen=True)
@@ -156,18 +156,18 @@ class Links:
         ]
         return Markup("").join(shown)
 
-    def _entry(self, found: re.Match[str]) -> str:
-        anchor = self.entries.get(found[0])
-        return f'<a href="#{anchor}">{found[0]}</a>' if anchor else found[0]
+    def _entry(self, match: re.Match[str]) -> str:
+        anchor = self.entries.get(match[0])
+        return f'<a href="#{anchor}">{match[0]}</a>' if anchor else match[0]
 
 
 def _entries(sections: Iterable[Section]) -> Iterator[tuple[str, str]]:
     """(id, anchor) of every entry whose title begins with an id and a dot."""
     for section in sections:
-        for item in section.results:
-            if isinstance(item, Facts) and SEPARATOR in item.title:
-                yield item.title.partition(SEPARATOR)[0], slug(item.title)
-        yield from _entries(item for item in section.results if isinstance(item, Section))
+        for result in section.results:
+            if isinstance(result, Facts) and SEPARATOR in result.title:
+                yield result.title.partition(SEPARATOR)[0], slug(result.title)
+        yield from _entries(result for result in section.results if isinstance(result, Section))
 
 
 def slug(text: str) -> str:
@@ -179,20 +179,20 @@ def slug(text: str) -> str:
     return "-".join(re.findall(r"[^\W_]+", text.lower()))
 
 
-def scalar_text(item: Scalar) -> str:
+def scalar_text(scalar: Scalar) -> str:
     """Value of a scalar, to the second digit of its error; where it has only bounds, these."""
-    if item.value is None:
-        return numbers.NOTHING if item.low is None or item.high is None else numbers.bounds(item.low, item.high)
-    return _parts(item)[0]
+    if scalar.value is None:
+        return numbers.NOTHING if scalar.low is None or scalar.high is None else numbers.bounds(scalar.low, scalar.high)
+    return _parts(scalar)[0]
 
 
-def error_text(item: Scalar) -> str:
+def error_text(scalar: Scalar) -> str:
     """Error of a scalar, empty where there is none."""
-    return "" if item.value is None else _parts(item)[2]
+    return "" if scalar.value is None else _parts(scalar)[2]
 
 
-def _parts(item: Scalar) -> tuple[str, str, str]:
-    return numbers.with_error(item.value or 0.0, item.error or 0.0).partition(" ± ")
+def _parts(scalar: Scalar) -> tuple[str, str, str]:
+    return numbers.with_error(scalar.value or 0.0, scalar.error or 0.0).partition(" ± ")
 
 
 def filled(table: Table) -> Table:
@@ -226,10 +226,10 @@ def filtered(table: Table) -> list[str]:
 
 def field_facts(field: Field) -> Facts:
     """What can be said of a field in words."""
-    there = field.values[np.isfinite(field.values)]
+    finite = field.values[np.isfinite(field.values)]
     axes = [(name, f"{_span(values)}, {len(values)} values") for name, values in field.axes]
-    size = f"{_span(there)} {numbers.shown_unit(field.unit)}".strip() if there.size else "exists nowhere"
-    share = f"{100 * there.size / max(1, field.values.size):.1f} % of the grid"
+    size = f"{_span(finite)} {numbers.shown_unit(field.unit)}".strip() if finite.size else "exists nowhere"
+    share = f"{100 * finite.size / max(1, field.values.size):.1f} % of the grid"
     return Facts(field.name, (*axes, ("values", size), ("exists at", share)))
 
 

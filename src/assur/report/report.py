@@ -97,8 +97,8 @@ def report_page(findings: Findings, progress: Progress | None = None) -> Page:
     except KeyboardInterrupt:
         raise Interrupted(_page(findings, sections.values())) from None
     if refused:
-        told = Facts("Sections that this report does not have", tuple(refused.items()))
-        sections[KNOWN] = replace(sections[KNOWN], results=(*sections[KNOWN].results, told))
+        missing = Facts("Sections that this report does not have", tuple(refused.items()))
+        sections[KNOWN] = replace(sections[KNOWN], results=(*sections[KNOWN].results, missing))
     return _page(findings, sections.values())
 
 
@@ -144,18 +144,18 @@ def numbers_of(page: Page) -> list[dict[str, Any]]:
     [('S', 'links', 'exact: counted')]
     """
     return [
-        {"section": title, **plain(item)}
+        {"section": title, **plain(result)}
         for title, results in _sections(page.sections)
-        for item in results
-        if isinstance(item, Scalar)
+        for result in results
+        if isinstance(result, Scalar)
     ]
 
 
 def _sections(sections: Iterable[Section]) -> Iterator[tuple[str, list[Result]]]:
     """(title, results) of every section, those inside others too."""
     for section in sections:
-        yield section.title, [item for item in section.results if not isinstance(item, Section)]
-        yield from _sections(item for item in section.results if isinstance(item, Section))
+        yield section.title, [result for result in section.results if not isinstance(result, Section)]
+        yield from _sections(result for result in section.results if isinstance(result, Section))
 
 
 def _ticker(total: int, progress: Progress | None) -> Callable[[], None]:
@@ -166,13 +166,13 @@ def _ticker(total: int, progress: Progress | None) -> Callable[[], None]:
 
 def _numbered(sections: Iterable[Section], numbers: Iterator[int]) -> tuple[Section, ...]:
     """The sections with their figures numbered as they stand."""
-    found = []
+    numbered = []
     for section in sections:
         results: list[Result | Section] = []
-        for item in section.results:
-            if isinstance(item, Section):
-                results += _numbered([item], numbers)
+        for result in section.results:
+            if isinstance(result, Section):
+                results += _numbered([result], numbers)
             else:
-                results.append(replace(item, number=str(next(numbers))) if isinstance(item, Picture) else item)
-        found.append(replace(section, results=tuple(results)))
-    return tuple(found)
+                results.append(replace(result, number=str(next(numbers))) if isinstance(result, Picture) else result)
+        numbered.append(replace(section, results=tuple(results)))
+    return tuple(numbered)

@@ -115,8 +115,8 @@ class _Reader:
     """Reads tokens one by one; what is left is a stack with the next one on top."""
 
     def __init__(self, source: str) -> None:
-        found = _TOKEN.findall(_SIZES.sub("", source))
-        self.left: list[str] = [token for token in found if not token.isspace()][::-1]
+        tokens = _TOKEN.findall(_SIZES.sub("", source))
+        self.left: list[str] = [token for token in tokens if not token.isspace()][::-1]
 
     @property
     def next(self) -> str:
@@ -198,10 +198,10 @@ class _Reader:
         end, rows = rf"\end{{{name}}}", [[""]]
         while True:
             rows[-1][-1] = self.sequence("&", ROW, end)
-            found = self.take()
-            if found == end:
+            separator = self.take()
+            if separator == end:
                 break
-            if found == ROW:
+            if separator == ROW:
                 rows.append([])
             rows[-1].append("")
         cells = "".join("<mtr>" + "".join(f"<mtd>{cell}</mtd>" for cell in row) + "</mtr>" for row in rows if any(row))
@@ -224,7 +224,7 @@ def _bold(mathml: str) -> str:
     >>> _bold("<mi>u</mi>") == "<mi>\U0001d42e</mi>"
     True
     """
-    return re.sub(r"<mi>([A-Za-z])</mi>", lambda found: f"<mi>{found[1].translate(BOLD)}</mi>", mathml)
+    return re.sub(r"<mi>([A-Za-z])</mi>", lambda match: f"<mi>{match[1].translate(BOLD)}</mi>", mathml)
 
 
 def _symbol(token: str) -> str:

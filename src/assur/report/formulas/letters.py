@@ -26,7 +26,7 @@ def letters_of(name: str, latex: str, angle: bool) -> tuple[Letter, ...]:
 def core_letters(name: str, places: tuple[int, ...], value: Number) -> list[Named]:
     """Letters of a quantity of `core`: what is in a namespace by its own name, what is in a tuple by its places."""
     if isinstance(value, SimpleNamespace):
-        return [found for own, item in vars(value).items() for found in core_letters(own, places, item)]
+        return [named for key, part in vars(value).items() for named in core_letters(key, places, part)]
     if isinstance(value, Traced):
         return [(_placed(name, places), value)]
     if not isinstance(value, tuple | list) or is_rotation(value):
@@ -38,7 +38,7 @@ def core_letters(name: str, places: tuple[int, ...], value: Number) -> list[Name
             (Letter(letter.name, letter.mathml, "cos"), cosine),
             (Letter(letter.name, letter.mathml, "sin"), sine),
         ]
-    return [found for k, item in enumerate(value, 1) for found in core_letters(name, (*places, k), item)]
+    return [named for k, part in enumerate(value, 1) for named in core_letters(name, (*places, k), part)]
 
 
 def _placed(name: str, places: tuple[int, ...]) -> Letter:
@@ -66,7 +66,7 @@ def margin_letter(name: str) -> Letter:
 def parts_of(value: Number) -> tuple[Traced, ...]:
     """The recorded numbers in a value."""
     if isinstance(value, tuple | list):
-        return tuple(part for item in value for part in parts_of(item))
+        return tuple(part for element in value for part in parts_of(element))
     return (value,) if isinstance(value, Traced) else ()
 
 

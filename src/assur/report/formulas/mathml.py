@@ -52,12 +52,12 @@ def letter_mathml(letter: Letter) -> str:
 def term_mathml(term: Traced) -> str:
     """MathML of a recorded formula."""
     parts = []
-    for place, item in enumerate(summands(term)):
+    for place, product in enumerate(summands(term)):
         if place:
-            parts.append("<mo>−</mo>" if item.coefficient < 0 else "<mo>+</mo>")
-        elif item.coefficient < 0:
+            parts.append("<mo>−</mo>" if product.coefficient < 0 else "<mo>+</mo>")
+        elif product.coefficient < 0:
             parts.append(close("−"))
-        parts.append(_product(item))
+        parts.append(_product(product))
     return "".join(parts) or "<mn>0</mn>"
 
 
@@ -67,12 +67,12 @@ def matrix_mathml(rows: Sequence[Sequence[Traced]]) -> str:
     return f'<mrow class="matrix"><mtable>{cells}</mtable></mrow>'
 
 
-def _product(item: Product) -> str:
-    size = abs(item.coefficient)
-    above = _side(size.numerator, item.above, bare=bool(item.below) or size.denominator != 1)
-    if not item.below and size.denominator == 1:
+def _product(product: Product) -> str:
+    size = abs(product.coefficient)
+    above = _side(size.numerator, product.above, bare=bool(product.below) or size.denominator != 1)
+    if not product.below and size.denominator == 1:
         return above
-    return f"<mfrac><mrow>{above}</mrow><mrow>{_side(size.denominator, item.below, bare=True)}</mrow></mfrac>"
+    return f"<mfrac><mrow>{above}</mrow><mrow>{_side(size.denominator, product.below, bare=True)}</mrow></mfrac>"
 
 
 def _side(whole: int, powers: Sequence[Power], *, bare: bool) -> str:
@@ -80,20 +80,20 @@ def _side(whole: int, powers: Sequence[Power], *, bare: bool) -> str:
     if bare and whole == 1 and len(powers) == 1 and powers[0].exponent == 1 and _is_sum(powers[0].base):
         return term_mathml(powers[0].base)
     number = [f"<mn>{whole}</mn>"] if whole != 1 or not powers else []
-    return _joined([*number, *(_power(item) for item in powers)])
+    return _joined([*number, *(_power(power) for power in powers)])
 
 
 def _joined(factors: Iterable[str]) -> str:
-    found = ""
+    product = ""
     for factor in factors:
         gap = THIN if _WORD.match(factor) else ""
-        found += f"{TIMES}{gap}{factor}" if found else factor
-    return found
+        product += f"{TIMES}{gap}{factor}" if product else factor
+    return product
 
 
-def _power(item: Power) -> str:
-    base, exponent = item.base, f"<mn>{item.exponent}</mn>"
-    if base.letter is not None and base.letter.function and item.exponent > 1:
+def _power(power: Power) -> str:
+    base, exponent = power.base, f"<mn>{power.exponent}</mn>"
+    if base.letter is not None and base.letter.function and power.exponent > 1:
         function = f"<msup><mi>{base.letter.function}</mi>{exponent}</msup>"
         return f"<mrow>{function}{APPLY}{base.letter.mathml}</mrow>"
     if base.letter is not None:
@@ -102,7 +102,7 @@ def _power(item: Power) -> str:
         written = f"<msqrt><mrow>{term_mathml(base.parts[0])}</mrow></msqrt>"
     else:
         written = f"<mrow>{bracket('(')}{term_mathml(base)}{bracket(')')}</mrow>"
-    return written if item.exponent == 1 else f"<msup>{written}{exponent}</msup>"
+    return written if power.exponent == 1 else f"<msup>{written}{exponent}</msup>"
 
 
 def _is_sum(term: Traced) -> bool:

@@ -35,16 +35,16 @@ class Product:
 
 def summands(term: Traced) -> tuple[Product, ...]:
     """A formula as a sum of products; like ones are added up, and one that is positive comes first."""
-    found: list[Product] = []
+    products: list[Product] = []
     for new in _products(term, 1):
-        for place, old in enumerate(found):
+        for place, old in enumerate(products):
             if _keys(old) == _keys(new):
-                found[place] = Product(old.coefficient + new.coefficient, old.above, old.below)
+                products[place] = Product(old.coefficient + new.coefficient, old.above, old.below)
                 break
         else:
-            found.append(new)
-    kept = [item for item in found if item.coefficient]
-    first = next((place for place, item in enumerate(kept) if item.coefficient > 0), 0)
+            products.append(new)
+    kept = [product for product in products if product.coefficient]
+    first = next((place for place, product in enumerate(kept) if product.coefficient > 0), 0)
     return (kept[first], *kept[:first], *kept[first + 1 :]) if kept else ()
 
 
@@ -57,22 +57,24 @@ def key(term: Traced) -> str:
     return f"({term.operator} {' '.join(key(part) for part in term.parts)})"
 
 
-def _keys(item: Product) -> tuple[list[tuple[str, int]], list[tuple[str, int]]]:
-    above, below = (sorted((key(power.base), power.exponent) for power in side) for side in (item.above, item.below))
+def _keys(product: Product) -> tuple[list[tuple[str, int]], list[tuple[str, int]]]:
+    above, below = (
+        sorted((key(power.base), power.exponent) for power in side) for side in (product.above, product.below)
+    )
     return above, below
 
 
 def _products(term: Traced, sign: int) -> list[Product]:
     """The products of a sum; a bracket that nothing multiplies is opened."""
-    found: list[Product] = []
+    products: list[Product] = []
     for part_sign, part in _split_sum(term, sign):
         new = _product(part, part_sign)
         inner = new.above[0] if len(new.above) == 1 and not new.below else None
         if inner and abs(new.coefficient) == 1 and inner.exponent == 1 and inner.base.operator in ("+", "-"):
-            found += _products(inner.base, int(new.coefficient))
+            products += _products(inner.base, int(new.coefficient))
         else:
-            found.append(new)
-    return found
+            products.append(new)
+    return products
 
 
 def _split_sum(term: Traced, sign: int) -> list[tuple[int, Traced]]:
@@ -92,7 +94,7 @@ def _product(term: Traced, sign: int) -> Product:
     while pending:
         part, side = pending.pop(0)
         if part.operator == "*":
-            pending[:0] = [(item, side) for item in part.parts]
+            pending[:0] = [(factor, side) for factor in part.parts]
         elif part.operator == "/":
             pending[:0] = [(part.parts[0], side), (part.parts[1], 1 - side)]
         elif part.operator == "neg":
@@ -114,11 +116,11 @@ def _product(term: Traced, sign: int) -> Product:
 
 def _powers(factors: Sequence[Traced]) -> tuple[Power, ...]:
     """Equal factors as powers: signs first, then letters, functions, brackets and roots."""
-    found: dict[str, list[Traced]] = {}
+    equal: dict[str, list[Traced]] = {}
     for factor in factors:
-        found.setdefault(key(factor), []).append(factor)
-    powers = [Power(same[0], len(same)) for same in found.values()]
-    return tuple(sorted(powers, key=lambda item: _rank(item.base)))
+        equal.setdefault(key(factor), []).append(factor)
+    powers = [Power(same[0], len(same)) for same in equal.values()]
+    return tuple(sorted(powers, key=lambda power: _rank(power.base)))
 
 
 def _rank(term: Traced) -> int:
@@ -131,31 +133,33 @@ def _rank(term: Traced) -> int:
 def text(term: Traced) -> str:
     """A formula on one line of plain text."""
     parts = []
-    for place, item in enumerate(summands(term)):
-        sign = ("-" if item.coefficient < 0 else "") if place == 0 else f" {'-' if item.coefficient < 0 else '+'} "
-        parts.append(sign + _product_text(item))
+    for place, product in enumerate(summands(term)):
+        sign = (
+            ("-" if product.coefficient < 0 else "") if place == 0 else f" {'-' if product.coefficient < 0 else '+'} "
+        )
+        parts.append(sign + _product_text(product))
     return "".join(parts) or "0"
 
 
-def _product_text(item: Product) -> str:
-    size = abs(item.coefficient)
-    above, below = _side_text(size.numerator, item.above), _side_text(size.denominator, item.below)
+def _product_text(product: Product) -> str:
+    size = abs(product.coefficient)
+    above, below = _side_text(size.numerator, product.above), _side_text(size.denominator, product.below)
     if below == "1":
         return above
     return f"{above}/({below})" if " " in below else f"{above}/{below}"
 
 
 def _side_text(whole: int, powers: Sequence[Power]) -> str:
-    return " ".join(([] if whole == 1 and powers else [str(whole)]) + [_power_text(item) for item in powers])
+    return " ".join(([] if whole == 1 and powers else [str(whole)]) + [_power_text(power) for power in powers])
 
 
-def _power_text(item: Power) -> str:
-    base = item.base
+def _power_text(power: Power) -> str:
+    base = power.base
     if base.letter is not None:
         word = f"{base.letter.function} {base.letter.name}".strip()
-        word = f"({word})" if base.letter.function and item.exponent > 1 else word
+        word = f"({word})" if base.letter.function and power.exponent > 1 else word
     elif base.operator == "sqrt":
         word = f"sqrt({text(base.parts[0])})"
     else:
         word = f"({text(base)})"
-    return word if item.exponent == 1 else f"{word}^{item.exponent}"
+    return word if power.exponent == 1 else f"{word}^{power.exponent}"

@@ -134,22 +134,24 @@ class _Reader:
         named: list[Named] = []
         for letters, value in zip(self._coordinates(other), results, strict=True):
             named += zip(letters, value if len(letters) > 1 else (value,), strict=True)
-        for item in closed_form_of(self.record).quantity_list:
-            value = run.quantities[item.name]
-            named += zip(letters_of(item.name, item.latex, isinstance(value, tuple)), parts_of(value), strict=True)
+        for quantity in closed_form_of(self.record).quantity_list:
+            value = run.quantities[quantity.name]
+            named += zip(
+                letters_of(quantity.name, quantity.latex, isinstance(value, tuple)), parts_of(value), strict=True
+            )
         named += core_letters("", (), run.branch.core)
         named += [(margin_letter(name), run.branch.margins[name]) for name in margins]
-        found: dict[str, tuple[Letter, Values]] = {}
+        varying: dict[str, tuple[Letter, Values]] = {}
         for letter, part in named:
             if varies(part):
-                found.setdefault(f"{letter.function} {letter.mathml}", (letter, part.values))
-        return list(found.values())
+                varying.setdefault(f"{letter.function} {letter.mathml}", (letter, part.values))
+        return list(varying.values())
 
     def written(self, run: _Run) -> Reading:
         """The lines of a run."""
         met = run.book.met
         results = run.branch.pose if self.problem == "direct" else run.branch.inputs
-        actuated = {self.record.coordinate_label(item.coordinate) for item in self.record.inputs}
+        actuated = {self.record.coordinate_label(actuated_input.coordinate) for actuated_input in self.record.inputs}
         passive = [value for name, value in run.joints.items() if name not in actuated and not is_rotation(value)]
         jp, jq = (_rows(run.book, rows) for rows in run.jacobians)
         needed = _needed(met, [*results, *passive, *jp, *jq])
@@ -175,18 +177,18 @@ class _Reader:
 
     def _named(self, run: _Run, written: set[Letter]) -> Iterable[Line]:
         """Quantities of the source that no line has yet."""
-        for item in closed_form_of(self.record).quantity_list:
-            value = run.quantities[item.name]
-            letters = letters_of(item.name, item.latex, isinstance(value, tuple))
+        for quantity in closed_form_of(self.record).quantity_list:
+            value = run.quantities[quantity.name]
+            letters = letters_of(quantity.name, quantity.latex, isinstance(value, tuple))
             for letter, part in zip(letters, parts_of(value), strict=True):
                 if letter not in written:
                     yield self._line(letter, run.book.met.get(letter, part))
 
     def _line(self, letter: Letter, term: Traced) -> Line:
         form = closed_form_of(self.record)
-        for item in form.quantity_list:
-            if item.name == letter.name:
-                return Line(letter, term, item.equation, item.meaning)
+        for quantity in form.quantity_list:
+            if quantity.name == letter.name:
+                return Line(letter, term, quantity.equation, quantity.meaning)
         return Line(letter, term, form.sources.get(letter.name, ""), self._meaning(letter))
 
     def _meaning(self, letter: Letter) -> str:
@@ -203,7 +205,10 @@ class _Reader:
     def _coordinates(self, problem: Problem) -> list[tuple[Letter, ...]]:
         """Letters of what a problem is given: of inputs, or of the coordinates of the pose."""
         if problem == "direct":
-            return [letters_of(item.name, item.latex, item.coordinate.kind == "angle") for item in self.record.inputs]
+            return [
+                letters_of(actuated.name, actuated.latex, actuated.coordinate.kind == "angle")
+                for actuated in self.record.inputs
+            ]
         return [letters_of(name, "", is_angle(name)) for name in self.record.platform.pose]
 
     def _given(self, book: Book, letters: tuple[Letter, ...]) -> Number:
@@ -251,13 +256,13 @@ def _uses(terms: Iterable[Traced]) -> Counter[Letter]:
     return Counter(letter for term in terms for letter in _leaves(term))
 
 
-def _needed(met: Mapping[Letter, Traced], wanted: Iterable[Number]) -> set[Letter]:
-    """The letters that lead to what is wanted."""
-    pending = [term for value in wanted for term in parts_of(value)]
-    found: set[Letter] = set()
+def _needed(met: Mapping[Letter, Traced], results: Iterable[Number]) -> set[Letter]:
+    """The letters that lead to results."""
+    pending = [term for value in results for term in parts_of(value)]
+    needed: set[Letter] = set()
     while pending:
         for letter in _leaves(pending.pop()):
-            if letter in met and letter not in found:
-                found.add(letter)
+            if letter in met and letter not in needed:
+                needed.add(letter)
                 pending.append(met[letter])
-    return found
+    return needed

@@ -48,8 +48,8 @@ class Shorthand:
 
     def taken(self) -> list[tuple[Letter, Traced]]:
         """The definitions that are pending, in the order in which they need one another."""
-        found, self.pending = self.pending, []
-        return found
+        definitions, self.pending = self.pending, []
+        return definitions
 
     def _part(self, term: Traced) -> tuple[Traced, int]:
         """A part as it is written, and how many letters it takes."""

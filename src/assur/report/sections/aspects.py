@@ -19,9 +19,9 @@ LISTED = 12
 UNTOLD = "; not proved: that aspects that the last column names beside each other are different ones"
 
 
-def aspects(found: Findings) -> Section:
+def aspects(findings: Findings) -> Section:
     """The aspects of the default working mode in the file's box, as the figure of them has them."""
-    answer = found.aspects
+    answer = findings.aspects
     if isinstance(answer, str):
         raise UsageError(answer)
     mode = f"the working mode {answer.mode}" if answer.mode else "the mechanism"
@@ -30,9 +30,9 @@ def aspects(found: Findings) -> Section:
         "of det Jq is zero: within one the platform goes from any pose to any other without a singularity and keeps "
         "its modes. Boxes are proved by interval arithmetic to be reached and free of singularities; those that share "
         "a face lie in one aspect. Undecided boxes may hold further, small aspects, and two aspects may be one through "
-        f"poses outside the box. {_naming(found, answer)}"
+        f"poses outside the box. {_naming(findings, answer)}"
     )
-    results: list[Result] = [*_counts(answer), *found.picture("aspects"), *_table(found, answer)]
+    results: list[Result] = [*_counts(answer), *findings.picture("aspects"), *_table(findings, answer)]
     return Section("Aspects", said, results)
 
 
@@ -58,42 +58,42 @@ def _of(answer: Aspects) -> str:
     return f"mode {answer.mode}, file's box" if answer.mode else "file's box"
 
 
-def _naming(found: Findings, answer: Aspects) -> str:
+def _naming(findings: Findings, answer: Aspects) -> str:
     """What a label says, and which factors keep one sign in all of them."""
     if not answer.aspects:
         return "No box of the size that is looked at is proved."
     rest = {name: sign for name, sign in answer.aspects[0].signs.items() if name not in answer.naming}
-    named = ", ".join(_words(found, answer.naming))
+    named = ", ".join(_words(findings, answer.naming))
     label = f"A label is the signs of {named}, and a number where several share them." if answer.naming else ""
-    kept = _signs(found, rest)
+    kept = _signs(findings, rest)
     return f"{label} In all of them {kept}." if kept else label
 
 
-def _words(found: Findings, names: Sequence[str]) -> list[str]:
-    factors = {item.name: item for item in found.form.factor_list}
+def _words(findings: Findings, names: Sequence[str]) -> list[str]:
+    factors = {factor.name: factor for factor in findings.form.factor_list}
     return [plain(factors[name]) for name in names]
 
 
-def _signs(found: Findings, signs: dict[str, int]) -> str:
-    words = _words(found, tuple(signs))
+def _signs(findings: Findings, signs: dict[str, int]) -> str:
+    words = _words(findings, tuple(signs))
     return ", ".join(f"{word} {'>' if sign > 0 else '<'} 0" for word, sign in zip(words, signs.values(), strict=True))
 
 
-def _table(found: Findings, answer: Aspects) -> list[Table]:
+def _table(findings: Findings, answer: Aspects) -> list[Table]:
     if not answer.aspects:
         return []
-    unit = extent_unit(found.record, answer.box.names)
+    unit = extent_unit(findings.record, answer.box.names)
     rows: list[tuple[Cell, ...]] = [
         (
-            item.label,
-            _signs(found, {name: item.signs[name] for name in answer.naming}),
-            bounds(*item.volume),
-            ", ".join(item.perhaps[:4]) + (", …" if len(item.perhaps) > 4 else ""),
+            aspect.label,
+            _signs(findings, {name: aspect.signs[name] for name in answer.naming}),
+            bounds(*aspect.volume),
+            ", ".join(aspect.perhaps[:4]) + (", …" if len(aspect.perhaps) > 4 else ""),
         )
-        for item in answer.aspects[:LISTED]
+        for aspect in answer.aspects[:LISTED]
     ]
     more = len(answer) - LISTED
     caption = f"And {more} smaller." if more > 0 else ""
-    columns = ("aspect", "signs of the factors", f"{size_name(found.workspace)} [{unit}]", "not told apart from")
+    columns = ("aspect", "signs of the factors", f"{size_name(findings.workspace)} [{unit}]", "not told apart from")
     known = PROVED if answer.told_apart else f"{PROVED}{UNTOLD}"
     return [Table("Aspects of the default working mode", columns, tuple(rows), caption, known_by=known)]

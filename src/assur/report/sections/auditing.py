@@ -14,9 +14,9 @@ from assur.results.kinds import EXACT, Facts, Scalar, Section, Table
 SHOWN = ("where", "quantity", "printed", "computed", "off by", "verdict", "what is behind it")
 
 
-def auditing(found: Findings) -> Section:
+def auditing(findings: Findings) -> Section:
     """Counts, what does not agree, every row, errata."""
-    audit = found.audit
+    audit = findings.audit
     said = (
         f"The numbers, equations and statements of {audit.source}, checked as printed. The tolerance of a row is "
         "half a unit of its last printed place, and that of every printed number which it was computed from "
@@ -30,8 +30,8 @@ def auditing(found: Findings) -> Section:
         Scalar("missing", float(audit.missing), f"of {len(audit.rows)} rows", EXACT, note="should have been listed"),
     ]
     wrong = [row for row in audit.rows if row.verdict != "ok"]
-    tables = [_table(found, "Rows that do not agree", wrong, SHOWN)] if wrong else []
-    every = _table(found, "Every row", audit.rows, tuple(CELLS), folded=True)
+    tables = [_table(findings, "Rows that do not agree", wrong, SHOWN)] if wrong else []
+    every = _table(findings, "Every row", audit.rows, tuple(CELLS), folded=True)
     errata = [_errata(audit)] if audit.errata else []
     return Section("Audit of the source", said, [*scalars, _addresses(audit), *tables, every, *errata])
 
@@ -42,10 +42,12 @@ def _addresses(audit: Audit) -> Table:
     for row in audit.rows:
         counts.setdefault(_address(row.source), Counter())[row.verdict] += 1
     rows = tuple(
-        (where, str(found.total()), *(str(found[name]) for name in ("ok", "wrong", "missing")))
-        for where, found in counts.items()
+        (where, str(verdicts.total()), *(str(verdicts[name]) for name in ("ok", "wrong", "missing")))
+        for where, verdicts in counts.items()
     )
-    marks = tuple("wrong" if found["wrong"] else "missing" if found["missing"] else "" for found in counts.values())
+    marks = tuple(
+        "wrong" if verdicts["wrong"] else "missing" if verdicts["missing"] else "" for verdicts in counts.values()
+    )
     return Table("Rows by address", ("where", "rows", "ok", "wrong", "missing"), rows, marks=marks, known_by=EXACT)
 
 
@@ -54,10 +56,12 @@ def _address(source: str) -> str:
     return "Equations" if words.startswith("Eq") else words
 
 
-def _table(found: Findings, title: str, rows: Sequence[Row], columns: Sequence[str], *, folded: bool = False) -> Table:
-    titles = tuple(found.given if name == "printed" else name for name in columns)
+def _table(
+    findings: Findings, title: str, rows: Sequence[Row], columns: Sequence[str], *, folded: bool = False
+) -> Table:
+    titles = tuple(findings.given if name == "printed" else name for name in columns)
     cells = tuple(tuple(CELLS[name](row) for name in columns) for row in rows)
-    caption = f"“Off by” is {found.given} less computed."
+    caption = f"“Off by” is {findings.given} less computed."
     return Table(title, titles, cells, caption, tuple(row.verdict for row in rows), folded)
 
 
@@ -82,8 +86,8 @@ CELLS: dict[str, Callable[[Row], str]] = {
 
 
 def _errata(audit: Audit) -> Section:
-    entries = [_erratum(audit, item) for item in audit.errata]
-    holds = sum(item.evidence.holds is True for item in audit.errata)
+    entries = [_erratum(audit, erratum) for erratum in audit.errata]
+    holds = sum(erratum.evidence.holds is True for erratum in audit.errata)
     said = (
         f"{len(entries)} entries; the evidence of {holds} holds. Evidence is a function that runs with every audit: "
         "the findings are ours, and who disagrees can run them."
@@ -91,15 +95,15 @@ def _errata(audit: Audit) -> Section:
     return Section("Errata", said, entries)
 
 
-def _erratum(audit: Audit, item: Erratum) -> Facts:
-    rows = list(dict.fromkeys(row.source for row in audit.rows if row.erratum == item.id))
+def _erratum(audit: Audit, erratum: Erratum) -> Facts:
+    rows = list(dict.fromkeys(row.source for row in audit.rows if row.erratum == erratum.id))
     facts = [
-        ("printed", item.printed),
-        ("finding", item.finding),
-        ("evidence", item.evidence.text),
-        ("it holds", item.evidence.word),
-        ("read, not computed", item.not_computed),
+        ("printed", erratum.printed),
+        ("finding", erratum.finding),
+        ("evidence", erratum.evidence.text),
+        ("it holds", erratum.evidence.word),
+        ("read, not computed", erratum.not_computed),
         ("rows", ", ".join(rows)),
-        ("status", item.status),
+        ("status", erratum.status),
     ]
-    return Facts(f"{item.id} · {item.where}", tuple((label, text) for label, text in facts if text))
+    return Facts(f"{erratum.id} · {erratum.where}", tuple((label, text) for label, text in facts if text))

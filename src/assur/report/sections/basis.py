@@ -47,13 +47,13 @@ AUDITED = (
 )
 
 
-def basis(found: Findings) -> Section:
+def basis(findings: Findings) -> Section:
     """Two routes to every number, conventions, tolerances."""
-    routes = [*TOPOLOGICAL, *(CLOSED_FORM if found.record.closed_form else SEARCHED)]
-    routes += AUDITED if found.reference else ()
+    routes = [*TOPOLOGICAL, *(CLOSED_FORM if findings.record.closed_form else SEARCHED)]
+    routes += AUDITED if findings.reference else ()
     known = Table("Two routes to every number", ("number", "first route", "second route"), tuple(routes))
-    parts: list[Result] = [known, Facts("Conventions", _conventions(found.record)), _tolerances()]
-    missing = left_out(found.record, found.context) if found.illustrated else {}
+    parts: list[Result] = [known, Facts("Conventions", _conventions(findings.record)), _tolerances()]
+    missing = left_out(findings.record, findings.context) if findings.illustrated else {}
     if missing:
         parts.append(Facts("Figures that this mechanism does not have", _by_reason(missing)))
     return Section("How the numbers are known", results=parts)

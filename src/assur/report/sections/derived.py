@@ -21,15 +21,15 @@ WHOLE = "the whole joint graph"
 TWISTS = "rank of twists; the rules do not decide everything"
 
 
-def derived(found: Findings) -> Section:
+def derived(findings: Findings) -> Section:
     """What the topology engine says, each POC set by two routes."""
-    topology = found.topology
+    topology = findings.topology
     said = (
         "Derived from the joint graph, not read from the source: POC sets by the rules of union and intersection, and "
         "by the rank of twists at random finite displacements; where the rules do not decide, the twists do, and it "
         f"says so. O' of a limb is on its last axis or joint centre. The platform has {topology.poc}."
     )
-    results: list[Result | Section] = [*_numbers(topology), *found.picture("graph"), _equations(topology)]
+    results: list[Result | Section] = [*_numbers(topology), *findings.picture("graph"), _equations(topology)]
     results += [_limbs(topology)] if topology.limbs else []
     results += [_loops(topology)] if topology.loops else []
     results += [_facts("What the coupling degree means for the direct problem", topology.plan.words)]
@@ -55,15 +55,15 @@ def _numbers(topology: Topology) -> list[Scalar]:
 
 def _equations(topology: Topology) -> Formulas:
     lines = tuple(
-        Formula(display(latex_mathml(f"{item.left} = {item.right}")), item.number, _meaning(item))
-        for item in equations(topology)
+        Formula(display(latex_mathml(f"{equation.left} = {equation.right}")), equation.number, _meaning(equation))
+        for equation in equations(topology)
     )
     return Formulas("POC sets, freedoms and degrees", lines, "dim M counts independent elements of t and r.")
 
 
-def _meaning(item: Equation) -> str:
-    meaning = rounded(item.meaning)
-    return meaning if item.dim is None else f"dim {item.dim}; {meaning}"
+def _meaning(equation: Equation) -> str:
+    meaning = rounded(equation.meaning)
+    return meaning if equation.dim is None else f"dim {equation.dim}; {meaning}"
 
 
 def rounded(text: str) -> str:
@@ -72,7 +72,7 @@ def rounded(text: str) -> str:
     >>> rounded("R[-0.49999999999999994,0.8660254037844387,0] P(4S)")
     'R[-0.5,0.866,0] P(4S)'
     """
-    return _DECIMALS.sub(lambda found: f"{float(found[0]):.4g}", text)
+    return _DECIMALS.sub(lambda match: f"{float(match[0]):.4g}", text)
 
 
 def _limbs(topology: Topology) -> Table:
@@ -90,7 +90,7 @@ def _limbs(topology: Topology) -> Table:
     )
     columns = ("limb", "plain form", "as the literature writes it", "POC set", "dim", "dependent", "known by")
     reasons = " ".join(
-        f"{rounded(item['of'])}: the rules refuse, because {item['reason']}." for item in refusals(topology)
+        f"{rounded(refusal['of'])}: the rules refuse, because {refusal['reason']}." for refusal in refusals(topology)
     )
     return Table("Limbs", columns, rows, reasons)
 
@@ -149,10 +149,15 @@ def _relaxation(topology: Topology) -> list[Result]:
     if not asked.single:
         return []
     rows = tuple(
-        (f"{item.old} to {item.new}", str(item.removed), str(item.internal), " ".join(names))
-        for item, names in replacements_by_kind(topology)
+        (
+            f"{replacement.old} to {replacement.new}",
+            str(replacement.removed),
+            str(replacement.internal),
+            " ".join(names),
+        )
+        for replacement, names in replacements_by_kind(topology)
     )
-    together = ", ".join(f"{item.joint} to {item.new}" for item in asked.together)
+    together = ", ".join(f"{replacement.joint} to {replacement.new}" for replacement in asked.together)
     caption = f"Together: {together}; that leaves {asked.left} of {asked.redundant}. The platform moves as before."
     columns = ("replacement", "redundant constraints less", "internal freedoms more", "any one of these joints")
     return [Table("Joints that could be relaxed", columns, rows, caption, known_by=RANK)]
@@ -160,7 +165,7 @@ def _relaxation(topology: Topology) -> list[Result]:
 
 def _derivation(topology: Topology) -> list[Result]:
     """Every step with its rule and its reason."""
-    rows = tuple(row for item in topology.derivations for row in _steps(item))
+    rows = tuple(row for derivation in topology.derivations for row in _steps(derivation))
     columns = ("of", "step", "because")
     return [Table("The derivation, step by step", columns, rows, folded=True)] if rows else []
 

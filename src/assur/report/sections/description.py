@@ -13,22 +13,22 @@ from assur.report.numbers import count, short, shown_unit
 from assur.results.kinds import EXACT, Formula, Result, Scalar, Section, Table
 
 
-def description(found: Findings) -> Section:
+def description(findings: Findings) -> Section:
     """Facts, dimensions, inputs, links and joints."""
-    record = found.record
-    results: list[Result] = [*_counts(found), *found.picture("solid"), _parameters(record), _inputs(record)]
-    results += [_joints(found), _links(record)]
-    return Section("The mechanism", _text(found), results)
+    record = findings.record
+    results: list[Result] = [*_counts(findings), *findings.picture("solid"), _parameters(record), _inputs(record)]
+    results += [_joints(findings), _links(record)]
+    return Section("The mechanism", _text(findings), results)
 
 
-def _text(found: Findings) -> str:
-    record = found.record
+def _text(findings: Findings) -> str:
+    record = findings.record
     pose = ", ".join(record.platform.pose)
     constant = " Its orientation is expected to stay as it is." if record.platform.orientation == "constant" else ""
     changed = ", ".join(f"{name} = {short(value)}" for name, value in record.overrides.items())
     numbered = (
         " Captions name the figures of the source that show the same."
-        if found.illustrated and found.context.companion.numbers
+        if findings.illustrated and findings.context.companion.numbers
         else ""
     )
     overrides = f"\n\nDimensions other than the file's are used in this report: {changed}." if changed else ""
@@ -41,8 +41,8 @@ def _text(found: Findings) -> str:
     )
 
 
-def _counts(found: Findings) -> list[Scalar]:
-    record = found.record
+def _counts(findings: Findings) -> list[Scalar]:
+    record = findings.record
     graph = joint_graph(record)
     types: dict[str, int] = {}
     for joint in record.joints.values():
@@ -64,34 +64,38 @@ def _counts(found: Findings) -> list[Scalar]:
 
 def _parameters(record: MechanismRecord) -> Table:
     rows = []
-    for item in record.parameters.values():
-        notes = ["set for this report"] if item.name in record.overrides else []
-        notes += ["drawn only"] if item.drawn_only else []
-        meaning = f"{item.meaning} ({', '.join(notes)})" if notes else item.meaning
-        rows.append((_name(item.name), short(item.value, 12), shown_unit(item.unit), meaning))
+    for parameter in record.parameters.values():
+        notes = ["set for this report"] if parameter.name in record.overrides else []
+        notes += ["drawn only"] if parameter.drawn_only else []
+        meaning = f"{parameter.meaning} ({', '.join(notes)})" if notes else parameter.meaning
+        rows.append((_name(parameter.name), short(parameter.value, 12), shown_unit(parameter.unit), meaning))
     return Table("Dimensions", ("symbol", "value", "unit", "meaning"), tuple(rows))
 
 
 def _inputs(record: MechanismRecord) -> Table:
     rows = []
-    for item in record.inputs:
-        unit = record.angle if item.coordinate.kind == "angle" else shown_unit(record.unit)
-        symbol = Formula(inline(symbol_mathml(item.latex, item.name), item.name))
-        joint = record.joints[item.coordinate.joint]
-        rows.append((symbol, record.coordinate_label(item.coordinate), joint.type.name, unit, _stroke(record, item)))
+    for actuated in record.inputs:
+        unit = record.angle if actuated.coordinate.kind == "angle" else shown_unit(record.unit)
+        symbol = Formula(inline(symbol_mathml(actuated.latex, actuated.name), actuated.name))
+        joint = record.joints[actuated.coordinate.joint]
+        rows.append(
+            (symbol, record.coordinate_label(actuated.coordinate), joint.type.name, unit, _stroke(record, actuated))
+        )
     return Table("Inputs", ("symbol", "joint", "type", "unit", "stroke"), tuple(rows))
 
 
-def _stroke(record: MechanismRecord, item: Input) -> str:
-    if item.stroke is None:
+def _stroke(record: MechanismRecord, actuated: Input) -> str:
+    if actuated.stroke is None:
         return "none stated"
-    low, high = (angle_at_border(record, end) if item.coordinate.kind == "angle" else end for end in item.stroke)
+    low, high = (
+        angle_at_border(record, end) if actuated.coordinate.kind == "angle" else end for end in actuated.stroke
+    )
     return f"{short(float(low))} to {short(float(high))}"
 
 
-def _joints(found: Findings) -> Table:
-    record = found.record
-    values = _home_texts(found)
+def _joints(findings: Findings) -> Table:
+    record = findings.record
+    values = _home_texts(findings)
     columns = ("joint", "also", "type", "parent", "child", "axis at value zero", *(("home",) if values else ()))
     rows = tuple(
         (joint.name, joint.alias, joint.type.name, joint.parent, joint.child, _axis(joint), *values.get(joint.name, ()))
@@ -102,20 +106,20 @@ def _joints(found: Findings) -> Table:
     return Table(f"The {count(len(rows), 'joint')}", columns, rows, caption, folded=True)
 
 
-def _home_texts(found: Findings) -> dict[str, tuple[str, ...]]:
+def _home_texts(findings: Findings) -> dict[str, tuple[str, ...]]:
     """Joint values of home by joint, none where the loops do not close with these dimensions."""
     try:
-        home = found.home
+        home = findings.home
     except UsageError:
         return {}
-    record = found.record
+    record = findings.record
     texts: dict[str, tuple[str, ...]] = {}
     for name in record.joints:
         parts = []
-        for item in record.joint_coordinates(name):
-            angle = item.kind == "angle"
-            value = angle_at_border(record, home[item.index]) if angle else home[item.index]
-            parts.append(found.style.written(float(value), angle=angle))
+        for coordinate in record.joint_coordinates(name):
+            angle = coordinate.kind == "angle"
+            value = angle_at_border(record, home[coordinate.index]) if angle else home[coordinate.index]
+            parts.append(findings.style.written(float(value), angle=angle))
         texts[name] = ("; ".join(parts),)
     return texts
 

@@ -18,13 +18,13 @@ SHARES = (0, 10, 25, 50, 75, 90, 100)
 PICTURES = ("dexterity", "fastest", "slowest", "transmission", "manipulability", "indices")
 
 
-def performance(found: Findings) -> Section:
+def performance(findings: Findings) -> Section:
     """Local condition index, its mean over the workspace, velocity factors."""
-    if found.record.closed_form is None:
-        return _of_the_joint_graph(found)
-    record, solution = found.record, found.solution
-    here = dexterity(record, solution.pose, solution.working_mode)
-    index = found.global_index
+    if findings.record.closed_form is None:
+        return _of_the_joint_graph(findings)
+    record, solution = findings.record, findings.solution
+    indices = dexterity(record, solution.pose, solution.working_mode)
+    index = findings.global_index
     said = (
         "The local condition index is 1/cond(J) in the 2-norm with J = Jp⁻¹ Jq, between 0 (singular) and 1 "
         "(isotropic); the velocity factors are the singular values of J: by how much the inputs’ speed is multiplied "
@@ -33,13 +33,13 @@ def performance(found: Findings) -> Section:
     length = unit_length(record)
     if length is not None:
         said += f" Lengths are divided by the characteristic length {short(length)} {record.unit}."
-    factors = here.velocity_factors
+    factors = indices.velocity_factors
     left_out = f"; {index.singular} left out as singular" if index.singular else ""
     points = f"{index.points} quasi-random points{left_out}"
     scalars = [
         Scalar(
             "local condition index here",
-            _number(here.condition_index),
+            _number(indices.condition_index),
             "",
             FLOATING,
             note="in the configuration of this report",
@@ -48,30 +48,30 @@ def performance(found: Findings) -> Section:
         Scalar("slowest direction", _number(factors[-1]), "", FLOATING, note="smallest velocity factor"),
         Scalar("global condition index", index.value, "", SPREAD, index.error, note=points),
     ]
-    return Section("Dexterity", said, [*scalars, *found.picture(*PICTURES), *_spread(found)])
+    return Section("Dexterity", said, [*scalars, *findings.picture(*PICTURES), *_spread(findings)])
 
 
-def _of_the_joint_graph(found: Findings) -> Section:
+def _of_the_joint_graph(findings: Findings) -> Section:
     """Every index in the configuration of this report, by the null space of the closure, and its maps."""
-    here = indices_at(found.record, found.joints)
+    indices = indices_at(findings.record, findings.joints)
     said = (
         "Indices of J = Jp⁻¹ Jq in the configuration of this report, from the joint graph: condition indices and "
         "transmission indices are between 0 (singular) and 1 (best); the velocity factors are the singular values of J."
     )
-    if here.length is not None:
-        said += f" Lengths are divided by the characteristic length {short(here.length)} {found.record.unit}."
+    if indices.length is not None:
+        said += f" Lengths are divided by the characteristic length {short(indices.length)} {findings.record.unit}."
     scalars = [
-        Scalar(name.replace("_", " "), _number(here[name]), item.unit(here), FLOATING, note=item.meaning)
-        for name, item in INDICES.items()
+        Scalar(name.replace("_", " "), _number(indices[name]), index.unit(indices), FLOATING, note=index.meaning)
+        for name, index in INDICES.items()
     ]
-    return Section("Dexterity", said, [*scalars, *found.picture(*PICTURES)])
+    return Section("Dexterity", said, [*scalars, *findings.picture(*PICTURES)])
 
 
-def _spread(found: Findings) -> list[Table]:
+def _spread(findings: Findings) -> list[Table]:
     """Quantiles of the local condition index over the workspace."""
-    region = found.workspace
+    region = findings.workspace
     poses = region.interior(COUNT, np.random.default_rng(SEED))
-    values = dexterity(found.record, poses, region.mode)
+    values = dexterity(findings.record, poses, region.mode)
     if not np.any(values.defined):
         return []
     quantiles = np.percentile(values.condition_index[values.defined], SHARES)

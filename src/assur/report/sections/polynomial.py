@@ -19,37 +19,41 @@ REAL = 1e-6
 """The imaginary part of a root that is shown as real: at most this share of its size and 1 together."""
 
 
-def polynomial_words(found: Findings, eliminant: Eliminant) -> str:
+def polynomial_words(findings: Findings, eliminant: Eliminant) -> str:
     """What the polynomial is in, and how many of its roots are poses."""
     name = eliminant.unknown
     unknown = f"tan({name}/2)" if _angular(eliminant) else name
-    parts = polynomials_at(found, eliminant)
+    parts = polynomials_at(findings, eliminant)
     degree = parts[0][1].size - 1
-    told = [name for k, name in enumerate(eliminant.signs) if len({label[k : k + 1] for label, _ in parts}) > 1]
-    choices = f"{len(parts)} polynomials, by the choice of {', '.join(told)},"
+    distinguished = [
+        name for k, name in enumerate(eliminant.signs) if len({label[k : k + 1] for label, _ in parts}) > 1
+    ]
+    choices = f"{len(parts)} polynomials, by the choice of {', '.join(distinguished)},"
     which = "one polynomial" if len(parts) == 1 else choices
-    meant = next((item.meaning for item in found.form.quantity_list if item.name == name and item.meaning), "")
+    meant = next(
+        (quantity.meaning for quantity in findings.form.quantity_list if quantity.name == name and quantity.meaning), ""
+    )
     said = f"{unknown} ({meant})" if meant else unknown
     return (
         f"The direct problem ends in {which} of degree {degree}, counted on its coefficients, in {said}, "
         f"so that there are at most {eliminant.degree} poses. All complex roots are found; here they give "
-        f"{count(len(found.direct), 'pose')}."
+        f"{count(len(findings.direct), 'pose')}."
     )
 
 
-def system_words(found: Findings, system: PolynomialSystem) -> str:
+def system_words(findings: Findings, system: PolynomialSystem) -> str:
     """What the system is, how many solutions it has, and by whom that is known."""
     return (
         f"The direct problem is a system of polynomials in the unknowns {', '.join(system.unknowns)}, known up to a "
         f"common factor; for dimensions in general it has {system.degree} complex solutions ({system.because}), so "
         f"that there are at most {system.degree} poses. All of them are followed from those of a start mechanism with "
-        f"complex dimensions; here they give {count(len(found.direct), 'pose')}."
+        f"complex dimensions; here they give {count(len(findings.direct), 'pose')}."
     )
 
 
-def polynomial(found: Findings, eliminant: Eliminant) -> list[Table]:
+def polynomial(findings: Findings, eliminant: Eliminant) -> list[Table]:
     """Its coefficients, the largest of them 1, and its roots, real ones first."""
-    parts = polynomials_at(found, eliminant)
+    parts = polynomials_at(findings, eliminant)
     scaled = [values / np.max(np.abs(values), initial=1e-300) for _, values in parts]
     heads = ("power", *(f"coefficient {label}".strip() for label, _ in parts))
     rows = tuple((str(k), *(short(float(v), DIGITS) for v in row)) for k, row in enumerate(zip(*scaled, strict=True)))
@@ -64,9 +68,9 @@ def polynomial(found: Findings, eliminant: Eliminant) -> list[Table]:
     return [coefficients, Table("Roots of the polynomial", columns, listed, caption, folded=True, known_by=FLOATING)]
 
 
-def polynomials_at(found: Findings, eliminant: Eliminant) -> list[tuple[str, NDArray[np.float64]]]:
+def polynomials_at(findings: Findings, eliminant: Eliminant) -> list[tuple[str, NDArray[np.float64]]]:
     """(signs, coefficients (d + 1,), the constant term first) at the inputs that the report is about."""
-    coefficients, _ = coefficients_of(found.record, eliminant, found.inputs[None])
+    coefficients, _ = coefficients_of(findings.record, eliminant, findings.inputs[None])
     flat = coefficients.reshape(-1, coefficients.shape[-1])
     signs = list(itertools.product("+-", repeat=len(eliminant.signs)))
     labels = ["".join(choice) for choice in signs] if len(flat) == len(signs) else [""] * len(flat)

@@ -34,26 +34,26 @@ SEARCHED = (
 )
 
 
-def position(found: Findings) -> Section:
+def position(findings: Findings) -> Section:
     """Modes, the direct problem, the inverse problem, and what makes the answers complete."""
-    form = found.record.closed_form
-    parts: list[Result | Section] = [*found.picture("model", "planes"), *_modes(found.record)]
-    parts += [_direct(found), _inverse(found)]
+    form = findings.record.closed_form
+    parts: list[Result | Section] = [*findings.picture("model", "planes"), *_modes(findings.record)]
+    parts += [_direct(findings), _inverse(findings)]
     if form is not None and form.self_motion is not None:
-        parts.append(_self_motion(found, form.self_motion))
-    parts.append(Section("Completeness", completeness(found)))
+        parts.append(_self_motion(findings, form.self_motion))
+    parts.append(Section("Completeness", completeness(findings)))
     return Section("Position", READ if form else SEARCHED, parts)
 
 
-def completeness(found: Findings) -> str:
+def completeness(findings: Findings) -> str:
     """For which model the answers are complete, and by what right."""
-    form = found.record.closed_form
-    worst = max(_residual(found.direct), _residual(found.inverse))
+    form = findings.record.closed_form
+    worst = max(_residual(findings.direct), _residual(findings.inverse))
     closes = (
         f"Each solution closes every loop of the joint graph; the largest gap among those listed here is "
-        f"{short(worst, 2)} {found.record.unit}."
+        f"{short(worst, 2)} {findings.record.unit}."
     )
-    rights = f"Direct problem: {found.direct.right}. Inverse problem: {found.inverse.right}."
+    rights = f"Direct problem: {findings.direct.right}. Inverse problem: {findings.inverse.right}."
     if form is None:
         return f"{rights} {closes}"
     if form.complete_for == "joint_graph":
@@ -67,7 +67,7 @@ def completeness(found: Findings) -> str:
 
 
 def _residual(answer: SolutionSet) -> float:
-    return max((item.residual for item in answer), default=0.0)
+    return max((solution.residual for solution in answer), default=0.0)
 
 
 def _modes(record: MechanismRecord) -> list[Table]:
@@ -87,38 +87,38 @@ def _modes(record: MechanismRecord) -> list[Table]:
     return [Table("Names of modes", ("mode", "sign", "of the quantity", "default"), tuple(rows), caption)]
 
 
-def _direct(found: Findings) -> Section:
-    style, record = found.style, found.record
-    names = (item.name for item in record.inputs)
-    given = style.words(zip(names, inputs_at_border(record, found.inputs), input_angles(record), strict=True))
-    table = found.table("direct")
+def _direct(findings: Findings) -> Section:
+    style, record = findings.style, findings.record
+    names = (actuated.name for actuated in record.inputs)
+    given = style.words(zip(names, inputs_at_border(record, findings.inputs), input_angles(record), strict=True))
+    table = findings.table("direct")
     origin = f"those of {table.source}" if table else "those of the assembled home configuration"
-    said = f"Poses from inputs. At the inputs {given} ({origin}) {among(found, 'direct')}."
-    said += f"\n\n{proof_words(found, 'direct')}"
-    kernel = found.kernel("direct")
-    results: list[Result] = list(found.picture("flow"))
+    said = f"Poses from inputs. At the inputs {given} ({origin}) {among(findings, 'direct')}."
+    said += f"\n\n{proof_words(findings, 'direct')}"
+    kernel = findings.kernel("direct")
+    results: list[Result] = list(findings.picture("flow"))
     if isinstance(kernel, Eliminant):
-        said += f"\n\n{polynomial_words(found, kernel)}"
-        results += polynomial(found, kernel)
+        said += f"\n\n{polynomial_words(findings, kernel)}"
+        results += polynomial(findings, kernel)
     elif isinstance(kernel, PolynomialSystem):
-        said += f"\n\n{system_words(found, kernel)}"
+        said += f"\n\n{system_words(findings, kernel)}"
     elif kernel is not None:
-        results += _formulas(found, "direct")
-    results += solutions(found, "direct")
-    return Section("Direct problem", said, [*results, *_beside(found, "direct"), *found.picture("solutions")])
+        results += _formulas(findings, "direct")
+    results += solutions(findings, "direct")
+    return Section("Direct problem", said, [*results, *_beside(findings, "direct"), *findings.picture("solutions")])
 
 
-def _inverse(found: Findings) -> Section:
-    given = pose_words(found.record, found.style, pose_at_border(found.record, found.pose).tolist())
-    said = f"Inputs from a pose. At the pose {given} {among(found, 'inverse')}."
-    said += f"\n\n{proof_words(found, 'inverse')}"
-    results = [*(_formulas(found, "inverse") if found.kernel("inverse") else ()), *solutions(found, "inverse")]
-    return Section("Inverse problem", said, [*results, *_beside(found, "inverse")])
+def _inverse(findings: Findings) -> Section:
+    given = pose_words(findings.record, findings.style, pose_at_border(findings.record, findings.pose).tolist())
+    said = f"Inputs from a pose. At the pose {given} {among(findings, 'inverse')}."
+    said += f"\n\n{proof_words(findings, 'inverse')}"
+    results = [*(_formulas(findings, "inverse") if findings.kernel("inverse") else ()), *solutions(findings, "inverse")]
+    return Section("Inverse problem", said, [*results, *_beside(findings, "inverse")])
 
 
-def among(found: Findings, problem: Problem) -> str:
+def among(findings: Findings, problem: Problem) -> str:
     """How many solutions there are, and of what."""
-    answer, kernel = (found.direct if problem == "direct" else found.inverse), found.kernel(problem)
+    answer, kernel = (findings.direct if problem == "direct" else findings.inverse), findings.kernel(problem)
     if kernel is None and not answer.complete:
         return f"a search found {count(len(answer), 'solution')}"
     candidates = f" among {count(answer.candidates, noun(kernel))}" if kernel else ""
@@ -138,8 +138,8 @@ def noun(kernel: object) -> str:
     return "complex solution" if isinstance(kernel, PolynomialSystem) else "branch"
 
 
-def _self_motion(found: Findings, motion: SelfMotion) -> Section:
-    margin = next(item for item in found.form.direct_margins if item.name == motion.margin)
+def _self_motion(findings: Findings, motion: SelfMotion) -> Section:
+    margin = next(entry for entry in findings.form.direct_margins if entry.name == motion.margin)
     angle = GREEK.get(motion.parameter, motion.parameter)
     said = (
         f"Where {margin.name} = 0 ({margin.meaning}) the inputs do not fix the platform: it moves on a curve while "
@@ -149,8 +149,8 @@ def _self_motion(found: Findings, motion: SelfMotion) -> Section:
     return Section("Self-motion", said)
 
 
-def _formulas(found: Findings, problem: Problem) -> list[Result]:
-    read = found.formulas(problem)
+def _formulas(findings: Findings, problem: Problem) -> list[Result]:
+    read = findings.formulas(problem)
     said: set[str] = set()
     lines = []
     for line in read.lines:
@@ -165,23 +165,23 @@ def _formulas(found: Findings, problem: Problem) -> list[Result]:
     )
     found_formulas: list[Result] = [Formulas(title, tuple(lines), caption)]
     if read.named:
-        found_formulas.append(_named(found, problem, read.named))
-    return [*found_formulas, _margins(found, problem)]
+        found_formulas.append(_named(findings, problem, read.named))
+    return [*found_formulas, _margins(findings, problem)]
 
 
 def _name(line: Line) -> str:
     return f"{line.letter.function} {line.letter.name}".strip()
 
 
-def _named(found: Findings, problem: Problem, lines: Sequence[Line]) -> Table:
+def _named(findings: Findings, problem: Problem, lines: Sequence[Line]) -> Table:
     """Quantities of the source beside those of the lines, with their values in the configuration."""
-    solution = found.solution
-    kinds = {item.name: item for item in found.form.quantity_list}
+    solution = findings.solution
+    kinds = {quantity.name: quantity for quantity in findings.form.quantity_list}
     rows = []
     for line in lines:
-        item = kinds[line.letter.name]
-        value = solution.quantities[item.name] if not line.letter.function else None
-        unit = shown_unit(power(found.record.unit, {"length": 1, "area": 2, "volume": 3}.get(item.kind, 0)))
+        quantity = kinds[line.letter.name]
+        value = solution.quantities[quantity.name] if not line.letter.function else None
+        unit = shown_unit(power(findings.record.unit, {"length": 1, "area": 2, "volume": 3}.get(quantity.kind, 0)))
         formula = Formula(inline(term_mathml(line.term), text(line.term)))
         rows.append(
             (
@@ -199,12 +199,12 @@ def _named(found: Findings, problem: Problem, lines: Sequence[Line]) -> Table:
     )
 
 
-def _margins(found: Findings, problem: Problem) -> Table:
-    form, read = found.form, found.formulas(problem)
+def _margins(findings: Findings, problem: Problem) -> Table:
+    form, read = findings.form, findings.formulas(problem)
     margins = form.direct_margins if problem == "direct" else form.inverse_margins
     rows = tuple(
-        (item.name, _condition(item, term_mathml(read.margins[item.name])), _zero(item), item.meaning)
-        for item in margins
+        (margin.name, _condition(margin, term_mathml(read.margins[margin.name])), _zero(margin), margin.meaning)
+        for margin in margins
     )
     columns = ("margin", "must be", "where it is zero", "where it fails")
     return Table(f"When a branch of the {problem} problem exists", columns, rows, folded=True)
@@ -220,10 +220,10 @@ def _zero(margin: Margin) -> str:
     return "two branches merge" if margin.zero == "merge" else "the formulas degenerate"
 
 
-def _beside(found: Findings, problem: Problem) -> list[Result | Section]:
+def _beside(findings: Findings, problem: Problem) -> list[Result | Section]:
     """The source's tables beside these solutions."""
-    entries = found.reference.entries[problem] if found.reference else ()
-    return [solutions_beside(found, entry, found.rows(problem)) for entry in entries]
+    entries = findings.reference.entries[problem] if findings.reference else ()
+    return [solutions_beside(findings, entry, findings.rows(problem)) for entry in entries]
 
 
 def _symbol(name: str) -> Formula:

@@ -41,7 +41,7 @@ def number(text: str) -> str:
     return minus(text) if text[:1] in "-0123456789" else text
 
 
-def solutions_beside(found: Findings, entry: Printed, rows: Sequence[Row]) -> Table:
+def solutions_beside(findings: Findings, entry: Printed, rows: Sequence[Row]) -> Table:
     """One line for each line of a printed table of solutions, and for each solution that it leaves out."""
     lines: dict[str, list[Row]] = {}
     for row in rows:
@@ -50,7 +50,7 @@ def solutions_beside(found: Findings, entry: Printed, rows: Sequence[Row]) -> Ta
     names = [row.quantity for row in next(iter(lines.values()))]
     columns = [
         "line",
-        *(f"{name} {what}" for name in names for what in (found.given, "computed")),
+        *(f"{name} {what}" for name in names for what in (findings.given, "computed")),
         "verdict",
         "why",
     ]
@@ -64,8 +64,8 @@ def solutions_beside(found: Findings, entry: Printed, rows: Sequence[Row]) -> Ta
         cells.append((line, *values, f"{worst}{which}{f', see {errata}' if errata else ''}", parts[0].note))
         marks.append(worst)
     caption = (
-        f"The {found.given} digits of {entry.source} beside the solution that is nearest; agreement is judged by the "
-        "digits of the result and of what it was computed from. A line that is missing is a real solution that is not "
-        "listed."
+        f"The {findings.given} digits of {entry.source} beside the solution that is nearest; agreement is judged by "
+        "the digits of the result and of what it was computed from. A line that is missing is a real solution that is "
+        "not listed."
     )
-    return Table(f"{entry.source}, {found.given} and computed", tuple(columns), tuple(cells), caption, tuple(marks))
+    return Table(f"{entry.source}, {findings.given} and computed", tuple(columns), tuple(cells), caption, tuple(marks))

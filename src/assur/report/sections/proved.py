@@ -16,15 +16,15 @@ from assur.results.kinds import FLOATING, PROVED
 FloatArray = NDArray[np.float64]
 
 
-def right(found: Findings, problem: Problem) -> tuple[str, float | None, float | None]:
+def right(findings: Findings, problem: Problem) -> tuple[str, float | None, float | None]:
     """By what right the number of solutions is known, and its bounds: None where there is none."""
-    answer = found.direct if problem == "direct" else found.inverse
-    proof = found.proved[problem]
+    answer = findings.direct if problem == "direct" else findings.inverse
+    proof = findings.proved[problem]
     if isinstance(proof, str):
         return (f"{FLOATING}, every branch" if answer.complete else "not proved to be all"), None, None
     count = float(len(proof))
     if not proof.proved and not proof.undecided and answer.complete and len(proof) == len(answer):
-        each = f"{PROVED} for the independent equations" if any(item.left for item in proof) else f"{PROVED} one by one"
+        each = f"{PROVED} for the independent equations" if any(box.left for box in proof) else f"{PROVED} one by one"
         return f"{each}; that there is no other, in {FLOATING}", count, None
     if not proof.proved:
         return f"not proved to be all: {proof.headline}", count, None
@@ -33,39 +33,42 @@ def right(found: Findings, problem: Problem) -> tuple[str, float | None, float |
     return f"{PROVED}: these and no other", count, count
 
 
-def proof_words(found: Findings, problem: Problem) -> str:
+def proof_words(findings: Findings, problem: Problem) -> str:
     """What the certificate says, and how far the solutions in floating point are from it."""
-    proof = found.proved[problem]
+    proof = findings.proved[problem]
     if isinstance(proof, str):
         return f"Nothing is proved of these solutions: {proof}."
     headline = proof.headline.replace("proved, ", "proved: ", 1) if proof.proved else proof.headline
     model = "joint graph" if proof.complete_for == "joint_graph" else "reduced model"
     of_what = f" of the {model}" if proof.proved else ""
     said = f"{headline[0].upper()}{headline[1:]}{of_what}. By what right: {proof.right}."
-    doubts = "; ".join(f"{item.name}: {item.meaning}" for item in proof.undecided)
+    doubts = "; ".join(f"{verdict.name}: {verdict.meaning}" for verdict in proof.undecided)
     if doubts:
         said += f" Undecided: {doubts}."
-    return f"{said} {_widths(found, problem, proof)}" if len(proof) else said
+    return f"{said} {_widths(findings, problem, proof)}" if len(proof) else said
 
 
-def _widths(found: Findings, problem: Problem, proof: CertifiedSolutions) -> str:
-    unit = f"{shown_unit(found.record.unit)} or rad"
-    answer = found.direct if problem == "direct" else found.inverse
-    width = short(max(item.width for item in proof), 2)
+def _widths(findings: Findings, problem: Problem, proof: CertifiedSolutions) -> str:
+    unit = f"{shown_unit(findings.record.unit)} or rad"
+    answer = findings.direct if problem == "direct" else findings.inverse
+    width = short(max(proved.width for proved in proof), 2)
     said = f"Each is the only one of its mode within bounds at most {width} {unit} wide"
     if not len(answer):
         return f"{said}; in floating point none was found."
     farthest = max(
-        min(_apart(found, problem, item.pose if problem == "direct" else item.inputs, one) for one in proof)
-        for item in answer
+        min(
+            _apart(findings, problem, solution.pose if problem == "direct" else solution.inputs, proved)
+            for proved in proof
+        )
+        for solution in answer
     )
     distance = f"at most {short(farthest, 2)} {unit} off them" if farthest else "within them"
     return f"{said}; the solutions in floating point lie {distance}."
 
 
-def _apart(found: Findings, problem: Problem, values: FloatArray, proved: ProvedSolution) -> float:
+def _apart(findings: Findings, problem: Problem, values: FloatArray, proved: ProvedSolution) -> float:
     """How far values (k,) lie outside proved bounds; angles but for whole turns, quaternions but for their sign."""
-    record = found.record
+    record = findings.record
     bounds = proved.pose if problem == "direct" else proved.inputs
     angles = np.array(pose_angles(record)) if problem == "direct" else periodic_inputs(record)
     middle, half = 0.5 * (bounds.low + bounds.high), 0.5 * bounds.width

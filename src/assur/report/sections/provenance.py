@@ -19,9 +19,9 @@ LICENSE = "Apache-2.0"
 PACKAGES = ("numpy", "scipy", "sympy", "networkx", "matplotlib", "scikit-image", "manifold3d", "jinja2")
 
 
-def provenance(found: Findings) -> Section:
+def provenance(findings: Findings) -> Section:
     """Citations, versions, dimensions, the command that makes the same report."""
-    record = found.record
+    record = findings.record
     citations = Facts("Please cite", (("mechanism", record.source or "no source is stated"), ("software", _software())))
     again = Facts("This report again", tuple(_again(record)))
     return Section("Sources and versions", results=[citations, again, _versions()])

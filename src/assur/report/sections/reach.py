@@ -33,9 +33,9 @@ ENDINGS = {
 """Why there is no larger one, where no pose that fails was found."""
 
 
-def reach(found: Findings) -> Section:
+def reach(findings: Findings) -> Section:
     """The region that the default working mode reaches inside the file's box."""
-    region, record = found.workspace, found.record
+    region, record = findings.workspace, findings.record
     limits = "within the limits of the file" if limits_stated(record) else f"where {NO_LIMITS}"
     how = (
         "Each margin of the inverse problem bounds a solid; the workspace is their intersection with the box."
@@ -46,27 +46,27 @@ def reach(found: Findings) -> Section:
     mode = f"the working mode {region.mode}" if region.mode else "the mechanism"
     said = (
         f"The poses of the box {_box(region, record)} that {mode} reaches{held_words(region, record)}, {limits}. "
-        f"{how} The error is the difference to the same calculation at half the resolution.{_proof_words(found)}"
+        f"{how} The error is the difference to the same calculation at half the resolution.{_proof_words(findings)}"
     )
     results: list[Result] = [
-        *extents(found),
-        *share(found),
-        *largest_cube(found),
-        *found.picture("workspace"),
-        *_loci(found),
-        *found.picture("projections"),
-        *_projections(found),
-        *found.picture("sections"),
-        *_sections(found),
-        *found.picture("parasitic"),
-        *_parasitic(found),
+        *extents(findings),
+        *share(findings),
+        *largest_cube(findings),
+        *findings.picture("workspace"),
+        *_loci(findings),
+        *findings.picture("projections"),
+        *_projections(findings),
+        *findings.picture("sections"),
+        *_sections(findings),
+        *findings.picture("parasitic"),
+        *_parasitic(findings),
     ]
     return Section("Workspace", said, results)
 
 
-def _proof_words(found: Findings) -> str:
+def _proof_words(findings: Findings) -> str:
     """Whether bounds are proved, and why not; whether a cube is."""
-    proof, why = found.bounds, found.cube
+    proof, why = findings.bounds, findings.cube
     said = (
         f" No bounds are proved: {proof}."
         if isinstance(proof, str)
@@ -80,12 +80,12 @@ def _proof_words(found: Findings) -> str:
     return said
 
 
-def extents(found: Findings) -> list[Scalar]:
+def extents(findings: Findings) -> list[Scalar]:
     """The volume by every route, the best known first: proved bounds, then the estimate by solids."""
-    region, proof = found.workspace, found.bounds
-    name, unit = size_name(region), extent_unit(found.record, region.box.names)
-    cells = f"{found.resolution} cells along each coordinate"
-    limits = limits_note(found.record)
+    region, proof = findings.workspace, findings.bounds
+    name, unit = size_name(region), extent_unit(findings.record, region.box.names)
+    cells = f"{findings.resolution} cells along each coordinate"
+    limits = limits_note(findings.record)
     noted = "; ".join(filter(None, (cells, limits)))
     estimate = Scalar(name, region.volume, unit, TWO_RESOLUTIONS, region.volume_error, note=noted)
     if isinstance(proof, str):
@@ -111,23 +111,23 @@ def agreement(value: float, error: float, bounds: tuple[float, float]) -> str:
     return "within its error of the proved bounds" if near else AGAINST
 
 
-def share(found: Findings) -> list[Scalar]:
+def share(findings: Findings) -> list[Scalar]:
     """How much of the volume is near a parallel singularity, where that can be said."""
-    region = found.workspace
+    region = findings.workspace
     if region.share is None:
         return []
-    away = f"{region.near:g} {shown_unit(found.record.unit)}"
+    away = f"{region.near:g} {shown_unit(findings.record.unit)}"
     near = f"within {away} of a parallel-singular surface inside; the border of the workspace is not counted"
-    if all(locus.factor in found.nowhere for locus in region.loci):
+    if all(locus.factor in findings.nowhere for locus in region.loci):
         known = f"{PROVED}: there is no such surface"
     else:
         known = SHARE if any(locus.area or locus.everywhere for locus in region.loci) else NO_SURFACE
     return [Scalar("share near a singularity", round(100 * region.share, 1), "%", known, note=near)]
 
 
-def largest_cube(found: Findings) -> list[Scalar]:
+def largest_cube(findings: Findings) -> list[Scalar]:
     """The largest cube about the configuration of this report that is proved free of singularities."""
-    cube, record = found.cube, found.record
+    cube, record = findings.cube, findings.record
     if isinstance(cube, str) or (cube.size == 0 and cube.witness):
         return []
     names = cube.shape.names
@@ -184,11 +184,11 @@ def _box(region: Workspace, record: MechanismRecord) -> str:
     )
 
 
-def _loci(found: Findings) -> list[Table]:
-    region, record = found.workspace, found.record
+def _loci(findings: Findings) -> list[Table]:
+    region, record = findings.workspace, findings.record
     names = region.box.names
     mixed = any(map(is_angle, names))
-    factors = {item.name: item for item in parallel_factors(record)}
+    factors = {factor.name: factor for factor in parallel_factors(record)}
     if not factors:
         return []
     unit = extent_unit(record, names[1:])
@@ -196,7 +196,7 @@ def _loci(found: Findings) -> list[Table]:
         (
             written(factors[locus.factor]),
             locus.meaning,
-            _size(found, locus, mixed=mixed),
+            _size(findings, locus, mixed=mixed),
         )
         for locus in region.loci
     )
@@ -204,36 +204,36 @@ def _loci(found: Findings) -> list[Table]:
     title = "Parallel singularities inside the workspace"
     where = "surface" if len(names) == 3 else "curve"
     caption = "" if mixed else f"Size of the {where} on which each factor vanishes."
-    return [Table(title, ("factor", "zero where", size), rows, caption, known_by=_right_of_loci(found))]
+    return [Table(title, ("factor", "zero where", size), rows, caption, known_by=_right_of_loci(findings))]
 
 
-def _right_of_loci(found: Findings) -> str:
+def _right_of_loci(findings: Findings) -> str:
     """By what right the sizes of loci are known, and that there is none."""
-    if found.workspace.volume == 0:
-        return f"{PROVED}: nothing is reached" if found.unreached else NOT_REACHED
-    loci = [locus for locus in found.workspace.loci if not locus.everywhere]
+    if findings.workspace.volume == 0:
+        return f"{PROVED}: nothing is reached" if findings.unreached else NOT_REACHED
+    loci = [locus for locus in findings.workspace.loci if not locus.everywhere]
     absent = {locus.factor for locus in loci if not locus.area}
     parts = [TWO_RESOLUTIONS] if len(absent) < len(loci) else []
-    parts += [f"{PROVED}: nowhere zero"] if absent & found.nowhere else []
-    parts += [UNSEEN] if absent - found.nowhere else []
+    parts += [f"{PROVED}: nowhere zero"] if absent & findings.nowhere else []
+    parts += [UNSEEN] if absent - findings.nowhere else []
     return "; ".join(parts or [FLOATING])
 
 
-def _size(found: Findings, locus: Locus, *, mixed: bool) -> str:
+def _size(findings: Findings, locus: Locus, *, mixed: bool) -> str:
     """How much of a locus is inside, or by what right there is none; lengths and angles together have no area."""
     if locus.everywhere:
         return "everywhere"
     if locus.area:
         return "on a surface" if mixed else with_error(locus.area, locus.area_error)
-    if found.workspace.volume == 0:
+    if findings.workspace.volume == 0:
         return "nothing is reached"
-    if locus.factor in found.nowhere:
+    if locus.factor in findings.nowhere:
         return "nowhere: proved"
-    return f"none found on {found.resolution} cells along each coordinate"
+    return f"none found on {findings.resolution} cells along each coordinate"
 
 
-def _projections(found: Findings) -> list[Table]:
-    region, record = found.workspace, found.record
+def _projections(findings: Findings) -> list[Table]:
+    region, record = findings.workspace, findings.record
     if len(region.box.names) != 3 or region.volume == 0.0:
         return []
     rows = []
@@ -244,36 +244,36 @@ def _projections(found: Findings) -> list[Table]:
     return [Table("Projections", ("plane", "area", "unit"), tuple(rows), known_by=TWO_RESOLUTIONS)]
 
 
-def _sections(found: Findings) -> list[Table]:
+def _sections(findings: Findings) -> list[Table]:
     """Areas of the cuts: proved bounds and the estimate beside each other, where both are known."""
-    region, record = found.workspace, found.record
+    region, record = findings.workspace, findings.record
     if not region.sections:
         return []
     name = region.sections[0].coordinate
     size = extent_unit(record, [other for other in region.box.names if other != name])
-    proof = found.bounds
-    proved = {} if isinstance(proof, str) else {item.value: item.area for item in proof.sections}
+    proof = findings.bounds
+    proved = {} if isinstance(proof, str) else {section.value: section.area for section in proof.sections}
     rows: list[tuple[Cell, ...]] = []
-    for item in region.sections:
-        error = item.area_error
-        row = (_at(record, name, item.value), with_error(item.area, error))
-        both = proved.get(item.value)
-        rows.append((*row, bounds(*both), agreement(item.area, error, both)) if both else (*row, "", ""))
+    for section in region.sections:
+        error = section.area_error
+        row = (_at(record, name, section.value), with_error(section.area, error))
+        both = proved.get(section.value)
+        rows.append((*row, bounds(*both), agreement(section.area, error, both)) if both else (*row, "", ""))
     columns = (name, f"area by solids [{size}]", f"area, proved bounds [{size}]", "the estimate is")
     known = f"{PROVED}; by solids {TWO_RESOLUTIONS}" if proved else TWO_RESOLUTIONS
     return [Table(f"Sections across {name}", columns, tuple(rows), known_by=known)]
 
 
-def _parasitic(found: Findings) -> list[Table]:
+def _parasitic(findings: Findings) -> list[Table]:
     """Of the coordinates that the pose leaves out and that move along: the largest values over the region."""
-    record = found.record
+    record = findings.record
     rows = tuple(
         (
             name,
-            _at(record, name, item.value),
-            ", ".join(f"{key} = {_at(record, key, value)}" for key, value in item.at.items()),
+            _at(record, name, motion.value),
+            ", ".join(f"{key} = {_at(record, key, value)}" for key, value in motion.at.items()),
         )
-        for name, item in largest_parasitic(record, found.workspace).items()
+        for name, motion in largest_parasitic(record, findings.workspace).items()
     )
     caption = "Coordinates that the pose leaves out and that move along with it: the largest sizes that were seen."
     known = "estimate: largest over the border's vertices and points inside; the true one may be larger"

@@ -35,10 +35,10 @@ TYPES = {
 }
 
 
-def singularities(found: Findings) -> Section:
+def singularities(findings: Findings) -> Section:
     """The table of factors, the groups that matter together, and example configurations."""
-    if found.record.closed_form is None:
-        return _judged(found)
+    if findings.record.closed_form is None:
+        return _judged(findings)
     said = (
         "A configuration is singular where a factor of a determinant vanishes: serial where det Jq = 0 (the platform "
         "loses a freedom), parallel where det Jp = 0 (it gains one while the inputs are locked), comprehensive where "
@@ -46,58 +46,65 @@ def singularities(found: Findings) -> Section:
         "closed form: where it drops, the configuration is a constraint singularity."
     )
     parts: list[Result] = [
-        _factors(found),
-        *_groups(found),
-        *found.picture("serial", "parallel", "singular"),
-        _examples(found),
+        _factors(findings),
+        *_groups(findings),
+        *findings.picture("serial", "parallel", "singular"),
+        _examples(findings),
     ]
     return Section("Singularities", said, parts)
 
 
-def _judged(found: Findings) -> Section:
+def _judged(findings: Findings) -> Section:
     """The verdict of the joint graph on one configuration, where no closed form names factors."""
-    here = found.verdict
+    verdict = findings.verdict
     said = (
         "Without a closed form there are no factors. The joint graph itself is judged in the configuration of this "
         "report, by the ranks of its closure and of Jp and Jq; lengths count in units of the characteristic length, so "
         "each measure is 0 where singular and at most 1."
     )
-    types = ", ".join(f"{TYPES[name]} ({name})" for name in here.types) or "none"
-    gains = "yes" if here.platform_gains else "no"
-    items = [("kind", here.kind), ("near a singularity", "yes" if here.near else "no"), ("types of Zlatanov", types)]
-    items += [("platform gains a freedom", gains), ("rank of the closure", f"{here.rank} of {here.generic_rank}")]
-    internal = int(instantaneous(found.record, found.joints).ranks.internal)
-    items += [
-        ("degrees of freedom", f"{here.freedoms}, {internal} of them internal" if internal else f"{here.freedoms}")
+    types = ", ".join(f"{TYPES[name]} ({name})" for name in verdict.types) or "none"
+    gains = "yes" if verdict.platform_gains else "no"
+    items = [
+        ("kind", verdict.kind),
+        ("near a singularity", "yes" if verdict.near else "no"),
+        ("types of Zlatanov", types),
     ]
-    measures = [Scalar(name, value, "", FLOATING, note=MEASURES[name]) for name, value in here.relative.items()]
+    items += [("platform gains a freedom", gains), ("rank of the closure", f"{verdict.rank} of {verdict.generic_rank}")]
+    internal = int(instantaneous(findings.record, findings.joints).ranks.internal)
+    items += [
+        (
+            "degrees of freedom",
+            f"{verdict.freedoms}, {internal} of them internal" if internal else f"{verdict.freedoms}",
+        )
+    ]
+    measures = [Scalar(name, value, "", FLOATING, note=MEASURES[name]) for name, value in verdict.relative.items()]
     parts: list[Result] = [Facts("The verdict", tuple(items)), *measures]
-    parts += found.picture("serial", "parallel", "singular")
-    if all(name in found.record.box for name in found.record.platform.pose) and found.examples:
-        parts.append(_examples(found))
+    parts += findings.picture("serial", "parallel", "singular")
+    if all(name in findings.record.box for name in findings.record.platform.pose) and findings.examples:
+        parts.append(_examples(findings))
     return Section("Singularities", said, parts)
 
 
-def _factors(found: Findings) -> Table:
+def _factors(findings: Findings) -> Table:
     rows = tuple(
         (
-            written(item),
-            KINDS[item.kind],
-            item.meaning,
-            item.equation,
-            short(found.solution.factors[item.name], 6),
-            shown_unit(power(found.record.unit, item.unit)),
+            written(factor),
+            KINDS[factor.kind],
+            factor.meaning,
+            factor.equation,
+            short(findings.solution.factors[factor.name], 6),
+            shown_unit(power(findings.record.unit, factor.unit)),
         )
-        for item in found.form.factor_list
+        for factor in findings.form.factor_list
     )
     columns = ("factor", "divides", "zero where", "source", "value here", "unit")
     caption = "All factors of both determinants; “value here” is in the configuration of this report."
     return Table("Factors and their geometric meaning", columns, rows, caption, known_by=FLOATING)
 
 
-def _groups(found: Findings) -> list[Table]:
-    form = found.form
-    items = {item.name: item for item in form.factor_list}
+def _groups(findings: Findings) -> list[Table]:
+    form = findings.form
+    items = {factor.name: factor for factor in form.factor_list}
     rows = [
         (_together([items[name] for name in group]), what, meaning)
         for groups, what, meaning in (
@@ -115,16 +122,16 @@ def _groups(found: Findings) -> list[Table]:
 
 
 def _together(factors: list[Factor]) -> Formula:
-    content = "<mo>=</mo>".join(_mathml(item) for item in factors)
-    return Formula(inline(f"{content}<mo>=</mo><mn>0</mn>", " = ".join(item.name for item in factors) + " = 0"))
+    content = "<mo>=</mo>".join(_mathml(factor) for factor in factors)
+    return Formula(inline(f"{content}<mo>=</mo><mn>0</mn>", " = ".join(factor.name for factor in factors) + " = 0"))
 
 
-def _examples(found: Findings) -> Table:
+def _examples(findings: Findings) -> Table:
     """One example for every factor that has one, with the rank of the joint graph there."""
-    record, style = found.record, found.style
+    record, style = findings.record, findings.style
     general = generic_rank(record)
     rows: list[tuple[Cell, ...]] = []
-    for example in found.examples:
+    for example in findings.examples:
         free = mobility(record, example.joints)
         values = [
             style.written(float(value), angle=angle)
@@ -136,7 +143,7 @@ def _examples(found: Findings) -> Table:
         rank = f"{int(free.rank)} of {general}"
         rows.append((written(example.factor), example.status.name.replace("_", " "), example.mode, *values, rank))
     names = [*zip(record.platform.pose, pose_angles(record), strict=True)]
-    names += [(item.name, angle) for item, angle in zip(record.inputs, input_angles(record), strict=True)]
+    names += [(actuated.name, angle) for actuated, angle in zip(record.inputs, input_angles(record), strict=True)]
     titles = (style.title(name, angle=angle) for name, angle in names)
     columns = ("vanishing factor", "kind", "mode", *titles, "rank of closure")
     how = (
@@ -144,16 +151,18 @@ def _examples(found: Findings) -> Table:
         if record.closed_form
         else "Paths that began at home stop there; the kind is what the joint graph says"
     )
-    caption = f"{how} there. A rank below {general} is a constraint singularity of the joint graph.{_without(found)}"
+    caption = f"{how} there. A rank below {general} is a constraint singularity of the joint graph.{_without(findings)}"
     return Table("Example configurations", columns, tuple(rows), caption, known_by=f"{FLOATING}; {RANK}")
 
 
-def _without(found: Findings) -> str:
+def _without(findings: Findings) -> str:
     """The factors of which there is no example."""
-    form = found.record.closed_form
-    named = {example.factor.name for example in found.examples}
-    without = [item for item in (form.factor_list if form else ()) if item.kind != "other" and item.name not in named]
-    return f" No example was found for {', '.join(plain(item) for item in without)}." if without else ""
+    form = findings.record.closed_form
+    named = {example.factor.name for example in findings.examples}
+    without = [
+        factor for factor in (form.factor_list if form else ()) if factor.kind != "other" and factor.name not in named
+    ]
+    return f" No example was found for {', '.join(plain(factor) for factor in without)}." if without else ""
 
 
 def plain(factor: Factor) -> str:

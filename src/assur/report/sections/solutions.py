@@ -20,53 +20,53 @@ from assur.report.sections.proved import right
 from assur.results.kinds import Result, Table
 
 
-def solutions(found: Findings, problem: Problem) -> list[Result]:
+def solutions(findings: Findings, problem: Problem) -> list[Result]:
     """Every real solution: its mode, values, the other mode, status, the gap that is left, whether it keeps the limits;
     and of each the platform's coordinates that the pose leaves out.
     """
-    listed = found.direct if problem == "direct" else found.inverse
+    listed = findings.direct if problem == "direct" else findings.inverse
     data = answer(listed)
-    return [_listed(found, problem, listed, data), *_left_out(found, problem, data["solutions"])]
+    return [_listed(findings, problem, listed, data), *_left_out(findings, problem, data["solutions"])]
 
 
-def _listed(found: Findings, problem: Problem, listed: SolutionSet, data: dict[str, Any]) -> Table:
-    record, style = found.record, found.style
+def _listed(findings: Findings, problem: Problem, listed: SolutionSet, data: dict[str, Any]) -> Table:
+    record, style = findings.record, findings.style
     direct = problem == "direct"
-    names = record.platform.pose if direct else tuple(item.name for item in record.inputs)
+    names = record.platform.pose if direct else tuple(actuated.name for actuated in record.inputs)
     angles = pose_angles(record) if direct else input_angles(record)
     other = "working mode" if direct else "assembly mode"
     limited = data["limits_stated"]
     rows = tuple(
         (
-            item.mode,
-            *_values(record, style, item, angles, direct=direct),
-            item.working_mode if direct else item.assembly_mode,
-            "yes" if told["home"] else "",
-            item.status.name.replace("_", " "),
-            short(item.residual, 2),
-            *([_limits(told["limits"]["outside"])] if limited else []),
+            solution.mode,
+            *_values(record, style, solution, angles, direct=direct),
+            solution.working_mode if direct else solution.assembly_mode,
+            "yes" if answer["home"] else "",
+            solution.status.name.replace("_", " "),
+            short(solution.residual, 2),
+            *([_limits(answer["limits"]["outside"])] if limited else []),
         )
-        for item, told in zip(listed, data["solutions"], strict=True)
+        for solution, answer in zip(listed, data["solutions"], strict=True)
     )
     titles = tuple(style.title(name, angle=angle) for name, angle in zip(names, angles, strict=True))
     after = ("home", "status", style.title("gap", angle=False), *(["limits"] if limited else []))
     columns = ("mode", *titles, other, *after)
     caption = " ".join(_caption(listed, data))
-    marks = tuple("" if item.status <= Status.near_singular else "singular" for item in listed)
-    known = right(found, problem)[0]
+    marks = tuple("" if solution.status <= Status.near_singular else "singular" for solution in listed)
+    known = right(findings, problem)[0]
     return Table(f"Solutions of the {problem} problem", columns, rows, caption, marks, known_by=known)
 
 
 def _values(
-    record: MechanismRecord, style: Style, item: Solution, angles: Sequence[bool], *, direct: bool
+    record: MechanismRecord, style: Style, solution: Solution, angles: Sequence[bool], *, direct: bool
 ) -> tuple[str, ...]:
-    values = pose_at_border(record, item.pose) if direct else inputs_at_border(record, item.inputs)
+    values = pose_at_border(record, solution.pose) if direct else inputs_at_border(record, solution.inputs)
     return tuple(style.written(float(value), angle=angle) for value, angle in zip(values, angles, strict=True))
 
 
 def _limits(outside: Sequence[dict[str, Any]]) -> str:
     """Each limit that a solution exceeds, and by how much."""
-    return "; ".join(f"{item['limit']}: by {short(item['by'])} {item['unit']}" for item in outside) or "within"
+    return "; ".join(f"{limit['limit']}: by {short(limit['by'])} {limit['unit']}" for limit in outside) or "within"
 
 
 def _caption(listed: SolutionSet, data: dict[str, Any]) -> Iterator[str]:
@@ -77,29 +77,31 @@ def _caption(listed: SolutionSet, data: dict[str, Any]) -> Iterator[str]:
         "The gap is the largest that remains over the cut joints of the whole joint graph, or to what was "
         "asked, orientation errors times its characteristic length included. A sign written 0 has merged."
     )
-    if any("/" in item.mode for item in listed):
+    if any("/" in solution.mode for solution in listed):
         yield "A number tells solutions of the same signs apart."
     if data["home_by"]:
         yield f"{data['home_by'][0].upper()}{data['home_by'][1:]}."
     for pair in data["doubles"]:
         yield f"{' and '.join(pair['modes'])} are a double: one solution, or two too near to tell."
-    for text in dict.fromkeys(item["angles"] for item in data["solutions"] if item["angles"]):
-        modes = ", ".join(item["mode"] for item in data["solutions"] if item["angles"] == text)
+    for text in dict.fromkeys(entry["angles"] for entry in data["solutions"] if entry["angles"]):
+        modes = ", ".join(entry["mode"] for entry in data["solutions"] if entry["angles"] == text)
         yield f"{modes}: {text}; phi and psi are one choice of many."
 
 
-def _left_out(found: Findings, problem: Problem, listed: Sequence[dict[str, Any]]) -> list[Table]:
+def _left_out(findings: Findings, problem: Problem, listed: Sequence[dict[str, Any]]) -> list[Table]:
     """Without these, solutions that differ in nothing else look the same."""
-    if not any(item["parasitic"] for item in listed):
+    if not any(answer["parasitic"] for answer in listed):
         return []
-    style, names = found.style, tuple(next(item["parasitic"] for item in listed if item["parasitic"]))
+    style, names = findings.style, tuple(next(answer["parasitic"] for answer in listed if answer["parasitic"]))
     rows = tuple(
-        (item["mode"], *(style.written(item["parasitic"][name], angle=is_angle(name)) for name in names))
-        for item in listed
-        if item["parasitic"]
+        (answer["mode"], *(style.written(answer["parasitic"][name], angle=is_angle(name)) for name in names))
+        for answer in listed
+        if answer["parasitic"]
     )
     columns = ("mode", *(style.title(name, angle=is_angle(name)) for name in names))
     caption = "The platform's coordinates that the pose leaves out, of each solution."
     return [
-        Table(f"What the pose leaves out, {problem} problem", columns, rows, caption, known_by=right(found, problem)[0])
+        Table(
+            f"What the pose leaves out, {problem} problem", columns, rows, caption, known_by=right(findings, problem)[0]
+        )
     ]

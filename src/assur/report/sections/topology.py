@@ -41,11 +41,11 @@ EQUATIONS = (
 """The method of POC sets: formula, what it says, and what a decomposition calls the number."""
 
 
-def topology(found: Findings) -> Section:
+def topology(findings: Findings) -> Section:
     """What is counted on the joint graph, and what the source prints."""
-    results: list[Result | Section] = [*found.picture("structure")]
-    results += [_chains(found.record)] if found.record.chains else []
-    results += [derived(found), _mobility(found), *_declared(found)]
+    results: list[Result | Section] = [*findings.picture("structure")]
+    results += [_chains(findings.record)] if findings.record.chains else []
+    results += [derived(findings), _mobility(findings), *_declared(findings)]
     return Section("Structure and topology", results=results)
 
 
@@ -57,15 +57,15 @@ def _chains(record: MechanismRecord) -> Table:
         )
         rows.append((chain.name, joints, chain.printed))
     rows += [
-        (item.name, " ".join(item.joints), f"{item.kind}, between {item.parent} and {item.child}")
-        for item in record.generalised.values()
+        (chain.name, " ".join(chain.joints), f"{chain.kind}, between {chain.parent} and {chain.child}")
+        for chain in record.generalised.values()
     ]
     return Table("Chains and generalised joints", ("name", "joints", "as the source writes it"), tuple(rows))
 
 
-def _mobility(found: Findings) -> Section:
-    record = found.record
-    free = mobility(record, found.home)
+def _mobility(findings: Findings) -> Section:
+    record = findings.record
+    free = mobility(record, findings.home)
     loops = len(joint_graph(record).cut)
     gap = (
         "nothing is dropped"
@@ -76,7 +76,7 @@ def _mobility(found: Findings) -> Section:
         "Mobility of the whole joint graph, no joints collapsed: the rank of the Jacobian of all loop closures at the "
         "assembled home configuration, by singular values."
     )
-    internal = int(instantaneous(record, found.home).ranks.internal)
+    internal = int(instantaneous(record, findings.home).ranks.internal)
     spins = f"; {internal} of them internal, which move neither platform nor inputs" if internal else ""
     scalars = [
         Scalar("loop equations", float(6 * loops), "", EXACT, note=f"6 for each of {count(loops, 'loop')}"),
@@ -87,22 +87,22 @@ def _mobility(found: Findings) -> Section:
     return Section("Mobility by rank", text, scalars)
 
 
-def _declared(found: Findings) -> list[Section]:
+def _declared(findings: Findings) -> list[Section]:
     """What the source says of the topology, where it says something."""
-    title = f"Topology as the {found.giver} states it"
-    rows = (*found.rows("poc"), *found.rows("decomposition"))
+    title = f"Topology as the {findings.giver} states it"
+    rows = (*findings.rows("poc"), *findings.rows("decomposition"))
     if not rows:
         return []
     text = (
-        f"The POC sets, loops and degrees that the {found.giver} prints, beside those that the rules derive from the "
-        "joint graph and the rank of joint twists confirms, directions included. The coupling degree is the least over "
-        "all orders of loops."
+        f"The POC sets, loops and degrees that the {findings.giver} prints, beside those that the rules derive from "
+        "the joint graph and the rank of joint twists confirms, directions included. The coupling degree is the least "
+        "over all orders of loops."
     )
-    return [Section(title, text, [_method(found), _table(found, rows)])]
+    return [Section(title, text, [_method(findings), _table(findings, rows)])]
 
 
-def _method(found: Findings) -> Formulas:
-    entries = found.reference.entries["decomposition"] if found.reference else ()
+def _method(findings: Findings) -> Formulas:
+    entries = findings.reference.entries["decomposition"] if findings.reference else ()
     where = cast("Decomposition", entries[0]).sources if entries else {}
     lines = tuple(
         Formula(display(latex_mathml(latex)), _number(where.get(name, "")), meaning)
@@ -116,9 +116,9 @@ def _number(source: str) -> str:
     return source.removeprefix("Eq. ") if source.startswith("Eq. (") else ""
 
 
-def _table(found: Findings, rows: tuple[Row, ...]) -> Table:
-    columns = ("where", "quantity", found.given, "computed", "verdict", "how it is known")
+def _table(findings: Findings, rows: tuple[Row, ...]) -> Table:
+    columns = ("where", "quantity", findings.given, "computed", "verdict", "how it is known")
     cells = tuple(
         (row.source, quantity(row), number(row.printed), computed(row), verdict(row), row.note) for row in rows
     )
-    return Table(f"Topology, {found.given} and computed", columns, cells, marks=tuple(row.verdict for row in rows))
+    return Table(f"Topology, {findings.given} and computed", columns, cells, marks=tuple(row.verdict for row in rows))

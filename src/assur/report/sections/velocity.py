@@ -28,12 +28,12 @@ NULL_SPACE = (
 )
 
 
-def velocity(found: Findings) -> Section:
+def velocity(findings: Findings) -> Section:
     """The velocity map, its determinants, and its numbers in the configuration of this report."""
-    if found.record.closed_form is None:
-        return Section("Velocity", NULL_SPACE, [_here(found, found.record)])
-    read = found.formulas("inverse")
-    form, record = found.form, found.record
+    if findings.record.closed_form is None:
+        return Section("Velocity", NULL_SPACE, [_here(findings, findings.record)])
+    read = findings.formulas("inverse")
+    form, record = findings.form, findings.record
     lines = [
         Formula(
             display(f"{JP}{TIMES}<mi>v</mi><mo>=</mo>{JQ}{TIMES}{RATES}", "Jp v = Jq qdot"),
@@ -41,8 +41,8 @@ def velocity(found: Findings) -> Section:
         ),
         Formula(equation(JP, matrix_mathml(read.jp))),
         Formula(equation(JQ, matrix_mathml(read.jq))),
-        _determinant(found, JP, "parallel"),
-        _determinant(found, JQ, "serial"),
+        _determinant(findings, JP, "parallel"),
+        _determinant(findings, JQ, "serial"),
     ]
     said = (
         "The velocity equation of the closed form. Both determinants are products of factors, each of which vanishes "
@@ -53,14 +53,16 @@ def velocity(found: Findings) -> Section:
             " The source prints the same equation divided by factors that can vanish; the form here is regular "
             "wherever the pose exists, and the printed one stands beside it in the Python interface."
         )
-    results: list[Result | Section] = [Formulas("Velocity equation", tuple(lines)), _here(found, record)]
+    results: list[Result | Section] = [Formulas("Velocity equation", tuple(lines)), _here(findings, record)]
     return Section("Velocity", said, results)
 
 
-def _determinant(found: Findings, matrix: str, kind: str) -> Formula:
+def _determinant(findings: Findings, matrix: str, kind: str) -> Formula:
     """A determinant as the product of the factors of one kind, as the closed form claims."""
-    factors = [symbol_mathml(item.latex, item.name) for item in found.form.factor_list if item.kind == kind]
-    written = [f"<mrow>{bracket('(')}{item}{bracket(')')}</mrow>" if _is_sum(item) else item for item in factors]
+    factors = [symbol_mathml(factor.latex, factor.name) for factor in findings.form.factor_list if factor.kind == kind]
+    written = [
+        f"<mrow>{bracket('(')}{factor}{bracket(')')}</mrow>" if _is_sum(factor) else factor for factor in factors
+    ]
     left = f"<mrow><mi>det</mi>{APPLY}{matrix}</mrow>"
     return Formula(equation(left, f"{TIMES}{THIN}".join(written)), meaning=f"{kind} singularities")
 
@@ -71,36 +73,38 @@ def _is_sum(mathml: str) -> bool:
     return ">−<" in outside or ">+<" in outside
 
 
-def _here(found: Findings, record: MechanismRecord) -> Section:
-    here, solution = found.velocity, found.solution
-    pose = pose_words(record, found.style, pose_at_border(record, solution.pose).tolist())
+def _here(findings: Findings, record: MechanismRecord) -> Section:
+    velocity, solution = findings.velocity, findings.solution
+    pose = pose_words(record, findings.style, pose_at_border(record, solution.pose).tolist())
     mode = f", working mode {solution.working_mode}" if solution.working_mode else ""
     said = f"In the configuration of this report, {pose}{mode}:"
     rates = tuple(RATE.get(name, f"d{name}/dt") for name in rate_names(record.platform.pose))
-    inputs = tuple(f"d{item.name}/dt" for item in record.inputs)
-    matrices = [Matrix("Jp", here.jp, (), rates), Matrix("Jq", here.jq, (), inputs)]
-    if not here.singular_output:
-        matrices.append(Matrix("J = Jp⁻¹ Jq", here.matrix, rates, inputs))
-    condition = float(here.condition)
+    inputs = tuple(f"d{actuated.name}/dt" for actuated in record.inputs)
+    matrices = [Matrix("Jp", velocity.jp, (), rates), Matrix("Jq", velocity.jq, (), inputs)]
+    if not velocity.singular_output:
+        matrices.append(Matrix("J = Jp⁻¹ Jq", velocity.matrix, rates, inputs))
+    condition = float(velocity.condition)
     scalars = [
-        Scalar("det Jp", float(here.det_jp), "", FLOATING, note=_product(found, "parallel")),
-        Scalar("det Jq", float(here.det_jq), "", FLOATING, note=_product(found, "serial")),
-        Scalar("condition number", condition if math.isfinite(condition) else None, "", FLOATING, note=_norm(here)),
+        Scalar("det Jp", float(velocity.det_jp), "", FLOATING, note=_product(findings, "parallel")),
+        Scalar("det Jq", float(velocity.det_jq), "", FLOATING, note=_product(findings, "serial")),
+        Scalar("condition number", condition if math.isfinite(condition) else None, "", FLOATING, note=_norm(velocity)),
     ]
     return Section("In numbers", said, [*matrices, *scalars])
 
 
-def _norm(here: VelocityMap) -> str:
+def _norm(velocity: VelocityMap) -> str:
     divided = (
-        f"; lengths divided by the characteristic length {short(here.length)} {here.record.unit}" if here.length else ""
+        f"; lengths divided by the characteristic length {short(velocity.length)} {velocity.record.unit}"
+        if velocity.length
+        else ""
     )
     return f"κ(J) = s₁/sᵣ of J = Jp⁻¹ Jq in the 2-norm{divided}"
 
 
-def _product(found: Findings, kind: str) -> str:
+def _product(findings: Findings, kind: str) -> str:
     """The second route to a determinant."""
-    form = found.record.closed_form
+    form = findings.record.closed_form
     if form is None:
         return "up to the factor of both"
-    factors = (found.solution.factors[item.name] for item in form.factor_list if item.kind == kind)
+    factors = (findings.solution.factors[factor.name] for factor in form.factor_list if factor.kind == kind)
     return f"product of its factors: {short(math.prod(factors))}"

@@ -1,3 +1,5 @@
+"""The table of joint types: letters and freedoms of the theory."""
+
 from __future__ import annotations
 
 import pytest
