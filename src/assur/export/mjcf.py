@@ -23,7 +23,6 @@ from assur.export.names import Names, link_name
 from assur.export.shapes import arms, radius
 from assur.export.steps import Step
 from assur.export.xml_text import Element, child, comment, document, number, numbers, quaternion
-from assur.joints.helical import HELICAL
 from assur.model.mechanism import MechanismRecord
 
 NOTE = "masses and sizes of bodies are nominal; lengths in m, angles in rad; key 'home' is the assembled home"
@@ -156,7 +155,7 @@ def _closure(equality: Element, closure: Closure) -> None:
 def _screws(record: MechanismRecord, model: Bodies, equality: Element) -> None:
     """The advance of each screw, tied to its rotation."""
     for joint in record.joints.values():
-        if joint.type is HELICAL:
+        if joint.type.screw:
             slide = f"{joint.name}.advance"
             lead = number(model.steps[slide].ratio)
             child(equality, "joint", name=slide, joint1=slide, joint2=joint.name, polycoef=f"0 {lead} 0 0 0")

@@ -19,10 +19,6 @@ from assur.export.shapes import arms, radius
 from assur.export.steps import Step, joint_steps
 from assur.export.xml_text import Element, child, comment, document, number, numbers
 from assur.joint_graph.frames import frames
-from assur.joints.cylindrical import CYLINDRICAL
-from assur.joints.helical import HELICAL
-from assur.joints.spherical import SPHERICAL
-from assur.joints.universal import UNIVERSAL
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.numerics import rotations
 
@@ -111,22 +107,22 @@ def _joint(
 ) -> None:
     steps = joint_steps(record, joint, model.home, forward=True, metre=model.metre)
     parent, own = links[joint.parent], links[joint.child]
-    if joint.type is CYLINDRICAL:
-        between = names.new(f"{joint.name}.carrier", "link")
-        link = child(top, "link", name=between)
-        child(link, "pose", pose(*placed[joint.child]), rotation_format="quat_xyzw")
-        _mass(link, CARRIER_MASS, steps[0].at, CARRIER_INERTIA * model.size**2)
-        ends = [(parent, between), (between, own)]
-        for step, (near, far) in zip(steps, ends, strict=True):
+    if joint.type.slides and len(steps) > 1:
+        between = [names.new(f"{joint.name}.carrier", "link") for _ in steps[1:]]
+        for name, step in zip(between, steps, strict=False):
+            link = child(top, "link", name=name)
+            child(link, "pose", pose(*placed[joint.child]), rotation_format="quat_xyzw")
+            _mass(link, CARRIER_MASS, step.at, CARRIER_INERTIA * model.size**2)
+        for step, near, far in zip(steps, [parent, *between], [*between, own], strict=True):
             kind = "prismatic" if step.kind == "slide" else "revolute"
             _element(top, names.new(step.name, "joint"), kind, near, far, [step])
         return
     name = names.new(joint.name, "joint")
-    if joint.type is SPHERICAL:
+    if joint.type.ball:
         _element(top, name, "ball", parent, own, steps)
-    elif joint.type is UNIVERSAL:
+    elif joint.type.turns == 2:
         _element(top, name, "universal", parent, own, steps)
-    elif joint.type is HELICAL:
+    elif joint.type.screw:
         hinge = next(step for step in steps if step.kind == "hinge")
         made = _element(top, name, "screw", parent, own, [hinge])
         # rad per m, of a right-handed thread below zero; SDF 1.10 has the advance per turn in its place

@@ -28,7 +28,6 @@ from assur.export.steps import Step, joint_steps
 from assur.export.urdf import anchor, single_steps, tree_links
 from assur.joint_graph.frames import child_frame, frames
 from assur.joint_graph.tree import joint_graph
-from assur.joints.helical import HELICAL
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.numerics import rotations
 from assur.results.json_text import plain
@@ -47,7 +46,7 @@ def sidecar(record: MechanismRecord, urdf_name: str) -> dict[str, Any]:
     model = bodies(record)
     links = tree_links(record)
     steps = [step for link in links for step in model.bodies[link].steps]
-    screws = [joint.name for joint in record.joints.values() if joint.type is HELICAL]
+    screws = [joint.name for joint in record.joints.values() if joint.type.screw]
     data = {
         "format": 1,
         "mechanism": record.name,

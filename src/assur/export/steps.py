@@ -9,8 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.tree import joint_graph
-from assur.joints.helical import HELICAL
-from assur.joints.spherical import SPHERICAL
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.numerics import rotations
 
@@ -74,29 +72,39 @@ def joint_steps(
     """
     columns = joint_graph(record).slices[joint.name]
     at = metre * (joint.child_at if forward else joint.at)
-    if joint.type is SPHERICAL:
+    if joint.type.ball:
         vector = rotations.from_vector(home[columns])
         turn = ((vector @ joint.turn).T, joint.turn) if forward else (vector, np.eye(3))
         return (
             Step(joint.name, "ball", np.zeros(3), at, joint.name, columns.start, 1.0, 0.0, None, turn, not forward),
         )
-    steps = [_step(record, joint, k, home, at, metre) for k in range(columns.start, columns.stop)]
-    if joint.type is HELICAL:
+    steps = [
+        _step(record, joint, step.direction, columns.start + first, home, at, metre)
+        for step, first in joint.type.places
+    ]
+    if joint.type.screw:
         steps.append(_advance(joint, columns.start, home, at, metre))
     if not forward:
         steps = steps[::-1]
     basis = joint.turn.T if forward else -np.eye(3)
     found: list[Step] = []
     later = np.eye(3)  # what the steps after this one turn at home, in the carried body's frame
+    shift = np.zeros(3)  # and how far they move the body, in its frame
     for step in reversed(steps):
         axis = basis @ step.axis
-        found.insert(0, replace(step, axis=later.T @ axis + 0.0))
+        own = later.T @ axis + 0.0
+        aside = shift - (shift @ own) * own  # along its axis a hinge may stand anywhere
+        found.insert(0, replace(step, axis=own, at=step.at - aside))
+        if step.kind == "slide":
+            shift = shift + step.home * own
         if step.kind == "hinge":
             later = rotations.about_axis(axis, np.array(step.home)) @ later
     return tuple(found)
 
 
-def _step(record: MechanismRecord, joint: Joint, index: int, home: FloatArray, at: FloatArray, metre: float) -> Step:
+def _step(
+    record: MechanismRecord, joint: Joint, direction: int, index: int, home: FloatArray, at: FloatArray, metre: float
+) -> Step:
     """The step of one component, its axis in the parent's frame."""
     coordinate = record.coordinates[index]
     component = index - joint_graph(record).slices[joint.name].start
@@ -105,7 +113,7 @@ def _step(record: MechanismRecord, joint: Joint, index: int, home: FloatArray, a
     return Step(
         record.coordinate_label(coordinate),
         "slide" if coordinate.kind == "length" else "hinge",
-        joint.axes[component if len(joint.axes) > 1 else 0],
+        joint.axes[direction],
         at,
         joint.name,
         index,

@@ -36,9 +36,6 @@ LINE = 12.0
 SLANTED = np.array([[-1.6, -0.85], [1.0, -0.85], [1.6, 0.85], [-1.0, 0.85]])
 """Corners of a parallelogram's symbol, in radii of a joint's disc."""
 
-SEVERAL = ("C", "U", "S")
-"""Letters of joints with more freedoms than one."""
-
 PLATFORM = "#d6ebf7"
 LIGHTEST = 0.45
 """How much of its colour the last loop of an Assur chain keeps."""
@@ -48,7 +45,7 @@ _GROUP = re.compile(r"Pa(\d+)")
 
 @dataclass(frozen=True)
 class Edge:
-    """A joint of the graph, or a parallelogram as one: what it is called and which of its freedoms are driven."""
+    """A joint of the graph, or a parallelogram as one: its name, which freedoms are driven, and of several."""
 
     name: str
     letter: str
@@ -56,6 +53,7 @@ class Edge:
     end: str
     joints: tuple[str, ...] = ()
     driven: tuple[str, ...] = ()
+    several: bool = False
 
     @property
     def reach(self) -> float:
@@ -66,7 +64,7 @@ class Edge:
     def label(self) -> str:
         """Its name, and under it the joints that it stands for or the freedom that is driven, if that says more."""
         inside = [name for name in self.joints if not name.startswith(self.name)]
-        below = " ".join(map(letter, inside)) or ", ".join(self.driven if self.letter in SEVERAL else ())
+        below = " ".join(map(letter, inside)) or ", ".join(self.driven if self.several else ())
         name = _GROUP.sub(r"Pa$_{\1}$", self.name) if _GROUP.fullmatch(self.name) else letter(self.name)
         return f"{name}\n{below}" if below else name
 
@@ -82,7 +80,7 @@ def edges(linkage: Linkage) -> tuple[Edge, ...]:
             found.setdefault(group.name, Edge(group.name, sign, group.parent, group.child, group.joints))
         else:
             driven = tuple(joint.type.components[index] for other, index in linkage.inputs if other == name)
-            found[name] = Edge(name, joint.type.letter, joint.parent, joint.child, (), driven)
+            found[name] = Edge(name, joint.type.letter, joint.parent, joint.child, (), driven, joint.type.freedoms > 1)
     return tuple(found.values())
 
 

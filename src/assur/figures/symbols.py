@@ -7,8 +7,7 @@ from numpy.typing import NDArray
 
 from assur.figures.canvas import Canvas, View, guide
 from assur.figures.style import INK, ORANGE, PAPER
-from assur.joints.prismatic import PRISMATIC
-from assur.joints.spherical import SPHERICAL
+from assur.scene.hull import hull
 from assur.scene.skeleton import Mark
 
 FloatArray = NDArray[np.float64]
@@ -25,19 +24,34 @@ def joint_symbol(page: Canvas, view: View, mark: Mark, order: float, size: float
     """The symbol of one joint; a driven one is filled. Returns points (k, 2) about it."""
     at = view(mark.shown)
     fill = ORANGE if mark.driven else PAPER
-    if mark.joint.type is SPHERICAL:
+    if mark.joint.type.ball:
         page.disc(at, 1.2 * size * RADIUS, fill, order=order)
         page.disc(at, 0.5 * size * RADIUS, INK, order=order)
         return at + 1.2 * size * RADIUS * ROUND
-    if mark.joint.type is PRISMATIC:
+    if not mark.joint.type.turning:
         corners = box(at, direction(view, mark.axes[0]), size * SLIDER)
         page.polygon(corners, fill, order=order)
         return corners
+    if mark.flat:
+        return _plane(page, view, mark, fill, order, size)
     drawn = [_turning(page, view, at, axis, fill, order, size) for axis in mark.axes]
     if mark.slides:
         page.polygon(box(at, direction(view, mark.axes[0]), size * SLIDER * [1.2, 0.9]), fill, order=order)
         page.disc(at, 0.6 * size * RADIUS, PAPER, order=order)
     return np.concatenate(drawn)
+
+
+def _plane(page: Canvas, view: View, mark: Mark, fill: str, order: float, size: float) -> FloatArray:
+    """A plate in its plane as it is seen, and a disc on it where it turns."""
+    at = view(mark.shown)
+    first, second = (view.camera.project(axis) for axis in mark.axes[1:])
+    seen = np.array([first + second, first - second, -first - second, second - first])
+    thin = 0.25 * size * SLIDER[1] * np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
+    corners = hull(np.concatenate([size * SLIDER[0] * seen + corner for corner in thin]) + at)
+    page.polygon(corners, fill, order=order)
+    if mark.joint.type.turning:
+        page.disc(at, 0.6 * size * RADIUS, PAPER, order=order)
+    return corners
 
 
 def _turning(

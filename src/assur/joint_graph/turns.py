@@ -10,10 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.tree import joint_graph
-from assur.joints.cylindrical import CYLINDRICAL
-from assur.joints.helical import HELICAL
-from assur.joints.prismatic import PRISMATIC
-from assur.joints.revolute import REVOLUTE
 from assur.model.mechanism import Joint, MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -29,9 +25,7 @@ def turn_relations(record: MechanismRecord) -> FloatArray:
     Each runs around a loop of axes that stay parallel; sliding joints turn nothing. Sums in which a passive joint
     without pitch occurs are left out: its whole turns are free, so that the sum says nothing.
     """
-    rows = [
-        row for name, joint in record.joints.items() if joint.type is HELICAL for row in _Parallel(record, name).sums
-    ]
+    rows = [row for name, joint in record.joints.items() if joint.type.screw for row in _Parallel(record, name).sums]
     matrix = np.array(rows).reshape(len(rows), len(record.coordinates))
     driven = np.isin(np.arange(matrix.shape[1]), record.input_indices)
     return _frozen(_without(matrix, np.flatnonzero(~screws_among(record) & ~driven)))
@@ -44,7 +38,7 @@ def screws_among(record: MechanismRecord) -> BoolArray:
     >>> bool(np.any(screws_among(load_record("fivebar"))))
     False
     """
-    return np.array([record.joints[item.joint].type is HELICAL for item in record.coordinates], dtype=bool)
+    return np.array([record.joints[item.joint].type.screw for item in record.coordinates], dtype=bool)
 
 
 @dataclass(frozen=True)
@@ -90,12 +84,9 @@ class _Parallel:
     def _turned(self, joint: Joint, along: FloatArray) -> FloatArray | None:
         """What a joint adds (n,) to the angle about a direction; None where it turns about another."""
         angles = np.zeros(len(self.record.coordinates))
-        if joint.type is PRISMATIC:
+        if not joint.type.turning:
             return angles
-        if (
-            joint.type not in (REVOLUTE, HELICAL, CYLINDRICAL)
-            or np.linalg.norm(np.cross(joint.axes[0], along)) > PARALLEL
-        ):
+        if joint.type.turns != 1 or np.linalg.norm(np.cross(joint.axes[0], along)) > PARALLEL:
             return None
         angles[joint_graph(self.record).slices[joint.name].stop - 1] = np.sign(joint.axes[0] @ along)
         return angles

@@ -14,3 +14,6 @@ JOINT_TYPES: dict[str, JointType] = {
     joint_type.name: joint_type for joint_type in (REVOLUTE, PRISMATIC, HELICAL, CYLINDRICAL, UNIVERSAL, SPHERICAL)
 }
 """By the names that files write."""
+
+BY_LETTER: dict[str, JointType] = {joint_type.letter: joint_type for joint_type in JOINT_TYPES.values()}
+"""By the letters of notations."""

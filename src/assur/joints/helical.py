@@ -5,4 +5,4 @@ from __future__ import annotations
 from assur.joints.joint_type import JointType
 from assur.joints.steps import SCREW
 
-HELICAL = JointType("helical", "H", ("rotation",), (SCREW,), 1)
+HELICAL = JointType("helical", "H", ("rotation",), (SCREW,), 1, "НΗ")

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from assur.joints.steps import STILL, UNTURNED, CoordinateKind, Motion, Step, Twist
 from assur.numerics.sparse_vectors import Matrix, Vector, add, apply, product
+
+Directions = Callable[[Sequence[Vector]], tuple[Vector, ...]]
 
 
 @dataclass(frozen=True)
@@ -21,7 +23,10 @@ class JointType:
         name, letter: as files and as notation write it.
         components: names of its coordinates.
         steps: what moves the child, one after the other.
-        axes: how many unit vectors are written for it.
+        axes: how many unit vectors are written for it; the first is the one that it is known by.
+        lookalikes: letters of other alphabets that are read as its own.
+        room: half of what is drawn about it, along its first axis and across it, in thicknesses of a bar.
+        directions: unit vectors that its steps go along, of those that are written, which come first.
     """
 
     name: str
@@ -29,6 +34,44 @@ class JointType:
     components: tuple[str, ...]
     steps: tuple[Step, ...]
     axes: int
+    lookalikes: str = ""
+    room: tuple[float, float] = (2.55, 1.15)
+    directions: Directions = tuple
+
+    @property
+    def ball(self) -> bool:
+        """Whether it turns about a point, its coordinates a rotation vector."""
+        return any(step.kind == "ball" for step in self.steps)
+
+    @property
+    def screw(self) -> bool:
+        """Whether it advances as it turns, by a pitch."""
+        return any(step.kind == "screw" for step in self.steps)
+
+    @property
+    def turns(self) -> int:
+        """How many axes it turns about; none for a ball."""
+        return sum(step.kind in ("turn", "screw") for step in self.steps)
+
+    @property
+    def slides(self) -> int:
+        """How many lengths are among its coordinates."""
+        return sum(step.kind == "slide" for step in self.steps)
+
+    @property
+    def turning(self) -> bool:
+        """Whether it turns its child at all: where it lies matters then."""
+        return any(step.kind != "slide" for step in self.steps)
+
+    @property
+    def carries(self) -> bool:
+        """Whether the distance of the points of parent and child is free."""
+        return any(step.kind in ("slide", "screw") for step in self.steps)
+
+    @property
+    def axial(self) -> bool:
+        """Whether all it does is about and along one axis: such a joint is driven where nothing else is said."""
+        return self.axes == 1 and all(step.direction == 0 for step in self.steps)
 
     @property
     def kinds(self) -> tuple[CoordinateKind, ...]:

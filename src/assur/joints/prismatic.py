@@ -5,4 +5,4 @@ from __future__ import annotations
 from assur.joints.joint_type import JointType
 from assur.joints.steps import SLIDE
 
-PRISMATIC = JointType("prismatic", "P", ("translation",), (SLIDE,), 1)
+PRISMATIC = JointType("prismatic", "P", ("translation",), (SLIDE,), 1, "РΡ", (2.6, 1.9))

@@ -5,4 +5,4 @@ from __future__ import annotations
 from assur.joints.joint_type import JointType
 from assur.joints.steps import TURN
 
-UNIVERSAL = JointType("universal", "U", ("first", "second"), (TURN, TURN.along(1)), 2)
+UNIVERSAL = JointType("universal", "U", ("first", "second"), (TURN, TURN.along(1)), 2, room=(3.7, 3.7))

@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UnknownNameError, UsageError
 from assur.joint_graph.geometry import characteristic_length
-from assur.joints.spherical import SPHERICAL
 from assur.kinematics.pose import pose_error
 from assur.kinematics.turns import periodic_inputs
 from assur.model.mechanism import MechanismRecord
@@ -161,7 +160,7 @@ def joint_values(record: MechanismRecord, joints: Any) -> list[FloatArray]:
     """Joint values in the order of the record's coordinates, from a kernel's {joint or joint.component: value}."""
     values: list[FloatArray] = []
     for name, joint in record.joints.items():
-        if joint.type is SPHERICAL:
+        if joint.type.ball:
             values += _rotation_vector(joints[name])
         elif name in joints:
             values.append(scalar(joints[name]))

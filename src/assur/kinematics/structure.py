@@ -7,7 +7,6 @@ import numpy as np
 from assur.joint_graph.frames import Frame, frames, screws
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
-from assur.joints.spherical import SPHERICAL
 from assur.kinematics.home import home_values
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.topology.linkages.linkage import FloatArray, Group, Linkage, LinkageJoint
@@ -28,7 +27,9 @@ def linkage(record: MechanismRecord) -> Linkage:
     joints = {}
     for name, item in record.joints.items():
         point = _point(item, placed)
-        rows = _about(point) if item.type is SPHERICAL else twists[:, slices[name]].T
+        rows = _about(point) if item.type.ball else twists[:, slices[name]].T
+        if item.type.turning:  # where what slid has carried it
+            point = point + _slid(item, values[slices[name]], placed)
         joints[called[name]] = LinkageJoint(called[name], item.type, item.parent, item.child, rows, point)
     groups = {
         name: Group(name, item.kind, tuple(called[inner] for inner in item.joints), item.parent, item.child)
@@ -53,6 +54,14 @@ def _point(joint: Joint, placed: dict[str, Frame]) -> FloatArray:
     rotation, origin = placed[joint.parent]
     point: FloatArray = rotation @ joint.at + origin
     return point
+
+
+def _slid(joint: Joint, values: FloatArray, placed: dict[str, Frame]) -> FloatArray:
+    shift = np.zeros(3)
+    for step, first in joint.type.places:
+        if step.kind == "slide":
+            shift = shift + values[first] * joint.axes[step.direction]
+    return np.asarray(placed[joint.parent][0] @ shift)
 
 
 def _about(point: FloatArray) -> FloatArray:

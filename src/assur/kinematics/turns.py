@@ -22,7 +22,6 @@ from assur.errors import MechanismFileError, UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
 from assur.joint_graph.turns import screws_among, turn_relations
-from assur.joints.spherical import SPHERICAL
 from assur.kinematics.closure import assemble
 from assur.kinematics.home import home_values
 from assur.model.mechanism import MechanismRecord
@@ -140,9 +139,7 @@ def _changes_around_home(record: MechanismRecord) -> FloatArray:
 
 def _about_axis(record: MechanismRecord) -> BoolArray:
     """Which joint values (n,) are angles about an axis."""
-    return np.array(
-        [item.kind == "angle" and record.joints[item.joint].type is not SPHERICAL for item in record.coordinates]
-    )
+    return np.array([item.kind == "angle" and not record.joints[item.joint].type.ball for item in record.coordinates])
 
 
 def in_one_turn(record: MechanismRecord, joints: FloatArray) -> FloatArray:
@@ -152,7 +149,7 @@ def in_one_turn(record: MechanismRecord, joints: FloatArray) -> FloatArray:
     """
     answer = np.where(periodic(record), (joints + np.pi) % (2 * np.pi) - np.pi, joints)
     for name, joint in record.joints.items():
-        if joint.type is SPHERICAL:
+        if joint.type.ball:
             place = joint_graph(record).slices[name]
             answer[..., place] = _shortest(answer[..., place])
     return answer

@@ -14,8 +14,6 @@ from types import SimpleNamespace
 from typing import Any
 
 from assur.errors import MechanismFileError, Problem
-from assur.joints.helical import HELICAL
-from assur.joints.spherical import SPHERICAL
 from assur.model.closed_form import Branch, ClosedForm, Eliminant, Margin, PolynomialSystem
 from assur.model.file.faults import listed
 from assur.model.kernels.values import TABLES, is_number, kind_of
@@ -176,7 +174,7 @@ def _joints(record: MechanismRecord, values: Any) -> Told:
         yield kind_of(values), "a table of joint values"
         return
     for name, joint in record.joints.items():
-        if joint.type is SPHERICAL:
+        if joint.type.ball:
             if not _is_rotation(values.get(name)):
                 yield f"no rotation of joint '{name}'", "three rows of three numbers, the child against the parent"
         else:
@@ -195,7 +193,7 @@ def _joint(name: str, joint: Joint, values: Mapping[str, Any]) -> Told:
         if key not in values:
             wanted = name if len(joint.type.components) == 1 else key
             yield f"no value of '{wanted}'", f"a value for each joint: {listed(values)} are there"
-        elif kind == "angle" and not (_is_pair(values[key]) or (joint.type is HELICAL and is_number(values[key]))):
+        elif kind == "angle" and not (_is_pair(values[key]) or (joint.type.screw and is_number(values[key]))):
             yield f"'{key}' as {kind_of(values[key])}", "a pair (cosine, sine) for an angle"
         elif kind == "length" and not is_number(values[key]):
             yield f"'{key}' as {kind_of(values[key])}", "a number for a length"

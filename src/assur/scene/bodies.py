@@ -13,9 +13,6 @@ from manifold3d import Manifold, OpType
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.joints.cylindrical import CYLINDRICAL
-from assur.joints.helical import HELICAL
-from assur.joints.prismatic import PRISMATIC
 from assur.kinematics.home import home_values
 from assur.model.mechanism import MechanismRecord
 from assur.scene.companion import Companion
@@ -26,7 +23,6 @@ from assur.scene.shapes import Ball, Box, Cylinder, Shape
 from assur.scene.skeleton import Skeleton, skeleton
 
 FloatArray = NDArray[np.float64]
-SLIDING = (PRISMATIC, CYLINDRICAL, HELICAL)
 PLAY = 0.06
 """Play of what runs in something else, in units of `unit`, on every side."""
 
@@ -80,7 +76,7 @@ def bodies(record: MechanismRecord) -> tuple[Body, ...]:
 def runs_in(record: MechanismRecord, item: Part, link: str) -> bool:
     """Whether a part of another link turns or slides in a link."""
     if item.role == "rail":  # a slider's joint is not told: it may share its rail with others
-        pairs = [{joint.parent, joint.child} for joint in record.joints.values() if joint.type in SLIDING]
+        pairs = [{joint.parent, joint.child} for joint in record.joints.values() if joint.type.carries]
         return {item.link, link} in pairs
     joint = record.joints.get(item.joint)
     inside = item.role in ("pin", "ball", "rod")

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joints.prismatic import PRISMATIC
 from assur.model.mechanism import MechanismRecord
 from assur.scene.skeleton import Skeleton
 
@@ -54,7 +53,7 @@ def lettered(skeleton: Skeleton) -> dict[str, FloatArray]:
     record = skeleton.record
     found = {name: skeleton.points[name] for name in record.points}
     for name, joint in record.joints.items():
-        if joint.type is PRISMATIC or _one_of_many(record, name):
+        if not joint.type.turning or _one_of_many(record, name):
             continue
         if all(np.linalg.norm(skeleton.points[name] - at) > 1e-9 for at in found.values()):
             found[name] = skeleton.points[name]

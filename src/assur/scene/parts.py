@@ -12,8 +12,6 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joints.spherical import SPHERICAL
-from assur.joints.universal import UNIVERSAL
 from assur.scene.companion import Companion
 from assur.scene.ground import bed, depth, ground, held, upright
 from assur.scene.hull import hull
@@ -105,7 +103,7 @@ def _yoke(skeleton: Skeleton, yoke: Yoke, colour: str) -> Iterator[Part]:
 
 def link_layers(skeleton: Skeleton) -> dict[str, int]:
     """Link -> its layer, another one than those of the links that it is hinged to, but for universal joints."""
-    hinges = [mark.joint for mark in skeleton.marks if not mark.slides and mark.joint.type is not UNIVERSAL]
+    hinges = [mark.joint for mark in skeleton.marks if not (mark.slides or mark.flat) and mark.joint.type.turns != 2]
     found: dict[str, int] = {}
     for link in skeleton.record.links:
         others = {
@@ -153,15 +151,17 @@ def _hinge_normal(skeleton: Skeleton, rod: Rod) -> FloatArray | None:
 
 def _joint(skeleton: Skeleton, mark: Mark, layers: Mapping[str, int]) -> Iterator[Part]:
     size, joint = unit(skeleton), mark.joint
-    if joint.type is SPHERICAL:
+    if joint.type.ball:
         yield Part(f"{joint.name} ball", joint.child, Ball(mark.at, 1.4 * size), DARK, "ball", joint.name)
         return
     colour = DRIVE if mark.driven else DARK
     if mark.slides:
         yield from _slider(skeleton, mark, layers)
-    elif joint.type is UNIVERSAL:
+    elif joint.type.turns == 2:
         for link, role, piece in cross(mark, size):
             yield Part(f"{joint.name} {role}", link, piece, colour, "pin", joint.name)
+    elif mark.flat:
+        yield from _table(skeleton, mark, colour)
     else:
         over = any(mark in held(skeleton, item, size) for item in skeleton.marks)
         reach = _reach(mark, layers, mark.grounded or over) * size * mark.axes[0]
@@ -174,10 +174,21 @@ def _joint(skeleton: Skeleton, mark: Mark, layers: Mapping[str, int]) -> Iterato
 
 def _reach(mark: Mark, layers: Mapping[str, int], stands: bool) -> float:
     """Half the length of a pin, in units of `unit`: through all layers, and through a stand."""
-    if mark.joint.type is UNIVERSAL:
+    if mark.joint.type.turns == 2:
         return ASIDE + 0.4
     widest = max(max(LAYERS[layers[link]]) for link in (mark.joint.parent, mark.joint.child))
     return widest + 0.75 + 0.6 * stands
+
+
+def _table(skeleton: Skeleton, mark: Mark, colour: str) -> Iterator[Part]:
+    """A round plate of the parent on which a puck of the child slides and turns."""
+    size, normal, joint = unit(skeleton), mark.axes[0], mark.joint
+    radius = float(np.linalg.norm(mark.at - mark.rail)) + 3.2 * size
+    foot = mark.rail - ((mark.rail - mark.at) @ normal) * normal
+    plate = Cylinder(foot - 1.6 * size * normal, foot - 0.8 * size * normal, radius)
+    yield Part(f"{joint.name} table", joint.parent, plate, PLAIN, "table", joint.name)
+    puck = Cylinder(mark.at - 0.75 * size * normal, mark.at + 0.75 * size * normal, 1.9 * size)
+    yield Part(f"{joint.name} puck", joint.child, puck, colour, "puck", joint.name)
 
 
 def _slider(skeleton: Skeleton, mark: Mark, layers: Mapping[str, int]) -> Iterator[Part]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from functools import lru_cache
 from itertools import combinations
 from typing import TypeVar
@@ -18,11 +18,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.joints.cylindrical import CYLINDRICAL
-from assur.joints.joint_type import JointType
-from assur.joints.prismatic import PRISMATIC
-from assur.joints.spherical import SPHERICAL
-from assur.joints.universal import UNIVERSAL
 from assur.kinematics.home import home_values
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.segments import segment_distances
@@ -36,15 +31,6 @@ USUAL, MOST = 0.018, 0.1
 
 ROOM = 0.3
 """Room between what is drawn about two neighbouring joints of one link, in thicknesses."""
-
-TAKES: Mapping[JointType, tuple[float, float]] = {
-    SPHERICAL: (1.4, 1.4),
-    UNIVERSAL: (3.7, 3.7),
-    PRISMATIC: (2.6, 1.9),
-    CYLINDRICAL: (2.6, 1.9),
-}
-HINGE = (2.55, 1.15)
-"""Half of what is drawn about a joint along its axis and across it, in thicknesses; `HINGE` for all others."""
 
 RODS = 3.0
 """Distance of the axes of two rods of links that share no joint, in thicknesses, at least."""
@@ -110,7 +96,7 @@ def limits(here: Skeleton) -> Iterator[tuple[tuple[str, str], float]]:
 
 def _takes(mark: Mark, way: FloatArray) -> float:
     """Half of what is drawn about a joint along a way (3,), in thicknesses: that of a cylinder about its axis."""
-    along, across = TAKES.get(mark.joint.type, HINGE)
+    along, across = mark.joint.type.room
     cosine = abs(float(mark.axes[0] @ way)) if len(mark.axes) else 0.0
     return along * cosine + across * math.sqrt(max(1.0 - cosine**2, 0.0))
 

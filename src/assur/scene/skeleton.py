@@ -10,9 +10,6 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.frames import Frame, frames
 from assur.joint_graph.geometry import characteristic_length
-from assur.joints.cylindrical import CYLINDRICAL
-from assur.joints.prismatic import PRISMATIC
-from assur.joints.universal import UNIVERSAL
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.scene.companion import Companion
 
@@ -65,8 +62,13 @@ class Mark:
 
     @property
     def slides(self) -> bool:
-        """Whether the joint lets its links slide along one another."""
-        return self.joint.type in (PRISMATIC, CYLINDRICAL)
+        """Whether the joint lets its links slide along one another, on a line."""
+        return self.joint.type.slides == 1
+
+    @property
+    def flat(self) -> bool:
+        """Whether they slide on a plane, whose normal is its first axis."""
+        return self.joint.type.slides == 2
 
     @property
     def shown(self) -> FloatArray:
@@ -76,7 +78,7 @@ class Mark:
     @property
     def telescopes(self) -> bool:
         """Whether it makes a leg longer that does not slide on the base."""
-        return self.joint.type in (PRISMATIC, CYLINDRICAL) and not self.grounded
+        return self.slides and not self.grounded
 
 
 @dataclass(frozen=True, eq=False)
@@ -203,7 +205,7 @@ def _marks(record: MechanismRecord, placed: Mapping[str, Frame]) -> list[Mark]:
     marks = []
     for name, joint in record.joints.items():
         axes = np.array([placed[joint.parent][0] @ axis for axis in joint.axes]).reshape(-1, 3)
-        if joint.type is UNIVERSAL:  # its second axis is given in the child's frame
+        if joint.type.turns == 2:  # its second axis is given in the child's frame
             axes[1] = placed[joint.child][0] @ joint.axes[1]
         at = link_point(record, placed, joint.child, name)
         grounded = record.base in (joint.parent, joint.child)

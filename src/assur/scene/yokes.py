@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joints.universal import UNIVERSAL
 from assur.scene.shapes import Ball, Bar, Cylinder
 from assur.scene.skeleton import Mark, Plate, Rod, Skeleton
 
@@ -87,7 +86,7 @@ def yokes(here: Skeleton) -> tuple[Yoke, ...]:
     """Both links of every universal joint, the parent's first."""
     found, tiny = [], HERE * here.size
     for mark in here.marks:
-        if mark.joint.type is not UNIVERSAL:
+        if mark.joint.type.turns != 2:
             continue
         links, places = (mark.joint.parent, mark.joint.child), (mark.rail, mark.at)
         ways = [_way(here, link, at, tiny) for link, at in zip(links, places, strict=True)]

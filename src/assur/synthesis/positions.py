@@ -99,7 +99,7 @@ def _turning_axes(chain: Chain) -> list[Vector]:
     """Different directions of the joints that turn."""
     found: list[Vector] = []
     for element in chain.elements:
-        if isinstance(element, ChainJoint) and element.type.letter != "P":
+        if isinstance(element, ChainJoint) and element.type.turning:
             found += [axis for axis in element.axes if not any(parallel(axis, other) for other in found)]
     return found
 

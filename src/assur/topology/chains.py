@@ -47,10 +47,15 @@ class ChainJoint:
             raise UsageError(f"{count} axes for {letter}; expected {self.type.axes}")
         for axis in self.axes:
             _refuse_unless_unit(axis)
-        if count == 2 and parallel(self.axes[0], self.axes[1]):
+        if self.type.turns == 2 and parallel(self.axes[0], self.axes[1]):
             raise UsageError(f"parallel axes {self.axes} of a {letter}; expected different ones", hint="they are one R")
-        if self.point and letter == "P":
-            raise UsageError(f"a point '{self.point}' for P; expected none: a translation has no place")
+        if self.point and not self.type.turning:
+            raise UsageError(f"a point '{self.point}' for {letter}; expected none: a translation has no place")
+
+    @property
+    def directions(self) -> tuple[Vector, ...]:
+        """Those of its steps: its axes, and what its type makes of them."""
+        return self.type.directions(self.axes)
 
     @property
     def freedoms(self) -> int:

@@ -20,7 +20,6 @@ from scipy.ndimage import distance_transform_edt
 
 from assur.errors import UsageError
 from assur.joint_graph.tree import joint_graph
-from assur.joints.spherical import SPHERICAL
 from assur.kinematics.answers.at_border import angle_at_border
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import mode_signs, sign_names
@@ -296,7 +295,7 @@ def _values(record: MechanismRecord, joints: FloatArray) -> Values:
         value = joints[:, item.index]
         values[record.coordinate_label(item)] = (np.cos(value), np.sin(value)) if same else value
     for name, joint in record.joints.items():
-        if joint.type is SPHERICAL:
+        if joint.type.ball:
             turn = rotations.from_vector(joints[:, joint_graph(record).slices[name]])
             values[name] = [[turn[:, row, column] for column in range(3)] for row in range(3)]
     return values

@@ -15,11 +15,6 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joints.cylindrical import CYLINDRICAL
-from assur.joints.helical import HELICAL
-from assur.joints.prismatic import PRISMATIC
-from assur.joints.revolute import REVOLUTE
-from assur.joints.universal import UNIVERSAL
 from assur.kinematics.soundness.check import METRES
 from assur.model.mechanism import Input, Joint, MechanismRecord
 from assur.scene.bodies import Body, bodies, corners, fused
@@ -158,17 +153,19 @@ def _to_buy(
     pins = [item.shape for item in own if item.role == "pin" and isinstance(item.shape, Cylinder)]
     grounded = record.base in (joint.parent, joint.child)
     bought = []
-    if joint.type is REVOLUTE and pins:
+    if joint.type.slides == 2:
+        bought.append("flat bearing: a plate on which a puck slides" + " and turns" * joint.type.turns)
+    elif joint.type.slides and joint.type.turns:
+        bought.append("shaft with a linear bearing that slides and turns")
+    elif joint.type.slides:
+        bought.append("rail with carriage" if grounded else "telescopic slide (rod in a tube with bushes)")
+    elif joint.type.screw:
+        bought.append(f"screw and nut, {abs(joint.pitch) * millimetre:.4g} mm per turn")
+    elif joint.type.turns == 2:
+        bought.append(f"universal joint (a cross with two pins d {_sizes(pins[0])[0] * millimetre:.3g})")
+    elif joint.type.turns and pins:
         across, long = (value * millimetre for value in _sizes(pins[0]))
         bought.append(f"bearing: pin d {across:.3g} x {long:.3g} with bushes or ball bearings")
-    elif joint.type is UNIVERSAL:
-        bought.append(f"universal joint (a cross with two pins d {_sizes(pins[0])[0] * millimetre:.3g})")
-    elif joint.type is CYLINDRICAL:
-        bought.append("shaft with a linear bearing that slides and turns")
-    elif joint.type is HELICAL:
-        bought.append(f"screw and nut, {abs(joint.pitch) * millimetre:.4g} mm per turn")
-    elif joint.type is PRISMATIC:
-        bought.append("rail with carriage" if grounded else "telescopic slide (rod in a tube with bushes)")
     else:
         ball = next((item.shape for item in own if isinstance(item.shape, Ball)), None)
         bought.append(f"ball joint, ball d {2 * ball.radius * millimetre:.3g}" if ball else "ball joint")

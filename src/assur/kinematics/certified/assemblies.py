@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from assur.joint_graph.configuration import Placed
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
-from assur.joints.spherical import SPHERICAL
 from assur.kinematics import position
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.certified.enclosed import enclosed, loop_rows
@@ -69,7 +68,7 @@ class _Assemblies:
     def told(self) -> tuple[list[int], BoolArray]:
         """Which unknowns do not count from where they are thought to be, and whether each is the same after a turn."""
         items = [self.record.coordinates[k] for k in self.unknown]
-        told = [k for k, item in enumerate(items) if self.record.joints[item.joint].type is not SPHERICAL]
+        told = [k for k, item in enumerate(items) if not self.record.joints[item.joint].type.ball]
         return told, periodic(self.record)[np.array([self.unknown[k] for k in told], dtype=int)]
 
     def of(self, rows: NDArray[np.intp]) -> _Assemblies:
@@ -80,7 +79,7 @@ class _Assemblies:
         """Where the unknowns (K, n) are thought to be; those of a ball joint count from there."""
         values = self.near.copy()
         for name, joint in self.record.joints.items():
-            if joint.type is SPHERICAL:
+            if joint.type.ball:
                 values[:, joint_graph(self.record).slices[name]] = 0.0
         return values[:, self.unknown]
 

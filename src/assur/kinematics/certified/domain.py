@@ -19,8 +19,6 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joints.helical import HELICAL
-from assur.joints.prismatic import PRISMATIC
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.model.pose import LENGTHS, has_quaternion, is_angle
 
@@ -79,7 +77,7 @@ def reaches(record: MechanismRecord, inputs: FloatArray) -> Iterable[Reach]:
     """Balls and cylinders, each of which holds the platform's point at printed inputs (n,)."""
     driven = [pair for pair in zip(record.inputs, inputs.tolist(), strict=True) if pair[0].coordinate.kind == "length"]
     known = {item.coordinate.joint: (value - item.offset) * item.sign for item, value in driven}
-    free = [joint for joint in record.joints.values() if "length" in joint.type.kinds and joint.name not in known]
+    free = [joint for joint in record.joints.values() if joint.type.slides > (joint.name in known)]
     axes: list[FloatArray | None] = [None]
     for joint in free:
         if not any(axis is not None and _parallel(axis, joint.axes[0]) for axis in axes):
@@ -94,7 +92,7 @@ def reaches(record: MechanismRecord, inputs: FloatArray) -> Iterable[Reach]:
 def _usable(joint: Joint, axis: FloatArray | None, known: dict[str, float]) -> bool:
     """Whether a joint leaves the distance bounded: of everything, or of what is across an axis."""
     if axis is None:
-        return joint.type is not HELICAL and ("length" not in joint.type.kinds or joint.name in known)
+        return not joint.type.screw and joint.type.slides == (joint.name in known)
     return not joint.turned and len(joint.axes) == 1 and _parallel(joint.axes[0], axis)
 
 
@@ -120,7 +118,7 @@ def _from(
     centre, link = _point(first, record.base), _other(first, record.base)
     moved = known.get(first.name, 0.0)
     start = 0.0
-    if first.type is PRISMATIC and record.base == first.parent:
+    if not first.type.turning and record.base == first.parent:
         centre = centre + moved * first.axes[0]
     else:
         start = abs(moved)

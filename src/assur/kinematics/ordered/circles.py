@@ -12,7 +12,7 @@ for a rod, length 1 for a direction, three sides for a triangle.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,12 +20,6 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
-from assur.joints.cylindrical import CYLINDRICAL
-from assur.joints.helical import HELICAL
-from assur.joints.prismatic import PRISMATIC
-from assur.joints.revolute import REVOLUTE
-from assur.joints.spherical import SPHERICAL
-from assur.joints.universal import UNIVERSAL
 from assur.kinematics.ordered.hinges import NotCirclesError, middle
 from assur.kinematics.ordered.items import Item
 from assur.kinematics.ordered.orientations import Turning
@@ -46,14 +40,14 @@ class System:
 
     Attributes:
         items: unknowns of links that turn.
-        slides: joint -> column of its length, where its direction is fixed.
+        slides: index of a length -> its column, where its direction is fixed.
         turnings: orientations of the links.
     """
 
     record: MechanismRecord
     matrix: ComplexArray
     items: tuple[Item, ...]
-    slides: Mapping[str, int]
+    slides: Mapping[int, int]
     turnings: Turnings
     length: float
 
@@ -80,16 +74,17 @@ def system(
             sides = tuple(float(side @ side) for side in (first, second, first - second))
             items.append(Item("triangle", column, column, alone=True, sides=sides))
             column += 6
-    slides: dict[str, int] = {}
+    slides: dict[int, int] = {}
     for name, joint in record.joints.items():
-        if _slid(record, joint, locked) is not None:
-            continue
-        across = _across(joint, turnings[joint.parent])
-        if across is None:
-            slides[name] = column
-        else:
-            items.append(Item("slider", column, 1 + 2 * across, name))
-        column += 1 if across is None else 2
+        for axis, index in _sliding(record, joint):
+            if index in locked:
+                continue
+            across = _across(joint, axis, turnings[joint.parent])
+            if across is None:
+                slides[index] = column
+            else:
+                items.append(Item("slider", column, 1 + 2 * across, name, index=index))
+            column += 1 if across is None else 2
     bare = System(record, np.zeros((0, column), dtype=complex), tuple(items), slides, turnings, length)
     matrix = _equations(bare, locked, place)
     return replace(bare, matrix=matrix, items=_alone(items, matrix))
@@ -101,18 +96,18 @@ def joint_values(found: System, unknowns: ComplexArray, locked: Mapping[int, flo
     slices = joint_graph(record).slices
     values = np.zeros(len(record.coordinates))
     placed = {link: _orientation(found, item, unknowns) for link, item in found.turnings.items()}
-    lengths = {name: unknowns[column].real for name, column in found.slides.items()}
-    lengths |= {i.name: (unknowns[i.first] / unknowns[i.circle]).real for i in found.items if i.kind == "slider"}
+    lengths = {index: unknowns[column].real for index, column in found.slides.items()}
+    lengths |= {i.index: (unknowns[i.first] / unknowns[i.circle]).real for i in found.items if i.kind == "slider"}
+    for index, length in lengths.items():
+        values[index] = length * found.length
     for name, joint in record.joints.items():
         own = values[slices[name]]
         turned = placed[joint.parent].T @ placed[joint.child] @ joint.turn.T
-        if name in lengths:
-            own[0] = lengths[name] * found.length
-        if joint.type in (REVOLUTE, CYLINDRICAL):
+        if joint.type.turns == 1 and not joint.type.screw:
             own[-1] = rotations.to_vector(turned) @ joint.axes[0]
-        if joint.type is SPHERICAL:
+        if joint.type.ball:
             own[:] = rotations.to_vector(turned)
-        if joint.type is UNIVERSAL:
+        if joint.type.turns == 2:
             cross = placed[joint.parent].T @ placed[middle(joint)]
             own[0] = rotations.to_vector(cross) @ joint.axes[0]
             own[1] = rotations.to_vector(cross.T @ turned) @ joint.axes[1]
@@ -154,19 +149,29 @@ def _alone(items: list[Item], matrix: ComplexArray) -> tuple[Item, ...]:
     return tuple(found)
 
 
-def _slid(record: MechanismRecord, joint: Joint, locked: Mapping[int, float]) -> float | None:
-    """How far the joint has slid; None where that is an unknown."""
+def _sliding(record: MechanismRecord, joint: Joint) -> Iterator[tuple[FloatArray, int]]:
+    """Directions (3,) that a joint slides along in its parent, and the indices of its lengths."""
     start = joint_graph(record).slices[joint.name].start
-    if joint.type in (PRISMATIC, CYLINDRICAL):
-        return locked.get(start)
-    return locked[start] * joint.pitch / (2 * np.pi) if joint.type is HELICAL else 0.0
+    for step, first in joint.type.places:
+        if step.kind == "slide":
+            yield joint.axes[step.direction], start + first
 
 
-def _across(joint: Joint, parent: Turning) -> int | None:
-    """The circle about whose axis the direction of a sliding joint turns; None where the direction is fixed."""
+def _shift(record: MechanismRecord, joint: Joint, locked: Mapping[int, float]) -> FloatArray:
+    """How far (3,) what is locked has moved the joint's point in its parent."""
+    shift = np.zeros(3)
+    for axis, index in _sliding(record, joint):
+        shift = shift + locked.get(index, 0.0) * axis
+    if joint.type.screw:
+        shift = shift + locked[joint_graph(record).slices[joint.name].start] * joint.pitch / (2 * np.pi) * joint.axes[0]
+    return shift
+
+
+def _across(joint: Joint, axis: FloatArray, parent: Turning) -> int | None:
+    """The circle about whose axis a direction that a joint slides along turns; None where the direction is fixed."""
     if parent.circle is None or parent.axis is None:
         return None
-    along = abs(parent.axis @ parent.rotation @ joint.axes[0])
+    along = abs(parent.axis @ parent.rotation @ axis)
     if parent.rod is not None or 1e-9 < along < 1.0 - 1e-12:
         raise NotCirclesError(f"{joint.name} slides obliquely on a link that turns")
     return None if along > 0.5 else parent.circle
@@ -175,7 +180,7 @@ def _across(joint: Joint, parent: Turning) -> int | None:
 def _equations(bare: System, locked: Mapping[int, float], place: Mapping[str, float]) -> ComplexArray:
     record, graph = bare.record, joint_graph(bare.record)
     points: dict[str, ComplexArray] = {record.base: np.zeros((3, bare.matrix.shape[1]), dtype=complex)}
-    steps = {name: _step(bare, joint, _slid(record, joint, locked)) for name, joint in record.joints.items()}
+    steps = {name: _step(bare, joint, locked) for name, joint in record.joints.items()}
     for joint, forward in graph.tree:
         near, far = (joint.parent, joint.child) if forward else (joint.child, joint.parent)
         points[far] = points[near] + (steps[joint.name] if forward else -steps[joint.name])
@@ -189,16 +194,16 @@ def _equations(bare: System, locked: Mapping[int, float], place: Mapping[str, fl
     return np.concatenate(rows) if rows else bare.matrix
 
 
-def _step(bare: System, joint: Joint, slid: float | None) -> ComplexArray:
+def _step(bare: System, joint: Joint, locked: Mapping[int, float]) -> ComplexArray:
     """From the parent's origin to the child's (3, 1 + c)."""
-    fixed = joint.at + slid * joint.axes[0] if slid else joint.at
+    fixed = joint.at + _shift(bare.record, joint, locked)
     step = _carried(bare, joint.parent, fixed / bare.length) - _carried(bare, joint.child, joint.child_at / bare.length)
-    if slid is None:
-        direction = _carried(bare, joint.parent, joint.axes[0])
-        if joint.name in bare.slides:
-            step[:, bare.slides[joint.name]] += direction[:, 0]
-        else:
-            (own,) = (item for item in bare.items if item.name == joint.name)
+    for axis, index in _sliding(bare.record, joint):
+        direction = _carried(bare, joint.parent, axis)
+        if index in bare.slides:
+            step[:, bare.slides[index]] += direction[:, 0]
+        elif index not in locked:
+            (own,) = (item for item in bare.items if item.index == index)
             step[:, own.first : own.first + 2] += direction[:, own.circle : own.circle + 2]
     return step
 

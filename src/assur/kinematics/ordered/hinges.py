@@ -15,9 +15,7 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.frames import frames
 from assur.joint_graph.tree import joint_graph
-from assur.joints.spherical import SPHERICAL
 from assur.joints.steps import Step
-from assur.joints.universal import UNIVERSAL
 from assur.kinematics.home import home_values
 from assur.model.mechanism import GeneralisedJoint, Joint, MechanismRecord
 from assur.numerics import rotations
@@ -120,7 +118,7 @@ def _rods_alike(
     crosses, axes = [], []
     values, slices = home_values(record), joint_graph(record).slices
     for joint in (record.joints[name] for name in group.joints):
-        if joint.type is UNIVERSAL:
+        if joint.type.turns == 2:
             near, _ = placed[joint.parent]
             cross = near @ rotations.about_axis(joint.axes[0], values[slices[joint.name]][0])
             crosses.append((middle(joint), cross))
@@ -139,7 +137,7 @@ def rods_between_balls(record: MechanismRecord, parallel: Collection[str]) -> di
             together[_rods(record, group)[1]] = _rods(record, group)[0]
     lines: dict[str, FloatArray] = {}
     for link, joints in _joints_of(record).items():
-        if len(joints) == 2 and all(joint.type is SPHERICAL for joint in joints):
+        if len(joints) == 2 and all(joint.type.ball for joint in joints):
             near, far = (_point_on(joint, link) for joint in joints)
             lines[link] = (far - near) / np.linalg.norm(far - near)
     numbers = {link: number for number, link in enumerate(link for link in lines if link not in together)}
@@ -155,7 +153,7 @@ def triangles_of_balls(record: MechanismRecord) -> dict[str, FloatArray]:
     """
     found = {}
     for link, joints in _joints_of(record).items():
-        if len(joints) >= 3 and all(joint.type is SPHERICAL for joint in joints):
+        if len(joints) >= 3 and all(joint.type.ball for joint in joints):
             centres = np.array([_point_on(joint, link) for joint in joints])
             sides = centres - centres[0]
             second = int(np.argmax(np.linalg.norm(sides, axis=1)))

@@ -16,7 +16,7 @@ class Item:
         kind: "circle" (z, z~), "slider" (s z, s z~), "rod" (k z, k z~, sin phi), "ball" (a direction's components) or
             "triangle" (those of the vectors from its first corner to the second and the third).
         circle: the column of its circle's z; of its own where it is one.
-        name: of the slider's joint.
+        name, index: of the slider's joint, and of its length among the joint values.
         alone: a rod whose circle occurs nowhere else: a point on a sphere.
         sides: the squares of a triangle's sides: 12, 13, 23.
     """
@@ -27,6 +27,7 @@ class Item:
     name: str = ""
     alone: bool = False
     sides: tuple[float, ...] = ()
+    index: int = -1
 
     @property
     def columns(self) -> tuple[int, ...]:

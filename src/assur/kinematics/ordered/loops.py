@@ -247,7 +247,7 @@ def _names(equations: System) -> Mapping[int, str]:
     balls = [number for number, item in enumerate(equations.items) if item.kind == "ball"]
     circles = {item.circle // 2: number for number, item in enumerate(equations.items) if item.kind == "circle"}
     triangles = [number for number, item in enumerate(equations.items) if item.kind == "triangle"]
-    sliders = {item.name: number for number, item in enumerate(equations.items) if item.kind == "slider"}
+    sliders = {number: item.name for number, item in enumerate(equations.items) if item.kind == "slider"}
     for joint in equations.record.joints.values():
         for link in (joint.child, joint.parent, middle(joint)):
             turning = equations.turnings.get(link, Turning(np.eye(3)))
@@ -259,6 +259,4 @@ def _names(equations: System) -> Mapping[int, str]:
                 names.setdefault(rods[turning.rod], joint.name)
             elif turning.circle in circles:
                 names.setdefault(circles[turning.circle], joint.name)
-        if joint.name in sliders:
-            names[sliders[joint.name]] = joint.name
-    return names
+    return names | sliders

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from assur.joint_graph.frames import frames
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.points import quantities
-from assur.joints.spherical import SPHERICAL
 from assur.kinematics.closure import RANK_GAP, assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
@@ -101,7 +100,7 @@ def _places(record: MechanismRecord, joints: FloatArray) -> tuple[list[str], Flo
         columns += [np.broadcast_to(origin, (len(joints), 3)) / length]
     units, turning = joint_units(record), periodic(record)
     for item in record.coordinates:
-        if record.joints[item.joint].type is SPHERICAL:
+        if record.joints[item.joint].type.ball:
             continue
         value = joints[:, item.index]
         parts = [np.cos(value), np.sin(value)] if turning[item.index] else [value / units[item.index]]

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.points import quantities
 from assur.joint_graph.tree import joint_graph
-from assur.joints.spherical import SPHERICAL
 from assur.kinematics.border import checked_poses
 from assur.kinematics.paths.correcting import Corrected, corrected
 from assur.kinematics.paths.locked import units
@@ -144,7 +143,7 @@ def _unit(quaternion: FloatArray) -> FloatArray:
 def whole_turns_less(record: MechanismRecord, joints: FloatArray) -> FloatArray:
     """The same assemblies (N, n) with every rotation vector within half a turn and a little more."""
     for name, joint in record.joints.items():
-        if joint.type is SPHERICAL:
+        if joint.type.ball:
             place = joint_graph(record).slices[name]
             angle = np.linalg.norm(joints[:, place], axis=1)
             rows = angle > 1.25 * np.pi

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
-from assur.joints.spherical import SPHERICAL
 from assur.kinematics.border import held_inputs
 from assur.kinematics.closure import Assembly, assemble
 from assur.kinematics.limits import Limit
@@ -220,7 +219,7 @@ def _whole_turns_less(record: MechanismRecord, joints: FloatArray) -> FloatArray
     """The same assembly with every rotation vector well inside one turn, where its rates are those of a rotation."""
     found = joints
     for name, joint in record.joints.items():
-        if joint.type is not SPHERICAL:
+        if not joint.type.ball:
             continue
         place = joint_graph(record).slices[name]
         angle = float(np.linalg.norm(joints[place]))

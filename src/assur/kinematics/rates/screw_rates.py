@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.frames import Frame, frames, screws
 from assur.joint_graph.tree import joint_graph
-from assur.joints.spherical import SPHERICAL
-from assur.joints.universal import UNIVERSAL
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.numerics import rotations
 
@@ -44,10 +42,10 @@ def screw_rates(record: MechanismRecord, values: FloatArray, rates: FloatArray) 
         where = graph.slices[name]
         body = bodies[joint.parent]
         for column in range(where.start, where.stop):
-            if joint.type is UNIVERSAL and column > where.start:
-                body = body + unit[..., where.start] * rates[..., where.start, None]
             change[..., column] = _bracket(body, unit[..., column])
-        if joint.type is SPHERICAL:
+            if not joint.type.ball:
+                body = body + unit[..., column] * rates[..., column, None]
+        if joint.type.ball:
             turn = placed[joint.parent][0] @ _rotation_vector_rates(values[..., where], rates[..., where])
             change[..., :3, where] += turn
             change[..., 3:, where] += np.cross(_point(joint, placed)[..., :, None], turn, axis=-2)

@@ -8,9 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.frames import frames
-from assur.joints.cylindrical import CYLINDRICAL
-from assur.joints.helical import HELICAL
-from assur.joints.revolute import REVOLUTE
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -21,7 +18,7 @@ NEARLY = np.radians(10.0)
 
 
 def axes_hint(record: MechanismRecord, values: FloatArray, joints: Sequence[str]) -> str:
-    """Which axes of R, H and C joints among `joints` are, at joint values (n,), probably meant to be parallel.
+    """Which axes of joints with one axis among `joints` are, at joint values (n,), probably meant to be parallel.
 
     >>> from assur.kinematics.home import home_values
     >>> from assur.model.registry import load_record
@@ -33,7 +30,7 @@ def axes_hint(record: MechanismRecord, values: FloatArray, joints: Sequence[str]
     axes = {
         name: placed[joint.parent][0] @ joint.axes[0]
         for name, joint in record.joints.items()
-        if name in joints and joint.type in (REVOLUTE, HELICAL, CYLINDRICAL)
+        if name in joints and joint.type.turns == 1
     }
     names = list(axes)
     angles = {

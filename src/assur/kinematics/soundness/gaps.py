@@ -12,9 +12,6 @@ from numpy.typing import NDArray
 from assur.errors import Problem
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
-from assur.joints.cylindrical import CYLINDRICAL
-from assur.joints.helical import HELICAL
-from assur.joints.prismatic import PRISMATIC
 from assur.kinematics.closure import Assembly, assemble, residuals
 from assur.kinematics.soundness.axes import axes_hint
 from assur.kinematics.turns import unwrapped
@@ -96,7 +93,7 @@ def gap_problems(record: MechanismRecord) -> tuple[Problem, ...]:
 
 def _too_long(record: MechanismRecord, loop: Loop) -> Problem | None:
     """A side of a loop that the others together cannot span, whatever their angles."""
-    if any(record.joints[name].type in (PRISMATIC, CYLINDRICAL, HELICAL) for name in loop.joints):
+    if any(record.joints[name].type.carries for name in loop.joints):
         return None  # which carry any distance
     following = [*loop.joints[1:], loop.joints[0]]
     spans = [

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joints.spherical import SPHERICAL
+from assur.joints.catalogue import JOINT_TYPES
 from assur.model.file import schema
 from assur.model.file.build_joints import Geometry
 from assur.model.file.faults import listed
@@ -83,7 +83,7 @@ def build_home(tables: Tables, scope: Scope, geometry: Geometry) -> FloatArray:
             continue
         for place, (item, value) in enumerate(zip(items, placed.entry, strict=True)):
             home[item.index] = geometry.numbers.of(item.kind, value, (*placed.path, place))
-        if len(items) == len(SPHERICAL.components) and items[0].component == SPHERICAL.components[0]:
+        if JOINT_TYPES[tables.joints[joint].entry.type].ball:
             turning = [item.index for item in items]
             home[turning] = geometry.turned(home[turning], placed.instance)  # a rotation vector turns with its limb
     given = {scope.aliases.get(name, name) for name in (*tables.home, *tables.broken.get("home", ()))}

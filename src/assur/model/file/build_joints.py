@@ -105,7 +105,7 @@ def build_joint(placed: Placed[schema.AnyJoint], scope: Scope, geometry: Geometr
 
 
 def _axes(placed: Placed[schema.AnyJoint], geometry: Geometry) -> tuple[FloatArray, FloatArray]:
-    """Unit vectors (k, 3), and the orientation (3, 3) of the child's frame at value zero."""
+    """Unit vectors (k, 3) of all its steps, and the orientation (3, 3) of the child's frame at value zero."""
     entry, path, instance = placed.entry, placed.path, placed.instance
     if isinstance(entry, schema.SphericalEntry):
         return np.zeros((0, 3)), np.eye(3)
@@ -115,16 +115,20 @@ def _axes(placed: Placed[schema.AnyJoint], geometry: Geometry) -> tuple[FloatArr
             hint = "two parallel axes are one freedom: use a revolute"
             geometry.numbers.faults.add((*path, "axes"), "two parallel axes", "allowed: two that are not", hint)
         return np.array(pair), np.eye(3)
-    axis = geometry.axis(entry.axis, (*path, "axis"), instance)
+    written = geometry.numbers.axis(entry.axis, (*path, "axis"))
+    # What is made of it is made in the template, so that joint values mean the same in every limb.
+    made = JOINT_TYPES[entry.type].directions([tuple(written.tolist())])
+    axes = np.array([geometry.turned(np.array(direction), instance) for direction in made])
     if entry.child_axis is None:
-        return axis[None, :], np.eye(3)
+        return axes, np.eye(3)
+    axis = axes[0]
     child_axis = geometry.axis(entry.child_axis, (*path, "child_axis"), instance)
     if float(axis @ child_axis) < -1 + SMALL:
         allowed = "allowed: any direction but the opposite, from which a smallest turn to `axis` exists"
         hint = "turn the child's frame so that child_axis is the axis itself, and leave child_axis out"
         geometry.numbers.faults.add((*path, "child_axis"), "the opposite of `axis`", allowed, hint)
-        return axis[None, :], np.eye(3)
-    return axis[None, :], rotations.taking(child_axis, axis)
+        return axes, np.eye(3)
+    return axes, rotations.taking(child_axis, axis)
 
 
 def _limits(placed: Placed[schema.AnyJoint], numbers: Numbers) -> tuple[tuple[float, float] | None, ...]:
@@ -132,7 +136,7 @@ def _limits(placed: Placed[schema.AnyJoint], numbers: Numbers) -> tuple[tuple[fl
     kind = JOINT_TYPES[entry.type]
     if isinstance(entry, schema.SphericalEntry):
         return (None,) * kind.freedoms
-    if isinstance(entry, schema.CylindricalEntry | schema.UniversalEntry):
+    if kind.freedoms > 1:
         given = [(getattr(entry.limits, part), (*path, part)) for part in kind.components]
     else:
         given = [(entry.limits, path)]

@@ -150,8 +150,7 @@ def allowed_keys(path: KeyPath, data: dict[str, Any]) -> tuple[str, ...]:
         case ("joints", joint):
             model = schema.JOINT_ENTRIES[data["joints"][joint]["type"]]
         case ("joints", joint, "limits"):
-            cylindrical = data["joints"][joint]["type"] == "cylindrical"
-            model = schema.CylindricalLimits if cylindrical else schema.UniversalLimits
+            model = type(schema.JOINT_ENTRIES[data["joints"][joint]["type"]].model_fields["limits"].default)
         case ("joints", _, "cone"):
             model = schema.Cone
         case ("generalised", _, "stands_for"):

@@ -9,6 +9,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from assur.errors import UsageError
+from assur.joints.catalogue import BY_LETTER
 from assur.model.file.faults import Faults, listed, nearest
 from assur.model.file.key_path import KeyPath
 from assur.model.file.reader import description_text
@@ -19,7 +20,7 @@ from assur.model.topology_description import Declared, TopologyDescription
 from assur.topology.chains import Chain, ChainJoint, Parallelogram
 from assur.topology.notation import NotationError, parse_chains
 
-ACTUATED = ("P", "R", "H", "C")
+ACTUATED = tuple(letter for letter, joint_type in BY_LETTER.items() if joint_type.axial)
 """Letters of the joints that may be actuated; of a C it is the translation."""
 
 _REQUIRED = {

@@ -10,7 +10,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from assur.joints.prismatic import PRISMATIC
 from assur.topology.chains import ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.directions import Vector
 
@@ -163,7 +162,7 @@ def neighbour(elements: Sequence[Element], place: int) -> int | None:
 
 def slides(element: Element) -> bool:
     """Whether an element is a P."""
-    return isinstance(element, ChainJoint) and element.type is PRISMATIC
+    return isinstance(element, ChainJoint) and not element.type.turning
 
 
 def across(axis: Vector, rod: Vector) -> Vector:

@@ -10,9 +10,7 @@ import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from assur.joints.helical import HELICAL
 from assur.joints.joint_type import JointType
-from assur.joints.prismatic import PRISMATIC
 from assur.joints.revolute import REVOLUTE
 from assur.joints.spherical import SPHERICAL
 from assur.joints.universal import UNIVERSAL
@@ -178,7 +176,7 @@ class Drawing:
     def _joint(self, joint: ChainJoint, parent: str, child: str, ends: Ends, leg: Point | None) -> None:
         name = joint.name
         pitch = ""
-        if joint.type is HELICAL:
+        if joint.type.screw:
             pitch = f"{name}_pitch"
             self._dimension(name, Dimension(pitch, PITCH, f"joint {name}: advance per turn"))
         if joint.general and self.layout.nice and leg is not None:
@@ -270,7 +268,7 @@ def _beside(ends: Ends | None, *, before: bool) -> Ends:
 def _leg(elements: Sequence[Element], ends: Sequence[Ends | None], index: int) -> Point | None:
     """The vector from the joint before a P to the one behind it; None where there is no such pair."""
     element = elements[index]
-    if not (isinstance(element, ChainJoint) and element.type is PRISMATIC):
+    if not (isinstance(element, ChainJoint) and not element.type.turning):
         return None
     before = next((ends[i] for i in range(index - 1, -1, -1) if not slides(elements[i])), None)
     behind = next((ends[i] for i in range(index + 1, len(elements)) if not slides(elements[i])), None)

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.counting.actuation import driven_columns, spanning
-from assur.topology.counting.inputs import DRIVEN
 from assur.topology.counting.mobility import motions
 from assur.topology.linkages.edges import Edge, column_names, rank
 from assur.topology.linkages.linkage import Linkage
@@ -125,4 +124,4 @@ def _places(
 
 
 def _is_usual(joint: ChainJoint | Parallelogram) -> bool:
-    return isinstance(joint, ChainJoint) and joint.type in DRIVEN
+    return isinstance(joint, ChainJoint) and joint.type.axial

@@ -5,14 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from assur.errors import UsageError
-from assur.joints.cylindrical import CYLINDRICAL
-from assur.joints.helical import HELICAL
-from assur.joints.prismatic import PRISMATIC
-from assur.joints.revolute import REVOLUTE
-from assur.joints.spherical import SPHERICAL
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
-
-DRIVEN = (PRISMATIC, REVOLUTE, CYLINDRICAL, HELICAL)
 
 
 def default_inputs(chains: Sequence[Chain]) -> tuple[str, ...]:
@@ -29,7 +22,7 @@ def _first(elements: Sequence[Element]) -> list[str]:
             found = [name for branch in element.branches for name in _first(branch)]
             if found:
                 return found
-        elif isinstance(element, ChainJoint) and element.type in DRIVEN:
+        elif isinstance(element, ChainJoint) and element.type.axial:
             return [element.name]
     return []
 
@@ -71,6 +64,6 @@ def _named(chains: Sequence[Chain], number: str) -> str:
             raise UsageError(
                 f"'{number}' is a parallelogram with {chosen.freedoms} freedoms; only a P(4R) can be actuated"
             )
-    elif chosen.type is SPHERICAL:
+    elif chosen.type.ball:
         raise UsageError(f"'{number}' is a spherical joint, which cannot be actuated; an R, P, H, C or U joint can")
     return chosen.name

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joints.prismatic import PRISMATIC
 from assur.topology.chains import Chain, Element, InnerLoop, Parallelogram
 from assur.topology.linkages.linkage import Linkage, part
 from assur.topology.linkages.shared_points import end_point
@@ -42,6 +41,6 @@ def _tip(linkage: Linkage, elements: Sequence[Element]) -> FloatArray | None:
                 group = linkage.groups[element.name]
                 far = [linkage.joints[name] for name in group.joints]
                 return next(joint.point for joint in far if group.child in (joint.parent, joint.child))
-        elif element.type is not PRISMATIC:
+        elif element.type.turning:
             return linkage.joints[element.name].point
     return None

@@ -14,10 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UnknownNameError, UsageError
-from assur.joints.cylindrical import CYLINDRICAL
-from assur.joints.helical import HELICAL
 from assur.joints.joint_type import JointType
-from assur.joints.prismatic import PRISMATIC
 from assur.joints.revolute import REVOLUTE
 from assur.joints.spherical import SPHERICAL
 from assur.joints.universal import UNIVERSAL
@@ -120,7 +117,7 @@ class _Building:
         point = self.labels.setdefault(element.point, self.somewhere()) if element.point else self.somewhere()
         pitch = self.rng.uniform(*LENGTHS) / 2 * self.rng.choice([-1.0, 1.0])
         self._add(next(self.names), element.type, start, end, element.axes, point, pitch)
-        return None if element.type is PRISMATIC else point
+        return None if not element.type.turning else point
 
     def _add(
         self,
@@ -163,15 +160,15 @@ class _Building:
 
 def _screws(joint_type: JointType, axes: FloatArray, point: FloatArray, pitch: float) -> FloatArray:
     """Screws (f, 6) of a joint, v at the base's origin."""
-    if joint_type is SPHERICAL:
-        axes = np.eye(3)
-    turning = np.concatenate([axes, np.cross(point, axes)], axis=-1)
-    sliding = np.concatenate([np.zeros_like(axes), axes], axis=-1)
-    if joint_type is PRISMATIC:
-        return sliding
-    if joint_type is CYLINDRICAL:
-        return np.concatenate([sliding, turning])
-    return turning + pitch * sliding if joint_type is HELICAL else turning
+    if joint_type.ball:
+        return np.concatenate([np.eye(3), np.cross(point, np.eye(3))], axis=-1)
+    screws = []
+    directions: FloatArray = np.array(joint_type.directions([tuple(axis) for axis in axes.tolist()]))
+    for step in joint_type.steps:
+        axis = directions[step.direction]
+        turning, sliding = np.concatenate([axis, np.cross(point, axis)]), np.concatenate([np.zeros(3), axis])
+        screws.append({"slide": sliding, "screw": turning + pitch * sliding}.get(step.kind, turning))
+    return np.array(screws)
 
 
 def _names(chains: Sequence[Chain]) -> list[str]:
@@ -196,6 +193,6 @@ def _input(name: str, building: _Building) -> tuple[str, int]:
         name = building.groups[name].joints[0]
     if name not in building.joints:
         raise UnknownNameError("joint", name, [*building.joints, *building.groups])
-    if building.joints[name].type is SPHERICAL:
+    if building.joints[name].type.ball:
         raise UsageError(f"the spherical joint '{name}' cannot be actuated; an R, P, H, C or U joint can")
     return name, 0

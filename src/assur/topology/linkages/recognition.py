@@ -8,12 +8,11 @@ from collections.abc import Iterator, Mapping
 from itertools import count
 from typing import cast
 
-from assur.joints.prismatic import PRISMATIC
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram, ParallelogramKind
 from assur.topology.directions import unit
 from assur.topology.linkages.limbs import Path, limbs
 from assur.topology.linkages.linkage import Group, Linkage, LinkageJoint
-from assur.topology.linkages.shared_points import TURNING, Line, line_of, meet, size_of, with_shared_points
+from assur.topology.linkages.shared_points import Line, line_of, meet, pivoted, size_of, with_shared_points
 
 
 def recognised(linkage: Linkage) -> tuple[Chain, ...] | None:
@@ -43,7 +42,8 @@ def recognised(linkage: Linkage) -> tuple[Chain, ...] | None:
 
 def _joint(joint: LinkageJoint) -> ChainJoint:
     """A joint with its axes at home: of a C the one axis, of an S none."""
-    axes = [row[:3] if row[:3].any() else row[3:] for row in joint.screws[: joint.type.axes]]
+    rows = {step.direction: joint.screws[first] for step, first in joint.type.places}
+    axes = [rows[k][:3] if rows[k][:3].any() else rows[k][3:] for k in range(joint.type.axes)]
     return ChainJoint(joint.type, tuple(unit(axis) for axis in axes), name=joint.name)
 
 
@@ -64,13 +64,13 @@ def _marked(
     marked: list[Element] = []
     run: list[ChainJoint] = []
     for element in elements:
-        if isinstance(element, ChainJoint) and element.type in TURNING:
-            if not meet([lines[item.name] for item in (*run, element) if item.type in TURNING], size):
+        if isinstance(element, ChainJoint) and pivoted(element.type):
+            if not meet([lines[item.name] for item in (*run, element) if pivoted(item.type)], size):
                 marked += _labelled(run, labels)
                 run = []
             run.append(element)
             continue
-        if run and isinstance(element, ChainJoint) and element.type is PRISMATIC:
+        if run and isinstance(element, ChainJoint) and not element.type.turning:
             run.append(element)
             continue
         marked += _labelled(run, labels)
@@ -90,7 +90,7 @@ def _called(branches: tuple[tuple[Element, ...], ...]) -> str:
 
 def _labelled(run: list[ChainJoint], labels: Iterator[str]) -> list[ChainJoint]:
     """The joints of a run, its axes with one label if there are several; slides among them have none."""
-    if sum(item.type in TURNING for item in run) < 2:
+    if sum(pivoted(item.type) for item in run) < 2:
         return run
     label = next(labels)
-    return [dataclasses.replace(item, point=label) if item.type in TURNING else item for item in run]
+    return [dataclasses.replace(item, point=label) if pivoted(item.type) else item for item in run]

@@ -15,11 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joints.helical import HELICAL
-from assur.joints.prismatic import PRISMATIC
-from assur.joints.revolute import REVOLUTE
-from assur.joints.spherical import SPHERICAL
-from assur.joints.universal import UNIVERSAL
+from assur.joints.joint_type import JointType
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop
 from assur.topology.linkages.linkage import Linkage, LinkageJoint
 from assur.topology.rules.vectors import aligned
@@ -28,9 +24,6 @@ FloatArray = NDArray[np.float64]
 Line = tuple[FloatArray, FloatArray]
 """A point in the base frame, and the direction of an axis or zero where every axis through it counts."""
 
-TURNING = (REVOLUTE, HELICAL, UNIVERSAL, SPHERICAL)
-"""Joints that may share a point with a neighbour."""
-
 MEETING = 1e-9
 """Axes of one limb that are nearer than this share of the size of the linkage meet."""
 
@@ -38,9 +31,14 @@ SAME = 1e-7
 """Points of different limbs that are nearer than this share of it are one; the loops are closed less exactly."""
 
 
+def pivoted(joint_type: JointType) -> bool:
+    """Whether a joint may share a point with a neighbour: it turns, and slides nowhere."""
+    return joint_type.turning and not joint_type.slides
+
+
 def line_of(joint: LinkageJoint) -> Line:
     """An R or H joint's axis at home; of a U or S its centre alone, which no line describes."""
-    return joint.point, joint.screws[0, :3] if joint.type in (REVOLUTE, HELICAL) else np.zeros(3)
+    return joint.point, joint.screws[0, :3] if pivoted(joint.type) and joint.type.turns == 1 else np.zeros(3)
 
 
 def size_of(linkage: Linkage) -> float:
@@ -108,7 +106,7 @@ def common_end(chains: Sequence[Chain]) -> str:
     """
     resisting = [chain for chain in chains if sum(joint.freedoms for joint in chain.joints) < 6]
     ends = [chain.elements[-1] for chain in resisting]
-    labels = {end.point if isinstance(end, ChainJoint) and end.type in TURNING else "" for end in ends}
+    labels = {end.point if isinstance(end, ChainJoint) and pivoted(end.type) else "" for end in ends}
     return labels.pop() if len(labels) == 1 else ""
 
 
@@ -200,7 +198,7 @@ def _end_run(chain: Chain, end: int) -> tuple[str, ...]:
     while len(ordered) > 1 and _slides_along(ordered):
         del ordered[0]
     first = ordered[0]
-    if not isinstance(first, ChainJoint) or first.type not in TURNING:
+    if not isinstance(first, ChainJoint) or not pivoted(first.type):
         return ()
     names = [first.name]
     for element in ordered[1:]:
@@ -213,10 +211,10 @@ def _end_run(chain: Chain, end: int) -> tuple[str, ...]:
 def _slides_along(ordered: Sequence[Element]) -> bool:
     """Whether a limb begins with a slide along the axis behind it, which stays where it is as a line."""
     slide = ordered[0]
-    behind = next((item for item in ordered if not (isinstance(item, ChainJoint) and item.type is PRISMATIC)), slide)
-    if not (isinstance(slide, ChainJoint) and slide.type is PRISMATIC and isinstance(behind, ChainJoint)):
+    behind = next((item for item in ordered if not (isinstance(item, ChainJoint) and not item.type.turning)), slide)
+    if not (isinstance(slide, ChainJoint) and not slide.type.turning and isinstance(behind, ChainJoint)):
         return False
-    return behind.type in (REVOLUTE, HELICAL) and aligned(slide.axes[0], behind.axes[0])
+    return pivoted(behind.type) and behind.type.turns == 1 and aligned(slide.axes[0], behind.axes[0])
 
 
 def _label(joint: Element) -> str:

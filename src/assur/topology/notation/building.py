@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from assur.joints.catalogue import JOINT_TYPES
+from assur.joints.catalogue import BY_LETTER
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.directions import Vector
 from assur.topology.notation.groups import Groups
 from assur.topology.notation.names import Names
 from assur.topology.notation.sketch import ElementSketch, JointSketch, Sketch
-
-_TYPES = {joint_type.letter: joint_type for joint_type in JOINT_TYPES.values()}
 
 
 def build(sketches: Sequence[Sketch], vectors: Sequence[Sequence[Vector]]) -> tuple[Chain, ...]:
@@ -49,7 +47,7 @@ def _joint(
     if joint.kind:
         return Parallelogram(joint.kind, own[0], names.of_joint("Pa", joint.name), general)
     name = names.of_joint(joint.letter, joint.name)
-    return ChainJoint(_TYPES[joint.letter], own, points.get(joint.at, ""), name, general)
+    return ChainJoint(BY_LETTER[joint.letter], own, points.get(joint.at, ""), name, general)
 
 
 def _points(sketch: Sketch, fresh: Iterator[str]) -> dict[int, str]:

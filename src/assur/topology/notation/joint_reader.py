@@ -6,15 +6,15 @@ import re
 from dataclasses import replace
 from typing import get_args
 
+from assur.joints.catalogue import BY_LETTER
 from assur.topology.chains import ParallelogramKind
 from assur.topology.notation.brackets import read_directions
 from assur.topology.notation.cursor import Cursor
 from assur.topology.notation.syntax import Joint, Placed, Tag
 
 _KINDS: dict[str, ParallelogramKind] = {kind: kind for kind in get_args(ParallelogramKind)}
-_AXES = {"R": 1, "P": 1, "H": 1, "C": 1, "U": 2, "S": 0}
 _PARALLELOGRAM = re.compile(r"P(?:a(\d*)|_a(\d*)|_\{a(\d*)\})", re.ASCII)
-_LETTER = re.compile(r"[RPHCUS]")
+_LETTER = re.compile(f"[{''.join(BY_LETTER)}]")
 _NUMBER = re.compile(r"_?(\d+[a-w]?'*)|_\{(?![xyz]\})([A-Za-z0-9']+)\}|_([a-w])", re.ASCII)
 _SUBSCRIPT = re.compile(r"_(?:(\d+[a-w]?'*)|\{(?![xyz]\})([A-Za-z0-9']+)\}|([a-w]))", re.ASCII)
 _ROUND = re.compile(r"\^\s*\{\s*\(?([^(){}]*)\)?\s*\}|\^?\s*\(([^()]*)\)")
@@ -91,15 +91,15 @@ def _round_expected(joint: Joint) -> str:
 def _with_label(cursor: Cursor, joint: Joint, label: str, start: int) -> Joint:
     if joint.label:
         raise cursor.error(start, "a second label", "one for each joint")
-    if joint.letter == "P":
-        what = "a parallelogram" if joint.kind else "a P"
+    if not BY_LETTER[joint.letter].turning:
+        what = "a parallelogram" if joint.kind else f"a {joint.letter}"
         raise cursor.error(start, f"a label at {what}", "none: a translation has no place")
     return replace(joint, label=label)
 
 
 def _checked(cursor: Cursor, joint: Joint) -> Joint:
     """The joint, if it has as many directions as its kind needs, or none."""
-    count, needed = len(joint.directions), _AXES[joint.letter]
+    count, needed = len(joint.directions), BY_LETTER[joint.letter].axes
     if count in (0, needed):
         return joint
     letter = joint.letter

@@ -10,6 +10,7 @@ import re
 import unicodedata
 from typing import Literal
 
+from assur.joints.catalogue import BY_LETTER
 from assur.topology.poc import Style
 
 Relation = Literal["parallel", "perpendicular", "coaxial", "meeting"]
@@ -23,10 +24,7 @@ _LOOKALIKES = {
     "⌢": "⁀⏜",
     "/": "∕⁄",
     "'": "′’",
-    "P": "РΡ",
-    "C": "СϹ",
-    "H": "НΗ",
-    "S": "Ѕ",
+    **{letter: joint_type.lookalikes for letter, joint_type in BY_LETTER.items()},
 }
 _TABLE = {ord(sign): plain for plain, signs in _LOOKALIKES.items() for sign in signs}
 

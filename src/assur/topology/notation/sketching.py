@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from assur.joints.catalogue import BY_LETTER
 from assur.topology.notation.ends import End, relate
 from assur.topology.notation.inner import expand
 from assur.topology.notation.sketch import ConditionKind, ElementSketch, JointSketch, LoopSketch, Sketch
@@ -54,7 +55,7 @@ def _joint(sketch: Sketch, joint: Joint) -> Sketched:
     _note_name(sketch, joint)
     if joint.label:
         sketch.labels[joint.at] = joint.label
-    count = {"U": 2, "S": 0}.get(joint.letter, 1)
+    count = BY_LETTER[joint.letter].axes
     slots = tuple(sketch.slot(joint.directions[i] if joint.directions else None) for i in range(count))
     if slots and not sketch.first:
         sketch.first.append(slots[0])
@@ -62,7 +63,7 @@ def _joint(sketch: Sketch, joint: Joint) -> Sketched:
     if joint.kind:
         end = End("nothing", "a parallelogram")
         return made, end, end
-    placeable = None if joint.letter == "P" else joint
+    placeable = joint if BY_LETTER[joint.letter].turning else None
     if not slots:
         end = End("centre", joint.letter, joint=placeable)
         return made, end, end

@@ -9,10 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from assur.joints.cylindrical import CYLINDRICAL
-from assur.joints.helical import HELICAL
-from assur.joints.prismatic import PRISMATIC
-from assur.joints.spherical import SPHERICAL
 from assur.topology.chains import ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.directions import Vector
 from assur.topology.rules.refusals import Refusal
@@ -89,16 +85,15 @@ def elementary(
 
 def _of_joint(joint: ChainJoint, name: str, own: str) -> list[Elementary]:
     """`own` is the point of a joint with several axes: its label, or one that nothing else has."""
-    if joint.type is PRISMATIC:
-        return [Slide(along(joint.axes[0]), name)]
-    if joint.type is SPHERICAL:
+    if joint.type.ball:
         return [Turn(None, name, own)] * 3
-    if joint.type is CYLINDRICAL:
-        return [Slide(along(joint.axes[0]), name), Turn(joint.axes[0], name, joint.point)]
-    if joint.type is HELICAL:
-        return [Turn(joint.axes[0], name, joint.point, pitch=True)]
-    point = own if len(joint.axes) > 1 else joint.point
-    return [Turn(axis, name, point) for axis in joint.axes]
+    point = own if joint.type.turns > 1 else joint.point
+    return [
+        Slide(along(joint.directions[step.direction]), name)
+        if step.kind == "slide"
+        else Turn(joint.directions[step.direction], name, point, pitch=step.kind == "screw")
+        for step in joint.type.steps
+    ]
 
 
 def _of_parallelogram(joint: Parallelogram, name: str, own: str) -> list[Elementary]:

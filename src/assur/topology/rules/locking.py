@@ -11,9 +11,9 @@ import dataclasses
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
-from assur.joints.cylindrical import CYLINDRICAL
 from assur.joints.prismatic import PRISMATIC
 from assur.joints.revolute import REVOLUTE
+from assur.joints.steps import Step
 from assur.topology.chains import ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.directions import Vector, span
 from assur.topology.rules.motion import Motion
@@ -74,7 +74,8 @@ def _is_touched(element: Element, names: Collection[str]) -> bool:
     """Whether a joint, or some joint of a loop, is locked."""
     if isinstance(element, InnerLoop):
         return any(_is_touched(item, names) for branch in element.branches for item in branch)
-    return any(name in names for name in (element.name, f"{element.name}.1", f"{element.name}.2"))
+    parts = (f"{element.name}.{number}" for number in range(1, element.freedoms + 1))
+    return any(name in names for name in (element.name, *parts))
 
 
 def _left_of(element: Element, names: Collection[str]) -> list[Element]:
@@ -84,16 +85,19 @@ def _left_of(element: Element, names: Collection[str]) -> list[Element]:
         return [InnerLoop(branches, element.name)] if all(branches) else []
     if element.name in names:
         return []
-    if isinstance(element, Parallelogram) or element.freedoms != 2:
+    if isinstance(element, Parallelogram) or element.type.ball:
         return [element]
-    free = [index for index in (0, 1) if f"{element.name}.{index + 1}" not in names]
-    if len(free) != 1:
-        return [element] if free else []
-    if element.type is not CYLINDRICAL:
-        return [dataclasses.replace(element, type=REVOLUTE, axes=(element.axes[free[0]],))]
-    if free == [1]:
-        return [dataclasses.replace(element, type=REVOLUTE)]
-    return [dataclasses.replace(element, type=PRISMATIC, point="")]
+    steps = element.type.steps
+    free = [step for number, step in enumerate(steps, 1) if f"{element.name}.{number}" not in names]
+    return [element] if len(free) == len(steps) else [_single(element, step) for step in free]
+
+
+def _single(joint: ChainJoint, step: Step) -> ChainJoint:
+    """One step of a joint as a joint."""
+    axes = (joint.directions[step.direction],)
+    if step.kind == "slide":
+        return dataclasses.replace(joint, type=PRISMATIC, axes=axes, point="")
+    return dataclasses.replace(joint, type=REVOLUTE, axes=axes)
 
 
 # ---- a general configuration ----------------------------------------------------------------------------------
@@ -158,7 +162,7 @@ def _turns_of(elements: Sequence[Element]) -> list[list[_Turn]] | Refusal:
             turns.append([_Turn(axis) for axis in motion.rotations.fixed])
         elif isinstance(element, Parallelogram):
             turns.append([] if element.kind == "4R" else [_Turn(element.axis)])
-        elif element.type is PRISMATIC:
+        elif not element.type.turning:
             turns.append([])
         else:
             turns.append([_Turn(axis) for axis in element.axes] or [_Turn(None)])
@@ -271,7 +275,7 @@ def _axes_of(element: Element) -> tuple[Vector, ...]:
         return tuple(_axes_in(element.branches[0]))
     if isinstance(element, Parallelogram):
         return () if element.kind == "4R" else (element.axis,)
-    return () if element.type is PRISMATIC else element.axes or AXES
+    return () if not element.type.turning else element.axes or AXES
 
 
 def _axes_in(elements: Sequence[Element]) -> Iterator[Vector]:
