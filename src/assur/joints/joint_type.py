@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from assur.joints.steps import STILL, UNTURNED, CoordinateKind, Motion, Step, Twist
@@ -32,11 +32,11 @@ class JointType:
     name: str
     letter: str
     components: tuple[str, ...]
-    steps: tuple[Step, ...]
+    steps: tuple[Step, ...] = field(repr=False)
     axes: int
     lookalikes: str = ""
     room: tuple[float, float] = (2.55, 1.15)
-    directions: Directions = tuple
+    directions: Directions = field(default=tuple, repr=False)
 
     @property
     def ball(self) -> bool:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 
+from assur.joints.catalogue import BY_LETTER
 from assur.topology.notation import signs
 from assur.topology.notation.errors import NotationError, Source, character
 
-LETTERS = "R, P, H, C, U, S"
+LETTERS = ", ".join(BY_LETTER)
 
 _PARALLELOGRAMS = "P(4R), P(4S), P(4U), P(2US)"
 _HINTS = {
