@@ -30,9 +30,10 @@ WEB = Path(__file__).parents[2] / "web"
 MEASURES = """
 import { readFileSync } from "node:fs";
 const { scene, values } = JSON.parse(readFileSync(0, "utf8"));
-const { modelOf } = await import(`${process.argv[1]}/src/solver/frames.js`);
+const { modelOf } = await import(`${process.argv[1]}/src/solver/configuration.js`);
+const { compiled } = await import(`${process.argv[1]}/test/compiled.js`);
 const { conditionAt, measuresAt } = await import(`${process.argv[1]}/src/solver/rates.js`);
-const model = modelOf(scene);
+const model = modelOf(compiled(scene));
 const { parallel, serial } = measuresAt(model, values);
 process.stdout.write(JSON.stringify({ condition: conditionAt(model, values), output: parallel, input: serial }));
 """

@@ -18,7 +18,8 @@ MOVE = """
 import { readFileSync } from "node:fs";
 const { scene, inputs, pose } = JSON.parse(readFileSync(0, "utf8"));
 const { Mechanism } = await import(`${process.argv[1]}/src/mechanism.js`);
-const mechanism = new Mechanism(scene, null);
+const { compiled } = await import(`${process.argv[1]}/test/compiled.js`);
+const mechanism = new Mechanism(compiled(scene));
 const found = inputs.map((target) => mechanism.toInputs(target));
 process.stdout.write(JSON.stringify({ found, back: mechanism.toPose(pose) }));
 """

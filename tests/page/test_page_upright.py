@@ -20,7 +20,8 @@ MOVE = """
 import { readFileSync } from "node:fs";
 const { scene, poses } = JSON.parse(readFileSync(0, "utf8"));
 const { Mechanism } = await import(`${process.argv[1]}/src/mechanism.js`);
-const mechanism = new Mechanism(scene, null);
+const { compiled } = await import(`${process.argv[1]}/test/compiled.js`);
+const mechanism = new Mechanism(compiled(scene));
 process.stdout.write(JSON.stringify(poses.map((pose) => mechanism.toPose(pose))));
 """
 

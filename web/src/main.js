@@ -17,8 +17,7 @@ import { Letters } from "./scene/letters.js";
 import { body, linkGeometries } from "./scene/links.js";
 import { Marker } from "./scene/marker.js";
 import { SPACE, Stage } from "./scene/stage.js";
-import { frames } from "./solver/frames.js";
-import { platformOf } from "./solver/pose.js";
+import { configurationAt } from "./solver/configuration.js";
 import { heading } from "./source.js";
 
 const scene = JSON.parse(document.getElementById("scene").textContent);
@@ -26,14 +25,14 @@ const root = document.documentElement;
 const darkness = matchMedia("(prefers-color-scheme: dark)");
 const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
 
-/** The kernel is text of a function; a script element of its own runs it, so that no eval is needed. */
-function kernel() {
-  if (!window.assurKernel && scene.kernel)
-    document.head.append(el("script", {}, `window.assurKernel = ${scene.kernel};`));
-  return window.assurKernel ?? null;
+/** Programs are text of functions; a script element of its own runs each, so that no eval is needed. */
+function compiled(text) {
+  document.head.append(el("script", {}, `window.assur = ${text};`));
+  return window.assur;
 }
+for (const name of ["configuration", "kernel"]) if (scene[name]) scene[name] = compiled(scene[name]);
 
-const mechanism = new Mechanism(scene, kernel());
+const mechanism = new Mechanism(scene);
 const { model } = mechanism;
 const app = document.getElementById("app");
 const place = el("main", { class: "stage" });
@@ -68,7 +67,7 @@ function placeAll() {
   current.place(mechanism.values);
   letters.place(mechanism.values);
   marker.show(mechanism.reason, mechanism.values);
-  point.position.set(...platformOf(model, frames(model, mechanism.values)).point);
+  point.position.set(...configurationAt(model, mechanism.values).platform.origin);
   stage.moved();
 }
 placeAll();

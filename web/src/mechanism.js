@@ -1,12 +1,12 @@
 /** The mechanism as it stands: its joint values, its mode, and every way to move it. Knows nothing of the page. */
 
 import { residual } from "./solver/closure.js";
-import { frames, modelOf } from "./solver/frames.js";
+import { configurationAt, modelOf } from "./solver/configuration.js";
 import { exceeded, limitsOf } from "./solver/limits.js";
 import { inputsOf, toInputs, toPose } from "./solver/motion.js";
 import { closestApproach } from "./solver/newton.js";
 import { poseOf } from "./solver/pose.js";
-import { add, apply, nearestTurn, times } from "./solver/rotation.js";
+import { nearestTurn, placed, times } from "./solver/rotation.js";
 import { conditionAt, nearness } from "./solver/rates.js";
 
 const SAME = 1e-4;
@@ -22,11 +22,10 @@ function numbers(name, given, wanted) {
 }
 
 export class Mechanism {
-  /** @param {object} scene @param {Function|null} kernel of the closed form's factors */
-  constructor(scene, kernel) {
+  /** @param {object} scene its program of a configuration, and the kernel of a closed form's factors, as functions */
+  constructor(scene) {
     this.scene = scene;
     this.model = modelOf(scene);
-    this.kernel = kernel;
     this.limits = true;
     this.listeners = [];
     this.reset();
@@ -107,7 +106,7 @@ export class Mechanism {
   }
 
   get pose() {
-    return poseOf(this.model, frames(this.model, this.values));
+    return poseOf(this.model, this.values);
   }
 
   get inputs() {
@@ -219,12 +218,11 @@ export class Mechanism {
 
   /** Points of all joints in units of the model's length, on both links, the platform's orientation, counted turns. */
   places(values) {
-    const placed = frames(this.model, values);
-    const on = (link, at) =>
-      times(1 / this.model.length, add(apply(placed[link].turn, at), placed[link].origin));
+    const { frames, platform } = configurationAt(this.model, values);
+    const on = (link, at) => times(1 / this.model.length, placed(frames[link], at));
     const points = this.model.joints.flatMap((item) => [on(item.parent, item.at), on(item.child, item.childAt)]);
     const counted = values.filter((_, k) => this.model.coordinates[k].counted);
-    return [...points.flat(), ...placed[this.model.platform].turn, ...counted];
+    return [...points.flat(), ...platform.turn, ...counted];
   }
 
   /**
@@ -245,7 +243,7 @@ export class Mechanism {
    * singularity is on the way.
    */
   workHere() {
-    const home = poseOf(this.model, frames(this.model, this.scene.home));
+    const home = poseOf(this.model, this.scene.home);
     const { status, values, crossed } = toPose(this.model, this.values, home, FREELY);
     const index = status === "moved" ? this.working.findIndex((item) => this.same(item.values, values)) : -1;
     return { index, crossed, sure: status === "moved" };
@@ -257,7 +255,7 @@ export class Mechanism {
     const away = (found) =>
       Math.max(...found.inputs.map((value, k) => this.apart(value - inputs[k], this.model.inputs[k])));
     const found = this.scene.modes.working.all
-      .map((signs) => this.kernel(pose, this.scene.kernelParameters, signs))
+      .map((signs) => this.scene.kernel(pose, this.scene.kernelParameters, signs))
       .filter((item) => away(item) < SAME);
     return found.length ? found[0].factors : {};
   }
@@ -270,7 +268,7 @@ export class Mechanism {
 
   /** The factor of the closed form that is nearest to zero, as a share of its scale. */
   nearestFactor() {
-    if (!this.kernel) return null;
+    if (!this.scene.kernel) return null;
     const values = this.factors();
     const shares = this.scene.factors
       .map(({ name, scale }) => ({ name, value: values[name], share: Math.abs(values[name]) / scale }))

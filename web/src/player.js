@@ -3,8 +3,7 @@
 import { BufferGeometry, Line, LineBasicMaterial, Vector3 } from "three";
 import { coursesOf, followedCourse, onCourse } from "./courses.js";
 import { el, icon, minus } from "./dom.js";
-import { frames } from "./solver/frames.js";
-import { platformOf } from "./solver/pose.js";
+import { configurationAt } from "./solver/configuration.js";
 
 const SECONDS = 6;
 const PLAY = "M8 5l11 7-11 7z";
@@ -95,7 +94,7 @@ export class Player {
     this.tell("quiet", found.size < wanted ? `${course.amount(wanted)} would be too far from here.` : "");
     const { model } = this.mechanism;
     this.trail.geometry.setFromPoints(
-      found.samples.map((values) => new Vector3(...platformOf(model, frames(model, values)).point)),
+      found.samples.map((values) => new Vector3(...configurationAt(model, values).platform.origin)),
     );
     this.trail.visible = true;
     return true;

@@ -77,7 +77,7 @@ export function readout(mechanism) {
   const rows = {};
   const list = el("dl");
   for (const [key, [name, title]] of Object.entries(NUMBERS)) {
-    if (key === "factor" && !mechanism.kernel) continue;
+    if (key === "factor" && !scene.kernel) continue;
     rows[key] = el("dd");
     list.append(el("div", { title }, el("dt", {}, name), rows[key]));
   }

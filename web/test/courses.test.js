@@ -5,7 +5,7 @@ import { Mechanism } from "../src/mechanism.js";
 import { toPose } from "../src/solver/motion.js";
 import { MECHANISMS, mechanism } from "./numbers.js";
 
-const made = (name) => new Mechanism(mechanism(name).scene, null);
+const made = (name) => new Mechanism(mechanism(name).scene);
 const DEGREE = 180 / Math.PI;
 
 test("a course says its size, and is of that size", () => {
@@ -41,7 +41,7 @@ test("the widest circle comes first, and every plane has one", () => {
 
 for (const { name, scene } of MECHANISMS)
   test(`${name}: a course from home stays on the sliders, closes, and has a round size`, () => {
-    const it = new Mechanism(scene, null);
+    const it = new Mechanism(scene);
     const [course] = coursesOf(it);
     const found = followedCourse(it, course);
     assert.ok(found.samples, found.reason?.text);

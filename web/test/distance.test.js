@@ -1,14 +1,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { NearestSingular, nearestSingular } from "../src/solver/distance.js";
-import { frames } from "../src/solver/frames.js";
 import { regularKinds, toPose } from "../src/solver/motion.js";
-import { poseOf } from "../src/solver/pose.js";
+import { poseOf as pose } from "../src/solver/pose.js";
 import { measuresAt } from "../src/solver/rates.js";
 import { MECHANISMS, mechanism } from "./numbers.js";
 import { random } from "./walks.js";
 
-const pose = (model, values) => poseOf(model, frames(model, values));
 const FREE = { limits: false };
 
 /** A leg of the five-bar is stretched or folded where P is so far from its motor. */

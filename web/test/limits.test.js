@@ -4,42 +4,20 @@ import assert from "node:assert/strict";
 import test from "node:test";
 
 import { limitsSaid } from "../src/readout.js";
-import { modelOf } from "../src/solver/frames.js";
+import { modelOf } from "../src/solver/configuration.js";
 import { exceeded, limitsOf } from "../src/solver/limits.js";
 
 const TURN = 2 * Math.PI;
-const joint = (name, type, first, limits) => ({
-  name,
-  type,
-  parent: "base",
-  child: name,
-  at: [0, 0, 0],
-  childAt: [0, 0, 0],
-  axes: [[0, 0, 1]],
-  turn: [
-    [1, 0, 0],
-    [0, 1, 0],
-    [0, 0, 1],
-  ],
-  pitch: type === "H" ? 5 : 0,
-  first,
-  freedoms: 1,
-  limits: [limits],
-  cone: null,
-  coneAxis: null,
+const joint = (name, first, limits) => ({
+  ...{ name, parent: "base", child: name, at: [0, 0, 0], childAt: [0, 0, 0], first, freedoms: 1 },
+  ...{ limits: [limits], cone: null, coneAxis: null },
 });
 
 /** A revolute, a screw and a slider side by side, the last one driven. */
 function model(limits = [[-0.5, 1], [-TURN, TURN], null], stroke = [0, 10]) {
-  const joints = ["R", "H", "P"].map((type, k) => joint(type, type, k, limits[k]));
+  const joints = ["R", "H", "P"].map((type, k) => joint(type, k, limits[k]));
   return modelOf({
-    graph: {
-      base: "base",
-      links: ["base", "R", "H", "P"],
-      joints,
-      tree: joints.map((_, k) => ({ joint: k, forward: true })),
-      cut: [],
-    },
+    graph: { links: ["base", "R", "H", "P"], joints, steps: [], cut: [], dimensions: [] },
     platform: { link: "P", point: [0, 0, 0], pose: ["z"] },
     coordinates: [
       { kind: "angle", counted: false },

@@ -4,7 +4,7 @@ import { explained } from "../src/explain.js";
 import { Mechanism } from "../src/mechanism.js";
 import { apart, mechanism } from "./numbers.js";
 
-const made = () => new Mechanism(mechanism("zeng2019").scene, null);
+const made = () => new Mechanism(mechanism("zeng2019").scene);
 
 test("choosing another assembly keeps the inputs and changes the pose; reset brings home back", () => {
   const it = made();

@@ -4,11 +4,11 @@ import { Mechanism } from "../src/mechanism.js";
 import { apart, MECHANISMS, mechanism } from "./numbers.js";
 import { random } from "./walks.js";
 
-const made = (name) => new Mechanism(mechanism(name).scene, null);
+const made = (name) => new Mechanism(mechanism(name).scene);
 
 for (const { name, scene, named } of MECHANISMS.filter((item) => item.named.length))
   test(`${name}: in every working mode the assembly modes are named as Python names them, and all are shown`, () => {
-    const it = new Mechanism(scene, null);
+    const it = new Mechanism(scene);
     for (const { at, working, current, assembly } of named) {
       const said = `${working} at ${at}`;
       it.reset();
@@ -70,7 +70,7 @@ test("numbers that are none, and too few of them, are refused with what is wante
 for (const { name, scene, model } of MECHANISMS.filter(({ scene }) => !scene.platform.pose.includes("qw")))
   test(`${name}: the working mode is known wherever the platform is led, also by a search`, () => {
     const draw = random(5);
-    const it = new Mechanism(scene, null);
+    const it = new Mechanism(scene);
     let seen = 0;
     for (let work = 0; work < Math.min(3, it.working.length); work++) {
       it.reset();

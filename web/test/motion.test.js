@@ -2,15 +2,13 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { residual } from "../src/solver/closure.js";
 import { nearestSingular } from "../src/solver/distance.js";
-import { frames, modelOf } from "../src/solver/frames.js";
+import { modelOf } from "../src/solver/configuration.js";
 import { singular } from "../src/solver/leastsquares.js";
 import { inputsOf, toInputs, toPose } from "../src/solver/motion.js";
-import { poseOf } from "../src/solver/pose.js";
+import { poseOf as pose } from "../src/solver/pose.js";
 import { looseJoint, measuresAt } from "../src/solver/rates.js";
 import { fromVector } from "../src/solver/rotation.js";
 import { MECHANISMS, apart, mechanism } from "./numbers.js";
-
-const pose = (model, values) => poseOf(model, frames(model, values));
 
 for (const { name, scene, model, moves, singular } of MECHANISMS) {
   test(`${name}: poses of moved inputs are Python's, and the way back leads home`, () => {
@@ -107,7 +105,8 @@ test("strokes stop, and what was outside may come back", () => {
 
 test("the cone of a ball joint stops a motion", () => {
   const { scene } = mechanism("gough_stewart");
-  const ball = scene.graph.joints.find(({ type }) => type === "S");
+  const [first] = modelOf(scene).balls;
+  const ball = scene.graph.joints.find((item) => item.first === first);
   const limited = (cone) => {
     const joints = scene.graph.joints.map((item) => (item === ball ? { ...item, cone, coneAxis: [0, 0, 1] } : item));
     return modelOf({ ...scene, graph: { ...scene.graph, joints } });
@@ -115,7 +114,7 @@ test("the cone of a ball joint stops a motion", () => {
   const start = inputsOf(modelOf(scene), scene.home);
   const target = start.map((value, k) => value * (1 + 0.03 * Math.cos(k)));
   assert.equal(toInputs(limited(Math.PI), scene.home, target).status, "moved");
-  const [x, y, z] = scene.home.slice(ball.first, ball.first + 3);
+  const [x, y, z] = scene.home.slice(first, first + 3);
   const turn = fromVector([x, y, z]);
   const now = Math.acos(turn[8]);
   const ends = [target, start.map((value, k) => 2 * value - target[k])].map((to) =>
@@ -211,9 +210,9 @@ test("numbers are true up to a parallel singularity and on it", () => {
 
 test("a ball joint's rotation vector comes back into one turn, its frames as they were", () => {
   const { model, scene } = mechanism("gough_stewart");
-  const long = ({ first }) => Math.hypot(...scene.home.slice(first, first + 3));
-  const ball = model.joints.find((item) => item.type === "S" && long(item) > 0.1 && long(item) < 2);
-  const [{ first }, angle, values] = [ball, long(ball), scene.home.slice()];
+  const long = (first) => Math.hypot(...scene.home.slice(first, first + 3));
+  const first = model.balls.find((item) => long(item) > 0.1 && long(item) < 2);
+  const [angle, values] = [long(first), scene.home.slice()];
   for (let k = first; k < first + 3; k++) values[k] *= 1 - (2 * Math.PI) / angle;
   assert.ok(2 * Math.PI - angle > 1.25 * Math.PI);
   const there = toInputs(model, values, inputsOf(model, values));
@@ -240,37 +239,6 @@ test("a whole turn of a crank is a way, though it ends where it began", () => {
 // from its foot as one rod is longer than the other: 0.6, and the point may not come nearer.
 const [LONG, SHORT] = [1, 0.4];
 const FOLD = LONG - SHORT;
-const joint = { at: [0, 0, 0], childAt: [0, 0, 0], turn: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], pitch: 0, freedoms: 1 };
-const slide = { ...joint, type: "P" };
-const hinge = { ...joint, type: "R", axes: [[0, 0, 1]] };
-
-/** @param {string[]} slides X alone, or X and Y */
-function table(home, slides = ["X", "Y"]) {
-  const carried = slides.length > 1;
-  const joints = [
-    { ...slide, name: "X", axes: [[1, 0, 0]], parent: "base", child: carried ? "cart" : "table" },
-    ...(carried ? [{ ...slide, name: "Y", axes: [[0, 1, 0]], parent: "cart", child: "table" }] : []),
-    { ...hinge, name: "foot", parent: "base", child: "rod" },
-    { ...hinge, name: "knee", parent: "rod", child: "arm", at: [LONG, 0, 0] },
-    { ...hinge, name: "hip", parent: "arm", child: "table", at: [SHORT, 0, 0] },
-  ].map((item, first) => ({ ...item, first }));
-  const cut = joints.length - 1;
-  return modelOf({
-    graph: {
-      links: ["base", ...joints.map(({ child }) => child).slice(0, cut)],
-      base: "base",
-      joints,
-      tree: joints.slice(0, cut).map((_, k) => ({ joint: k, forward: true })),
-      cut: [cut],
-    },
-    coordinates: joints.map(({ type }) => ({ kind: type === "P" ? "length" : "angle" })),
-    inputs: slides.map((name, index) => ({ name, index, sign: 1, offset: 0, kind: "length", stroke: null })),
-    home,
-    platform: { link: "table", point: [0, 0, 0], pose: slides.map((name) => name.toLowerCase()) },
-    characteristicLength: 1,
-    unit: "m",
-  });
-}
 
 /** Joint values where the table's point is at (x, y), the knee bent by a positive or negative angle. */
 function stood(x, y, sense = 1) {
@@ -281,7 +249,7 @@ function stood(x, y, sense = 1) {
 }
 
 test("a leg that nobody drives is not led through its fold, however long the step", () => {
-  const model = table(stood(0.3, 1));
+  const { model } = mechanism("table");
   assert.ok(residual(model, model.home) < 1e-12);
   for (const [half, beyond] of [
     [0.02, 1e-5],
@@ -306,7 +274,7 @@ test("a leg that nobody drives is not led through its fold, however long the ste
 });
 
 test("at the fold of such a leg its measure is 0, and rises evenly to both sides of it", () => {
-  const model = table(stood(0.3, 1));
+  const { model } = mechanism("table");
   const passive = (knee) => {
     const far = Math.sqrt(LONG ** 2 + SHORT ** 2 + 2 * LONG * SHORT * Math.cos(knee));
     return measuresAt(model, stood(0, far, Math.sign(Math.PI - knee))).passive;
@@ -322,9 +290,8 @@ test("the joint of a leg that is folded is named, also where nothing else can mo
   const knees = ["foot", "knee", "hip"];
   for (const far of [FOLD + 1e-4, FOLD]) {
     const [x, ...others] = stood(far, 0);
-    assert.ok(knees.includes(looseJoint(table(stood(0.3, 1)), [x, ...others]).name));
-    const along = table([0.9, ...stood(0.9, 0).slice(2)], ["X"]);
-    assert.ok(knees.includes(looseJoint(along, [x, ...others.slice(1)]).name), String(far));
+    assert.ok(knees.includes(looseJoint(mechanism("table").model, [x, ...others]).name));
+    assert.ok(knees.includes(looseJoint(mechanism("rail").model, [x, ...others.slice(1)]).name), String(far));
   }
 });
 

@@ -43,7 +43,7 @@ test("quaternions and angles say the same rotation", () => {
   }
 });
 
-test("the left Jacobian turns rates of the vector into the angular velocity", () => {
+test("the left Jacobian turns rates of the vector into the angular velocity, its inverse turns them back", () => {
   for (const vector of VECTORS.slice(0, 5)) {
     const jacobian = rotation.leftJacobian(vector);
     for (let k = 0; k < 3; k++) {
@@ -56,5 +56,7 @@ test("the left Jacobian turns rates of the vector into the angular velocity", ()
         .map((value) => value / (2 * step));
       assert.ok(apart(spin, [jacobian[k], jacobian[k + 3], jacobian[k + 6]]) < 1e-8);
     }
+    const back = rotation.multiply(rotation.vectorRates(vector), jacobian);
+    assert.ok(apart(back, [1, 0, 0, 0, 1, 0, 0, 0, 1]) < 1e-12, String(vector));
   }
 });

@@ -1,7 +1,6 @@
 /** Random walks that end at stops: from there the way back must be free, and the reason that was said must be true. */
 
 import { residual } from "../src/solver/closure.js";
-import { frames } from "../src/solver/frames.js";
 import { LEAST_STEP, inputsOf, toInputs, toPose } from "../src/solver/motion.js";
 import { isLength, poseOf, poseOfShown, shownPose } from "../src/solver/pose.js";
 import { measuresAt } from "../src/solver/rates.js";
@@ -30,9 +29,9 @@ const SIDES = {
     move: toInputs,
   },
   pose: {
-    shown: (model, values) => shownPose(model, poseOf(model, frames(model, values))).values,
+    shown: (model, values) => shownPose(model, poseOf(model, values)).values,
     units: (model) => {
-      const { names } = shownPose(model, poseOf(model, frames(model, model.home)));
+      const { names } = shownPose(model, poseOf(model, model.home));
       return names.map((name) => (isLength(name) ? model.length : 1));
     },
     move: (model, values, target) => toPose(model, values, poseOfShown(model, target)),
@@ -55,7 +54,7 @@ const apart = (side, model, a, b) =>
 
 /**
  * Walks from home by one slider or all of them at once, pushes on where it is stopped, and comes back.
- * @param {import("../src/solver/frames.js").Model} model
+ * @param {import("../src/solver/configuration.js").Model} model
  * @param {{moves: number, seed: number}} options
  * @returns {{moves: number, stops: Record<string, number>, faults: string[]}} stops: how many, by what stopped it
  */

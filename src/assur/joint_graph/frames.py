@@ -24,8 +24,8 @@ def frames(record: MechanismRecord, values: FloatArray) -> dict[str, Frame]:
 
     Loops need not close: the joints that close them are not asked.
     """
-    numbers = program(record, _frames)(record, flat(record, values))
-    batch, links = np.shape(values)[:-1], _placed_links(record)
+    numbers = program(record, frame_numbers)(record, flat(record, values))
+    batch, links = np.shape(values)[:-1], placed_links(record)
     blocks = numbers.reshape(len(links), 12, *batch)
     return {
         link: (np.moveaxis(block[:9].reshape(3, 3, *batch), (0, 1), (-2, -1)), np.moveaxis(block[9:], 0, -1))
@@ -63,14 +63,16 @@ def flat(record: MechanismRecord, values: FloatArray) -> FloatArray:
     return np.reshape(np.asarray(values, dtype=float), (-1, count))
 
 
-def _placed_links(record: MechanismRecord) -> list[str]:
+def placed_links(record: MechanismRecord) -> list[str]:
+    """All links in the order in which the spanning tree places them, the base first."""
     return [record.base, *(joint.child if forward else joint.parent for joint, forward in joint_graph(record).tree)]
 
 
-def _frames(configuration: Configuration) -> Outputs:
+def frame_numbers(configuration: Configuration) -> Outputs:
+    """Twelve numbers for each link as it is placed, "frame link,k": its orientation row by row, and its origin."""
     return {
-        f"{link} {k}": number
-        for link, (rotation, origin) in configuration.frames.items()
+        f"frame {place},{k}": number
+        for place, (rotation, origin) in enumerate(configuration.frames.values())
         for k, number in enumerate((*rotation[0], *rotation[1], *rotation[2], *origin))
     }
 

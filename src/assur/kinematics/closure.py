@@ -69,10 +69,10 @@ def residuals(record: MechanismRecord, values: FloatArray) -> FloatArray:
 
 
 def _gaps(configuration: Configuration) -> Outputs:
-    """Twelve numbers for each cut joint: the distance, and the turn row by row."""
+    """Twelve numbers for each cut joint, "gap loop,k": the distance, and the turn row by row."""
     gaps = [configuration.gap(joint) for joint in configuration.graph.cut]
     return {
-        f"gap {index} {k}": number
+        f"gap {index},{k}": number
         for index, (distance, (a, b, c)) in enumerate(gaps)
         for k, number in enumerate((*distance, *a, *b, *c))
     }
@@ -175,7 +175,8 @@ def _gap_rates(configuration: Configuration, index: int, cut: Joint) -> Iterator
                     yield row, column, times(sense, number)
 
 
-def _at_pose(configuration: Configuration) -> Outputs:
+def closing_numbers(configuration: Configuration) -> Outputs:
+    """Gaps and their exact derivative, the platform's frame and twists: what closes the loops, also at a pose."""
     return {**_gaps_and_rates(configuration), **platform_numbers(configuration), **platform_moves(configuration)}
 
 
@@ -200,7 +201,7 @@ def closing_system(
     (True, (1, 8, 5))
     """
     length, count = characteristic_length(record), len(record.coordinates)
-    system = program(record, _gaps_and_rates if poses is None else _at_pose)
+    system = program(record, _gaps_and_rates if poses is None else closing_numbers)
     numbers = system(record, values)
     rows = 6 * len(joint_graph(record).cut)
     gaps = _gap_rows(numbers[system.rows("gap")], length)

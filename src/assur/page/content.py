@@ -15,6 +15,7 @@ from assur.kinematics.turns import counted
 from assur.model.mechanism import MechanismRecord
 from assur.page import kernel
 from assur.page.branches import branches, modes
+from assur.page.configuration import configuration
 from assur.page.facts import errata, errata_note, facts
 from assur.page.graph import coordinates, graph
 from assur.page.origin import Original, original
@@ -62,6 +63,7 @@ def content(record: MechanismRecord, layers: Sequence[Layer], layers_note: str =
         "parameters": _parameters(record, source),
         "original": None if source is None else {"name": source.name},
         "graph": graph(record),
+        "configuration": configuration(record),
         "coordinates": coordinates(record),
         "platform": {
             "link": record.platform.link,

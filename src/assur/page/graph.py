@@ -1,30 +1,38 @@
-"""The joint graph as plain data: links, joints with their axes, the spanning tree, and what closes its loops."""
+"""The joint graph as plain data: links, joints and their steps, what closes its loops, and dimensions."""
 
 from __future__ import annotations
 
 from typing import Any
 
+from assur.joint_graph.frames import placed_links
+from assur.joint_graph.programs import dimensions
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.turns import counted, joint_units
 from assur.model.mechanism import Joint, MechanismRecord
 
 
 def graph(record: MechanismRecord) -> dict[str, Any]:
-    """Everything that closes the loops of a mechanism somewhere else, in lengths and rad, every number to its last bit.
+    """What the program of a configuration is given, and what its numbers belong to: lengths and rad, to the last bit.
+
+    Links stand in the order in which they are placed, the base first; steps in that of the joint values.
 
     >>> from assur.model.registry import load_record
     >>> found = graph(load_record("fivebar"))
-    >>> [item["name"] for item in found["joints"]], found["cut"], len(found["tree"])
-    (['A1', 'A2', 'B1', 'B2', 'P'], [4], 4)
+    >>> [item["name"] for item in found["joints"]], found["cut"], found["steps"][0]
+    (['A1', 'A2', 'B1', 'B2', 'P'], [4], {'kind': 'turn', 'first': 0})
     """
     found = joint_graph(record)
     place = {name: k for k, name in enumerate(record.joints)}
     return {
-        "base": record.base,
-        "links": list(record.links),
+        "links": placed_links(record),
         "joints": [_joint(joint, found.slices[name].start) for name, joint in record.joints.items()],
-        "tree": [{"joint": place[joint.name], "forward": forward} for joint, forward in found.tree],
+        "steps": [
+            {"kind": step.kind, "first": found.slices[name].start + first}
+            for name, joint in record.joints.items()
+            for step, first in joint.type.places
+        ],
         "cut": [place[joint.name] for joint in found.cut],
+        "dimensions": dimensions(record),
     }
 
 
@@ -41,14 +49,10 @@ def _joint(joint: Joint, first: int) -> dict[str, Any]:
     limits = joint.limits or (None,) * freedoms
     return {
         "name": joint.name,
-        "type": joint.type.letter,
         "parent": joint.parent,
         "child": joint.child,
         "at": joint.at.tolist(),
         "childAt": joint.child_at.tolist(),
-        "axes": joint.axes.tolist(),
-        "turn": joint.turn.tolist(),
-        "pitch": joint.pitch,
         "first": first,
         "freedoms": freedoms,
         "limits": [list(item) if item else None for item in limits],

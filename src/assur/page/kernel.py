@@ -10,23 +10,9 @@ from assur.kinematics.closed_form.recorded import Recording, Row, recording
 from assur.kinematics.modes import sign_names
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
-from assur.numerics.recording.tape import Operation
+from assur.numerics.recording.javascript import javascript
 
 WANTED = ("inputs", "factors")
-
-_TEXT = {
-    "+": "{0} + {1}",
-    "-": "{0} - {1}",
-    "*": "{0} * {1}",
-    "/": "{0} / {1}",
-    "negative": "-{0}",
-    "magnitude": "Math.abs({0})",
-    "root": "Math.sqrt({0} < 0 ? 0 : {0})",
-    ">=": "{0} >= {1}",
-    ">": "{0} > {1}",
-    "and": "{0} && {1}",
-    "not": "!{0}",
-}
 
 
 def kernel(record: MechanismRecord) -> str | None:
@@ -44,34 +30,15 @@ def kernel(record: MechanismRecord) -> str | None:
     if record.closed_form is None:
         return None
     found = recording(record, "inverse", WANTED)
-    lines = [*_statements(found), *_answer(found)]
-    body = "\n".join(f"  {line}" for line in lines)
+    targets = {name: [f"n[{k}]"] for k, name in enumerate(found.tape.outputs)}
+    statements = javascript(found.tape, _components(record), _uniform(found), targets)
+    body = "\n".join(["const n = [];", *statements, _answer(found)])
     return f"function (pose, parameters, signs) {{\n{body}\n}}"
 
 
 def parameters(record: MechanismRecord) -> dict[str, float]:
     """The numbers that the kernel takes: dimensions by name, angles in rad."""
     return {name: float(value) for name, value in vars(record.values).items()}
-
-
-def _statements(found: Recording) -> list[str]:
-    varying, uniform = iter(_components(found.record)), iter(_uniform(found))
-    lines = []
-    for k, item in enumerate(found.tape.operations):
-        if item.name == "varying":
-            text = next(varying)
-        elif item.name == "uniform":
-            text = next(uniform)
-        else:
-            text = _operation(item)
-        lines.append(f"const v{k} = {text};")
-    return lines
-
-
-def _operation(item: Operation) -> str:
-    if item.name == "number":
-        return repr(item.number).replace("inf", "Infinity").replace("nan", "NaN")
-    return _TEXT[item.name].format(*(f"v{k}" for k in item.arguments))
 
 
 def _components(record: MechanismRecord) -> list[str]:
@@ -96,18 +63,19 @@ def _uniform(found: Recording) -> list[str]:
     return texts
 
 
-def _answer(found: Recording) -> list[str]:
+def _answer(found: Recording) -> str:
     form = found.record.closed_form
     names = [item.name for item in form.factor_list] if form else []
     factors = ", ".join(
         f'"{name}": {_value(found, row)}' for name, row in zip(names, found.rows["factors"], strict=True)
     )
     inputs = ", ".join(_value(found, row) for row in found.rows["inputs"])
-    return [f"return {{factors: {{{factors}}}, inputs: [{inputs}]}};"]
+    return f"return {{factors: {{{factors}}}, inputs: [{inputs}]}};"
 
 
 def _value(found: Recording, row: Row) -> str:
-    places = [f"v{found.tape.outputs[name]}" for name in row.take]
+    order = list(found.tape.outputs)
+    places = [f"n[{order.index(name)}]" for name in row.take]
     if row.finish != "angle":
         return places[0]
     cosine, sine = places

@@ -2,8 +2,8 @@
 
 import { CanvasTexture, LinearFilter, Sprite, SpriteMaterial, SRGBColorSpace, Vector3 } from "three";
 import { letterOf } from "../dom.js";
-import { frames } from "../solver/frames.js";
-import { add, apply } from "../solver/rotation.js";
+import { configurationAt } from "../solver/configuration.js";
+import { placed } from "../solver/rotation.js";
 
 const HEIGHT = 64;
 const PIXELS = 27;
@@ -91,9 +91,8 @@ export class Letters {
   }
 
   place(values) {
-    const placed = frames(this.model, values);
-    for (const { sprite, link, at } of this.items)
-      sprite.position.set(...add(placed[link].origin, apply(placed[link].turn, at)));
+    const { frames } = configurationAt(this.model, values);
+    for (const { sprite, link, at } of this.items) sprite.position.set(...placed(frames[link], at));
   }
 
   /**

@@ -1,7 +1,7 @@
 /** The mechanism's links: one mesh each, placed by the link's frame. Ghosts share the same geometry. */
 
 import { Group, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, MeshStandardMaterial } from "three";
-import { frames } from "../solver/frames.js";
+import { configurationAt } from "../solver/configuration.js";
 import { joined } from "./shapes.js";
 
 /** Geometry of every link that has parts. @returns {Map<number, import("three").BufferGeometry>} */
@@ -44,11 +44,11 @@ export function body(model, geometries, { ghost = null, behind = 1 } = {}) {
   const materials = ghost ? ghostMaterials(ghost, behind) : null;
   const plain = ghost ? null : steel();
   for (const [link, geometry] of geometries) {
-    if (ghost && link === model.base) continue;
+    if (ghost && link === 0) continue;
     const mesh = new Mesh(geometry, ghost ? materials.tint : plain);
     mesh.matrixAutoUpdate = false;
     mesh.castShadow = mesh.receiveShadow = !ghost;
-    Object.assign(mesh.userData, { link: model.links[link], still: link === model.base });
+    Object.assign(mesh.userData, { link: model.links[link], still: link === 0 });
     if (ghost) {
       mesh.renderOrder = 2;
       const first = new Mesh(geometry, materials.depth);
@@ -60,8 +60,8 @@ export function body(model, geometries, { ghost = null, behind = 1 } = {}) {
     meshes.set(link, mesh);
   }
   const place = (values) => {
-    const placed = frames(model, values);
-    for (const [link, mesh] of meshes) setFrame(mesh, placed[link]);
+    const { frames } = configurationAt(model, values);
+    for (const [link, mesh] of meshes) setFrame(mesh, frames[link]);
   };
   return { group, place, tint: materials ? materials.tint : plain };
 }

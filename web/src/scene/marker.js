@@ -1,8 +1,8 @@
 /** The joint that a reason names: a red ring round it and its name as the reason says it, while the motion is stopped. */
 
 import { blamed } from "../solver/motion.js";
-import { frames } from "../solver/frames.js";
-import { add, apply } from "../solver/rotation.js";
+import { configurationAt } from "../solver/configuration.js";
+import { placed } from "../solver/rotation.js";
 import { halo, onScreen, sprite, spriteSize, textureOf, written } from "./letters.js";
 
 const RING = 34; // pixels
@@ -46,8 +46,8 @@ export class Marker {
     const joint = blamed(this.model, reason);
     this.ring.visible = this.label.visible = Boolean(joint);
     if (!joint) return;
-    const { turn, origin } = frames(this.model, values)[joint.parent];
-    for (const item of [this.ring, this.label]) item.position.set(...add(origin, apply(turn, joint.at)));
+    const { frames } = configurationAt(this.model, values);
+    for (const item of [this.ring, this.label]) item.position.set(...placed(frames[joint.parent], joint.at));
     if (this.name !== reason.joint) this.write(reason.joint);
   }
 

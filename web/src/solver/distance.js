@@ -5,7 +5,6 @@
  * missed. Beyond a ray's end the mechanism cannot go on in its mode, whatever its measures say.
  */
 
-import { frames } from "./frames.js";
 import { regularKinds } from "./motion.js";
 import { nearAssembly } from "./newton.js";
 import { isLength, poseOf } from "./pose.js";
@@ -40,7 +39,7 @@ export class NearestSingular {
   pose = null;
 
   constructor(model, values) {
-    const pose = poseOf(model, frames(model, values));
+    const pose = poseOf(model, values);
     this.model = model;
     this.lengths = pose.map((_, k) => k).filter((k) => isLength(model.pose[k]));
     this.kinds = regularKinds(model);

@@ -6,8 +6,7 @@
  * and a reason says why.
  */
 
-import { gaps, largestGap } from "./closure.js";
-import { frames } from "./frames.js";
+import { largestGap } from "./closure.js";
 import { tilt } from "./limits.js";
 import { closestApproach, nearAssembly } from "./newton.js";
 import { between, poseOf } from "./pose.js";
@@ -67,7 +66,7 @@ export function toInputs(model, values, target, options = {}) {
  * @returns {Moved}
  */
 export function toPose(model, values, target, options = {}) {
-  const way = between(model, poseOf(model, frames(model, values)), target);
+  const way = between(model, poseOf(model, values), target);
   const attempt = (current, t) => nearAssembly(model, current, [], way(t));
   const ask = (current) => closestApproach(model, current, [], target, 100);
   return followed(model, values, attempt, ask, { ...options, side: "pose" });
@@ -141,7 +140,7 @@ function why(model, values, measured, crossed, ask, side) {
   const held = "parallel singularity: the inputs no longer hold the platform";
   if (parallel && side === "pose") return { kind: "singular", text: held, joint: "", amount: 0 };
   const closest = ask(values);
-  const { amount, joint } = largestGap(model, gaps(model, frames(model, closest), closest));
+  const { amount, joint } = largestGap(model, closest);
   const open = amount > ALMOST * model.length ? `open by ${said(amount)} ${model.unit}` : "";
   if (parallel) {
     const text = open ? `${held} (beyond it the loop of ${joint} stays ${open})` : held;
@@ -197,8 +196,7 @@ function guardsOf(model, start) {
 /** Rotation vectors of ball joints kept well below a whole turn, where their rates have no bound; frames stay the same. */
 function wrapped(model, values) {
   let result = values;
-  for (const { type, first } of model.joints) {
-    if (type !== "S") continue;
+  for (const first of model.balls) {
     const angle = Math.hypot(...values.slice(first, first + 3));
     if (angle <= 1.25 * Math.PI) continue;
     if (result === values) result = values.slice();

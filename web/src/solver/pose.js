@@ -1,9 +1,7 @@
 /** The platform's pose: its coordinates, how far it is from a wanted one, and its rates. */
 
+import { configurationAt } from "./configuration.js";
 import {
-  add,
-  apply,
-  cross,
   fromAngles,
   fromQuaternion,
   fromVector,
@@ -35,15 +33,9 @@ export const hasAngles = (pose) => ANGLES.every((name) => pose.includes(name));
  */
 export const rateNames = (pose) => (pose.includes("qw") || hasAngles(pose) ? [...pose.filter(isLength), ...TURNS] : pose);
 
-/** @returns {{turn: number[], point: number[]}} orientation of the platform, and its point */
-export function platformOf(model, placed) {
-  const { turn, origin } = placed[model.platform];
-  return { turn, point: add(origin, apply(turn, model.point)) };
-}
-
 /** @returns {number[]} the pose, in lengths and rad, as the scene names it */
-export function poseOf(model, placed) {
-  const { turn, point } = platformOf(model, placed);
+export function poseOf(model, values) {
+  const { turn, origin: point } = configurationAt(model, values).platform;
   const angles = toAngles(turn);
   const quaternion = model.pose.includes("qw") ? toQuaternion(turn) : [];
   return model.pose.map((name) =>
@@ -62,8 +54,8 @@ export const turnOfPose = (model, pose) =>
   model.pose.includes("qw") ? fromQuaternion(part(model, pose, QUATERNION)) : fromAngles(...part(model, pose, ANGLES));
 
 /** How far the platform is from a pose: lengths, and rotations times the model's length. @returns {number[]} */
-export function poseError(model, placed, wanted) {
-  const { turn, point } = platformOf(model, placed);
+export function poseError(model, at, wanted) {
+  const { turn, origin: point } = at.platform;
   const whole = rateNames(model.pose) !== model.pose;
   const angles = toAngles(turn);
   const rows = [];
@@ -76,36 +68,29 @@ export function poseError(model, placed, wanted) {
   return rows;
 }
 
-/**
- * Rates of the pose per rate of each joint value, rows as names have it: by default those of `rateNames`.
- * @returns {number[][]} one row of n numbers for each
- */
-export function poseRates(model, placed, twists, names = rateNames(model.pose)) {
-  const { turn, point } = platformOf(model, placed);
-  const angles = names.some((name) => ANGLES.includes(name)) ? toAngles(turn) : null;
-  const rows = names.map(() => new Array(model.count).fill(0));
-  for (const [k, sense] of model.pathToPlatform) {
-    const { first, freedoms } = model.joints[k];
-    for (let column = first; column < first + freedoms; column++) {
-      const { angular, linear } = twists[column];
-      const velocity = add(linear, cross(angular, point));
-      const turned = angles && angleRates(angles, angular);
-      names.forEach((name, row) => {
-        const value = isLength(name)
-          ? velocity[LENGTHS.indexOf(name)]
-          : name[0] === "w"
-            ? angular["xyz".indexOf(name[1])]
-            : turned[ANGLES.indexOf(name)];
-        rows[row][column] = sense * value;
-      });
-    }
-  }
-  return rows;
+/** Rates of the pose per rate of each joint value, rows as names have it. @returns {ArrayLike<number>[]} rows of n numbers */
+export function poseRates({ platform, moves }, names) {
+  const [spins, velocities] = [moves.slice(0, 3), moves.slice(3)];
+  const angles = names.some((name) => ANGLES.includes(name)) ? angleRates(platform.turn, spins) : null;
+  return names.map((name) =>
+    isLength(name)
+      ? velocities[LENGTHS.indexOf(name)]
+      : name[0] === "w"
+        ? spins[TURNS.indexOf(name)]
+        : angles[ANGLES.indexOf(name)],
+  );
 }
 
-function angleRates([phi, theta], [wx, wy, wz]) {
-  const psi = (Math.cos(phi) * wx + Math.sin(phi) * wy) / Math.max(Math.cos(theta), LEAST_COSINE);
-  return [wz + Math.sin(theta) * psi, Math.cos(phi) * wy - Math.sin(phi) * wx, psi];
+/** Rates of phi, theta and psi of angular velocities, each a row. */
+function angleRates(turn, [wx, wy, wz]) {
+  const [phi, theta] = toAngles(turn);
+  const [cosine, sine] = [Math.cos(phi), Math.sin(phi)];
+  const psi = wx.map((value, k) => (cosine * value + sine * wy[k]) / Math.max(Math.cos(theta), LEAST_COSINE));
+  return [
+    wz.map((value, k) => value + Math.sin(theta) * psi[k]),
+    wy.map((value, k) => cosine * value - sine * wx[k]),
+    psi,
+  ];
 }
 
 /** The pose with phi that of another one, where theta is a right angle and only psi -+ phi counts. */

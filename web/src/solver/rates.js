@@ -1,7 +1,7 @@
 /** First-order numbers: how inputs move the pose, and how near that is to singular. */
 
 import { closureRows, scaledPoseRates } from "./closure.js";
-import { frames, screws } from "./frames.js";
+import { configurationAt } from "./configuration.js";
 import { determinant, nullSpace, singular } from "./leastsquares.js";
 import { hasAngles, rateNames } from "./pose.js";
 
@@ -14,10 +14,9 @@ const PARTS = 8; // of a step, in each of which its chord is looked at
 
 /** A basis of all motions at an assembly, scaled rates of the joint values, and the pair that belongs to each of them. */
 function pairsAt(model, values, names) {
-  const placed = frames(model, values);
-  const twists = screws(model, placed, values);
-  const free = nullSpace(closureRows(model, placed, twists), model.count);
-  const rows = scaledPoseRates(model, placed, twists, names);
+  const at = configurationAt(model, values);
+  const free = nullSpace(closureRows(model, at), model.count);
+  const rows = scaledPoseRates(model, at, names);
   for (const { index, sign } of model.inputs) rows.push(model.scale.map((_, k) => (k === index ? sign : 0)));
   const pairs = free.map((motion) => rows.map((row) => sum(row, (value, k) => value * motion[k])));
   return { free, rows, pairs };

@@ -8,16 +8,11 @@
 /** @typedef {number[]} Vector three numbers */
 /** @typedef {number[]} Matrix nine numbers, row by row */
 
-/** @type {Matrix} */
-export const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1];
 const NEARLY_UPRIGHT = 1e-4; // cosine of theta
 const SMALL = 1e-2;
 
 /** @param {Vector} a @param {Vector} b @returns {Vector} a + b */
 export const add = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
-
-/** @param {Vector} a @param {Vector} b @returns {Vector} a - b */
-export const subtract = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 
 /** @param {number} s @param {Vector} a @returns {Vector} */
 export const times = (s, a) => [s * a[0], s * a[1], s * a[2]];
@@ -49,6 +44,9 @@ export const apply = (a, v) => [
   a[6] * v[0] + a[7] * v[1] + a[8] * v[2],
 ];
 
+/** Where a point of a link is. @param {{turn: ArrayLike<number>, origin: ArrayLike<number>}} frame @param {Vector} at @returns {Vector} */
+export const placed = ({ turn, origin }, at) => add(origin, apply(turn, at));
+
 /** I + s K + t K K, with K the cross product matrix of v. */
 function series(v, s, t) {
   const [x, y, z] = v;
@@ -66,25 +64,35 @@ function series(v, s, t) {
 }
 
 /** @param {Vector} axis of length 1 @param {number} angle @returns {Matrix} */
-export const aboutAxis = (axis, angle) => series(axis, Math.sin(angle), 2 * Math.sin(angle / 2) ** 2);
+const aboutAxis = (axis, angle) => series(axis, Math.sin(angle), 2 * Math.sin(angle / 2) ** 2);
 
-/** sin(a)/a, (1 - cos a)/a^2 and (a - sin a)/a^3, exact at 0. */
+/** sin(a / 2) / a, (1 - cos a) / a^2 and (a - sin a) / a^3, exact at 0. */
 function coefficients(a) {
   const q = a * a;
-  if (a < SMALL) return [1 - q / 6 + (q * q) / 120, 0.5 - q / 24 + (q * q) / 720, 1 / 6 - q / 120 + (q * q) / 5040];
-  return [Math.sin(a) / a, (2 * Math.sin(a / 2) ** 2) / q, (a - Math.sin(a)) / (q * a)];
+  if (a < SMALL) return [0.5 - q / 48 + (q * q) / 3840, 0.5 - q / 24 + (q * q) / 720, 1 / 6 - q / 120 + (q * q) / 5040];
+  const half = Math.sin(a / 2);
+  return [half / a, (2 * half ** 2) / q, (a - Math.sin(a)) / (q * a)];
+}
+
+/** @param {Vector} v a rotation vector @returns {number[]} its unit quaternion, scalar first */
+export function quaternionOf(v) {
+  const angle = norm(v);
+  return [Math.cos(angle / 2), ...times(coefficients(angle)[0], v)];
 }
 
 /** @param {Vector} v a rotation vector @returns {Matrix} */
-export function fromVector(v) {
-  const [first, second] = coefficients(norm(v));
-  return series(v, first, second);
-}
+export const fromVector = (v) => fromQuaternion(quaternionOf(v));
 
 /** What turns rates of a rotation vector into the angular velocity. @param {Vector} v @returns {Matrix} */
 export function leftJacobian(v) {
   const [, second, third] = coefficients(norm(v));
   return series(v, second, third);
+}
+
+/** What turns the angular velocity into rates of a rotation vector; at whole turns it is large. @param {Vector} v @returns {Matrix} */
+export function vectorRates(v) {
+  const a = norm(v);
+  return series(v, -0.5, a < SMALL ? 1 / 12 + (a * a) / 720 : (1 - a / 2 / Math.tan(a / 2)) / (a * a));
 }
 
 /** The rotation vector, at most pi long; it vanishes at the identity only. @param {Matrix} r @returns {Vector} */

@@ -1,7 +1,6 @@
 """Tapes as straight-line Python of ours: arrays go through NumPy, a few elements through Python's own floats.
 
-The lines are like `v7 = v3 * v5`; nothing but the tape's operations and numbers is in them. A name is used again once
-its number is no longer needed, so that a long tape over arrays stays in the processor's cache.
+The lines are like `v7 = v3 * v5`; nothing but the tape's operations and numbers is in them.
 """
 
 from __future__ import annotations
@@ -15,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.numerics.recording.registers import assignments
 from assur.numerics.recording.tape import Tape
 
 FloatArray = NDArray[np.float64]
@@ -78,27 +78,21 @@ def lines(tape: Tape) -> list[str]:
     >>> recorder = Recorder()
     >>> x = recorder.varying("x")
     >>> lines(recorder.tape({"y": -(x * x)}))
-    ['def run(varying, uniform, root):', '    v0 = varying[0]', '    v1 = v0 * v0', '    v0 = -v1', '    return [v0]']
+    ['def run(varying, uniform, root):', '    v0 = varying[0]', '    v0 = v0 * v0', '    v0 = -v0', '    return [v0]']
     """
-    last = {argument: k for k, item in enumerate(tape.operations) for argument in item.arguments}
-    last |= dict.fromkeys(tape.outputs.values(), len(tape.operations))
-    text, place, free, used = ["def run(varying, uniform, root):"], dict[int, int](), list[int](), 0
-    given = {"varying": 0, "uniform": 0}
-    for k, item in enumerate(tape.operations):
-        own = [f"v{place[argument]}" for argument in item.arguments]
-        free += [place.pop(argument) for argument in set(item.arguments) if last[argument] == k]
-        if item.name in given:
-            value = f"{item.name}[{given[item.name]}]"
-            given[item.name] += 1
+    text = ["def run(varying, uniform, root):"]
+    register: dict[int, int] = {}
+    for item in assignments(tape, tape.outputs.values()):
+        operation = item.operation
+        if operation.name in ("varying", "uniform"):
+            value = f"{operation.name}[{item.given}]"
+        elif operation.name == "number":
+            value = repr(operation.number)
         else:
-            value = repr(item.number) if item.name == "number" else TEXT[item.name].format(*own)
-        if k not in last:
-            continue
-        if not free:
-            free, used = [used], used + 1
-        place[k] = free.pop()
-        text.append(f"    v{place[k]} = {value}")
-    return [*text, f"    return [{', '.join(f'v{place[k]}' for k in tape.outputs.values())}]"]
+            value = TEXT[operation.name].format(*(f"v{k}" for k in item.arguments))
+        register[item.entry] = item.register
+        text.append(f"    v{item.register} = {value}")
+    return [*text, f"    return [{', '.join(f'v{register[k]}' for k in tape.outputs.values())}]"]
 
 
 def _root(radicand: float) -> float:
