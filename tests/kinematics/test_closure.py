@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,8 +12,9 @@ import assur
 from assur.joint_graph.frames import child_frame, frames
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
-from assur.kinematics.closure import assemble, closure_error, loop_twists, mobility, residuals
+from assur.kinematics.closure import assemble, closing_system, closure_error, loop_twists, mobility, residuals
 from assur.kinematics.home import home_values
+from assur.kinematics.pose import pose_of
 from assur.model.registry import load_record
 from catalogue import each
 
@@ -213,3 +215,22 @@ def test_one_joint_frame_is_reached_from_both_sides():
     for joint in graph.cut:
         reached = child_frame(joint, placed[joint.parent], mechanism.home_values[graph.slices[joint.name]])
         np.testing.assert_allclose(reached[1], placed[joint.child][1], atol=1e-9)
+
+
+@pytest.mark.parametrize("name", ["zeng2019", "gough_stewart", "every"])
+def test_the_derivative_of_open_loops_is_that_of_differences(name):
+    """Far from closing too: turns that are left have rates of their own, the point reached is not the child's."""
+    record = load_record(Path(__file__).parent / "rates" / "every_type.toml" if name == "every" else name)
+    length = characteristic_length(record)
+    rng, home = np.random.default_rng(4), np.array(record.home)
+    size = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
+    values = home + 0.4 * rng.normal(size=(5, len(home))) * size
+    poses = pose_of(record, values + 0.2 * rng.normal(size=values.shape) * size)
+    derivative, step = closing_system(record, values, poses)[1], 1e-6
+    assert np.max(np.abs(closing_system(record, values, None)[0])) > 0.1 * length
+    loops = slice(0, 6 * len(joint_graph(record).cut))
+    for k in range(values.shape[1]):
+        push = step * size * np.eye(len(home))[k]
+        ahead, behind = (closing_system(record, values + sense * push, poses)[0] for sense in (1, -1))
+        change = (ahead - behind)[:, loops] / (2 * step)
+        np.testing.assert_allclose(derivative[:, loops, k] * size[k], change, atol=1e-5 * length)
