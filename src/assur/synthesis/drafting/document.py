@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -89,7 +90,16 @@ def _head(draft: Draft, chosen: Chosen) -> list[str]:
 
 def _title(draft: Draft) -> str:
     """The limbs as they stand: what a template turns about z has other axes there."""
-    return f"Draft of {', '.join(f'{number} x {text}' for text, number in Counter(draft.chains).items())}"
+    chains = Counter(_DECIMALS.sub(_four_places, chain) for chain in draft.chains)
+    return f"Draft of {', '.join(f'{number} x {text}' for text, number in chains.items())}"
+
+
+_DECIMALS = re.compile(r"-?\d+\.\d+(e-?\d+)?")
+
+
+def _four_places(number: re.Match[str]) -> str:
+    """A part of an axis as a title says it; the joints of the file have it in full."""
+    return f"{round(float(number.group()), 4) + 0.0:g}"
 
 
 def _parameters(draft: Draft) -> list[str]:
