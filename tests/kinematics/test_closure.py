@@ -217,9 +217,12 @@ def test_one_joint_frame_is_reached_from_both_sides():
         np.testing.assert_allclose(reached[1], placed[joint.child][1], atol=1e-9)
 
 
-@pytest.mark.parametrize("name", ["zeng2019", "gough_stewart", "every"])
+@pytest.mark.parametrize("name", ["zeng2019", "gough_stewart", "orthoglide", "delta_4s", "every"])
 def test_the_derivative_of_open_loops_is_that_of_differences(name):
-    """Far from closing too: turns that are left have rates of their own, the point reached is not the child's."""
+    """Far from closing too: turns that are left have rates of their own, the point reached is not the child's.
+
+    Joints that lead to both sides of a loop, as of a parallelogram that is carried, turn its gap.
+    """
     record = load_record(Path(__file__).parent / "rates" / "every_type.toml" if name == "every" else name)
     length = characteristic_length(record)
     rng, home = np.random.default_rng(4), np.array(record.home)

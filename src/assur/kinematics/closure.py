@@ -27,7 +27,7 @@ from assur.kinematics.pose import error_of, error_rates, frame_of, platform_move
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
 from assur.numerics import least_squares, rotations
-from assur.numerics.sparse_vectors import add, apply, times
+from assur.numerics.sparse_vectors import add, apply, cross, subtract, times
 
 FloatArray = NDArray[np.float64]
 
@@ -149,28 +149,33 @@ def _gaps_and_rates(configuration: Configuration) -> Outputs:
     rates = {
         f"derivative {6 * index + (row + 3) % 6},{column}": number
         for index, cut in enumerate(configuration.graph.cut)
-        for row, column, number in _gap_rates(configuration, index, cut)
+        for row, column, number in _gap_rates(configuration, cut)
     }
     return {**_gaps(configuration), **rates}
 
 
-def _gap_rates(configuration: Configuration, index: int, cut: Joint) -> Iterator[tuple[int, int, Any]]:
+def _gap_rates(configuration: Configuration, cut: Joint) -> Iterator[tuple[int, int, Any]]:
     """Row, coordinate and value: the near side moves the point that is reached, the far side the child's own.
 
-    The turn E = R1 R2^T from the child's frame to the one that is reached has the angular velocity w1 - E w2.
+    The turn E = R1 R2^T from the child's frame to the one that is reached has the angular velocity w1 - E w2. Joints
+    that lead to both sides turn what an open loop leaves with them.
     """
     graph = configuration.graph
     distance, turned = configuration.gap(cut)
     own = configuration.child_point(cut)
     reached = add(own, distance)
-    for name, sense in ((cut.name, 1), *graph.loops[index].items()):
-        joint = graph.joint(name)
-        if name == cut.name or name in graph.paths[cut.parent]:
-            yield from configuration.entries(joint, sense, reached)
-            continue
-        first = graph.slices[name].start
-        for column, (angular, velocity) in enumerate(configuration.twists(joint, own), start=first):
-            for row, number in enumerate((*apply(turned, angular), *velocity)):
+    near, far = {**graph.paths[cut.parent], cut.name: 1}, graph.paths[cut.child]
+    for name in dict.fromkeys((*near, *far)):
+        sense = near[name] if name in near else -far[name]
+        point = reached if name in near else own
+        for column, (angular, velocity) in enumerate(
+            configuration.twists(graph.joint(name), point), start=graph.slices[name].start
+        ):
+            if name in near and name in far:
+                rates = (*subtract(angular, apply(turned, angular)), *cross(angular, distance))
+            else:
+                rates = (*(angular if name in near else apply(turned, angular)), *velocity)
+            for row, number in enumerate(rates):
                 if not (type(number) is int and number == 0):
                     yield row, column, times(sense, number)
 
@@ -183,7 +188,7 @@ def closing_numbers(configuration: Configuration) -> Outputs:
 def closing_system(
     record: MechanismRecord, values: FloatArray, poses: FloatArray | None
 ) -> tuple[FloatArray, FloatArray]:
-    """Gaps and their derivative, exact where they vanish, at joint values (N, n): what Newton's method needs.
+    """Gaps and their derivative at joint values (N, n), exact for loops also where they are open, for a pose at it.
 
     Returns:
         gaps (N, r) and derivative (N, r, n), in length units: the 6 v rows of the loops as `residuals` gives them, then
