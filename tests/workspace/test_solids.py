@@ -8,7 +8,7 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
-from assur.workspace.crossings import halving
+from assur.workspace.crossings import root_of
 from assur.workspace.domain import Box
 from assur.workspace.fields import at_points, sample
 from assur.workspace.grid import grid_over
@@ -37,7 +37,7 @@ def cylinder(columns):
 
 
 def build(field, grid, exact=True):
-    crossing = halving(partial(at_points, field, 3)) if exact else None
+    crossing = root_of(partial(at_points, field, 3)) if exact else None
     return intersection([solid_where(sample(field, grid), grid, crossing), cuboid(grid)])
 
 
@@ -55,7 +55,7 @@ def test_every_vertex_lies_on_the_surface_even_of_a_field_with_a_root_in_it():
         return np.copysign(np.sqrt(np.abs(1 - columns[0])), 1 - columns[0]) - columns[2] + 0 * columns[1]
 
     grid = grid_over(BOX, 20)
-    vertices, _ = mesh(solid_where(sample(field, grid), grid, halving(partial(at_points, field, 3))))
+    vertices, _ = mesh(solid_where(sample(field, grid), grid, root_of(partial(at_points, field, 3))))
     inner = vertices[np.all((vertices > grid.low) & (vertices < grid.high), axis=1)]
     x, _, z = inner.T
     # distance from the curve x = 1 - z |z|
@@ -163,7 +163,7 @@ def test_the_surface_inside_a_region_is_cut_exactly_by_it():
     def plane(columns):
         return 0.8 * columns[2] - 0.6 * columns[0] + 0 * columns[1]
 
-    cutter = solid_where(sample(plane, grid), grid, halving(partial(at_points, plane, 3)))
+    cutter = solid_where(sample(plane, grid), grid, root_of(partial(at_points, plane, 3)))
     vertices, faces = surface_in(build(cylinder, grid), cutter)
     assert area_of(vertices, faces) == pytest.approx(pi / 0.8, rel=5e-3)  # an ellipse
     assert np.max(np.abs(plane(vertices.T))) < 1e-6

@@ -7,10 +7,9 @@ from numpy.typing import NDArray
 
 from assur.figures.context import Context
 from assur.figures.labels import label
-from assur.kinematics.rates.velocity import branch_at
-from assur.kinematics.status import relative_factors, scale
-from assur.numerics.number_types import Floats
-from assur.workspace.fields import at_points
+from assur.kinematics.closed_form.mode_reading import mode_reading_at
+from assur.kinematics.status import scale
+from assur.workspace.fields import at_points, values_at
 
 FloatArray = NDArray[np.float64]
 VANISHES = 1e-5
@@ -24,8 +23,8 @@ def kinds(context: Context, points: FloatArray) -> list[str]:
     form = context.record.closed_form
     scales = {item.name: scale(context.record, item.scale) for item in (form.inverse_margins if form else ())}
     names = list(found.margins)
-    size = len(found.box.names)
-    sizes = np.array([np.abs(at_points(found.margins[name], size, points)) / scales.get(name, 1.0) for name in names])
+    values = values_at(found.margins, tuple(points[:, : len(found.box.names)].T))
+    sizes = np.array([np.abs(np.broadcast_to(values[k], len(points))) / scales.get(k, 1.0) for k in names])
     low, high = np.array(found.box.intervals).T
     on_box = np.any(np.minimum(points - low, high - points) < 1e-6 * (high - low), axis=1)
     least = np.argmin(sizes, axis=0)
@@ -38,16 +37,11 @@ def vanishing(context: Context, margin: str, pose: FloatArray) -> list[str]:
     if form is None:
         return []
     there = on_margin(context, margin, pose)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        _, branch = branch_at(
-            context.record, context.workspace.slice.poses(there[None]), context.workspace.mode, Floats()
-        )
-        factors = form.factors(Floats(), context.record.values, branch.core)
-        sizes = relative_factors(context.record, {name: np.ravel(value) for name, value in factors.items()})
+    read = mode_reading_at(context.record, context.workspace.mode, context.workspace.slice.poses(there[None]))
     return [
         label(item.latex, item.name)
         for item in form.factor_list
-        if item.kind != "other" and abs(float(sizes[item.name][0])) < VANISHES
+        if item.kind != "other" and abs(float(np.ravel(read.relative_factors[item.name])[0])) < VANISHES
     ]
 
 

@@ -94,6 +94,16 @@ def inverse(
     return _answer(record, "inverse", border.checked_poses(record, poses), mode, method, crossed)
 
 
+def branches_at(record: MechanismRecord, poses: ArrayLike, mode: str) -> Branches:
+    """The closed form of the inverse problem at poses (..., m) in one working mode: one reading of its kernel.
+
+    >>> from assur.model.registry import load_record
+    >>> branches_at(load_record("fivebar"), [[0.0, 200.0], [0.0, 900.0]], "-+").exists[:, 0]
+    array([ True, False])
+    """
+    return _branches(record, "inverse", border.checked_poses(record, poses), mode)
+
+
 def branch_count(record: MechanismRecord, problem: Problem) -> int:
     """How many branches, real or not, the closed form of a problem has.
 

@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
 from assur.kinematics import border
-from assur.kinematics.position import inverse
-from assur.kinematics.rates.velocity import VelocityMap, velocity_map, velocity_map_at
+from assur.kinematics.position import branches_at
+from assur.kinematics.rates.velocity import VelocityMap, velocity_map_at, velocity_map_of
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
 from assur.performance.indices import status_of
@@ -157,8 +157,8 @@ def _of_region(record: MechanismRecord, poses: FloatArray, joints: FloatArray | 
 def _block(
     record: MechanismRecord, poses: FloatArray, mode: str | None
 ) -> tuple[NDArray[np.int8], FloatArray, FloatArray]:
-    status = inverse(record, poses, mode or record.modes.default_working).status[..., 0]
-    here = velocity_map(record, poses, mode)
+    solved = branches_at(record, poses, mode or record.modes.default_working)
+    status, here = solved.status[..., 0], velocity_map_of(solved.reading, (len(poses),))
     missing = here.singular_output | (status == Status.unreachable) | (status == Status.undecided)
     return status, *_condition(here, missing)
 

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.kinematics import border
-from assur.kinematics.modes import mode_kernel_signs
+from assur.kinematics.closed_form.mode_reading import mode_reading
 from assur.kinematics.rates.units import scaled
 from assur.kinematics.rates.velocity import velocity_map
 from assur.kinematics.status import closed_form_of
@@ -64,7 +64,7 @@ def smooth_condition(
     >>> float(here.value.round(9)), bool(np.abs(here.gradient).max() < 1e-12)
     (1.0, True)
     """
-    form = closed_form_of(record)
+    closed_form_of(record)
     given = border.checked_poses(record, poses)
     flat = given.reshape(-1, given.shape[-1])
     here = velocity_map(record, flat, mode)
@@ -72,8 +72,7 @@ def smooth_condition(
     known = np.all(np.isfinite(here.matrix), axis=(-1, -2)) & here.exists
     regular = np.flatnonzero(known & ~here.singular_input)
     components = _moving(record, flat[regular])
-    branch = form.inverse(Duals(), record.values, components, mode_kernel_signs(record, "inverse", mode))
-    jp, jq = form.jacobians(Duals(), record.values, branch.core)
+    jp, jq = mode_reading(record, mode, components, Duals()).jacobians
     size = (len(rate_names(record.platform.pose)), len(regular))
     signs = np.array([item.sign for item in record.inputs])
     matrix = here.matrix[regular]

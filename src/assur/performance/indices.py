@@ -24,10 +24,12 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UnknownNameError
 from assur.kinematics import border
 from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.closed_form.branches import Branches
+from assur.kinematics.closed_form.mode_reading import ModeReading
 from assur.kinematics.paths.home_mode import home_mode_at
-from assur.kinematics.position import inverse
+from assur.kinematics.position import branches_at, inverse
 from assur.kinematics.rates.units import factor_unit, scaled
-from assur.kinematics.rates.velocity import VelocityMap, velocity_map, velocity_map_at
+from assur.kinematics.rates.velocity import VelocityMap, velocity_map_at, velocity_map_of
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
 from assur.performance.scaling import Length, chosen_length
@@ -189,6 +191,37 @@ def indices(
     return _gathered(record, parts, given.shape[:-1], characteristic_length)
 
 
+def indices_where(
+    record: MechanismRecord,
+    poses: FloatArray,
+    mode: str,
+    holds: Callable[[ModeReading], NDArray[np.bool_]],
+    characteristic_length: Length = None,
+) -> tuple[NDArray[np.bool_], Indices]:
+    """Where something holds (N,) of a mechanism with a closed form at poses (N, m), and every index at those poses.
+
+    Args:
+        record: with a closed form.
+        poses: (N, m), lengths in the mechanism's unit and rad.
+        mode: signs of the working mode.
+        characteristic_length: as of `indices`.
+        holds: (N,) of the kernel's one reading at N poses, of which the indices are made too.
+
+    >>> from assur.model.registry import load_record
+    >>> record, poses = load_record("fivebar"), np.array([[0.0, 200.0], [0.0, 900.0]])
+    >>> inside, found = indices_where(record, poses, "-+", lambda read: read.exists)
+    >>> inside, found["condition"].shape
+    (array([ True, False]), (1,))
+    """
+    inside, parts = [], []
+    for start in range(0, max(1, len(poses)), BLOCK):
+        solved = branches_at(record, poses[start : start + BLOCK], mode)
+        inside.append(np.broadcast_to(holds(solved.reading), solved.batch_shape))
+        parts.append(_of_branches(solved, inside[-1]))
+    kept = np.concatenate(inside)
+    return kept, _gathered(record, parts, (int(np.sum(kept)),), characteristic_length)
+
+
 def indices_at(record: MechanismRecord, joints: ArrayLike, characteristic_length: Length = None) -> Indices:
     """Every index at joint values (..., n), from the joint graph alone: see `indices`.
 
@@ -233,9 +266,14 @@ def _at_poses(record: MechanismRecord, poses: FloatArray, mode: str) -> Part:
         if not mode or mode == record.modes.default_working:
             return _of_home(record, poses)
         return _at_joints(record, _first(inverse(record, poses, mode)))
-    solved = inverse(record, poses, mode)
-    status = solved.status[:, 0]
-    return _part(record, status, velocity_map(record, poses, mode), solved.joints[:, 0])
+    solved = branches_at(record, poses, mode)
+    return _of_branches(solved, np.ones(len(poses), dtype=bool))
+
+
+def _of_branches(solved: Branches, kept: NDArray[np.bool_]) -> Part:
+    """Those poses of a batch (N,) in one mode that are kept: every number is a column of one reading."""
+    here = velocity_map_of(solved.reading, solved.batch_shape).rows(kept)
+    return _part(solved.record, solved.status[kept, 0], here, solved.joints[kept, 0])
 
 
 def _of_home(record: MechanismRecord, poses: FloatArray) -> Part:

@@ -17,17 +17,15 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.kinematics.border import in_range
-from assur.kinematics.closed_form.existence import exists
+from assur.kinematics.closed_form.mode_reading import mode_reading_at
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import all_modes
 from assur.kinematics.paths.following import follow
 from assur.kinematics.position import inverse
 from assur.kinematics.rates.finite_motion import classify_at
-from assur.kinematics.rates.velocity import branch_at
 from assur.kinematics.status import FACTOR_TOLERANCE, Status, closed_form_of, relative_factors
 from assur.model.closed_form import ClosedForm, Factor
 from assur.model.mechanism import MechanismRecord
-from assur.numerics.number_types import Floats
 from assur.singularity.loci import OUTPUT
 
 FloatArray = NDArray[np.float64]
@@ -263,13 +261,11 @@ def _zeros(samples: _Samples, name: str, mode: str) -> list[_Candidate]:
 
 
 def _evaluate(record: MechanismRecord, mode: str, poses: FloatArray) -> _Samples:
-    form = closed_form_of(record)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        _, branch = branch_at(record, poses, mode, Floats())
-        factors = relative_factors(record, form.factors(Floats(), record.values, branch.core))
-    shape = (len(poses),)
-    real = np.broadcast_to(exists(record, form.inverse_margins, branch.margins), shape)
-    return _Samples(poses, real, {item.name: np.broadcast_to(factors[item.name], shape) for item in _sought(form)})
+    read, shape = mode_reading_at(record, mode, poses), (len(poses),)
+    factors = {
+        item.name: np.broadcast_to(read.relative_factors[item.name], shape) for item in _sought(closed_form_of(record))
+    }
+    return _Samples(poses, np.broadcast_to(read.exists, shape), factors)
 
 
 def _border_poses(record: MechanismRecord, mode: str, samples: _Samples) -> FloatArray:

@@ -2,29 +2,47 @@
 
 A margin must not be negative where the mode reaches a pose. Kernels are read over `Extended` numbers, so
 that a margin runs smoothly past where a radicand inside it is negative; there another margin forbids the
-pose anyway.
+pose anyway. The fields of a mode are columns of one reading: several at the same poses read the kernel once.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
+from dataclasses import dataclass
 from functools import partial
-from types import SimpleNamespace
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.modes import mode_signs, sign_names
+from assur.kinematics.closed_form.mode_reading import ModeReading, mode_reading
 from assur.kinematics.status import closed_form_of
-from assur.model.closed_form import Branch
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Extended
-from assur.workspace.bounds import Bound, Stroke, Values, bounds
+from assur.workspace.bounds import Bound, Stroke, bounds
 from assur.workspace.grid import UniformGrid
 from assur.workspace.slices import Columns, Slice, slice_at
 
 FloatArray = NDArray[np.float64]
 Field = Callable[[Columns], FloatArray]
+Key = TypeVar("Key", bound=Hashable)
+
+
+@dataclass(frozen=True, eq=False)
+class Column:
+    """One column of the readings of a mode: a field.
+
+    Attributes:
+        read: the mode at poses of a slice; the same one for all fields of a mode.
+        of: the column of a reading.
+    """
+
+    read: Callable[[Columns], ModeReading]
+    of: Callable[[ModeReading], FloatArray]
+
+    def __call__(self, columns: Columns) -> FloatArray:
+        """The field at poses whose coordinates broadcast."""
+        return self.of(self.read(columns))
 
 
 def margin_fields(
@@ -44,63 +62,98 @@ def margin_fields(
     >>> float(fields["M3"]((np.array(100.0), np.array(0.0), np.array(260.0))))
     52900.0
     """
-    form = closed_form_of(record)
-    branch = _branch(record, mode, slice_)
-    fields: dict[str, Field] = {
-        margin.name: partial(_margin, branch, margin.name) for margin in form.inverse_margins if margin.zero == "merge"
-    }
-    for name, bound in bounds(record, strokes).items():
-        fields[name] = partial(_bound, record, branch, bound)
-    return fields
+    return closed_form_fields(record, mode, strokes, slice_)[0]
 
 
 def factor_fields(record: MechanismRecord, mode: str, slice_: Slice | None = None) -> dict[str, Field]:
     """Every factor of det Jp ("parallel") of a working mode as a function of the free coordinates of a slice."""
-    branch = _branch(record, mode, slice_)
-    names = [item.name for item in closed_form_of(record).factor_list if item.kind == "parallel"]
-    return {name: partial(_factor, record, branch, name) for name in names}
+    return closed_form_fields(record, mode, None, slice_)[1]
+
+
+def closed_form_fields(
+    record: MechanismRecord,
+    mode: str,
+    strokes: Mapping[str, Stroke | None] | None = None,
+    slice_: Slice | None = None,
+) -> tuple[dict[str, Field], dict[str, Field]]:
+    """Margins and parallel factors of a working mode, as `margin_fields` and `factor_fields`, of the same readings."""
+    form, poses = closed_form_of(record), slice_ or slice_at(record)
+
+    def read(columns: Columns) -> ModeReading:
+        return mode_reading(record, mode, poses.components(columns), Extended())
+
+    margins: dict[str, Field] = {
+        item.name: Column(read, partial(_margin, item.name)) for item in form.inverse_margins if item.zero == "merge"
+    }
+    margins |= {name: Column(read, partial(_bound, bound)) for name, bound in bounds(record, strokes).items()}
+    names = [item.name for item in form.factor_list if item.kind == "parallel"]
+    return margins, {name: Column(read, partial(_factor, name)) for name in names}
+
+
+def values_at(fields: Mapping[Key, Field], columns: Columns) -> dict[Key, FloatArray]:
+    """Several fields at poses whose coordinates broadcast; what several are columns of is read once."""
+    readings: dict[Callable[[Columns], ModeReading], ModeReading] = {}
+    values = {}
+    for name, field in fields.items():
+        if isinstance(field, Column):
+            if field.read not in readings:
+                readings[field.read] = field.read(columns)
+            values[name] = field.of(readings[field.read])
+        else:
+            values[name] = field(columns)
+    return values
+
+
+def samples(fields: Mapping[Key, Field], grid: UniformGrid) -> dict[Key, NDArray[np.float32]]:
+    """Fields at every node of a grid, block by block; where one is not finite the pose is not allowed."""
+    answer = {name: np.empty(grid.shape, dtype=np.float32) for name in fields}
+    with np.errstate(over="ignore"):  # a pose so far away is not allowed either
+        for part, columns in grid.blocks():
+            for name, values in values_at(fields, columns).items():
+                answer[name][part] = values
+    for at_nodes in answer.values():
+        at_nodes[~np.isfinite(at_nodes)] = -1.0
+    return answer
 
 
 def sample(field: Field, grid: UniformGrid) -> NDArray[np.float32]:
-    """A field at every node of a grid, block by block; where it is not finite the pose is not allowed."""
-    values = np.empty(grid.shape, dtype=np.float32)
-    with np.errstate(over="ignore"):  # a pose so far away is not allowed either
-        for part, columns in grid.blocks():
-            values[part] = field(columns)
-    allowed = np.isfinite(values)
-    return values if bool(np.all(allowed)) else np.where(allowed, values, np.float32(-1.0))
+    """One field at every node of a grid, as `samples`."""
+    return samples({"": field}, grid)[""]
 
 
 def at_points(field: Field, dimension: int, points: FloatArray) -> FloatArray:
     """A field (N,) at points (N, 3) or (N, m), of which the first `dimension` coordinates are the pose."""
-    found = field(tuple(points[:, k] for k in range(dimension)))
-    return np.broadcast_to(found, (len(points),))
+    return np.broadcast_to(field(tuple(points[:, k] for k in range(dimension))), (len(points),))
 
 
-def _branch(record: MechanismRecord, mode: str, slice_: Slice | None) -> Callable[[Columns], Branch]:
-    form, poses = closed_form_of(record), slice_ or slice_at(record)
-    signs = map(float, mode_signs(record, "inverse", mode))
-    sign = SimpleNamespace(**dict(zip(sign_names(record, "inverse"), signs, strict=True)))
-
-    def evaluate(columns: Columns) -> Branch:
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return form.inverse(Extended(), record.values, poses.components(columns), sign)
-
-    return evaluate
+def inside_at(margins: Mapping[str, Field], points: FloatArray) -> NDArray[np.bool_]:
+    """Whether no margin is negative (N,) at points (N, free coordinates)."""
+    inside = np.ones(len(points), dtype=bool)
+    for values in values_at(margins, tuple(points.T)).values():
+        inside &= values >= 0
+    return inside
 
 
-def _margin(branch: Callable[[Columns], Branch], name: str, columns: Columns) -> FloatArray:
-    return np.asarray(branch(columns).margins[name], dtype=float)
+def none_negative(margins: Mapping[str, Field], read: ModeReading) -> NDArray[np.bool_]:
+    """Whether no margin of a closed form is negative at the poses of a reading, over whichever number type.
+
+    In floats an inner radicand that is negative counts as 0, but it is a margin itself, so that nothing changes here.
+    """
+    inside = np.asarray(True)
+    for field in margins.values():
+        if isinstance(field, Column):
+            inside = inside & (field.of(read) >= 0)
+    return np.asarray(inside)
 
 
-def _factor(record: MechanismRecord, branch: Callable[[Columns], Branch], name: str, columns: Columns) -> FloatArray:
+def _margin(name: str, read: ModeReading) -> FloatArray:
+    return np.asarray(read.margins[name], dtype=float)
+
+
+def _factor(name: str, read: ModeReading) -> FloatArray:
+    return np.asarray(read.factors[name], dtype=float)
+
+
+def _bound(bound: Bound, read: ModeReading) -> FloatArray:
     with np.errstate(divide="ignore", invalid="ignore"):
-        factors = closed_form_of(record).factors(Extended(), record.values, branch(columns).core)
-    return np.asarray(factors[name], dtype=float)
-
-
-def _bound(record: MechanismRecord, branch: Callable[[Columns], Branch], bound: Bound, columns: Columns) -> FloatArray:
-    with np.errstate(divide="ignore", invalid="ignore"):
-        found = branch(columns)
-        joints: Values = closed_form_of(record).joints(Extended(), record.values, found.core)
-        return np.asarray(bound(joints), dtype=float)
+        return np.asarray(bound(read.joints), dtype=float)

@@ -10,6 +10,7 @@ import csv
 import io
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -19,11 +20,11 @@ from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS
-from assur.performance.indices import INDICES, Indices, indices, indices_at
+from assur.performance.indices import INDICES, Indices, indices_at, indices_where
 from assur.performance.scaling import Length
 from assur.results.json_text import plain
 from assur.singularity.distance import distance
-from assur.workspace.fields import at_points
+from assur.workspace.fields import inside_at, none_negative
 from assur.workspace.region import Workspace
 
 FloatArray = NDArray[np.float64]
@@ -272,11 +273,11 @@ def _found(
     record: MechanismRecord, region: Workspace, points: FloatArray, length: Length
 ) -> tuple[NDArray[np.bool_], Indices]:
     """Which points (N, free coordinates) lie in the workspace, and every index there."""
-    inside = np.ones(len(points), dtype=bool)
-    for margin in region.margins.values():
-        inside &= at_points(margin, len(region.box.names), points) >= 0
     if record.closed_form is not None:
-        return inside, indices(record, region.slice.poses(points[inside]), region.mode, length)
+        return indices_where(
+            record, region.slice.poses(points), region.mode, partial(none_negative, region.margins), length
+        )
+    inside = inside_at(region.margins, points)
     return inside, indices_at(record, region.joints(points[inside]), length)
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from assur.model.mechanism import MechanismRecord
 from assur.workspace.bounds import Stroke, bounds
-from assur.workspace.fields import Field, factor_fields, margin_fields
+from assur.workspace.fields import Field, closed_form_fields
 from assur.workspace.followed import followed_factors, followed_margins, over_grid
 from assur.workspace.grid import UniformGrid
 from assur.workspace.slices import Slice
@@ -52,8 +52,7 @@ def mode_fields(
     ('closed form', ['reach1', 'reach2'])
     """
     if record.closed_form is not None:
-        margins = margin_fields(record, mode, strokes, poses)
-        factors = factor_fields(record, mode, poses)
+        margins, factors = closed_form_fields(record, mode, strokes, poses)
         return ModeFields(margins, factors, CLOSED_FORM, _ticker(2 * len(margins) + LAST, progress))
     tick = _ticker(FOLLOWING + 2 * (1 + len(bounds(record, strokes))) + LAST, progress)
     done = 0

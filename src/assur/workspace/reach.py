@@ -11,8 +11,8 @@ import numpy as np
 from manifold3d import Manifold
 from numpy.typing import NDArray
 
-from assur.workspace.crossings import halving
-from assur.workspace.fields import Field, at_points, sample
+from assur.workspace.crossings import root_of
+from assur.workspace.fields import Field, at_points, samples
 from assur.workspace.followed import FollowedField
 from assur.workspace.grid import UniformGrid
 from assur.workspace.solids import Faces, area_of, cuboid, intersection, mesh, solid_where, surface_in
@@ -29,12 +29,16 @@ class Reach:
         factors: the parallel factors of the working mode.
         solid: the region on three axes, cut exactly by the box.
         inside: (nodes) where no margin is negative.
+        factors_at_nodes: (nodes) each factor.
+        cells: (cells) that may hold a part of the region: at no margin all of its corners are negative.
     """
 
     grid: UniformGrid
     factors: Mapping[str, Field]
     solid: Manifold
     inside: NDArray[np.bool_]
+    factors_at_nodes: Mapping[str, NDArray[np.float32]]
+    cells: NDArray[np.bool_]
 
     @property
     def volume(self) -> float:
@@ -45,12 +49,12 @@ class Reach:
         """A factor at the nodes (k,) that the region reaches, one cell beyond the box included; none if it is empty."""
         if self.solid.is_empty():
             return np.empty(0, dtype=np.float32)
-        return sample(self.factors[name], self.grid)[self.inside]
+        return self.factors_at_nodes[name][self.inside]
 
     def zero_surface(self, name: str) -> tuple[FloatArray, Faces, float]:
         """Zero set of a factor inside the region: vertices (n, m), faces (k, 3) or segments (k, 2), area or length."""
-        field = self.factors[name]
-        vertices, faces = surface_in(self.solid, _solid(field, sample(field, self.grid), self.grid))
+        cutter = _solid(self.factors[name], self.factors_at_nodes[name], self.grid, self.cells)
+        vertices, faces = surface_in(self.solid, cutter)
         size = area_of(vertices, faces) / self.grid.thickness
         return *in_pose_coordinates(self.grid, vertices, faces), size
 
@@ -71,28 +75,51 @@ def reach(
 ) -> Reach:
     """Intersect the box with the solid of every margin; equal fields count once, positive ones not at all.
 
-    Resolution: what is thinner than a cell between two nodes is not seen. `tick` is called after each margin.
+    Margins and factors are read together, once per node. Resolution: what is thinner than a cell between two nodes is
+    not seen. `tick` is called after each margin.
     """
+    kinds = {"margin": margins, "factor": factors}
+    at_nodes = samples({(kind, name): field for kind in kinds for name, field in kinds[kind].items()}, grid)
     inside = np.ones(grid.shape, dtype=bool)
+    cells = _in_box(grid)
+    for name in margins:
+        inside &= at_nodes["margin", name] >= 0
+        cells &= _highest(at_nodes["margin", name]) >= 0
     solids = [cuboid(grid)]
     seen: set[bytes] = set()
-    for field in margins.values():
-        values = sample(field, grid)
-        inside &= values >= 0
+    for name, field in margins.items():
+        values = at_nodes["margin", name]
         digest = hashlib.blake2b(values.tobytes()).digest()
         if digest not in seen and np.min(values) < 0:
-            solids.append(_solid(field, values, grid))
+            solids.append(_solid(field, values, grid, cells))
         seen.add(digest)
         tick()
-    return Reach(grid, factors, intersection(solids), inside)
+    kept = {name: at_nodes["factor", name] for name in factors}
+    return Reach(grid, factors, intersection(solids), inside, kept, cells)
 
 
-def _solid(field: Field, values: NDArray[np.float32], grid: UniformGrid) -> Manifold:
+def _in_box(grid: UniformGrid) -> NDArray[np.bool_]:
+    """The cells that are not outside the box."""
+    cells = np.zeros(tuple(size - 1 for size in grid.shape), dtype=bool)
+    cells[1:-1, 1:-1, 1:-1] = True
+    return cells
+
+
+def _highest(values: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The largest value at the corners of each cell."""
+    for axis in range(values.ndim):
+        low, high = (np.take(values, range(first, values.shape[axis] - 1 + first), axis) for first in (0, 1))
+        values = np.maximum(low, high)
+    return values
+
+
+def _solid(field: Field, values: NDArray[np.float32], grid: UniformGrid, cells: NDArray[np.bool_]) -> Manifold:
     """Where a field is not negative, from its values at the nodes; one that was followed finds its own crossings."""
     if isinstance(field, FollowedField):
         # a measure may be so small beside its other end that interpolation would put the vertex at the node
-        return solid_where(np.where(values >= 0, np.float32(1.0), np.float32(-1.0)), grid, field.crossing)
-    return solid_where(values, grid, halving(partial(at_points, field, grid.dimension)))
+        sides = np.where(values >= 0, np.float32(1.0), np.float32(-1.0))
+        return solid_where(sides, grid, lambda edges: field.crossing(edges.start, edges.end), cells)
+    return solid_where(values, grid, root_of(partial(at_points, field, grid.dimension)), cells)
 
 
 def in_pose_coordinates(grid: UniformGrid, vertices: FloatArray, faces: Faces) -> tuple[FloatArray, Faces]:

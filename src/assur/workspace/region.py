@@ -23,7 +23,7 @@ from assur.singularity.loci import Locus, parallel_loci
 from assur.workspace.bounds import Stroke
 from assur.workspace.certified.region import unit
 from assur.workspace.domain import Box, box_of
-from assur.workspace.fields import Field, at_points
+from assur.workspace.fields import Field, inside_at
 from assur.workspace.followed import FollowedField
 from assur.workspace.grid import grid_over
 from assur.workspace.mode_fields import CLOSED_FORM, Progress, mode_fields
@@ -112,9 +112,7 @@ class Workspace:
     def inside(self, count: int, rng: np.random.Generator) -> tuple[FloatArray, FloatArray | None]:
         """Poses (N, m) as `interior`, and of a mode that was followed its joint values (N, n) there."""
         points = self.box.spread(count, rng)
-        inside = np.ones(count, dtype=bool)
-        for margin in self.margins.values():
-            inside &= at_points(margin, len(self.box.names), points) >= 0
+        inside = inside_at(self.margins, points)
         joints = None if self.how == CLOSED_FORM else self.joints(points)[inside]
         return self.slice.poses(points[inside]), joints
 

@@ -22,12 +22,18 @@ Faces = NDArray[np.int64]
 TINY = 1e-6
 
 
-def solid_where(values: NDArray[np.float32], grid: UniformGrid, crossing: Crossing | None = None) -> Manifold:
+def solid_where(
+    values: NDArray[np.float32],
+    grid: UniformGrid,
+    crossing: Crossing | None = None,
+    cells: NDArray[np.bool_] | None = None,
+) -> Manifold:
     """Solid where a field >= 0, from its values at the nodes of a grid.
 
     `crossing` says where the field is zero on an edge of the grid; with it every vertex lies on the surface as
-    exactly as it does, without it vertices are interpolated. The solid is closed outside the box; intersect it with
-    `cuboid`.
+    exactly as it does, without it vertices are interpolated. Where only a part of the solid matters, `cells` (one
+    fewer than nodes along each axis) says in which cells: vertices beside none of them stay interpolated. The solid is
+    closed outside the box; intersect it with `cuboid`.
 
     Example: half the ball of radius 1, to 1 % with 8 cells across.
 
@@ -49,7 +55,8 @@ def solid_where(values: NDArray[np.float32], grid: UniformGrid, crossing: Crossi
     vertices, faces, _, _ = marching_cubes(scaled, 0.0, gradient_direction="ascent", allow_degenerate=True)
     index = vertices.astype(float) - 1.0
     if crossing is not None:
-        index = on_surface(index, crossing, grid)
+        everywhere = np.ones(tuple(size - 1 for size in grid.shape), dtype=bool)
+        index = on_surface(index, values, crossing, grid, everywhere if cells is None else cells)
     solid = Manifold(Mesh64(np.ascontiguousarray(grid.position(index)), np.ascontiguousarray(faces, dtype=np.uint64)))
     if solid.status() != Error.NoError:
         raise AssurError(f"marching cubes gave a mesh that is no solid: {solid.status()}")

@@ -15,6 +15,7 @@ from assur.kinematics.answers.self_motion import SelfMotionCurve, has_self_motio
 from assur.kinematics.answers.solution import Failure
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.closed_form.existence import allows, exists, vanishes
+from assur.kinematics.closed_form.mode_reading import ModeReading
 from assur.kinematics.modes import Problem, mode_texts, sign_names
 from assur.kinematics.status import FACTOR_TOLERANCE, Status, classify, closed_form_of, scale
 from assur.model.closed_form import Branch, Margin
@@ -39,6 +40,11 @@ class Branches(SolutionSet):
     modes_asked: NDArray[np.int8]
     sign_shape: tuple[int, ...]
     branch: Branch
+
+    @cached_property
+    def reading(self) -> ModeReading:
+        """The kernel's numbers, of which everything here is a column."""
+        return ModeReading(self.record, Floats(), self.branch)
 
     @property
     def complete(self) -> bool:
@@ -76,9 +82,7 @@ class Branches(SolutionSet):
     @cached_property
     def factors(self) -> dict[str, FloatArray]:
         """Factors (..., K) of det Jp and det Jq by name."""
-        form = closed_form_of(self.record)
-        found = form.factors(Floats(), self.record.values, self.branch.core)
-        return {name: self._where_real(self._expand(value)) for name, value in found.items()}
+        return {name: self._where_real(self._expand(value)) for name, value in self.reading.factors.items()}
 
     @cached_property
     def poses(self) -> FloatArray:
@@ -95,9 +99,7 @@ class Branches(SolutionSet):
     @cached_property
     def joints(self) -> FloatArray:
         """Every joint's value (..., K, coordinates), in rad or length; NaN where there is no solution."""
-        form = closed_form_of(self.record)
-        found = form.joints(Floats(), self.record.values, self.branch.core)
-        columns = [self._expand(value) for value in border.joint_values(self.record, found)]
+        columns = [self._expand(value) for value in border.joint_values(self.record, self.reading.joints)]
         return self._where_real(np.stack(columns, axis=-1))
 
     @cached_property

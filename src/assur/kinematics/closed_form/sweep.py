@@ -15,7 +15,6 @@ threads; only a zero may have another sign, which compares equal.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from types import SimpleNamespace
 from typing import Any, Literal
 
 import numpy as np
@@ -24,13 +23,12 @@ from numpy.typing import NDArray
 from assur.errors import UnknownNameError
 from assur.kinematics import border
 from assur.kinematics.closed_form.blocks import Components, FloatArray, Progress, columns_of, each_block
-from assur.kinematics.closed_form.existence import exists
 from assur.kinematics.closed_form.filling import Engine, Filler, chosen, empty, run
+from assur.kinematics.closed_form.mode_reading import mode_reading
 from assur.kinematics.closed_form.recorded import recording
-from assur.kinematics.modes import mode_signs, sign_names
+from assur.kinematics.modes import mode_signs
 from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
-from assur.numerics.number_types import Floats
 from assur.numerics.singular_values import float_condition_index
 from assur.numerics.small_matrices import determinant
 
@@ -104,29 +102,25 @@ def inverse_sweep(
             threads,
         )
         return answer
-    sign = SimpleNamespace(**dict(zip(sign_names(record, "inverse"), map(float, signs), strict=True)))
 
     def work(part: slice, given: FloatArray) -> None:
-        _in_one_mode(record, given, sign, {name: array[..., part] for name, array in answer.items()})
+        _in_one_mode(record, given, mode, {name: array[..., part] for name, array in answer.items()})
 
     each_block(work, columns, count, BLOCK if block is None else block, progress, threads or 1)
     return answer
 
 
-def _in_one_mode(
-    record: MechanismRecord, given: FloatArray, sign: SimpleNamespace, answer: Mapping[str, NDArray[Any]]
-) -> None:
+def _in_one_mode(record: MechanismRecord, given: FloatArray, mode: str, answer: Mapping[str, NDArray[Any]]) -> None:
     """What is wanted in one mode at poses (b, m), by NumPy, into arrays (rows, b) or (b,)."""
-    form, p, ns = closed_form_of(record), record.values, Floats()
     turn = float(np.prod([item.sign for item in record.inputs]))  # of det Jq, from joint values to printed inputs
+    read = mode_reading(record, mode, border.pose_components(record, given))
     with np.errstate(divide="ignore", invalid="ignore"):
-        branch = form.inverse(ns, p, border.pose_components(record, given), sign)
         if "inputs" in answer:
-            _store(answer["inputs"], border.printed_inputs(record, branch.inputs))
+            _store(answer["inputs"], border.printed_inputs(record, read.branch.inputs))
         if "exists" in answer:
-            answer["exists"][...] = exists(record, form.inverse_margins, branch.margins)
+            answer["exists"][...] = read.exists
         if answer.keys() & {"det_jp", "det_jq", "condition_index", "smallest"}:
-            jp, jq = form.jacobians(ns, p, branch.core)
+            jp, jq = read.jacobians
             if "det_jp" in answer:
                 answer["det_jp"][...] = determinant(jp)
             if "det_jq" in answer:
@@ -136,8 +130,7 @@ def _in_one_mode(
                     if name in answer:
                         answer[name][...] = value
         if "factors" in answer:
-            found = form.factors(ns, p, branch.core)
-            _store(answer["factors"], [found[item.name] for item in form.factor_list])
+            _store(answer["factors"], [read.factors[item.name] for item in closed_form_of(record).factor_list])
 
 
 def _store(rows: NDArray[Any], values: Sequence[Any]) -> None:

@@ -13,18 +13,17 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UsageError
 from assur.kinematics import border
 from assur.kinematics.border import Named
-from assur.kinematics.closed_form.existence import exists
-from assur.kinematics.modes import mode_kernel_signs
+from assur.kinematics.closed_form.mode_reading import ModeReading, mode_reading, mode_reading_at
 from assur.kinematics.rates.instantaneous import Instant, instantaneous
 from assur.kinematics.rates.units import scaled, unit_length
-from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of, relative_factors
-from assur.model.closed_form import Branch
+from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, rate_names
 from assur.numerics.dual import Dual, Duals
-from assur.numerics.number_types import Floats
 
 FloatArray = NDArray[np.float64]
+ARRAYS = ("jp", "jq", "singular_output", "singular_input", "exists", "no_rates")
+"""What a velocity map has one of at each pose."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +69,11 @@ class VelocityMap:
     def det_jq(self) -> FloatArray:
         """Determinant (...) of Jq."""
         return self._determinant(self.jq)
+
+    def rows(self, rows: NDArray[Any]) -> VelocityMap:
+        """The same at some poses of a batch (N,)."""
+        parts = {name: getattr(self, name)[rows] for name in ARRAYS}
+        return VelocityMap(self.record, **parts)
 
     def _determinant(self, matrix: FloatArray) -> FloatArray:
         if matrix.shape[-1] != matrix.shape[-2]:
@@ -126,10 +130,19 @@ def velocity_map(record: MechanismRecord, poses: ArrayLike, mode: str | None = N
     >>> here.output([1.0, 1.0, 1.0]).round(9) + 0.0
     array([0., 1., 0.])
     """
-    given, branch = branch_at(record, poses, mode, Floats())
-    form = closed_form_of(record)
-    jp, jq = form.jacobians(Floats(), record.values, branch.core)
-    return _velocity_map(record, given.shape[:-1], branch, jp, jq)
+    given = border.checked_poses(record, poses)
+    return velocity_map_of(mode_reading_at(record, mode, given), given.shape[:-1])
+
+
+def velocity_map_of(read: ModeReading, batch: tuple[int, ...]) -> VelocityMap:
+    """The velocity map of a reading in floats, of as many poses as a batch (...) has.
+
+    >>> from assur.model.registry import load_record
+    >>> here = velocity_map_of(mode_reading_at(load_record("zeng2019"), None, [[-15.4714, 9.6849, 456.3315]]), (1,))
+    >>> here.output([1.0, 1.0, 1.0]).round(9) + 0.0
+    array([[0., 1., 0.]])
+    """
+    return _velocity_map(read, batch, *read.jacobians)
 
 
 def velocity_map_at(record: MechanismRecord, joints: Named) -> VelocityMap:
@@ -151,13 +164,13 @@ def velocity_map_at(record: MechanismRecord, joints: Named) -> VelocityMap:
 
 def printed_velocity_map(record: MechanismRecord, poses: ArrayLike, mode: str | None = None) -> VelocityMap:
     """The velocity map with Jp and Jq as the source prints them; where it divides by zero the rows are not finite."""
-    given, branch = branch_at(record, poses, mode, Floats())
-    form = closed_form_of(record)
+    form, given = closed_form_of(record), border.checked_poses(record, poses)
     if form.as_printed is None:
         raise UsageError(f"{record.name} has no printed Jacobian that differs from the regular one")
+    read = mode_reading_at(record, mode, given)
     with np.errstate(divide="ignore", invalid="ignore"):
-        jp, jq = form.as_printed(Floats(), record.values, branch.core)
-    return _velocity_map(record, given.shape[:-1], branch, jp, jq)
+        jp, jq = form.as_printed(read.ns, record.values, read.branch.core)
+    return _velocity_map(read, given.shape[:-1], jp, jq)
 
 
 def acceleration(
@@ -182,23 +195,12 @@ def acceleration(
     moving = _coordinate_rates(record, flat, velocity.reshape(len(flat), -1))
     values = border.pose_components(record, flat)
     components = tuple(_moving(value, moving[:, k]) for k, value in enumerate(values))
-    form = closed_form_of(record)
-    branch = form.inverse(Duals(), record.values, components, mode_kernel_signs(record, "inverse", mode))
-    jp, jq = form.jacobians(Duals(), record.values, branch.core)
+    jp, jq = mode_reading(record, mode, components, Duals()).jacobians
     jp_rate = _matrix(jp, given.shape[:-1], derivative=True)
     jq_rate = _matrix(jq, given.shape[:-1], derivative=True) * _input_signs(record)
     accelerations = np.asarray(input_accelerations, dtype=float)
     right = (here.jq @ accelerations[..., None]) + (jq_rate @ rates[..., None]) - (jp_rate @ velocity[..., None])
     return velocity, _solve(here.jp, right, here.singular_output | here.singular_input)[..., 0]
-
-
-def branch_at(record: MechanismRecord, poses: ArrayLike, mode: str | None, ns: Any) -> tuple[FloatArray, Branch]:
-    """Poses (..., m) as checked, and the inverse kernel's branch (components of N) in one working mode."""
-    given = border.checked_poses(record, poses)
-    components = border.pose_components(record, given.reshape(-1, given.shape[-1]))
-    form = closed_form_of(record)
-    with np.errstate(divide="ignore", invalid="ignore"):  # where a margin degenerates; it says so
-        return given, form.inverse(ns, record.values, components, mode_kernel_signs(record, "inverse", mode))
 
 
 def _coordinate_rates(record: MechanismRecord, poses: FloatArray, velocity: FloatArray) -> FloatArray:
@@ -226,14 +228,12 @@ def _input_signs(record: MechanismRecord) -> FloatArray:
     return np.array([item.sign for item in record.inputs])
 
 
-def _velocity_map(
-    record: MechanismRecord, batch: tuple[int, ...], branch: Branch, jp: Sequence[Any], jq: Sequence[Any]
-) -> VelocityMap:
+def _velocity_map(read: ModeReading, batch: tuple[int, ...], jp: Sequence[Any], jq: Sequence[Any]) -> VelocityMap:
+    record, sizes = read.record, read.relative_factors
     form = closed_form_of(record)
-    sizes = relative_factors(record, form.factors(Floats(), record.values, branch.core))
     count = int(np.prod(batch, dtype=int))
     zero = {name: np.broadcast_to(np.abs(size) <= FACTOR_TOLERANCE, (count,)) for name, size in sizes.items()}
-    real = np.broadcast_to(exists(record, form.inverse_margins, branch.margins), (count,))
+    real = np.broadcast_to(read.exists, (count,))
     output = np.any([zero[item.name] for item in form.factor_list if item.kind == "parallel"], axis=0)
     inputs = np.any([zero[item.name] for item in form.factor_list if item.kind == "serial"], axis=0)
     there = real.reshape(batch)
