@@ -20,7 +20,7 @@ def test_files_are_written_and_named(assur_cli, tmp_path):
 def test_a_format_may_be_chosen(assur_cli, tmp_path):
     run = assur_cli("figures", "fivebar", "-o", str(tmp_path), "--only", "flow", "--format", "svg")
     assert run.code == 0
-    assert "-flow.svg" in run.out
+    assert "flow.svg" in run.out
     assert [path.suffix for path in tmp_path.iterdir()] == [".svg"]
 
 

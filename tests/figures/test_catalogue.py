@@ -3,6 +3,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import re
+import sys
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
@@ -35,7 +36,11 @@ def test_the_papers_mechanism_has_every_figure():
 def test_catalogue_has_a_number_title_and_caption_for_each(context):
     specs = figures.catalogue(context.record, context)
     assert [spec.name for spec in specs] == figures.names(context.record, context)
-    assert len({spec.number for spec in specs}) == len(specs)
+    assert {spec.name: spec.number for spec in specs if spec.number} == {
+        name: number
+        for name, number in context.companion.numbers.items()
+        if name in figures.names(context.record, context)
+    }
     for spec in specs:
         assert spec.title
         assert spec.caption.endswith(".")
@@ -67,7 +72,7 @@ def test_every_figure_is_written_in_every_format(context, tmp_path):
         if path.suffix == ".json":
             found = json.loads(content)
             assert found["mechanism"] == context.record.name
-            assert found["name"] in path.name
+            assert found["name"] == path.stem
             assert found["caption"]
         else:
             assert content.startswith(MAGIC[path.suffix[1:]])
@@ -81,13 +86,26 @@ def test_drawing_leaves_nothing_behind(context):
     assert dict(mpl.rcParams) == before
 
 
-def test_figures_can_be_chosen_and_keep_their_numbers(context, tmp_path):
-    numbers = {spec.name: spec.number for spec in figures.catalogue(context.record, context)}
+def test_a_figure_is_called_by_what_it_shows_with_the_number_of_the_source(context, tmp_path):
+    numbers = context.companion.numbers
     paths = figures.write(context.record, tmp_path, ["solid", "structure"], ("json",), context=context)
-    assert [json.loads(path.read_text())["figure"] for path in paths] == [
-        numbers["solid"],
-        numbers["structure"],
-    ]
+    assert [path.name for path in paths] == ["solid.json", "structure.json"]
+    for path in paths:
+        found = json.loads(path.read_text())
+        assert found["figure"] == numbers.get(path.stem)
+        assert (f"Compare Figure {found['figure']} of the source." in found["caption"]) == (path.stem in numbers)
+
+
+def test_a_figure_is_drawn_without_asking_which_others_there_are(monkeypatch, tmp_path):
+    def asked(_):
+        raise AssertionError("asked whether there is another figure")
+
+    context = figures.Context(assur.load("fivebar"))
+    others = tuple(dataclasses.replace(item, missing=asked) for item in ENTRIES if item.name != "structure")
+    own = tuple(item for item in ENTRIES if item.name == "structure")
+    monkeypatch.setattr(sys.modules["assur.figures.catalogue"], "ENTRIES", (*others, *own))
+    assert [path.name for path in figures.write(context.record, tmp_path, ["structure"], ("json",), context=context)]
+    assert figures.spec(context.record, "structure", context).caption
 
 
 def test_an_unknown_figure_or_format_writes_nothing(context, tmp_path):

@@ -10,10 +10,9 @@ from assur import figures
 from assur.errors import UsageError
 from assur.figures.index_maps import INDEX_MAPS, drawn, whole
 from assur.figures.style import styled
+from assur.performance.indices import INDICES, Index
 from assur.workspace.index_maps import index_maps
 from assur.workspace.region import workspace
-
-BOUNDED = ("condition", "frobenius", "input_transmission", "output_transmission", "transmission")
 
 
 @lru_cache(maxsize=8)
@@ -30,7 +29,7 @@ def test_every_index_has_a_map_on_the_same_axes(name):
     assert found is whole(context)
     assert drawing.data == found.to_json()
     maps = [axes for axes in drawing.figure.axes if axes.get_xlabel()]
-    assert len(maps) == len(found.maps) == 9
+    assert len(maps) == len(found.maps) == len(INDICES) + 1
     assert len({(axes.get_xlim(), axes.get_ylim(), axes.get_xlabel(), axes.get_ylabel()) for axes in maps}) == 1
     titles = [text.get_text() for text in drawing.figure.texts]
     for item in found.maps.values():
@@ -38,7 +37,7 @@ def test_every_index_has_a_map_on_the_same_axes(name):
     for axes, (key, item) in zip(maps, found.maps.items(), strict=True):
         coloured = [mesh for mesh in axes.collections if mesh.get_array() is not None]
         assert len(coloured) == int(np.any(np.isfinite(item.values)))
-        if key in BOUNDED:
+        if key in INDICES and INDICES[key].power == 0:
             assert coloured[0].get_clim() == (0.0, 1.0)
             assert coloured[0].colorbar.extend == "neither"
         elif coloured:
@@ -71,3 +70,22 @@ def test_the_caption_says_how_far_was_looked_and_what_lengths_are_divided_by():
     assert "within 194 mm" in plain
     assert "characteristic length" not in plain
     assert "characteristic length 200 mm" in mixed
+
+
+def test_an_index_more_is_one_entry_and_its_map_its_title_and_the_caption_follow(monkeypatch):
+    ratio = Index(r"\omega", "a ratio", 0, lambda found: found["condition"] ** 2, unbounded=False)
+    growing = Index(r"\tau", "what grows", 1, lambda found: 2 * found["largest"], unbounded=True)
+    monkeypatch.setitem(INDICES, "ratio", ratio)
+    monkeypatch.setitem(INDICES, "growing", growing)
+    context = figures.Context(shared("fivebar").record, shared("fivebar").workspace)
+    drawing = figures.drawing(context.record, "indices", context)
+    assert list(drawing.data["maps"])[-3:] == ["ratio", "growing", "distance"]
+    titles = [text.get_text() for text in drawing.figure.texts]
+    assert any(title.endswith(r"$\omega$") for title in titles)
+    assert any(title.endswith(r"$\tau$ (mm/rad)") for title in titles)
+    first, second = INDEX_MAPS.caption(context).split(";")[:2]
+    assert r"LTI}$ and $\omega$ lie between" in first
+    assert r"and $\tau$ end at" in second
+    ends = [axes.collections[0].get_clim()[1] for axes in drawing.figure.axes if axes.get_xlabel()]
+    assert ends[-3] == 1.0
+    assert ends[-2] < drawing.data["maps"]["growing"]["most"]["value"]

@@ -10,6 +10,7 @@ import assur
 from assur import figures
 from assur.figures import indices as module
 from assur.figures.indices import MANIPULABILITY, TRANSMISSION, field, whole
+from assur.figures.plane_map import continued
 from assur.figures.singular import symbol_of
 from assur.figures.style import ORANGE, styled
 from assur.performance.indices import INDICES, indices
@@ -61,10 +62,10 @@ def test_the_maps_are_the_indices_at_their_nodes(context, entry, count):
 
 
 def test_the_plane_is_of_two_lengths_where_there_are_two(context):
-    there = field(context)
+    plane = field(context).plane
     lengths = [name for name in context.workspace.box.names if name in ("x", "y", "z")]
-    assert len(lengths) < 2 or set(there.plane) <= set(lengths)
-    assert set(there.plane) | set(there.held) == set(context.workspace.box.names)
+    assert len(lengths) < 2 or set(plane.names) <= set(lengths)
+    assert set(plane.names) | set(plane.held) == set(context.workspace.box.names)
 
 
 def test_shares_lie_between_0_and_1_and_say_what_they_are_divided_by(context):
@@ -128,6 +129,6 @@ def test_no_index_has_the_letter_of_a_factor_a_parameter_or_of_the_coupling_degr
 def test_colours_past_the_border_are_those_of_the_nearest_node():
     values = np.full((3, 4), np.nan)
     values[1, 1], values[1, 3] = 0.25, 0.75
-    filled = module.continued(values)
+    filled = continued(values)
     assert filled[1, 1] == filled[1, 0] == filled[0, 1] == 0.25
     assert filled[1, 3] == filled[2, 3] == 0.75

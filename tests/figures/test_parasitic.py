@@ -22,9 +22,8 @@ def context():
 
 def test_the_map_shows_what_the_formula_says(context):
     found = maps(context)
-    (first, theta), (second, psi) = found.axes
-    assert (first, second, found.held) == ("theta", "psi", {"z": 250.0})
-    across, up = np.meshgrid(theta, psi, indexing="ij")
+    assert (found.plane.names, found.plane.held) == (("theta", "psi"), {"z": 250.0})
+    across, up = np.meshgrid(found.plane.xs, found.plane.ys)
     expected = np.arctan2(np.sin(across) * np.sin(up), np.cos(across) + np.cos(up))
     np.testing.assert_allclose(found.values["phi"], expected, atol=1e-12)
 

@@ -17,16 +17,16 @@ from assur.errors import UnknownNameError
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-    from assur.figures import Context
     from assur.mechanism import Mechanism
 
 
 def outcome(record: Mechanism, output: str, only: Sequence[str], formats: Sequence[str], shared: Shared) -> Outcome:
     """The figures, written; those that the mechanism does not have with the reason."""
     from assur.figures import Context, left_out, write
+    from assur.figures.catalogue import chosen_names
 
     context = Context(record)
-    wanted = _wanted(record, context, only)
+    wanted = chosen_names(record, only, context)
     _check_formats(formats)
     folder = planned_folder(output)
 
@@ -41,28 +41,14 @@ def outcome(record: Mechanism, output: str, only: Sequence[str], formats: Sequen
 def _outcome(
     record: Mechanism, asked: Sequence[str], paths: Sequence[Path], folder: Path, missing: dict[str, str]
 ) -> Outcome:
-    wanted = [name for name in asked if any(path.stem.endswith(f"-{name}") for path in paths)]
+    wanted = [name for name in asked if any(path.stem == name for path in paths)]
     data = {
         "mechanism": record.name,
         "folder": str(folder),
-        "figures": [
-            {"name": name, "files": [str(path) for path in paths if path.stem.endswith(f"-{name}")]} for name in wanted
-        ],
+        "figures": [{"name": name, "files": [str(path) for path in paths if path.stem == name]} for name in wanted],
         "left_out": missing,
     }
     return Outcome(data, lambda: _shown(record, wanted, paths, folder, missing))
-
-
-def _wanted(record: Mechanism, context: Context, only: Sequence[str]) -> list[str]:
-    """Names in the order of the catalogue, all where none are given; looked at before anything is written."""
-    from assur.figures import left_out, names
-
-    known = names(record, context)
-    for name in only:
-        if name not in known:
-            hint = left_out(record, context).get(name, "")
-            raise UnknownNameError(f"figure of {record.name}", name, known, hint=hint)
-    return [name for name in known if not only or name in only]
 
 
 def _check_formats(formats: Sequence[str]) -> None:
@@ -79,7 +65,7 @@ def _shown(
     yield heading(f"{record.name}, {count(len(wanted), 'figure')} in {folder}")
     yield table(
         ("figure", "files"),
-        [(name, "\n".join(path.name for path in paths if path.stem.endswith(f"-{name}"))) for name in wanted],
+        [(name, "\n".join(path.name for path in paths if path.stem == name)) for name in wanted],
         left=("figure", "files"),
     )
     for name, why in missing.items():

@@ -34,7 +34,7 @@ def figures(
 ) -> Outcome:
     """Draw the figures of a mechanism, each also as data.
 
-    Files are named by the number and the name of the figure. An old file is
+    Files are named by what a figure shows: workspace.pdf. An old file is
     replaced whole or not at all.
 
     For example:

@@ -55,6 +55,7 @@ ENTRIES: tuple[Entry, ...] = (
     INDEX_MAPS,
     GRAPH,
 )
+COMPARE = "Compare Figure {} of the source."
 Progress = Callable[[int, int], None]
 """Called with (figures done, figures in all)."""
 
@@ -73,14 +74,14 @@ def catalogue(record: MechanismRecord, context: Context | None = None) -> list[F
 
 
 def spec(record: MechanismRecord, name: str, context: Context | None = None) -> FigureSpec:
-    """Number, title and caption of one figure.
+    """Title and caption of one figure, and the number that it has in the source.
 
     Errors:
         UnknownNameError: the mechanism has no such figure; the hint says why, where there is a reason.
 
     >>> from assur.model.registry import load_record
-    >>> spec(load_record("fivebar"), "solid").number
-    '5'
+    >>> spec(load_record("zeng2019"), "flow").number, spec(load_record("fivebar"), "flow").number
+    ('3', '')
     """
     shared = context or Context(record)
     return _spec(shared, _entry(record, name, shared))
@@ -135,7 +136,7 @@ def write(
     progress: Progress | None = None,
     context: Context | None = None,
 ) -> list[Path]:
-    """Write figures (all, where none are named) as `<number>-<name>.<format>` and return the paths.
+    """Write figures (all, where none are named) as `<name>.<format>` and return the paths.
 
     Errors:
         UnknownNameError: a figure or a format that there is not; nothing is written then.
@@ -151,17 +152,30 @@ def write(
     try:
         for done, entry in enumerate(chosen):
             made = drawing(record, entry.name, shared)
-            stem = f"{_number(shared, entry).lower()}-{entry.name}"
             if progress:
                 progress(done, len(chosen))  # may end it before what is half known is written
             for form in formats:
                 content = _json(record, shared, entry, made) if form == "json" else encoded(made.figure, form)
-                paths.append(write_whole(Path(folder) / f"{stem}.{form}", content))
+                paths.append(write_whole(Path(folder) / f"{entry.name}.{form}", content))
             if progress:
                 progress(done + 1, len(chosen))
     except KeyboardInterrupt:
         raise Interrupted(paths) from None
     return paths
+
+
+def chosen_names(record: MechanismRecord, asked: Sequence[str], context: Context | None = None) -> list[str]:
+    """The figures that are asked for in the order of the catalogue, all where none are; no other one is looked at.
+
+    Errors:
+        UnknownNameError: the mechanism has no such figure; the hint says why, where there is a reason.
+
+    >>> from assur.model.registry import load_record
+    >>> chosen_names(load_record("fivebar"), ["solid", "structure"])
+    ['structure', 'solid']
+    """
+    entries = _chosen(record, context or Context(record), asked or None)
+    return [entry.name for entry in ENTRIES if entry in entries]
 
 
 def _entry(record: MechanismRecord, name: str, context: Context) -> Entry:
@@ -173,37 +187,26 @@ def _entry(record: MechanismRecord, name: str, context: Context) -> Entry:
 
 
 def _spec(context: Context, entry: Entry) -> FigureSpec:
-    return FigureSpec(entry.name, _number(context, entry), entry.title, entry.caption(context))
+    number = context.companion.numbers.get(entry.name, "")
+    caption = entry.caption(context)
+    return FigureSpec(entry.name, number, entry.title, f"{caption} {COMPARE.format(number)}" if number else caption)
 
 
 def _present(context: Context) -> list[Entry]:
     return [entry for entry in ENTRIES if not entry.missing(context)]
 
 
-def _chosen(record: MechanismRecord, context: Context, wanted: Iterable[str] | None) -> list[Entry]:
-    present = _present(context)
-    if wanted is None:
-        return present
-    by_name = {entry.name: entry for entry in present}
-    for name in (asked := list(wanted)):
-        if name not in by_name:
-            why = left_out(record, context).get(name, "")
-            raise UnknownNameError(f"figure of {record.name}", name, by_name, hint=why)
-    return [by_name[name] for name in asked]
-
-
-def _number(context: Context, entry: Entry) -> str:
-    """The source's number, else the place in the mechanism's own order."""
-    own = [item.name for item in _present(context)].index(entry.name) + 1
-    return context.companion.numbers.get(entry.name, str(own))
+def _chosen(record: MechanismRecord, context: Context, asked: Iterable[str] | None) -> list[Entry]:
+    return _present(context) if asked is None else [_entry(record, name, context) for name in asked]
 
 
 def _json(record: MechanismRecord, context: Context, entry: Entry, made: Drawing) -> str:
+    spec = _spec(context, entry)
     head = {
         "mechanism": record.name,
-        "figure": _number(context, entry),
-        "name": entry.name,
-        "title": entry.title,
-        "caption": entry.caption(context),
+        "figure": spec.number or None,
+        "name": spec.name,
+        "title": spec.title,
+        "caption": spec.caption,
     }
     return json_text({**head, **made.data}) + "\n"

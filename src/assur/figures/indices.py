@@ -10,21 +10,16 @@ from dataclasses import dataclass
 from functools import lru_cache, partial
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
-from matplotlib.patches import PathPatch
 from numpy.typing import NDArray
-from scipy.ndimage import distance_transform_edt
 
 from assur.figures.context import Context
-from assur.figures.coordinates import drawn_span, dress, plane_words, symbol, value_words
-from assur.figures.dexterity import SHOWN, beyond, planes
-from assur.figures.plots import mode_words, no_workspace, outline
+from assur.figures.plane_map import COLOURS, SHOWN, MappedPlane, beyond, coloured, plane_of_lengths
+from assur.figures.plots import mode_words, no_workspace
 from assur.figures.spec import Drawing, Entry
-from assur.figures.style import GREY, INK, ORANGE, PAGE, TEXT, new_figure
+from assur.figures.style import ORANGE, PAGE, TEXT, new_figure
 from assur.figures.written import units
-from assur.model.pose import LENGTHS
 from assur.performance.indices import INDICES, Indices
 from assur.performance.overall import OverallIndices, overall
 from assur.performance.transmission import GOOD
@@ -33,22 +28,17 @@ FloatArray = NDArray[np.float64]
 NODES = 48
 POINTS = 2**10
 TALL = 75.0
-COLOURS = "cividis"
 LEVELS = [round(0.1 * k, 1) for k in range(1, 10)]
 TRANSMISSION_MAPS = ("input_transmission", "output_transmission", "transmission")
 JACOBIAN_MAPS = ("condition", "frobenius", "manipulability")
 
 
 @dataclass(frozen=True, eq=False)
-class Field:
-    """Every index at the nodes (rows, columns) of a plane, and the polygons of the workspace in it."""
+class IndexField:
+    """Every index at the nodes (rows, columns) of a plane."""
 
-    plane: tuple[str, str]
-    held: dict[str, float]
-    xs: FloatArray
-    ys: FloatArray
+    plane: MappedPlane
     found: Indices
-    polygons: list[FloatArray]
 
     def shares(self, name: str) -> tuple[FloatArray, float]:
         """An index between 0 and 1, and what it was divided by: 1, or the quantile where a velocity's colours end."""
@@ -61,20 +51,10 @@ class Field:
 
 
 @lru_cache(maxsize=4)
-def field(context: Context) -> Field:
+def field(context: Context) -> IndexField:
     """The indices in the middle plane: through the middle of the box, of two lengths where there are two."""
-    found, box = context.workspace, context.workspace.box
-    chosen = planes(context)
-    first, second, third, level = next((p for p in chosen if p[0] in LENGTHS and p[1] in LENGTHS), chosen[0])
-    xs, ys = (np.linspace(box.low[box.axis(name)], box.high[box.axis(name)], NODES) for name in (first, second))
-    grid = np.zeros((NODES, NODES, len(box.names)))
-    grid[..., box.axis(first)], grid[..., box.axis(second)] = xs, ys[:, None]
-    if third:
-        grid[..., box.axis(third)] = level
-    there = context.indices_at(grid)
-    polygons = found.section(level, third).polygons if third else found.projection(first, second).polygons
-    held = {third: level} if third else {}
-    return Field((first, second), held, xs, ys, there, list(polygons))
+    plane = plane_of_lengths(context, NODES)
+    return IndexField(plane, context.indices_at(plane.points))
 
 
 @lru_cache(maxsize=4)
@@ -115,26 +95,25 @@ def _jacobian_caption(context: Context) -> str:
 
 def _draw(context: Context, names: tuple[str, ...], *, good: bool) -> Drawing:
     there = field(context)
-    wide, tall = (drawn_span(context, name) for name in there.plane)
+    plane, (wide, tall) = there.plane, there.plane.spans
     left, gap, bottom, top, right = 14.0, 6.0, 14.0, 5.0, 20.0
     scale = min(TALL / tall, (PAGE - left - right - gap * (len(names) - 1)) / (len(names) * wide))
     width = left + right + gap * (len(names) - 1) + len(names) * scale * wide
     height = bottom + top + scale * tall
     figure = new_figure(width, height)
-    place = "".join(f", {symbol(name)} = {value_words(context, name, value)}" for name, value in there.held.items())
     data = {}
     for k, name in enumerate(names):
         start = left + k * (scale * wide + gap)
         axes = figure.add_axes((start / width, bottom / height, scale * wide / width, scale * tall / height))
         values, divisor = there.shares(name)
-        _map(context, axes, there, values, good=good)
+        coloured(axes, plane, values, Normalize(0.0, 1.0), levels=LEVELS, marked={GOOD: ORANGE} if good else None)
         if k:
             axes.set_ylabel("")
             axes.tick_params(labelleft=False)
         label = f"({chr(97 + k)}) ${INDICES[name].symbol}$"
         figure.text((start + scale * wide / 2) / width, 1.5 / height, label, ha="center", fontsize=TEXT)
         data[name] = {"values": there.found[name], "divided_by": divisor}
-    figure.text(left / width, 1.0 - 3.5 / height, f"{plane_words(*there.plane)}{place}", fontsize=TEXT)
+    figure.text(left / width, 1.0 - 3.5 / height, plane.words, fontsize=TEXT)
     bar = figure.add_axes(((width - right + 5.0) / width, bottom / height, 3.5 / width, scale * tall / height))
     end = beyond(1.0, *(there.shares(name)[0] for name in names))
     scale_bar = figure.colorbar(ScalarMappable(Normalize(0.0, 1.0), COLOURS), cax=bar, extend=end)
@@ -144,41 +123,14 @@ def _draw(context: Context, names: tuple[str, ...], *, good: bool) -> Drawing:
         {
             "unit": context.record.unit,
             "mode": context.workspace.mode,
-            "plane": there.plane,
-            "held": there.held,
-            there.plane[0]: there.xs,
-            there.plane[1]: there.ys,
+            "plane": plane.names,
+            "held": plane.held,
+            plane.names[0]: plane.xs,
+            plane.names[1]: plane.ys,
             "characteristic_length": there.found.length,
             "maps": data,
         },
     )
-
-
-def _map(context: Context, axes: Axes, there: Field, values: FloatArray, *, good: bool) -> None:
-    """Colours and level lines, cut off at the border of the workspace."""
-    dress(context, axes, there.plane)
-    axes.tick_params(color=GREY)
-    path, known = outline(there.polygons), np.isfinite(values)
-    if path is None or not np.any(known):
-        return
-    border = PathPatch(path, facecolor="none", edgecolor=INK, linewidth=0.8, zorder=5)
-    axes.add_patch(border)
-    shown = continued(values)
-    colours = axes.pcolormesh(there.xs, there.ys, shown, cmap=COLOURS, vmin=0.0, vmax=1.0, shading="gouraud")
-    colours.set_clip_path(border)
-    colours.set_rasterized(True)
-    if np.ptp(values[known]) < 1e-6:
-        return
-    axes.contour(there.xs, there.ys, shown, levels=LEVELS, colors="white", linewidths=0.5).set_clip_path(border)
-    if good and np.min(values[known]) < GOOD < np.max(values[known]):
-        line = axes.contour(there.xs, there.ys, shown, levels=[GOOD], colors=ORANGE, linewidths=1.4)
-        line.set_clip_path(border)
-
-
-def continued(values: FloatArray) -> FloatArray:
-    """Values with those of the nearest node where there are none, so that colours reach the border."""
-    nearest = distance_transform_edt(~np.isfinite(values), return_distances=False, return_indices=True)
-    return np.asarray(values[tuple(nearest)])
 
 
 TRANSMISSION = Entry(

@@ -13,7 +13,7 @@ from assur.figures.context import Context
 
 @dataclass(frozen=True)
 class FigureSpec:
-    """A figure that a mechanism has: its name, the number it has in the source or in our order, title and caption."""
+    """A figure that a mechanism has: its name, the number it has in the source ("" for none), title and caption."""
 
     name: str
     number: str

@@ -92,13 +92,15 @@ class Indices:
 class Index:
     """A kind of index: its symbol in LaTeX, what it is in words, its values, and how it counts in `Indices.unit`.
 
-    `power` is 1 for a velocity factor, 0 for a number between 0 and 1; the product of all factors has None.
+    `power` is 1 for a velocity factor, 0 for a number between 0 and 1; the product of all factors has None. `unbounded`
+    says that it grows without bound towards a parallel singularity.
     """
 
     symbol: str
     meaning: str
     power: int | None
     of: Callable[[Indices], FloatArray]
+    unbounded: bool = False
 
     def unit(self, found: Indices) -> str:
         """Its unit, as "mm/rad" or "(mm/rad)^2"; "" for a number."""
@@ -130,8 +132,11 @@ INDICES: Mapping[str, Index] = {
         "manipulability, the product of the velocity factors",
         None,
         lambda found: np.prod(found.velocity_factors, axis=-1),
+        unbounded=True,
     ),
-    "largest": Index(r"\sigma_{\max}", "largest velocity factor", 1, lambda found: found.velocity_factors[..., 0]),
+    "largest": Index(
+        r"\sigma_{\max}", "largest velocity factor", 1, lambda found: found.velocity_factors[..., 0], unbounded=True
+    ),
     "smallest": Index(r"\sigma_{\min}", "smallest velocity factor", 1, lambda found: found.velocity_factors[..., -1]),
     "input_transmission": Index(
         r"\mathrm{ITI}",

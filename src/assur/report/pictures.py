@@ -24,9 +24,7 @@ def pictures(context: figures.Context, name: str) -> tuple[Picture, ...]:
     figure = figures.draw(context.record, name, context)
     width, height = (round(float(size) * CSS_INCH * ENLARGED) for size in figure.get_size_inches())
     png = _with_palette(figures.encoded(figure, "png", DOTS_PER_INCH))
-    drawn = context.companion.numbers.get(name)
-    caption = f"{spec.caption} Compare Figure {drawn} of the source." if drawn else spec.caption
-    return (Picture(spec.name, "", spec.title, caption, png, width, height),)
+    return (Picture(spec.name, "", spec.title, spec.caption, png, width, height),)
 
 
 def _with_palette(png: bytes) -> bytes:
