@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import json
+import re
 import sys
 from pathlib import Path
 from types import SimpleNamespace
@@ -137,3 +138,18 @@ def test_a_mark_is_replaced_and_a_block_of_python_ends_without_a_blank_line(exte
     found = extension("made").fill(text, ROOT)
     assert found.startswith("```python\n>>> 1\n1\n```\n\n```sh\nassur list\n```\n\n```text\ncli\n")
     assert "<!--" not in found
+
+
+# ---- the table of indices ----------------------------------------------------------------------------------
+
+
+def test_the_table_of_indices_has_a_row_for_each_with_what_it_is(extension):
+    from assur.performance.indices import INDICES
+
+    page = (ROOT / "docs" / "indices.md").read_text(encoding="utf-8")
+    assert page.count("<!-- made: indices -->") == 1
+    head, line, *rows = extension("index_table").markdown(ROOT).splitlines()
+    cells = [[cell.strip() for cell in re.split(r"(?<!\\)\|", row)[1:-1]] for row in (head, line, *rows)]
+    assert {len(row) for row in cells} == {6}
+    assert [row[0] for row in cells[2:]] == [*(f"`{name}`" for name in INDICES), "`distance`"]
+    assert all(row[1] and row[3] and row[4] for row in cells[2:])

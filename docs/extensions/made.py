@@ -1,7 +1,7 @@
 """What the pages hold that is made at build time: a comment `<!-- made: NAME WORDS -->` is replaced by Markdown.
 
 `gallery`: the figures of a mechanism. `notebook`: a notebook with its outputs. `packages`: every module and its idea.
-`layers`: the order of imports.
+`layers`: the order of imports. `indices`: the table of indices.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import gallery
+import index_table
 import notebook
 import packages
 from sphinx.application import Sphinx
@@ -20,6 +21,7 @@ MAKERS: dict[str, Callable[..., str]] = {
     "notebook": notebook.markdown,
     "packages": packages.markdown,
     "layers": packages.layers,
+    "indices": index_table.markdown,
 }
 """Each takes the root of the checkout and the words after its name."""
 

@@ -6,9 +6,7 @@ import csv
 import dataclasses
 import io
 import json
-import re
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -20,13 +18,6 @@ from assur.performance.indices import INDICES, indices, indices_at
 from assur.singularity.distance import distance
 from assur.workspace.index_maps import index_maps
 from assur.workspace.region import workspace
-
-PAGE = Path(__file__).parents[2] / "docs" / "indices.md"
-
-
-def test_the_page_names_every_index():
-    rows = re.findall(r"^\| `(\w+)` \|", PAGE.read_text(encoding="utf-8"), re.M)
-    assert rows == [*INDICES, "distance"]
 
 
 @cache

@@ -92,6 +92,7 @@ class Indices:
 class Index:
     """A kind of index: its symbol in LaTeX, what it is in words, its values, and how it counts in `Indices.unit`.
 
+    `formula` is in letters, `zero` and `one` are what these values mean, and `source` where the index comes from.
     `power` is 1 for a velocity factor, 0 for a number between 0 and 1; the product of all factors has None. `unbounded`
     says that it grows without bound towards a parallel singularity.
     """
@@ -101,6 +102,10 @@ class Index:
     power: int | None
     of: Callable[[Indices], FloatArray]
     unbounded: bool = False
+    formula: str = ""
+    zero: str = "nothing special"
+    one: str = "nothing special"
+    source: str = ""
 
     def unit(self, found: Indices) -> str:
         """Its unit, as "mm/rad" or "(mm/rad)^2"; "" for a number."""
@@ -125,33 +130,82 @@ def _frobenius(found: Indices) -> FloatArray:
 
 
 INDICES: Mapping[str, Index] = {
-    "condition": Index(r"1/\kappa(J)", "local condition index: 0 singular, 1 isotropic", 0, _condition),
-    "frobenius": Index(r"1/\kappa_F(J)", "the same with the Frobenius norm", 0, _frobenius),
+    "condition": Index(
+        r"1/\kappa(J)",
+        "local condition index: 0 singular, 1 isotropic",
+        0,
+        _condition,
+        formula="c = s_r / s₁ = 1/κ₂",
+        zero="singular",
+        one="isotropic: the same in all directions",
+        source="Salisbury and Craig 1982; Gosselin and Angeles 1991",
+    ),
+    "frobenius": Index(
+        r"1/\kappa_F(J)",
+        "the same with the Frobenius norm",
+        0,
+        _frobenius,
+        formula="c_F = r / (‖J‖_F ‖J⁻¹‖_F)",
+        zero="singular",
+        one="isotropic",
+        source="Angeles, Fundamentals of Robotic Mechanical Systems",
+    ),
     "manipulability": Index(
         r"\mu",
         "manipulability, the product of the velocity factors",
         None,
         lambda found: np.prod(found.velocity_factors, axis=-1),
         unbounded=True,
+        formula="μ = √det(J Jᵀ) = s₁ s₂ ... s_r",
+        zero="the ellipsoid is flat",
+        source="Yoshikawa 1985",
     ),
     "largest": Index(
-        r"\sigma_{\max}", "largest velocity factor", 1, lambda found: found.velocity_factors[..., 0], unbounded=True
+        r"\sigma_{\max}",
+        "largest velocity factor",
+        1,
+        lambda found: found.velocity_factors[..., 0],
+        unbounded=True,
+        formula="s₁",
+        zero="no motion",
     ),
-    "smallest": Index(r"\sigma_{\min}", "smallest velocity factor", 1, lambda found: found.velocity_factors[..., -1]),
+    "smallest": Index(
+        r"\sigma_{\min}",
+        "smallest velocity factor",
+        1,
+        lambda found: found.velocity_factors[..., -1],
+        formula="s_r",
+        zero="serial singularity",
+    ),
     "input_transmission": Index(
         r"\mathrm{ITI}",
         "least input transmission index: how well inputs drive their limbs",
         0,
         lambda found: np.min(found.transmission.inputs, axis=-1),
+        formula="least of |$ᵢ ∘ $ₜ| / |$ᵢ ∘ $ₜ|max over the inputs",
+        zero="an input does not drive its limb",
+        one="every input drives its limb fully",
+        source="Wang, Wu and Liu 2010",
     ),
     "output_transmission": Index(
         r"\mathrm{OTI}",
         "least output transmission index: how well limbs drive the platform",
         0,
         lambda found: np.min(found.transmission.outputs, axis=-1),
+        formula="least of |$ₜ ∘ $ₒ| / |$ₜ ∘ $ₒ|max over the inputs",
+        zero="a limb does not drive the platform",
+        one="all drive it fully",
+        source="Wang, Wu and Liu 2010",
     ),
     "transmission": Index(
-        r"\mathrm{LTI}", "local transmission index, the least of all", 0, lambda found: found.transmission.local
+        r"\mathrm{LTI}",
+        "local transmission index, the least of all",
+        0,
+        lambda found: found.transmission.local,
+        formula="the least of both kinds",
+        zero="singular",
+        one="all motion and force are transmitted",
+        source="Wang, Wu and Liu 2010",
     ),
 }
 """Every index by its name, in the order in which they are printed."""
