@@ -57,11 +57,11 @@ def check(
 
 
 def _of_closed_form(record: Any, deep: bool) -> tuple[Any, ...]:
-    """What a closed form claims and the joint graph denies; one that is built in is held to the same by the tests."""
-    from assur.kinematics.contract.check import closed_form_problems
+    """What a closed form claims and the joint graph denies; at places, one that is built in is held so by the tests."""
+    from assur.kinematics.contract.check import closed_form_problems, exact_problems
     from assur.kinematics.contract.held import DEEP, IN_FULL
 
-    return closed_form_problems(record, DEEP if deep else IN_FULL, built_in=deep)
+    return closed_form_problems(record, DEEP if deep else IN_FULL, built_in=deep) or exact_problems(record)
 
 
 def _unproved(record: Any) -> list[str]:
@@ -71,6 +71,22 @@ def _unproved(record: Any) -> list[str]:
 
     own = record.closed_form is not None and not is_built_in(record)
     return list(unproved(record)) if own else []
+
+
+def _exact(record: Any) -> dict[str, Any] | None:
+    """What exact arithmetic says of the formulas of a closed form."""
+    from assur.kinematics.contract.exact import exactness
+
+    if record.closed_form is None:
+        return None
+    exact = exactness(record)
+    return {
+        "proved": exact.proved,
+        "any_dimensions": exact.general if exact.proved else None,
+        "error": exact.error if exact.proved else None,
+        "guards_left_out": exact.guarded,
+        "because": exact.undecided,
+    }
 
 
 def _summary(record: Any) -> dict[str, Any]:
@@ -86,6 +102,7 @@ def _summary(record: Any) -> dict[str, Any]:
         "closed_form": record.closed_form is not None,
         "closed_form_checked": record.closed_form is not None and not is_built_in(record),
         "closed_form_not_run": record.closed_form_not_run,
+        "exact": _exact(record),
         "unproved": _unproved(record),
     }
 
@@ -130,6 +147,8 @@ def _shown(data: dict[str, Any], problems: list[Any], notes: list[Any], then: st
         yield "a closed form stands beside it"
     else:
         yield "no closed form: it is solved on its joint graph"
+    if facts["exact"]:
+        yield Verbatim(_exact_text(facts["exact"]))
     if facts["unproved"]:
         yield Verbatim(
             f"note: by the way it is made it is not known of {count(len(facts['unproved']), 'divisor or radicand')} "
@@ -138,3 +157,11 @@ def _shown(data: dict[str, Any], problems: list[Any], notes: list[Any], then: st
     yield from (Verbatim(f"note: {note}") for note in notes)
     if then:
         yield Verbatim(then)
+
+
+def _exact_text(exact: dict[str, Any]) -> str:
+    if not exact["proved"]:
+        return f"note: its formulas were held at places only, not in exact arithmetic: {exact['because']}"
+    special = "" if exact["any_dimensions"] else "with these dimensions "
+    guards = " but where numbers below 1e-25 that are added to others count" if exact["guards_left_out"] else ""
+    return f"{special}the formulas close the joint graph: exact{guards}, error < 1e-15"

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from assur.joints.steps import STILL, UNTURNED
 from assur.model.mechanism import Joint, MechanismRecord
+from assur.model.written import NumberReading
 from assur.numerics.sparse_vectors import Matrix, Vector
 
 FloatArray = NDArray[np.float64]
@@ -77,6 +78,29 @@ def geometry(record: MechanismRecord) -> Geometry:
     """
     joints = {name: joint_geometry(joint) for name, joint in record.joints.items()}
     return Geometry(joints, _point(record.platform.point), _plain(characteristic_length(record)))
+
+
+def written_geometry(record: MechanismRecord, reading: NumberReading) -> Geometry:
+    """The dimensions of a record over any number type, by their formulas; the length is 1.
+
+    >>> import math
+    >>> from assur.model.registry import load_record
+    >>> reading = NumberReading({"g": 70.0, "l1": 100.0, "l2": 194.0}, math, float)
+    >>> written_geometry(load_record("fivebar"), reading).joints["A1"].at
+    (-70.0, 0, 0)
+    """
+    joints = {name: _written_joint(joint, reading) for name, joint in record.joints.items()}
+    point = record.platform.written
+    return Geometry(joints, point.vector(reading) if point else STILL, 1)
+
+
+def _written_joint(joint: Joint, reading: NumberReading) -> JointGeometry:
+    own = joint.written
+    if own is None:
+        raise ValueError(f"no formulas of joint {joint.name}")
+    advance = reading.value(own.pitch) / (2 * reading.functions.pi) if own.pitch else 0
+    axes = own.units(reading, joint.type.directions)
+    return JointGeometry(own.at.vector(reading), own.child_at.vector(reading), axes, own.turn(reading), advance)
 
 
 @lru_cache(maxsize=256)

@@ -18,6 +18,7 @@ from assur.joints.joint_type import JointType
 from assur.model.closed_form import ClosedForm
 from assur.model.file.description import Description
 from assur.model.formula import Formula
+from assur.model.written import WrittenJoint, WrittenVector
 
 FloatArray = NDArray[np.float64]
 
@@ -61,6 +62,7 @@ class Joint:
         limits: one (low, high) per component, None where there is none.
         cone, cone_axis: an S joint's largest tilt in rad of this axis (3,), fixed in both links and the same
             in both frames at value zero.
+        written: the formulas of at, child_at, axes, turn and pitch.
     """
 
     name: str
@@ -77,6 +79,7 @@ class Joint:
     cone: float | None = None
     meaning: str = ""
     cone_axis: FloatArray | None = None
+    written: WrittenJoint | None = None
 
     @cached_property
     def turned(self) -> bool:
@@ -86,12 +89,13 @@ class Joint:
 
 @dataclass(frozen=True, eq=False)
 class Platform:
-    """The moving platform: its point O' and the coordinates that count as its pose."""
+    """The moving platform: its point O', with its formulas, and the coordinates that count as its pose."""
 
     link: str
     point: FloatArray
     pose: tuple[str, ...]
     orientation: Literal["constant", "any"]
+    written: WrittenVector | None = None
 
 
 @dataclass(frozen=True)

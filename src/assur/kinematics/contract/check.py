@@ -8,6 +8,7 @@ import numpy as np
 
 from assur.errors import MechanismFileError, Problem, cut
 from assur.kinematics.contract.dimensions import of_file
+from assur.kinematics.contract.exact import exactness
 from assur.kinematics.contract.held import (
     AT_LOAD,
     EXTENTS,
@@ -71,6 +72,17 @@ def closed_form_problems(
     return found
 
 
+def exact_problems(record: MechanismRecord) -> tuple[Problem, ...]:
+    """What of a closed form, built in or not, exact arithmetic denies.
+
+    >>> from assur.model.registry import load_record
+    >>> exact_problems(load_record("fivebar"))
+    ()
+    """
+    mismatches = exactness(record).mismatches if record.closed_form else ()
+    return tuple(_problem(record, item) for item in mismatches)
+
+
 def unproved(record: MechanismRecord) -> tuple[str, ...]:
     """Divisors and radicands of which the way they are made does not show that they mean something.
 
@@ -110,6 +122,9 @@ def problems(record: MechanismRecord, extent: Extent = AT_LOAD) -> tuple[tuple[P
         found, general = at_places(record, extent), False
         if not found:
             found, general = at_other_dimensions(record, extent)
+        if not found:
+            exact = exactness(record)
+            found, general = list(exact.mismatches), general and (exact.general or bool(exact.undecided))
         if not found and extent.formulas:
             found = of_formulas(record, extent)
     parts = {(item.part, item.name): item for item in reversed(found)}

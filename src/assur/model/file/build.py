@@ -139,7 +139,7 @@ def _platform(file: schema.FileEntry, scope: Scope, geometry: Geometry) -> Platf
     if names - set(LENGTHS) and entry.orientation == "constant":
         scope.faults.add(path, "a coordinate that turns", "allowed with constant orientation: x, y, z")
     point = geometry.vector(entry.point, ("platform", "point"))
-    return Platform(link or "", point, entry.pose, entry.orientation)
+    return Platform(link or "", point, entry.pose, entry.orientation, geometry.written(entry.point))
 
 
 def _box(file: schema.FileEntry, numbers: Numbers) -> dict[str, tuple[float, float]]:

@@ -1,8 +1,9 @@
-"""Joints from their entries: points, axes, limits, with every formula evaluated."""
+"""Joints from their entries: points, axes, limits, with every formula evaluated and kept."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,21 +12,24 @@ from assur.joints.catalogue import JOINT_TYPES
 from assur.model.file import schema
 from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Instance, Placed
-from assur.model.file.numbers import Numbers, Triple
+from assur.model.file.numbers import KindError, Numbers, Triple, kind_of
 from assur.model.file.scope import Scope
+from assur.model.formula import Formula, parse
 from assur.model.mechanism import Joint
-from assur.numerics import rotations
+from assur.model.written import LimbTurn, NumberReading, WrittenJoint, WrittenVector, in_degrees, is_zero, share_of_turn
+from assur.numerics.sparse_vectors import Vector
 
 FloatArray = NDArray[np.float64]
 SMALL = 1e-9
 
 
 class Geometry:
-    """Vectors of the file: numbers from formulas, turned where they belong to a repeated limb."""
+    """Vectors of the file, turned where they belong to a repeated limb: their formulas, and the floats of these."""
 
     def __init__(self, file: schema.FileEntry, numbers: Numbers) -> None:
         self.numbers = numbers
         self._turns: dict[str, FloatArray] = {}
+        self._limbs: dict[str, LimbTurn] = {}
         for name, limb in file.limbs.items():
             if limb.repeat:
                 self._place(name, limb.repeat)
@@ -38,13 +42,43 @@ class Geometry:
         if repeat.angles:
             given = enumerate(repeat.angles)
             angles = [self.numbers.angle(angle, (*path, "angles", index)) for index, angle in given]
+            formulas = [self._angle(angle) for angle in repeat.angles]
         else:
             count = repeat.count or 1
-            angles = [2 * math.pi * index / count for index in range(count)]
+            formulas = [share_of_turn(index, count) for index in range(count)]
+            angles = [float(formula.evaluate({}, math)) for formula in formulas]
         self._check_apart(angles, (*path, "angles"))
-        for index, angle in enumerate(angles):
-            turn = rotations.about_axis(axis, np.array(angle))
-            self._turns[Instance(limb, index + 1).prefix] = turn
+        for index, formula in enumerate(formulas):
+            turn, prefix = LimbTurn(repeat.about, formula), Instance(limb, index + 1).prefix
+            sound = np.all(np.isfinite([*axis, angles[index]]))
+            self._limbs[prefix] = turn
+            self._turns[prefix] = np.array(turn.matrix(self.reading), dtype=float) if sound else np.full((3, 3), np.nan)
+
+    @property
+    def reading(self) -> NumberReading:
+        """Formulas as floats."""
+        return NumberReading(self.numbers.values, math, float)
+
+    def _angle(self, formula: Formula) -> Formula:
+        """An angle of the file as one in rad."""
+        try:
+            plain = kind_of(formula.root, self.numbers.kinds) == "plain"
+        except (KindError, KeyError):  # a fault already noted
+            plain = False
+        return in_degrees(formula) if plain and self.numbers.angle_unit == "deg" else formula
+
+    def written(self, components: Triple, instance: Instance | None = None) -> WrittenVector:
+        """The formulas of a vector."""
+        return WrittenVector(components, self._limbs.get(instance.prefix) if instance else None)
+
+    def written_axis(self, components: Triple, instance: Instance | None = None) -> WrittenVector:
+        """The formulas of an axis; of one along an axis of the frame its sense alone."""
+        along = [k for k, part in enumerate(components) if not is_zero(part)]
+        if len(along) == 1 and components[along[0]].names <= self.numbers.values.keys():
+            parts = [parse("0")] * 3
+            parts[along[0]] = parse("1" if self.reading.value(components[along[0]]) > 0 else "-1")
+            components = parts[0], parts[1], parts[2]
+        return self.written(components, instance)
 
     def _check_apart(self, angles: list[float], path: KeyPath) -> None:
         """No two limbs at one place."""
@@ -56,17 +90,24 @@ class Geometry:
 
     def vector(self, components: Triple, path: KeyPath, instance: Instance | None = None) -> FloatArray:
         """A point (3,)."""
-        return self.turned(self.numbers.vector(components, path), instance)
+        return self._read(self.numbers.vector(components, path), self.written(components, instance).vector, instance)
 
     def axis(self, components: Triple, path: KeyPath, instance: Instance | None = None) -> FloatArray:
         """A unit vector (3,)."""
-        return self.turned(self.numbers.axis(components, path), instance)
+        return self._read(self.numbers.axis(components, path), self.written_axis(components, instance).unit, instance)
 
     def turned(self, vector: FloatArray, instance: Instance | None) -> FloatArray:
         """A vector (3,) of a template, as it is in one of its limbs."""
-        result = self._turns[instance.prefix] @ vector if instance else vector
-        result.flags.writeable = False
-        return result
+        return _frozen(self._turns[instance.prefix] @ vector if instance else vector)
+
+    def _read(
+        self, checked: FloatArray, written: Callable[[NumberReading], Vector], instance: Instance | None
+    ) -> FloatArray:
+        """The floats of a vector; NaN where a fault stands in the way."""
+        if instance:
+            checked = self._turns[instance.prefix] @ checked
+        sound = bool(np.all(np.isfinite(checked)))
+        return _frozen(np.array(written(self.reading) if sound else checked, dtype=float))
 
 
 def build_joint(placed: Placed[schema.AnyJoint], scope: Scope, geometry: Geometry) -> Joint | None:
@@ -101,6 +142,22 @@ def build_joint(placed: Placed[schema.AnyJoint], scope: Scope, geometry: Geometr
         cone=cone,
         cone_axis=cone_axis,
         meaning=entry.meaning,
+        written=_written(placed, geometry),
+    )
+
+
+def _written(placed: Placed[schema.AnyJoint], geometry: Geometry) -> WrittenJoint:
+    """The formulas of a joint's dimensions."""
+    entry, instance = placed.entry, placed.instance
+    axial = isinstance(entry, schema.AxialEntry)
+    axes = (entry.axis,) if axial else entry.axes if isinstance(entry, schema.UniversalEntry) else ()
+    child_axis = entry.child_axis if axial else None
+    return WrittenJoint(
+        geometry.written(entry.at, instance),
+        geometry.written(entry.child_at, instance),
+        tuple(geometry.written_axis(axis, instance) for axis in axes),
+        geometry.written_axis(child_axis, instance) if child_axis else None,
+        entry.pitch if isinstance(entry, schema.HelicalEntry) else None,
     )
 
 
@@ -115,7 +172,7 @@ def _axes(placed: Placed[schema.AnyJoint], geometry: Geometry) -> tuple[FloatArr
             hint = "two parallel axes are one freedom: use a revolute"
             geometry.numbers.faults.add((*path, "axes"), "two parallel axes", "allowed: two that are not", hint)
         return np.array(pair), np.eye(3)
-    written = geometry.numbers.axis(entry.axis, (*path, "axis"))
+    written = geometry.axis(entry.axis, (*path, "axis"))
     # What is made of it is made in the template, so that joint values mean the same in every limb.
     made = JOINT_TYPES[entry.type].directions([tuple(written.tolist())])
     axes = np.array([geometry.turned(np.array(direction), instance) for direction in made])
@@ -128,7 +185,7 @@ def _axes(placed: Placed[schema.AnyJoint], geometry: Geometry) -> tuple[FloatArr
         hint = "turn the child's frame so that child_axis is the axis itself, and leave child_axis out"
         geometry.numbers.faults.add((*path, "child_axis"), "the opposite of `axis`", allowed, hint)
         return axes, np.eye(3)
-    return axes, rotations.taking(child_axis, axis)
+    return axes, np.array(_written(placed, geometry).turn(geometry.reading), dtype=float)
 
 
 def _limits(placed: Placed[schema.AnyJoint], numbers: Numbers) -> tuple[tuple[float, float] | None, ...]:
@@ -167,3 +224,8 @@ def _cone(placed: Placed[schema.AnyJoint], geometry: Geometry) -> tuple[FloatArr
         found = f'"{cone.angle.text}"'
         geometry.numbers.faults.add((*path, "angle"), found, "allowed: above 0, up to half a turn")
     return geometry.axis(cone.axis, (*path, "axis"), placed.instance), angle
+
+
+def _frozen(array: FloatArray) -> FloatArray:
+    array.flags.writeable = False
+    return array

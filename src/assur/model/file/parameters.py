@@ -10,11 +10,12 @@ import networkx as nx
 
 from assur.errors import UnknownNameError, UsageError
 from assur.model.file.faults import Faults
-from assur.model.file.numbers import AngleUnit, Kind, Numbers
+from assur.model.file.numbers import AngleUnit, Kind, Numbers, kind_of
 from assur.model.file.schema import ParameterEntry
 from assur.model.file.values import ANGLE_UNITS
 from assur.model.formula import Formula, parse
-from assur.model.mechanism import Parameter
+from assur.model.mechanism import MechanismRecord, Parameter
+from assur.model.written import in_degrees
 
 ALLOWED = {
     "positive": "a positive number",
@@ -59,6 +60,23 @@ def evaluate_parameters(
         found[name] = Parameter(name, value, entry.meaning, own_units[name], entry.sign, entry.drawn_only)
         numbers.values[name] = found[name].inside
     return {name: found[name] for name in entries if name in found}, numbers
+
+
+def parameter_formulas(record: MechanismRecord) -> dict[str, Formula]:
+    """What each parameter is, as a formula; angles in rad, and a value that replaces the file's as its decimals.
+
+    >>> from assur.model.registry import load_record
+    >>> parameter_formulas(load_record("orthoglide"))["L"].text
+    'cube / (1/sqrt(6) + 1/sqrt(18))'
+    """
+    entries = record.description.entry.parameters if record.description else {}
+    kinds = {name: _kind(item.unit, record.unit) for name, item in record.parameters.items()}
+    formulas = {name: _formula(name, entry, record.overrides) for name, entry in entries.items()}
+    plain = {name for name, formula in formulas.items() if kind_of(formula.root, kinds) == "plain"}
+    return {
+        name: in_degrees(formula) if name in plain and record.parameters[name].unit == "deg" else formula
+        for name, formula in formulas.items()
+    }
 
 
 def checked_overrides(

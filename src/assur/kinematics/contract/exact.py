@@ -1,0 +1,246 @@
+"""The formulas of a closed form held against the joint graph in exact arithmetic, everywhere at once.
+
+Dimensions and poses, or inputs, are drawn from a prime field; see `assur.numerics.residues`. What holds there is an
+identity of formulas, but for an error whose probability the degrees of the formulas bound.
+"""
+
+from __future__ import annotations
+
+import math
+import secrets
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import MechanismFileError
+from assur.kinematics.contract.claims import Claim, DrawnProblem, Rates
+from assur.kinematics.contract.mismatch import Mismatch
+from assur.kinematics.modes import Problem
+from assur.kinematics.status import closed_form_of
+from assur.model.mechanism import MechanismRecord
+from assur.numerics.degrees import Degree, Degrees
+from assur.numerics.prime_field import SMALLEST, PrimeField
+from assur.numerics.residues import Draws, Residues, raised
+
+IntArray = NDArray[np.int64]
+DRAWS = 2048
+"""At once: roots of roots exist at half of them."""
+LEAST = 8
+"""So many of them are looked at for motions, which take longest, or as many as bring the error below `ENOUGH`."""
+ENOUGH = 1e-24
+TIED = "the root of a formula's square has either sign: write the formula itself, where its sign is known"
+SURE = 1e-15
+"""An error with a probability below this is none."""
+
+
+@dataclass(frozen=True)
+class Exactness:
+    """What exact arithmetic says of a closed form.
+
+    Attributes:
+        mismatches: what does not hold, of the first claim that is broken.
+        error: bound on the probability that something does not hold and was not seen.
+        general: whether it holds with any dimensions.
+        guarded: whether numbers like 1e-30 that keep divisors from being zero were left out.
+        undecided: why nothing is said, if so.
+    """
+
+    mismatches: tuple[Mismatch, ...] = ()
+    error: float = 0.0
+    general: bool = True
+    guarded: bool = False
+    undecided: str = ""
+
+    @property
+    def proved(self) -> bool:
+        """Whether everything holds, but for an error that is none."""
+        return not self.mismatches and not self.undecided
+
+
+@lru_cache(maxsize=64)
+def exactness(record: MechanismRecord) -> Exactness:
+    """Whether the formulas close the joint graph, with any dimensions or with those of the record.
+
+    >>> from assur.model.registry import load_record
+    >>> exactness(load_record("fivebar")).proved
+    True
+    """
+    general = _exactness(record, general=True)
+    if general.proved:
+        return general
+    own = _exactness(record, general=False)
+    return own if own.proved or own.mismatches or not general.undecided else general
+
+
+def _exactness(record: MechanismRecord, general: bool) -> Exactness:
+    random = np.random.default_rng(secrets.randbits(64))
+    error, guarded = 0.0, False
+    for problem in problems_by_formulas(record):
+        try:
+            trial = Trial(record, problem, general, random)
+            broken = trial.mismatch()
+        except (ArithmeticError, TypeError, ValueError, AttributeError, MechanismFileError) as reason:
+            # dimensions that are drawn may divide by zero, and Python that was let run may know floats alone
+            return Exactness(undecided=f"{type(reason).__name__}: {reason}", general=general)
+        if broken:
+            return Exactness((broken,), general=general)
+        error, guarded = error + trial.error, guarded or trial.draws.guarded
+    unsure = f"the degrees of its formulas leave an error of {error:.0e}" if error >= SURE else ""
+    return Exactness((), error, general, guarded, unsure)
+
+
+def problems_by_formulas(record: MechanismRecord) -> tuple[Problem, ...]:
+    """The problems whose branches are formulas.
+
+    >>> from assur.model.registry import load_record
+    >>> problems_by_formulas(load_record("planar_3rrr"))
+    ('inverse',)
+    """
+    return ("inverse", "direct") if callable(closed_form_of(record).direct) else ("inverse",)
+
+
+class Trial:
+    """Draws of one problem, and how sure what they say is."""
+
+    def __init__(self, record: MechanismRecord, problem: Problem, general: bool, random: np.random.Generator) -> None:
+        self.record, self.problem, self.general = record, problem, general
+        self.draws = Draws(PrimeField.drawn(random), DRAWS, random)
+        self.question = DrawnProblem(record, problem, self.draws, general)
+        self.degrees = DrawnProblem(record, problem, Degrees(self.draws.roots), general)
+        self.error = 0.0
+
+    def mismatch(self) -> Mismatch | None:
+        """The first claim that is broken; the error is known afterwards."""
+        return (
+            self._broken(self.question.claims(), self.degrees.claims())
+            or self._wrong_rates()
+            or self._broken(self.question.determinants(), self.degrees.determinants())
+        )
+
+    def _broken(self, claims: Iterator[Claim], degrees: Iterator[Claim]) -> Mismatch | None:
+        for claim, own in zip(claims, degrees, strict=True):
+            wrong = np.zeros(DRAWS, dtype=bool)
+            for number in claim.numbers:
+                wrong |= self._wrong(number)
+            wrong &= self.draws.sound
+            if np.any(wrong):
+                text = f"{claim.text} {self._where(wrong, self._sound)}"
+                name = claim.name or self._label(wrong, claim.part)
+                return Mismatch(claim.part, name, self.problem, text, claim.allowed, self._hint)
+            self._missed(max(map(_bound, own.numbers), default=0.0), self._sound)
+        return None
+
+    @property
+    def _sound(self) -> int:
+        return int(np.sum(self.draws.sound))
+
+    def _missed(self, degree: float, draws: int) -> None:
+        """Note how likely a claim that is broken was not seen."""
+        self.error += self._unlike(degree * DRAWS / max(self._sound, 1)) ** draws  # given that all roots exist
+
+    def _unlike(self, degree: float) -> float:
+        """At what share of draws a polynomial, not zero for some signs of tied roots, may vanish."""
+        return 1 - 2.0**-self.draws.tied * (1 - min(1.0, degree / SMALLEST))
+
+    def _wrong(self, number: Any) -> NDArray[np.bool_]:
+        if isinstance(number, Residues):
+            return ~np.broadcast_to(number.zero(), (DRAWS,))
+        return np.full(DRAWS, number != 0)
+
+    def _where(self, wrong: NDArray[np.bool_], draws: int) -> str:
+        which = "random dimensions" if self.general else "the dimensions of the file"
+        return (
+            f"in the {self.problem} problem, with {which} and in exact arithmetic modulo {self.draws.field.p}: "
+            f"at {int(np.sum(wrong))} of {draws} draws"
+        )
+
+    @property
+    def _hint(self) -> str:
+        """What a magnitude is in exact arithmetic."""
+        return TIED if self.draws.tied else ""
+
+    def _label(self, wrong: NDArray[np.bool_], part: str) -> str:
+        """The mode of a branch that is wrong."""
+        first = int(np.argmax(wrong))
+        signs = [sign.re[first] for sign in self.question.signs.values()]
+        return "".join("+" if sign == 1 else "-" for sign in signs) if part == "branch" else ""
+
+    def _wrong_rates(self) -> Mismatch | None:
+        rates, degrees = self.question.rates(), self.degrees.rates()
+        rows = sorted((_row(row) for row in (*degrees.closure, *degrees.relation)), key=lambda row: -row[0])
+        rows = rows[: len(degrees.relation[0]) + 1]  # of a minor
+        roots = len(frozenset().union(*(own for _, own in rows)))
+        degree = sum(own for own, _ in rows) * 2.0**roots
+        needed = math.log(ENOUGH) / math.log(max(self._unlike(degree), 1e-9)) if self._unlike(degree) < 1 else DRAWS
+        kept = np.flatnonzero(self.draws.sound)[: max(LEAST, math.ceil(needed))]
+        for line, wrong in enumerate(unexplained(self.draws, rates, kept), 1):
+            if np.any(wrong):
+                text = f"row {line} of Jp v = Jq qdot is wrong for a motion of the joint graph "
+                text += self._where(wrong, len(kept))
+                allowed = "every motion of the joint graph must obey it"
+                return Mismatch("Jp and Jq", f"row {line}", self.problem, text, allowed, self._hint)
+        self._missed(degree, len(kept))
+        return None
+
+
+def _bound(number: Any) -> float:
+    return number.bound if isinstance(number, Degree) else 0.0
+
+
+def _row(numbers: Sequence[Any]) -> tuple[float, frozenset[object]]:
+    """Degree of the numerators of a row over a common denominator, and its roots."""
+    total: Any = 0
+    for number in numbers:
+        total = number + total if isinstance(number, Degree) else total
+    return (total.over, total.roots) if isinstance(total, Degree) else (0.0, frozenset())
+
+
+def unexplained(draws: Draws, rates: Rates, kept: NDArray[np.intp]) -> list[NDArray[np.bool_]]:
+    """At which draws (D,) a row of the relation is no combination of the rows of the closure, row by row.
+
+    Gauss's elimination; a draw at which a pivot vanishes that others have is left out.
+    """
+    p = draws.field.p
+    columns = len(rates.closure[0]) if rates.closure else len(rates.relation[0])
+    rows = [_numbers(draws, row, kept) for row in (*rates.closure, *rates.relation)]
+    re, im = (np.stack([row[part] for row in rows]) for part in (0, 1))  # (rows, columns, draws)
+    free, count = list(range(len(rates.closure))), len(rates.closure)
+    sound = draws.sound[kept].copy()
+    for column in range(columns):
+        filled = np.sum((re[free, column] != 0) | (im[free, column] != 0), axis=-1) if free else np.zeros(0)
+        if not free or not np.any(filled):
+            continue
+        pivot = free.pop(int(np.argmax(filled)))
+        a, b = re[pivot, column], im[pivot, column]
+        size = (a * a + b * b) % p  # zero for zero alone
+        sound &= size != 0
+        over = raised(size, p - 2, p)
+        inverse = a * over % p, -b * over % p
+        line = _times((re[pivot], im[pivot]), inverse, p)
+        others = [*free, *range(count, len(rows))]
+        busy = [row for row in others if np.any(re[row, column]) or np.any(im[row, column])]
+        if busy:
+            factor = re[busy, column][:, None, :], im[busy, column][:, None, :]
+            away = _times(factor, (line[0][None], line[1][None]), p)
+            re[busy], im[busy] = (re[busy] - away[0]) % p, (im[busy] - away[1]) % p
+    left = (re[count:] != 0) | (im[count:] != 0)
+    return [np.any(row, axis=0) & sound for row in left]
+
+
+def _numbers(draws: Draws, row: Sequence[Any], kept: NDArray[np.intp]) -> tuple[IntArray, IntArray]:
+    """A row's residues (columns, draws), real and imaginary parts."""
+    re, im = np.zeros((2, len(row), len(kept)), dtype=np.int64)
+    for k, number in enumerate(row):
+        own = number if isinstance(number, Residues) else draws.number(number)
+        re[k] = own.re[kept] if len(own.re) > 1 else own.re
+        if own.im is not None:
+            im[k] = own.im[kept] if len(own.im) > 1 else own.im
+    return re, im
+
+
+def _times(a: tuple[IntArray, IntArray], b: tuple[IntArray, IntArray], p: int) -> tuple[IntArray, IntArray]:
+    return (a[0] * b[0] - a[1] * b[1]) % p, (a[0] * b[1] + a[1] * b[0]) % p

@@ -1,0 +1,166 @@
+"""Prime fields F_p whose quadratic extension F_p(i) holds roots of all residues, and the usual roots of unity.
+
+The prime is drawn, 2^30 < p < 2^31, so that no number of a formula can be written to vanish modulo it; p + 1 is a
+multiple of `ORDER`. So -1 has no root in F_p, every residue has one in F_p(i), and the unit circle
+a^2 + b^2 = 1 of F_p holds the cosines and sines of all multiples of a turn over `ORDER`. Roots of rationals are made of
+these (Gauss sums), as over real numbers: the root of 3 is twice the cosine of 30 deg.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+ORDER = 50_400
+"""2^5 3^2 5^2 7: shares of a turn with which tenths and quarters of degrees, and regular polygons, are written."""
+SMALLEST = 2**30
+"""Of the primes; below twice that the sum of two products of residues is an integer of 64 bits."""
+WITNESSES = (2, 3, 5, 7)
+"""Bases of Miller and Rabin that tell every prime below 3 215 031 751."""
+SIMPLE = 2.0**-51
+"""Share of a float within which it may be another number, rounded once or twice, as 0.1 + 0.2 is."""
+TRIED = 1000
+"""Prime factors of a radicand up to this are looked for; what is left is taken as one."""
+
+
+class NoResidueError(ArithmeticError):
+    """A number that has no residue: its denominator is a multiple of the prime."""
+
+
+@lru_cache(maxsize=4096)
+def simplest(number: float) -> Fraction:
+    """The simplest rational that a float may stand for, among its continued fraction's convergents.
+
+    >>> simplest(6 / 7), simplest(0.1 + 0.2), simplest(-0.5)
+    (Fraction(6, 7), Fraction(3, 10), Fraction(-1, 2))
+    """
+    exact = Fraction(number)
+    allowed = abs(exact) * Fraction(SIMPLE)
+    rest, before, last = exact, (0, 1), (1, 0)
+    while True:
+        whole = math.floor(rest)
+        before, last = last, (whole * last[0] + before[0], whole * last[1] + before[1])
+        convergent = Fraction(*last)
+        if abs(convergent - exact) <= allowed:
+            return convergent
+        rest = 1 / (rest - whole)
+
+
+@dataclass(frozen=True, eq=False)
+class PrimeField:
+    """A prime p, and a residue of the unit circle whose multiples are the turns over `ORDER`.
+
+    Attributes:
+        p: the prime.
+        turn: cosine and sine of a turn over `ORDER`.
+    """
+
+    p: int
+    turn: tuple[int, int]
+
+    @staticmethod
+    def drawn(random: np.random.Generator) -> PrimeField:
+        """One of the some four thousand primes.
+
+        >>> field = PrimeField.drawn(np.random.default_rng(0))
+        >>> (field.p + 1) % ORDER, field.cosine_and_sine(Fraction(1, 4))
+        (0, (0, 1))
+        """
+        while True:
+            p = ORDER * int(random.integers(SMALLEST // ORDER + 1, 2 * SMALLEST // ORDER)) - 1
+            if _is_prime(p):
+                break
+        while True:
+            a, b = (int(part) for part in random.integers(1, p, size=2))
+            size = pow(a * a + b * b, -1, p)
+            on_circle = (a * a - b * b) * size % p, 2 * a * b * size % p  # z / conjugate of z
+            turn = _power(on_circle, (p + 1) // ORDER, p)
+            if all(_power(turn, ORDER // prime, p) != (1, 0) for prime in (2, 3, 5, 7)):
+                quarter = _power(turn, ORDER // 4, p)[1]  # 1 or -1: a quarter of a turn is to have the sine 1
+                return PrimeField(p, (turn[0], turn[1] * quarter % p))
+
+    def cosine_and_sine(self, turns: Fraction) -> tuple[int, int]:
+        """Of an angle that is a multiple of a turn over `ORDER`, given in turns."""
+        share = turns * ORDER
+        if share.denominator != 1:
+            raise NoResidueError(f"an angle of {turns} turns")
+        return _power(self.turn, share.numerator % ORDER, self.p)
+
+    def residue(self, number: Fraction) -> int:
+        """The residue of a rational."""
+        if number.denominator % self.p == 0:
+            raise NoResidueError(str(number))
+        return number.numerator * pow(number.denominator, -1, self.p) % self.p
+
+    def root(self, number: Fraction) -> tuple[int, int]:
+        """The root of a rational: what stands for the positive one, i times it where the rational is negative."""
+        rest, real, imaginary = abs(number.numerator * number.denominator), 1, 0
+        outer = 1
+        for prime in range(2, TRIED):
+            while rest % (prime * prime) == 0:
+                rest, outer = rest // (prime * prime), outer * prime
+            if rest % prime == 0:
+                rest //= prime
+                real, imaginary = self._times((real, imaginary), self._prime_root(prime))
+        whole = math.isqrt(rest)
+        if whole * whole == rest:
+            outer *= whole
+        else:
+            real, imaginary = self._times((real, imaginary), self._prime_root(rest))
+        factor = self.residue(Fraction(outer, number.denominator))
+        real, imaginary = real * factor % self.p, imaginary * factor % self.p
+        return (-imaginary % self.p, real) if number < 0 else (real, imaginary)
+
+    def _times(self, a: tuple[int, int], b: tuple[int, int]) -> tuple[int, int]:
+        return _product(a, b, self.p)
+
+    def _prime_root(self, prime: int) -> tuple[int, int]:
+        p = self.p
+        if prime not in self._roots:
+            if prime == 2:
+                root = 2 * self.cosine_and_sine(Fraction(1, 8))[0] % p, 0
+            elif prime in (3, 5, 7):  # Gauss sums
+                part = 1 if prime % 4 == 3 else 0
+                characters = {a: 1 if pow(a, (prime - 1) // 2, prime) == 1 else -1 for a in range(1, prime)}
+                terms = (sign * self.cosine_and_sine(Fraction(a, prime))[part] for a, sign in characters.items())
+                root = sum(terms) % p, 0
+            else:
+                own = pow(prime, (p + 1) // 4, p)
+                root = (own, 0) if own * own % p == prime % p else (0, own)
+            self._roots[prime] = root
+        return self._roots[prime]
+
+    @cached_property
+    def _roots(self) -> dict[int, tuple[int, int]]:
+        return {}
+
+
+def _product(a: tuple[int, int], b: tuple[int, int], p: int) -> tuple[int, int]:
+    return (a[0] * b[0] - a[1] * b[1]) % p, (a[0] * b[1] + a[1] * b[0]) % p
+
+
+def _power(base: tuple[int, int], exponent: int, p: int) -> tuple[int, int]:
+    result = (1, 0)
+    for digit in bin(exponent)[2:]:
+        result = _product(result, result, p)
+        if digit == "1":
+            result = _product(result, base, p)
+    return result
+
+
+def _is_prime(number: int) -> bool:
+    """Miller and Rabin's test, which is a proof for numbers of this size."""
+    odd, twos = number - 1, 0
+    while odd % 2 == 0:
+        odd, twos = odd // 2, twos + 1
+    for witness in WITNESSES:
+        value = pow(witness, odd, number)
+        if value in (1, number - 1):
+            continue
+        if not any((value := value * value % number) == number - 1 for _ in range(twos - 1)):
+            return False
+    return True
