@@ -34,8 +34,8 @@ def check(
     inputs determine it, whether pose, orientation and limits are as stated.
     Last, a closed form of your own is held against the joint graph: loops,
     velocities, factors, names of modes, ends of branches, completeness at a few
-    problems, what it divides by and draws roots of. Exit code 3: there is a
-    fault.
+    problems, what it divides by and draws roots of; and any closed form in exact
+    arithmetic. Exit code 3: there is a fault.
 
     For example:
         assur check my.toml

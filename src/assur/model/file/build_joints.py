@@ -149,9 +149,12 @@ def build_joint(placed: Placed[schema.AnyJoint], scope: Scope, geometry: Geometr
 def _written(placed: Placed[schema.AnyJoint], geometry: Geometry) -> WrittenJoint:
     """The formulas of a joint's dimensions."""
     entry, instance = placed.entry, placed.instance
-    axial = isinstance(entry, schema.AxialEntry)
-    axes = (entry.axis,) if axial else entry.axes if isinstance(entry, schema.UniversalEntry) else ()
-    child_axis = entry.child_axis if axial else None
+    axes: tuple[Triple, ...] = ()
+    child_axis: Triple | None = None
+    if isinstance(entry, schema.AxialEntry):
+        axes, child_axis = (entry.axis,), entry.child_axis
+    elif isinstance(entry, schema.UniversalEntry):
+        axes = tuple(entry.axes)
     return WrittenJoint(
         geometry.written(entry.at, instance),
         geometry.written(entry.child_at, instance),
