@@ -30,7 +30,7 @@ from assur.numerics.drawn_angles import DrawnAngle, InexactError
 from assur.numerics.sparse_vectors import Matrix, Vector, minus, plus, times
 
 
-class Drawing(Protocol):
+class DrawnNumbers(Protocol):
     """A namespace whose numbers are drawn."""
 
     def number(self, value: Any) -> Any:
@@ -67,7 +67,7 @@ class Drawing(Protocol):
 
 
 @dataclass(frozen=True)
-class Claim:
+class Vanishing:
     """Numbers that must vanish.
 
     Attributes:
@@ -102,7 +102,7 @@ class DrawnProblem:
         general: whether the dimensions are drawn too; else they are those of the record.
     """
 
-    def __init__(self, record: MechanismRecord, problem: Problem, ns: Drawing, general: bool) -> None:
+    def __init__(self, record: MechanismRecord, problem: Problem, ns: DrawnNumbers, general: bool) -> None:
         self.record, self.problem, self.ns, self.form = record, problem, ns, closed_form_of(record)
         names = _dimensions(record, ns, general)
         self.geometry: Geometry = written_geometry(record, NumberReading(names, ns, ns.number))
@@ -128,7 +128,7 @@ class DrawnProblem:
             raise InexactError("a direct problem that is no formula")
         return self.form.direct(ns, self.p, given, signs)
 
-    def claims(self) -> Iterator[Claim]:
+    def claims(self) -> Iterator[Vanishing]:
         """Loops, the platform's pose, inputs, and at poses the equations of the direct problem."""
         yield from self._loops()
         yield from self._platform()
@@ -136,7 +136,7 @@ class DrawnProblem:
         if self.problem == "inverse":
             yield from self._equations()
 
-    def _loops(self) -> Iterator[Claim]:
+    def _loops(self) -> Iterator[Vanishing]:
         for name, given in self.rotations.items():
             own = of_quaternion(*self.state[name])
             yield self._joint(name, "its matrix is no rotation", _differences(given, own))
@@ -151,7 +151,7 @@ class DrawnProblem:
             text = f"the loop does not close at joint {joint.name}"
             yield self._of_branch(text, "every branch must close all loops", (*distance, *_differences(turn, UNTURNED)))
 
-    def _platform(self) -> Iterator[Claim]:
+    def _platform(self) -> Iterator[Vanishing]:
         rotation, point = self.configuration.platform
         given = dict(zip(self.record.platform.pose, self.branch.pose, strict=True))
         for k, name in enumerate(LENGTHS):
@@ -169,13 +169,13 @@ class DrawnProblem:
             return rotation
         return rotation[0], rotation[1], (0, *rotation[2][1:])
 
-    def _inputs(self) -> Iterator[Claim]:
+    def _inputs(self) -> Iterator[Vanishing]:
         for item, value in zip(self.record.inputs, self.branch.inputs, strict=True):
             own = self._values(self.configuration.graph.joint(item.coordinate.joint), item.coordinate.component)
             pairs = zip(own, value if isinstance(value, tuple) else (value,), strict=True)
             yield self._agreement(f"input {item.name}", tuple(minus(a, b) for a, b in pairs))
 
-    def determinants(self) -> Iterator[Claim]:
+    def determinants(self) -> Iterator[Vanishing]:
         """Both determinants; last, as factors that divide neither may have roots that exist at few draws."""
         jp, jq = self.form.jacobians(self.ns, self.p, self.branch.core)
         factors = self.form.factors(self.ns, self.p, self.branch.core)
@@ -188,16 +188,16 @@ class DrawnProblem:
                     product = times(product, factors[item.name])
             allowed = f"{label} must be the product of the factors of kind '{kind}'"
             text = f"{label} is not the product of its factors"
-            yield Claim("factor", "", text, allowed, (minus(_determinant(matrix), product),))
+            yield Vanishing("factor", "", text, allowed, (minus(_determinant(matrix), product),))
 
-    def _equations(self) -> Iterator[Claim]:
+    def _equations(self) -> Iterator[Vanishing]:
         direct, ns = self.form.direct, self.ns
         pose = dict(zip(self.record.platform.pose, self.branch.pose, strict=True))
         allowed = "every pose must solve the equations of the direct problem"
         if isinstance(direct, PolynomialSystem):
             unknowns = direct.lift(ns, self.p, self.branch.pose)
             for k, value in enumerate(direct.equations(ns, self.p, self.branch.inputs, unknowns), 1):
-                yield Claim(
+                yield Vanishing(
                     "branch", "", f"equation {k} is not zero at a pose that has these inputs", allowed, (value,)
                 )
         elif isinstance(direct, Eliminant) and not direct.signs and direct.unknown in pose:
@@ -206,7 +206,7 @@ class DrawnProblem:
             for factor in reversed(direct.coefficients(ns, self.p, self.branch.inputs)):
                 total = factor + t * total
             text = f"the polynomial in {direct.unknown} is not zero at a pose that has these inputs"
-            yield Claim("branch", "", text, allowed, (total,))
+            yield Vanishing("branch", "", text, allowed, (total,))
 
     def rates(self) -> Rates:
         """The velocity equation of the kernel, beside the closure of the joint graph."""
@@ -256,18 +256,19 @@ class DrawnProblem:
         numbers = joint.type.numbers(self.state[joint.name])
         return next(own for name, own in zip(joint.type.components, numbers, strict=True) if name == component)
 
-    def _of_branch(self, text: str, allowed: str, numbers: Sequence[Any]) -> Claim:
-        return Claim("branch", "", text, allowed, tuple(numbers))
+    def _of_branch(self, text: str, allowed: str, numbers: Sequence[Any]) -> Vanishing:
+        return Vanishing("branch", "", text, allowed, tuple(numbers))
 
-    def _joint(self, name: str, text: str, numbers: Sequence[Any]) -> Claim:
-        return Claim("joint", name, text, "a joint's value", tuple(numbers))
+    def _joint(self, name: str, text: str, numbers: Sequence[Any]) -> Vanishing:
+        allowed = "every joint's value must be a length, an angle or a rotation"
+        return Vanishing("joint", name, text, allowed, tuple(numbers))
 
-    def _agreement(self, what: str, numbers: Sequence[Any]) -> Claim:
+    def _agreement(self, what: str, numbers: Sequence[Any]) -> Vanishing:
         text = f"{what} is not what the joint values say"
-        return Claim("branch", "", text, "pose, inputs and joints must agree", tuple(numbers))
+        return Vanishing("branch", "", text, "pose, inputs and joints must agree", tuple(numbers))
 
 
-def _dimensions(record: MechanismRecord, ns: Drawing, general: bool) -> dict[str, Any]:
+def _dimensions(record: MechanismRecord, ns: DrawnNumbers, general: bool) -> dict[str, Any]:
     """What parameters are: drawn, or by their formulas; angles as angles."""
     if general:
         return {
@@ -283,12 +284,12 @@ def _dimensions(record: MechanismRecord, ns: Drawing, general: bool) -> dict[str
     return values
 
 
-def _plain(ns: Drawing, value: Any) -> Any:
+def _plain(ns: DrawnNumbers, value: Any) -> Any:
     """A dimension as a kernel takes it: an angle is a number of its own, as no formula of a kernel has its cosine."""
     return ns.uniform() if isinstance(value, DrawnAngle) else value
 
 
-def _pose(record: MechanismRecord, ns: Drawing) -> tuple[Any, ...]:
+def _pose(record: MechanismRecord, ns: DrawnNumbers) -> tuple[Any, ...]:
     names = record.platform.pose
     if QUATERNION[0] not in names:
         return tuple(ns.circle() if is_angle(name) else ns.uniform() for name in names)

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import MechanismFileError
-from assur.kinematics.contract.claims import Claim, DrawnProblem, Rates
+from assur.kinematics.contract.claims import Vanishing, DrawnProblem, Rates
 from assur.kinematics.contract.mismatch import Mismatch
 from assur.kinematics.modes import Problem
 from assur.kinematics.status import closed_form_of
@@ -121,7 +121,7 @@ class Trial:
             or self._broken(self.question.determinants(), self.degrees.determinants())
         )
 
-    def _broken(self, claims: Iterator[Claim], degrees: Iterator[Claim]) -> Mismatch | None:
+    def _broken(self, claims: Iterator[Vanishing], degrees: Iterator[Vanishing]) -> Mismatch | None:
         for claim, own in zip(claims, degrees, strict=True):
             wrong = np.zeros(DRAWS, dtype=bool)
             for number in claim.numbers:
