@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import MechanismFileError
-from assur.kinematics.contract.claims import Vanishing, DrawnProblem, Rates
+from assur.kinematics.contract.claims import DrawnProblem, Rates, Vanishing
 from assur.kinematics.contract.mismatch import Mismatch
 from assur.kinematics.modes import Problem
 from assur.kinematics.status import closed_form_of
