@@ -18,7 +18,7 @@ CORE = {path: tree for path, tree in TREES.items() if path.parts[0] != "mechanis
 
 SHARED_CLASS_NAMES = {
     "Answer", "Asked", "Assembly", "Bar", "Body", "Box", "Branch", "Chain", "Configuration", "Decomposition",
-    "Distance", "Drawing", "Edge", "End", "Ends", "Entry", "Equation", "Field", "Formula", "Formulas", "Frame",
+    "Distance", "Drawing", "Edge", "End", "Ends", "Entry", "Equation", "Formula", "Formulas", "Frame",
     "Geometry", "Input", "Joint", "Judged", "Layout", "Letter", "Limb", "Line", "Links", "Loop", "Mark",
     "Measure", "Meeting", "Mobility", "Motion", "Named", "Names", "Part", "Path", "Placed", "Plan", "PocSet",
     "Point", "Program", "Question", "Range", "Reach", "Reading", "Region", "Row", "Scope", "Search", "Section",
