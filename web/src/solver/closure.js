@@ -46,14 +46,18 @@ export function closingSystem(model, values, wanted, weight = 1) {
 
 /** Derivative of the gaps, exact also where loops are open: lengths in units of the model's length, gaps and unknowns. */
 export function closureRows(model, { gaps, derivative }) {
-  const { scale, length } = model;
+  const { count, scale, length } = model;
   return gaps.flatMap(({ turn }, index) => {
-    const rows = derivative.slice(6 * index, 6 * index + 6).map((row) => row.map((value, k) => value * scale[k]));
+    const given = derivative.slice(6 * index, 6 * index + 6);
+    const [, , , x, y, z] = given;
     const rates = vectorRates(toVector(turn));
-    const turned = [0, 3, 6].map((i) =>
-      rows[3].map((value, k) => rates[i] * value + rates[i + 1] * rows[4][k] + rates[i + 2] * rows[5][k]),
-    );
-    return [...rows.slice(0, 3).map((row) => row.map((value) => value / length)), ...turned];
+    const rows = given.map(() => new Float64Array(count));
+    for (let k = 0; k < count; k++)
+      for (let i = 0; i < 3; i++) {
+        rows[i][k] = (given[i][k] * scale[k]) / length;
+        rows[i + 3][k] = (rates[3 * i] * x[k] + rates[3 * i + 1] * y[k] + rates[3 * i + 2] * z[k]) * scale[k];
+      }
+    return rows;
   });
 }
 

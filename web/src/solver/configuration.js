@@ -20,12 +20,12 @@ import { leftJacobian, quaternionOf } from "./rotation.js";
  *   stroke: number[]|null, range: number[]}[], unit: string, home: number[]}} Model balls: first joint value of each
  */
 
-/** The numbers that say where a step stands. */
+/** The numbers that say where a step stands, from the values of its coordinates. */
 const STATE = {
-  turn: (value) => [Math.cos(value), Math.sin(value)],
-  slide: (value) => [value],
-  screw: (value) => [Math.cos(value), Math.sin(value), value],
-  ball: (...vector) => quaternionOf(vector),
+  turn: ([value]) => [Math.cos(value), Math.sin(value)],
+  slide: ([value]) => [value],
+  screw: ([value]) => [Math.cos(value), Math.sin(value), value],
+  ball: quaternionOf,
 };
 
 /** The scene's joint graph, its links as numbers. @returns {Model} */
@@ -56,32 +56,61 @@ export function modelOf(scene) {
 
 /** What the program is given at joint values: where each step stands, then what the rates of ball joints mean. */
 function stateOf(model, values) {
-  const state = model.steps.flatMap(({ kind, first }) => STATE[kind](...values.slice(first, kind === "ball" ? first + 3 : first + 1)));
+  const state = [];
+  for (const { kind, first } of model.steps) state.push(...STATE[kind](values.slice(first, first + 3)));
   for (const first of model.balls) state.push(...leftJacobian(values.slice(first, first + 3)));
   return state;
 }
 
 /**
- * Everything that is asked of joint values; loops need not close.
- * @param {Model} model @param {number[]} values
- * @returns {{gaps: {distance: Numbers, turn: Numbers}[], derivative: Float64Array[], platform: Frame,
- *   moves: Float64Array[], frames: Frame[]}} of each cut joint how far it is from closing its loop, and six rows of rates
- * of that for each joint value, velocities first; the platform at its point, and six rows of its rates, angular
- * velocities first; frames of all links
+ * Everything that is asked of joint values; loops need not close. What is not asked for takes no time.
+ *
+ * It is written row by row into one list, in the order of `assur.page.configuration.matrices`.
  */
-export function configurationAt(model, values) {
-  const [loops, count, links] = [model.cut.length, model.count, model.links.length];
-  const numbers = new Float64Array(12 * (loops + 1 + links) + 6 * count * (loops + 1));
-  model.program(stateOf(model, values), model.dimensions, numbers);
-  let start = 0;
-  const next = (size) => numbers.subarray(start, (start += size));
-  const list = (length, make) => Array.from({ length }, make);
-  const frame = () => ({ turn: next(9), origin: next(3) });
-  return {
-    gaps: list(loops, () => ({ distance: next(3), turn: next(9) })),
-    derivative: list(6 * loops, () => next(count)),
-    platform: frame(),
-    moves: list(6, () => next(count)),
-    frames: list(links, frame),
-  };
+class Configuration {
+  /** @param {Model} model @param {number[]} values */
+  constructor(model, values) {
+    const [loops, count, links] = [model.cut.length, model.count, model.links.length];
+    const sizes = { gap: 12 * loops, derivative: 6 * loops * count, platform: 12, move: 6 * count, frame: 12 * links };
+    let size = 0;
+    this.starts = {};
+    for (const [name, own] of Object.entries(sizes)) [this.starts[name], size] = [size, size + own];
+    Object.assign(this, { loops, count, links, numbers: new Float64Array(size) });
+    model.program(stateOf(model, values), model.dimensions, this.numbers);
+  }
+
+  rows(name, length, width) {
+    const start = this.starts[name];
+    return Array.from({ length }, (_, k) => this.numbers.subarray(start + k * width, start + (k + 1) * width));
+  }
+
+  /** Of each cut joint how far it is from closing its loop. @returns {{distance: Numbers, turn: Numbers}[]} */
+  get gaps() {
+    return this.rows("gap", this.loops, 12).map((row) => ({ distance: row.subarray(0, 3), turn: row.subarray(3) }));
+  }
+
+  /** Six rows for each cut joint: rates of its gap for each joint value, velocities first. @returns {Float64Array[]} */
+  get derivative() {
+    return this.rows("derivative", 6 * this.loops, this.count);
+  }
+
+  /** The platform at its point. @returns {Frame} */
+  get platform() {
+    return frameOf(this.rows("platform", 1, 12)[0]);
+  }
+
+  /** Six rows: rates of the platform for each joint value, angular velocities first. @returns {Float64Array[]} */
+  get moves() {
+    return this.rows("move", 6, this.count);
+  }
+
+  /** Frames of all links. @returns {Frame[]} */
+  get frames() {
+    return this.rows("frame", this.links, 12).map(frameOf);
+  }
 }
+
+const frameOf = (row) => ({ turn: row.subarray(0, 9), origin: row.subarray(9) });
+
+/** @param {Model} model @param {number[]} values @returns {Configuration} */
+export const configurationAt = (model, values) => new Configuration(model, values);

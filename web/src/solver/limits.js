@@ -6,8 +6,8 @@ const SPARE = 1e-9; // rad, or of the model's length: what rounding may make of 
 
 /**
  * @typedef {{kind: "stroke"|"limit", name: string, angle: boolean, low: number, high: number,
- *   value: (values: number[]) => number}} Limit value: angles that are the same after a whole turn are brought near to
- * the middle of their bounds
+ *   value: (values: number[]) => number, counted: (values: number[]) => number}} Limit value: angles that are the same
+ * after a whole turn are brought near to the middle of their bounds; counted: with their turns
  */
 
 /** Every bound of the file. @returns {Limit[]} */
@@ -17,12 +17,12 @@ export function limitsOf(model) {
     const [low, high] = [ends[0] ?? -Infinity, ends[1] ?? Infinity];
     const middle = (low + high) / 2;
     const near = (v) => middle + nearestTurn(value(v) - middle);
-    found.push({ kind, name, angle, low, high, value: turns && Number.isFinite(middle) ? near : value });
+    found.push({ kind, name, angle, low, high, value: turns && Number.isFinite(middle) ? near : value, counted: value });
   };
   for (const { name, index, kind, stroke, counted, sign, offset } of model.inputs)
     if (stroke) add("stroke", name, kind !== "length", kind !== "length" && !counted, stroke, (v) => sign * v[index] + offset);
   for (const joint of model.joints) {
-    if (typeof joint.cone === "number") add("limit", joint.name, true, false, [0, joint.cone], (v) => tilt(joint, v));
+    if (typeof joint.cone === "number") add("limit", joint.name, true, false, [null, joint.cone], (v) => tilt(joint, v));
     (joint.limits || []).forEach((limit, k) => {
       const index = joint.first + k;
       const { kind, counted } = model.coordinates[index];
@@ -42,7 +42,7 @@ export function exceeded(model, values) {
 }
 
 /** How far a ball joint tilts the axis of its cone. */
-export function tilt(joint, values) {
+function tilt(joint, values) {
   const tilted = apply(fromVector(values.slice(joint.first, joint.first + 3)), joint.coneAxis);
   return Math.atan2(norm(cross(tilted, joint.coneAxis)), dot(tilted, joint.coneAxis));
 }

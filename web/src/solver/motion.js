@@ -7,7 +7,7 @@
  */
 
 import { largestGap } from "./closure.js";
-import { tilt } from "./limits.js";
+import { limitsOf } from "./limits.js";
 import { closestApproach, nearAssembly } from "./newton.js";
 import { between, poseOf } from "./pose.js";
 import { looseInput, looseJoint, measuresAt, passage } from "./rates.js";
@@ -161,36 +161,14 @@ export const said = (value) => (value === 0 ? "0" : String(Number(value.toPrecis
 
 /** Strokes and joint limits, each with its margin (negative outside); what is outside at the start may not get worse. */
 function guardsOf(model, start) {
-  const found = [];
-  const bound = (kind, name, value, low, high) => {
-    for (const [end, margin] of [
-      [low, (v) => value(v) - low],
-      [high, (v) => high - value(v)],
-    ]) {
-      if (!Number.isFinite(end)) continue;
-      const text = kind === "stroke" ? `stroke of ${name} ends here` : `limit of joint ${name}`;
+  return limitsOf(model).flatMap(({ kind, name, low, high, counted }) => {
+    const text = kind === "stroke" ? `stroke of ${name} ends here` : `limit of joint ${name}`;
+    const guard = (end, margin) => {
       const slack = Math.max(NOISE * model.length - margin(start), ALMOST * model.length);
-      found.push({ margin, slack, reason: { kind, text, joint: name, amount: end } });
-    }
-  };
-  const number = (value, other) => (value === null || value === undefined ? other : value);
-  for (const item of model.inputs)
-    if (item.stroke)
-      bound(
-        "stroke",
-        item.name,
-        (v) => item.sign * v[item.index] + item.offset,
-        number(item.stroke[0], -Infinity),
-        number(item.stroke[1], Infinity),
-      );
-  for (const joint of model.joints) {
-    if (typeof joint.cone === "number") bound("limit", joint.name, (v) => tilt(joint, v), -Infinity, joint.cone);
-    (joint.limits || []).forEach((limit, k) => {
-      if (limit)
-        bound("limit", joint.name, (v) => v[joint.first + k], number(limit[0], -Infinity), number(limit[1], Infinity));
-    });
-  }
-  return found;
+      return Number.isFinite(end) ? [{ margin, slack, reason: { kind, text, joint: name, amount: end } }] : [];
+    };
+    return [...guard(low, (v) => counted(v) - low), ...guard(high, (v) => high - counted(v))];
+  });
 }
 
 /** Rotation vectors of ball joints kept well below a whole turn, where their rates have no bound; frames stay the same. */
