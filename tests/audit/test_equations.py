@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from assur.audit.configurations import configurations
-from assur.audit.equations import Equation, equation_rows, evaluate, rates_of
+from assur.audit.equations import PrintedEquation, equation_rows, evaluate, rates_of
 from assur.errors import UnknownNameError, UsageError
 from assur.model.formula import parse
 from assur.model.registry import load_record
@@ -15,7 +15,7 @@ RECORD = load_record("zeng2019")
 
 
 def verdict(left, right, unit=1, letters=None):
-    entry = Equation(source="S", printed="p", left=left, right=right, unit=unit, erratum="E1")
+    entry = PrintedEquation(source="S", printed="p", left=left, right=right, unit=unit, erratum="E1")
     (row,) = equation_rows(RECORD, entry, letters or {})
     return row
 

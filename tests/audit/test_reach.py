@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from assur.audit.reach import Range, extreme, range_rows
+from assur.audit.reach import PrintedRange, extreme, range_rows
 from assur.errors import UnknownNameError
 from assur.model.registry import load_record
 
@@ -34,10 +34,10 @@ def test_a_fivebar_reaches_as_far_as_two_circles():
     [("-130", "80", ("ok", "ok")), ("-129", "80", ("wrong", "ok")), ("-131", "79", ("ok", "wrong"))],
 )
 def test_a_range_is_wrong_where_it_cuts_off_what_is_reached(low, high, verdicts):
-    entry = Range(source="S", quantity="x", low=low, high=high)
+    entry = PrintedRange(source="S", quantity="x", low=low, high=high)
     assert tuple(row.verdict for row in range_rows(RECORD, entry)) == verdicts
 
 
 def test_an_unknown_coordinate_is_refused():
     with pytest.raises(UnknownNameError, match="there is: x, y, z"):
-        range_rows(RECORD, Range(source="S", quantity="phi", low="0", high="1"))
+        range_rows(RECORD, PrintedRange(source="S", quantity="phi", low="0", high="1"))

@@ -7,7 +7,7 @@ import pytest
 
 from assur.audit.audit import reference_entry
 from assur.audit.printed import Printed
-from assur.audit.tables import Requirement, Table, TableRow, direct_rows, inverse_rows
+from assur.audit.tables import PrintedTable, Requirement, TableRow, direct_rows, inverse_rows
 from assur.audit.tolerance import tolerances
 from assur.errors import UsageError
 from assur.kinematics.position import direct, inverse
@@ -20,7 +20,7 @@ SOLUTIONS = [solution.pose for solution in direct(RECORD, [float(text) for text 
 
 def table(*lines, given=INPUTS, **more):
     rows = [TableRow(row=str(k), values=tuple(line), erratum="E1") for k, line in enumerate(lines, start=1)]
-    return Table(source="T", given=given, rows=tuple(rows), **more)
+    return PrintedTable(source="T", given=given, rows=tuple(rows), **more)
 
 
 def digits(values, places=4):

@@ -7,7 +7,7 @@ import dataclasses
 import pytest
 
 from assur.audit.audit import reference_of
-from assur.audit.topology import Decomposition, PocSet, decomposition_rows, poc_rows
+from assur.audit.topology import PrintedDecomposition, PrintedPocSet, decomposition_rows, poc_rows
 from assur.errors import UnknownNameError, UsageError
 from assur.model.registry import load_record
 
@@ -19,7 +19,9 @@ NUMBERS = ("freedoms", "inputs", "xi", "delta", "loop_count", "freedom", "kappa"
 
 
 def row_of(poc, link, joints=(), **more):
-    entry = PocSet(source="S", quantity="POC set", printed="p", poc=poc, link=link, joints=joints, erratum="E1", **more)
+    entry = PrintedPocSet(
+        source="S", quantity="POC set", printed="p", poc=poc, link=link, joints=joints, erratum="E1", **more
+    )
     (row,) = poc_rows(RECORD, entry)
     return row
 
@@ -31,7 +33,7 @@ def loops(**changed):
     rest = {"loop_count": "2", "freedom": "3", "kappa": "1"}
     for part in (first, rest):
         part |= {name: value for name, value in changed.items() if name in part}
-    return Decomposition(sources=dict.fromkeys(NUMBERS, "S"), loops=(first, second), **rest)
+    return PrintedDecomposition(sources=dict.fromkeys(NUMBERS, "S"), loops=(first, second), **rest)
 
 
 # ---- POC sets --------------------------------------------------------------------------------------------------
@@ -133,7 +135,7 @@ def test_another_order_of_loops_has_other_numbers_and_the_same_kappa():
     }
     inner = {"name": "L2", "joints": ("C2", "B2", "P2"), "freedoms": "3", "inputs": "1", "xi": "3", "delta": "-1"}
     rest = {"loop_count": "2", "freedom": "3", "kappa": "1"}
-    entry = Decomposition(sources=dict.fromkeys(NUMBERS, "S"), loops=(outer, inner), **rest)
+    entry = PrintedDecomposition(sources=dict.fromkeys(NUMBERS, "S"), loops=(outer, inner), **rest)
     assert {row.verdict for row in decomposition_rows(RECORD, entry)} == {"ok"}
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from assur.certificates import leaves
 from assur.certificates.certificate import certificate
-from assur.certificates.formulas import Formulas
+from assur.certificates.formulas import RegionFormulas
 from assur.certificates.tree import TOKEN
 from assur.errors import OutputError, UsageError
 from assur.model.registry import load_record
@@ -216,7 +216,7 @@ def test_undecided_taken_for_inside_is_caught(monkeypatch):
 
 def test_roots_of_negative_numbers_taken_for_numbers_are_caught(monkeypatch):
     """Without its own margins the root of a negative radicand is what a careless prover would take for zero."""
-    honest = Formulas.over
+    honest = RegionFormulas.over
 
     def careless(rules, box):
         found, real = honest(rules, box)
@@ -225,7 +225,7 @@ def test_roots_of_negative_numbers_taken_for_numbers_are_caught(monkeypatch):
         }
         return whole, np.ones_like(real)
 
-    monkeypatch.setattr(Formulas, "over", careless)
+    monkeypatch.setattr(RegionFormulas, "over", careless)
     assert refused(load_record("zeng2019"), most=300)
 
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from assur.certificates.formulas import Formulas, formulas
+from assur.certificates.formulas import RegionFormulas, formulas
 from assur.certificates.leaves import BLOCK, Leaves
 from assur.mechanism import load
 from assur.model.registry import load_record
@@ -119,5 +119,7 @@ def test_a_factor_with_a_pole_changes_its_sign_without_a_zero():
     for factor, zero in ((lambda x: x + x, True), (lambda x: 1 / x, False), (lambda x: 1 / (x * x + 1), False)):
         recorder = Recorder()
         x = recorder.varying("x")
-        rules = Formulas(Slice(("x",), ("x",), {}), recorder.tape({"margins: m": x * x, "factors: f": factor(x)}), {})
+        rules = RegionFormulas(
+            Slice(("x",), ("x",), {}), recorder.tape({"margins: m": x * x, "factors: f": factor(x)}), {}
+        )
         assert Leaves(rules).vanishes(regular, inside) is zero

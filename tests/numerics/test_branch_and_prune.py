@@ -24,30 +24,30 @@ def test_every_zero_is_found_once_though_it_lies_on_the_borders_of_boxes():
     answer = found_by(cubics, [-4.0, -4.0], [4.0, 4.0])
     expected = sorted(itertools.product([-2.0, 0.0, 1.0], repeat=2))
     assert len(answer.undecided.low) == 0
-    assert sorted(map(tuple, answer.found.middle.round(9) + 0.0)) == expected
-    assert all(answer.found.contains(point).all(axis=1).sum() == 1 for point in expected)
+    assert sorted(map(tuple, answer.isolated.middle.round(9) + 0.0)) == expected
+    assert all(answer.isolated.contains(point).all(axis=1).sum() == 1 for point in expected)
 
 
 def test_inequalities_take_zeros_away():
     answer = found_by(lambda ns, x, labels: (cubics(ns, x, labels)[0], [x[0] - 0.5]), [-4.0, -4.0], [4.0, 4.0])
-    assert sorted(answer.found.middle[:, 0].round(9)) == [1.0] * 3
+    assert sorted(answer.isolated.middle[:, 0].round(9)) == [1.0] * 3
 
 
 def test_labels_tell_the_conditions_apart():
     signs = np.array([1.0, -1.0])
     boxes = Interval.of([[0.0], [0.0]], [[3.0], [3.0]])
     answer = zeros(lambda _, x, label: ([x[0] * signs[label] - 2], []), boxes, np.arange(2), [1.0])
-    assert (answer.labels.tolist(), answer.found.middle.round(9).tolist()) == ([0], [[2.0]])
+    assert (answer.labels.tolist(), answer.isolated.middle.round(9).tolist()) == ([0], [[2.0]])
 
 
 def test_a_double_zero_and_a_curve_of_zeros_are_undecided_and_inside():
     double = found_by(lambda _, x, __: ([x[0] * x[0]], []), [-1.0], [2.0], smallest=1e-4)
-    assert len(double.found.low) == 0
+    assert len(double.isolated.low) == 0
     assert double.undecided.contains(0.0).any()
     curve = found_by(
         lambda _, x, __: ([x[0] * x[0] + x[1] * x[1] - 1] * 2, []), [-2.0, -2.0], [2.0, 2.0], smallest=0.05
     )
-    assert len(curve.found.low) == 0
+    assert len(curve.isolated.low) == 0
     turn = np.linspace(0, 2 * np.pi, 50)
     for point in np.stack([np.cos(turn), np.sin(turn)], axis=-1):
         assert curve.undecided.contains(point).all(axis=1).any()
@@ -55,7 +55,7 @@ def test_a_double_zero_and_a_curve_of_zeros_are_undecided_and_inside():
 
 def test_a_zero_at_which_a_root_vanishes_is_undecided_not_lost():
     answer = found_by(lambda ns, x, __: ([ns.sqrt(x[0])], [x[0]]), [-1.0], [1.0], smallest=1e-3)
-    assert len(answer.found.low) == 0
+    assert len(answer.isolated.low) == 0
     assert answer.undecided.contains(0.0).any()
 
 
@@ -72,7 +72,7 @@ def test_too_many_boxes_are_handed_back():
 
 
 def handed_back(answer):
-    assert len(answer.found.low) == 0
+    assert len(answer.isolated.low) == 0
     assert answer.undecided.contains([1.0, 1.0]).all(axis=1).any()
 
 
@@ -81,8 +81,8 @@ def all_nine() -> bool:
     boxes = Interval.of([[-4.0, -4.0]], [[4.0, 4.0]])
     answer = zeros(cubics, boxes, np.zeros(1, dtype=int), [40.0, 40.0], most=5000, smallest=1e-6)
     points = itertools.product([-2.0, 0.0, 1.0], repeat=2)
-    held = all(answer.found.contains(point).all(axis=1).sum() == 1 for point in points)
-    return held and len(answer.found.low) == 9 and len(answer.undecided.low) == 0
+    held = all(answer.isolated.contains(point).all(axis=1).sum() == 1 for point in points)
+    return held and len(answer.isolated.low) == 9 and len(answer.undecided.low) == 0
 
 
 def test_boxes_with_several_zeros_are_halved():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from assur.numerics.expanded import expand, unknowns
-from assur.numerics.homotopy import End, distinct, rank_gap, solve
+from assur.numerics.homotopy import PathEnd, distinct, rank_gap, solve
 
 WAY = np.exp(0.7j)
 """Turns the start off the real numbers, so that no path meets another one."""
@@ -41,7 +41,7 @@ def nearest(found, wanted):
 def test_roots_of_a_polynomial_of_degree_nine(seed):
     coefficients = np.random.default_rng(seed).normal(size=10)
     ends = solve(*from_roots_of_unity(coefficients))
-    assert np.all(ends.end == End.regular)
+    assert np.all(ends.end == PathEnd.regular)
     assert nearest(values(ends), np.roots(coefficients[::-1])) < 1e-9
 
 
@@ -57,14 +57,14 @@ def test_a_batch_is_the_same_as_its_problems_one_by_one():
 def test_solutions_that_meet_are_found_by_the_end_game_and_called_singular(order):
     coefficients = np.polynomial.polynomial.polyfromroots([0.5] * order + [2.0, -1.0])
     ends = solve(*from_roots_of_unity(coefficients))
-    assert sorted(ends.end.tolist()) == [End.regular] * 2 + [End.singular] * order
-    np.testing.assert_allclose(values(ends)[ends.end == End.singular], 0.5, rtol=0, atol=1e-6)
-    assert nearest(values(ends)[ends.end == End.regular], [2.0, -1.0]) < 1e-9
+    assert sorted(ends.end.tolist()) == [PathEnd.regular] * 2 + [PathEnd.singular] * order
+    np.testing.assert_allclose(values(ends)[ends.end == PathEnd.singular], 0.5, rtol=0, atol=1e-6)
+    assert nearest(values(ends)[ends.end == PathEnd.regular], [2.0, -1.0]) < 1e-9
 
 
 def test_a_solution_at_infinity_is_a_point_as_any_other():
     ends = solve(*from_roots_of_unity([-6.0, 11.0, -6.0, 1.0, 0.0]))
-    assert np.all(ends.end == End.regular)
+    assert np.all(ends.end == PathEnd.regular)
     far = np.abs(ends.x[:, 1]) < 1e-9
     assert np.sum(far) == 1
     assert nearest(values(ends)[~far], [1.0, 2.0, 3.0]) < 1e-9
@@ -76,7 +76,7 @@ def test_two_conics_meet_in_four_points_or_in_two_and_two_at_infinity():
     starts = np.array([[a, b, 1] for a in (1, -1) for b in (1, -1)], dtype=complex)
     ellipses = [x * x + 4 * y * y - 4 * z * z, 4 * x * x + y * y - 4 * z * z]
     ends = solve(expand([a * t + b * (1 - t) for a, b in zip(start, ellipses, strict=True)]), starts)
-    assert np.all(ends.end == End.regular)
+    assert np.all(ends.end == PathEnd.regular)
     np.testing.assert_allclose(np.abs(ends.x[:, :2] / ends.x[:, 2:]), np.sqrt(0.8), rtol=1e-12)
     circles = [x * x + y * y - z * z, (x - z) * (x - z) + y * y - z * z]
     ends = solve(expand([a * t + b * (1 - t) for a, b in zip(start, circles, strict=True)]), starts)
@@ -88,7 +88,7 @@ def test_two_conics_meet_in_four_points_or_in_two_and_two_at_infinity():
 def test_close_solutions_stay_apart():
     roots = np.array([1.0, 1.0 + 1e-4, -0.5, 2.0])
     ends = solve(*from_roots_of_unity(np.polynomial.polynomial.polyfromroots(roots)))
-    assert np.all(ends.end == End.regular)
+    assert np.all(ends.end == PathEnd.regular)
     assert nearest(values(ends), roots) < 1e-9
     assert len(distinct(ends.x)) == 4
 

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from assur.model.registry import load_record
-from assur.singularity.rays import Rays, directions
+from assur.singularity.directions import directions
+from assur.singularity.parallel_factors import ParallelFactors
+from assur.singularity.rays import Brackets, Rays
 
 
 @pytest.mark.parametrize("size", [1, 2, 3])
@@ -21,30 +23,30 @@ def test_directions_are_unit_vectors_and_no_gap_is_wider_than_their_spacing(size
 
 def test_a_crossing_is_bracketed_and_pinned_where_the_factor_vanishes():
     """Down from 238 mm the paper's v falls to zero; from above no factor does."""
-    search = Rays(load_record("zeng2019"), "++-++", [0, 1, 2], "numpy")
+    rays = Rays(ParallelFactors(load_record("zeng2019"), "++-++", [0, 1, 2], "numpy"))
     poses, down = np.array([[0.0, 0.0, 241.0]]), np.array([[[0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]])
-    low, high, _ = search.crossings(poses, down, np.zeros(1), np.full(1, 20.0), 16)
-    assert low[0, 0] < 3.877 < high[0, 0]
-    assert high[0, 0] - low[0, 0] == pytest.approx(20.0 / 16)
-    assert np.isinf(low[0, 1])
-    at = search.pinned(poses, down[:, 0], low[:, 0], high[:, 0])
-    values, there = search.sample(poses + at[:, None] * down[:, 0])
-    assert there.all()
+    first = rays.brackets(poses, down, np.zeros(1), np.full(1, 20.0), 16)
+    assert first.low[0, 0] < 3.877 < first.high[0, 0]
+    assert first.high[0, 0] - first.low[0, 0] == pytest.approx(20.0 / 16)
+    assert np.isinf(first.low[0, 1])
+    length = rays.pinned(poses, down[:, 0], Brackets(first.low[:, 0], first.high[:, 0], first.at_border[:, 0]))
+    values, reached = rays.factors.at(poses + length[:, None] * down[:, 0])
+    assert reached.all()
     assert np.min(np.abs(values)) < 1e-9
 
 
 def test_the_border_is_found_and_what_is_beyond_it_is_out_of_reach():
     record = load_record("fivebar")
-    search = Rays(record, record.modes.default_working, [0, 1], "numpy")
+    rays = Rays(ParallelFactors(record, record.modes.default_working, [0, 1], "numpy"))
     pose, way = np.array([[0.0, 200.0]]), np.array([[0.0, 1.0]])
-    beyond = search.border(pose, way, np.zeros(1), np.full(1, 1000.0))
-    _, there = search.sample(np.concatenate([pose + way * beyond, pose + way * (beyond - 1000.0 / 2**8)]))
-    assert there.tolist() == [False, True]
+    beyond = rays.border(pose, way, np.zeros(1), np.full(1, 1000.0))
+    _, reached = rays.factors.at(np.concatenate([pose + way * beyond, pose + way * (beyond - 1000.0 / 2**8)]))
+    assert reached.tolist() == [False, True]
 
 
 def test_in_a_line_there_are_two_ways():
-    search = Rays(load_record("zeng2019"), "++-++", [2], "numpy")
-    away, which, nearest = search.of(np.array([[0.0, 0.0, 241.0]]), 100.0)
-    assert away[0] == pytest.approx(3.8768, abs=1e-4)
-    assert search.names[which[0]] == "v"
-    assert nearest[0, :2].tolist() == [0.0, 0.0]
+    rays = Rays(ParallelFactors(load_record("zeng2019"), "++-++", [2], "numpy"))
+    lengths, rows, singular = rays.nearest(np.array([[0.0, 0.0, 241.0]]), 100.0)
+    assert lengths[0] == pytest.approx(3.8768, abs=1e-4)
+    assert rays.factors.names[rows[0]] == "v"
+    assert singular[0, :2].tolist() == [0.0, 0.0]

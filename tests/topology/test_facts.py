@@ -8,7 +8,7 @@ import pytest
 
 from assur.topology.counting.coupling import Loop
 from assur.topology.counting.solution_plan import SolutionPlan
-from assur.topology.facts import Known, Limb, RedundantConstraints, Topology
+from assur.topology.facts import Known, LimbFacts, RedundantConstraints, Topology
 from assur.topology.linkages.linkage import Linkage
 from assur.topology.poc import PocSet
 
@@ -17,7 +17,7 @@ REFUSED = Known(PocSet(3, 2, 5), "twists", "a pitch")
 
 
 def topology(**changes):
-    limb = Limb("P[x]", "-P-", 1, Known(PocSet(3, 1, 4), "both"))
+    limb = LimbFacts("P[x]", "-P-", 1, Known(PocSet(3, 1, 4), "both"))
     found = Topology(
         name="",
         title="",
@@ -61,7 +61,7 @@ def test_what_is_read_off_other_facts():
     ],
 )
 def test_routes_agree_where_the_rules_answered_everywhere(known, limbs, agree):
-    found = topology(known=known, limbs=tuple(Limb("P[x]", "-P-", 1, item) for item in limbs))
+    found = topology(known=known, limbs=tuple(LimbFacts("P[x]", "-P-", 1, item) for item in limbs))
     assert found.routes_agree is agree
 
 

@@ -8,7 +8,7 @@ from assur.numerics import rotations
 from assur.scene.companion import companion
 from assur.scene.parts import parts
 from assur.scene.skeleton import skeleton
-from assur.view.drawing import FULL, Drawing, cloud, drawing, places
+from assur.view.drawing import FULL, SolidDrawing, cloud, drawing, places
 from catalogue import each
 
 
@@ -22,7 +22,7 @@ def test_solids_stand_where_the_scene_has_them(name):
     meshes = [(item.shape.mesh(item.colour).corners.reshape(-1, 3), *shape.frames[item.link]) for item in solids]
     wanted = found.scale * np.concatenate([points @ turn.T + origin for points, turn, origin in meshes])
     got = np.concatenate(
-        [cloud(Drawing((item,), (), found.scale), record, home)[item.faces.ravel()] for item in found.solids]
+        [cloud(SolidDrawing((item,), (), found.scale), record, home)[item.faces.ravel()] for item in found.solids]
     )
     assert len(got) == len(wanted)
     for axis in range(3):  # the order differs

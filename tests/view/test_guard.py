@@ -2,7 +2,7 @@
 
 import pytest
 
-from assur.view.guard import Answer, Guard, as_sent, is_everywhere, is_loopback, reached_at
+from assur.view.guard import Guard, RequestAnswer, as_sent, is_everywhere, is_loopback, reached_at
 
 GUARD = Guard("token")
 HOST = ("Host", "127.0.0.1:80")
@@ -17,13 +17,13 @@ def test_every_token_is_another_and_long():
 @pytest.mark.parametrize("path", ["/token/", "/token", "/token/?a=1", "/token?"])
 @pytest.mark.parametrize("host", ["127.0.0.1:80", "localhost:80", "[::1]:80"])
 def test_the_page_is_given_to_who_has_the_token(path, host):
-    assert GUARD.check(path, [("Host", host)], 80).answer is Answer.page
+    assert GUARD.check(path, [("Host", host)], 80).answer is RequestAnswer.page
 
 
 @pytest.mark.parametrize("header", [("Upgrade", "websocket"), ("upgrade", "WebSocket"), ("Sec-WebSocket-Key", "x")])
 def test_a_socket_needs_the_origin_of_the_page(header):
     assert GUARD.check("/token", [HOST, header], 80).why == "origin"
-    assert GUARD.check("/token", [HOST, header, ("Origin", "http://127.0.0.1:80")], 80).answer is Answer.socket
+    assert GUARD.check("/token", [HOST, header, ("Origin", "http://127.0.0.1:80")], 80).answer is RequestAnswer.socket
     assert GUARD.check("/token", [HOST, header, ("Origin", "http://localhost:80")], 80).why == "origin"
 
 
@@ -56,13 +56,13 @@ def test_each_fault_is_named(path, headers, why):
 
 def test_a_link_that_is_followed_from_another_site_opens_the_page():
     sent = [("Sec-Fetch-Site", "cross-site"), ("Sec-Fetch-Mode", "navigate"), ("Sec-Fetch-Dest", "document")]
-    assert GUARD.check("/token/", [HOST, *sent], 80).answer is Answer.page
+    assert GUARD.check("/token/", [HOST, *sent], 80).answer is RequestAnswer.page
 
 
 def test_one_address_of_the_network_is_answered_under_that_address_only():
     guard = Guard.new("192.0.2.7")
     path = f"/{guard.token}/"
-    assert guard.check(path, [("Host", "192.0.2.7:80")], 80).answer is Answer.page
+    assert guard.check(path, [("Host", "192.0.2.7:80")], 80).answer is RequestAnswer.page
     assert guard.check(path, [("Host", "192.0.2.8:80")], 80).why == "host"
 
 
@@ -70,16 +70,16 @@ def test_one_address_of_the_network_is_answered_under_that_address_only():
 def test_every_address_is_answered_under_numbers_never_under_a_name(everywhere):
     guard = Guard.new(everywhere)
     path = f"/{guard.token}/"
-    assert guard.check(path, [("Host", "192.0.2.3:80")], 80).answer is Answer.page
-    assert guard.check(path, [("Host", "[fe80::1]:80")], 80).answer is Answer.page
+    assert guard.check(path, [("Host", "192.0.2.3:80")], 80).answer is RequestAnswer.page
+    assert guard.check(path, [("Host", "[fe80::1]:80")], 80).answer is RequestAnswer.page
     assert guard.check(path, [("Host", "rebound.example:80")], 80).why == "host"
 
 
 def test_port_80_goes_without_saying_and_no_other():
-    assert GUARD.check("/token/", [("Host", "127.0.0.1")], 80).answer is Answer.page
+    assert GUARD.check("/token/", [("Host", "127.0.0.1")], 80).answer is RequestAnswer.page
     assert GUARD.check("/token/", [("Host", "127.0.0.1")], 81).why == "host"
     socket = [("Host", "[::1]"), ("Upgrade", "websocket"), ("Origin", "http://[::1]")]
-    assert GUARD.check("/token", socket, 80).answer is Answer.socket
+    assert GUARD.check("/token", socket, 80).answer is RequestAnswer.socket
     assert GUARD.check("/token", socket, 81).why == "host"
 
 
@@ -95,7 +95,7 @@ def test_a_guard_answers_the_address_of_its_own_server(host, sent):
     """As a browser sends it: in small letters, and short."""
     guard = Guard.new(host)
     assert as_sent(reached_at(host)) == sent
-    assert guard.check(f"/{guard.token}/", [("Host", f"{sent}:8123")], 8123).answer is Answer.page
+    assert guard.check(f"/{guard.token}/", [("Host", f"{sent}:8123")], 8123).answer is RequestAnswer.page
     assert guard.check(f"/{guard.token}/", [("Host", "192.0.2.99:8123")], 8123).why == (
         "" if is_everywhere(host) else "host"
     )

@@ -122,7 +122,7 @@ def test_a_mode_of_the_list_and_a_ghost_become_current(window):
     _wait(lambda: window.snapshot.modes[0] == "++")
     assert window.snapshot.pose == pytest.approx(pose, abs=1e-9)
     _wait(lambda: window.settled > 0)
-    other = window.found["direct"].others[0]
+    other = window.postures["direct"].others[0]
     window._ghost_clicked(0)
     _wait(lambda: window.snapshot.modes[1] == other.label)
     assert window.snapshot.values == pytest.approx(other.values)

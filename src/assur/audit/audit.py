@@ -9,14 +9,14 @@ from typing import Any
 
 from assur.audit.counts import Count, count_rows
 from assur.audit.decoupling import Dependence, dependence_rows
-from assur.audit.equations import Equation, equation_rows
+from assur.audit.equations import PrintedEquation, equation_rows
 from assur.audit.errata import errata
-from assur.audit.reach import Range, range_rows
+from assur.audit.reach import PrintedRange, range_rows
 from assur.audit.reference import Reference, read_reference
 from assur.audit.rows import Audit, Erratum, Row
 from assur.audit.statements import Statement, statement_rows
-from assur.audit.tables import Table, direct_rows, inverse_rows
-from assur.audit.topology import Decomposition, PocSet, decomposition_rows, poc_rows
+from assur.audit.tables import PrintedTable, direct_rows, inverse_rows
+from assur.audit.topology import PrintedDecomposition, PrintedPocSet, decomposition_rows, poc_rows
 from assur.errors import UnknownNameError
 from assur.model.file.schema import Entry
 from assur.model.mechanism import MechanismRecord
@@ -39,14 +39,14 @@ class Kind:
 
 
 KINDS: Mapping[str, Kind] = {
-    "poc": Kind(PocSet, poc_rows),
-    "decomposition": Kind(Decomposition, decomposition_rows),
-    "equation": Kind(Equation, equation_rows, with_letters=True),
+    "poc": Kind(PrintedPocSet, poc_rows),
+    "decomposition": Kind(PrintedDecomposition, decomposition_rows),
+    "equation": Kind(PrintedEquation, equation_rows, with_letters=True),
     "dependence": Kind(Dependence, dependence_rows),
-    "direct": Kind(Table, direct_rows),
-    "inverse": Kind(Table, inverse_rows),
+    "direct": Kind(PrintedTable, direct_rows),
+    "inverse": Kind(PrintedTable, inverse_rows),
     "count": Kind(Count, count_rows),
-    "range": Kind(Range, range_rows),
+    "range": Kind(PrintedRange, range_rows),
 }
 """Array of tables in a reference file -> what it is. Rows come in this order; statements come last."""
 
@@ -94,7 +94,7 @@ def reference_of(record: MechanismRecord) -> Reference:
 
 def reference_entry(record: MechanismRecord, kind: str, source: str) -> Any:
     """The entry of a kind with an address, as the reference data have it: for evidence that needs printed digits."""
-    entries = {getattr(item, "source", ""): item for item in reference_of(record).entries[kind]}
+    entries = {getattr(entry, "source", ""): entry for entry in reference_of(record).entries[kind]}
     if source not in entries:
         raise UnknownNameError(f"{kind} of the reference data of {record.name}", source, entries)
     return entries[source]

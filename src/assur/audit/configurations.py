@@ -56,13 +56,13 @@ def configurations(record: MechanismRecord, seed: int = 0) -> Configurations:
     """
     rng = np.random.default_rng(seed)
     poses = random_poses(record, DRAWN, rng)
-    found = inverse(record, poses)
-    rows, branches = np.nonzero(found.exists & (found.status == Status.regular))
+    solutions = inverse(record, poses)
+    rows, branches = np.nonzero(solutions.exists & (solutions.status == Status.regular))
     if len(rows) < COUNT:
         raise UsageError(f"{record.name}: no {COUNT} regular configurations were found near home")
     chosen = rng.choice(len(rows), size=COUNT, replace=False)
     rows, branches = rows[chosen], branches[chosen]
-    start = found.joints[rows, branches]
+    start = solutions.joints[rows, branches]
     closed = assemble(record, start + rng.normal(size=start.shape) * SHAKE * joint_scales(record))
     kept = closed.closed
     values = closed.values[kept]
@@ -88,7 +88,7 @@ def random_poses(record: MechanismRecord, count: int, rng: np.random.Generator) 
 def joint_scales(record: MechanismRecord) -> FloatArray:
     """Per joint coordinate (n,): 1 rad, or the characteristic length."""
     length = characteristic_length(record)
-    return np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
+    return np.array([length if coordinate.kind == "length" else 1.0 for coordinate in record.coordinates])
 
 
 @lru_cache(maxsize=8)
@@ -101,8 +101,8 @@ def random_assemblies(record: MechanismRecord, inputs: tuple[float, ...], seed: 
     rng = np.random.default_rng(seed)
     start = rng.uniform(-np.pi, np.pi, size=(STARTS, len(record.coordinates))) * joint_scales(record)
     start[:, record.input_indices] = inputs
-    found = assemble(record, start, held=record.input_indices)
-    return np.asarray(found.values[found.closed])
+    assemblies = assemble(record, start, held=record.input_indices)
+    return np.asarray(assemblies.values[assemblies.closed])
 
 
 def null_space(matrix: FloatArray, relative: float = 1e-8) -> FloatArray:

@@ -19,11 +19,11 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Need:
-    """A length that a pose and inputs need (`found`) where the mechanism has another (`wanted`)."""
+    """A length that a pose and inputs need (`needed`) where the mechanism has another (`actual`)."""
 
     name: str
-    found: float
-    wanted: float
+    needed: float
+    actual: float
 
 
 def needs(record: MechanismRecord, pose: FloatArray, inputs: FloatArray) -> tuple[Need, ...]:
@@ -33,7 +33,7 @@ def needs(record: MechanismRecord, pose: FloatArray, inputs: FloatArray) -> tupl
 
     >>> from assur.model.registry import load_record
     >>> row, inputs = np.array([64.6353, 175.6965, 370.1818]), np.array([162.6907, -143.3209, -24.6776])
-    >>> [f"{need.name} {need.found:.2f} {need.wanted:g}" for need in needs(load_record("zeng2019"), row, inputs)]
+    >>> [f"{need.name} {need.needed:.2f} {need.actual:g}" for need in needs(load_record("zeng2019"), row, inputs)]
     ['B1C1 280.00 280', 'B2C2 365.40 280', 'B3C3 230.00 230']
     """
     form = closed_form_of(record)
@@ -44,11 +44,11 @@ def needs(record: MechanismRecord, pose: FloatArray, inputs: FloatArray) -> tupl
     components = border.input_components(record, inputs[None, :])
     pairs = form.constraints(Floats(), record.values, branch.core, components)
     shape = (*(2 for _ in names), 1)
-    found = {name: np.broadcast_to(pair[0], shape).ravel() for name, pair in pairs.items()}
-    wanted = {name: float(np.max(pair[1])) for name, pair in pairs.items()}
-    change = np.sum([(found[name] - wanted[name]) ** 2 for name in pairs], axis=0)
+    lengths = {name: np.broadcast_to(pair[0], shape).ravel() for name, pair in pairs.items()}
+    fixed = {name: float(np.max(pair[1])) for name, pair in pairs.items()}
+    change = np.sum([(lengths[name] - fixed[name]) ** 2 for name in pairs], axis=0)
     best = int(np.argmin(change))
-    return tuple(Need(name, float(found[name][best]), wanted[name]) for name in pairs)
+    return tuple(Need(name, float(lengths[name][best]), fixed[name]) for name in pairs)
 
 
 def broken(
@@ -58,15 +58,15 @@ def broken(
     reasons = [
         f"{failure.meaning} ({failure.quantity} = {failure.value:.4g})" for failure in inverse(record, pose).failures
     ]
-    here = needs(record, pose, inputs)
-    slack = np.zeros(len(here))
+    exact = needs(record, pose, inputs)
+    slack = np.zeros(len(exact))
     for step_pose, step_inputs in _steps(pose_half, inputs_half):
-        there = needs(record, pose + step_pose, inputs + step_inputs)
-        slack += np.abs([near.found - need.found for near, need in zip(there, here, strict=True)])
+        shifted = needs(record, pose + step_pose, inputs + step_inputs)
+        slack += np.abs([near.needed - need.needed for near, need in zip(shifted, exact, strict=True)])
     lengths = [
-        f"|{need.name}| = {need.found:.2f} instead of {need.wanted:g}"
-        for need, room in zip(here, slack, strict=True)
-        if abs(need.found - need.wanted) > room
+        f"|{need.name}| = {need.needed:.2f} instead of {need.actual:g}"
+        for need, room in zip(exact, slack, strict=True)
+        if abs(need.needed - need.actual) > room
     ]
     return "; ".join([*reasons, *([f"needs {', '.join(lengths)}"] if lengths else [])])
 

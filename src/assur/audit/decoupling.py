@@ -37,14 +37,16 @@ def dependence_rows(record: MechanismRecord, entry: Dependence) -> list[Row]:
     if entry.quantity not in record.platform.pose:
         raise UnknownNameError(f"pose coordinate of {record.name}", entry.quantity, record.platform.pose)
     slopes = np.abs(jacobians(record))[:, record.platform.pose.index(entry.quantity)]
-    found = tuple(name for name, slope in zip(names, slopes.max(axis=0), strict=True) if slope > ZERO * slopes.max())
-    holds = set(found) == set(entry.on)
+    influential = tuple(
+        name for name, slope in zip(names, slopes.max(axis=0), strict=True) if slope > ZERO * slopes.max()
+    )
+    holds = set(influential) == set(entry.on)
     return [
         Row(
             source=entry.source,
             quantity=entry.quantity,
             printed=entry.printed,
-            computed=f"depends on {', '.join(found)}",
+            computed=f"depends on {', '.join(influential)}",
             verdict="ok" if holds else "wrong",
             erratum=entry.erratum,
             note=f"partial derivatives at {len(slopes)} random configurations",
@@ -54,8 +56,8 @@ def dependence_rows(record: MechanismRecord, entry: Dependence) -> list[Row]:
 
 def jacobians(record: MechanismRecord) -> FloatArray:
     """dx/dq (N, m, n) at the random configurations, of the pose coordinates by the printed inputs."""
-    here = configurations(record)
-    rotation, origin = frames(record, here.values)[record.platform.link]
+    sampled = configurations(record)
+    rotation, origin = frames(record, sampled.values)[record.platform.link]
     points = rotation @ record.platform.point + origin
     poses = points[:, ["xyz".index(name) for name in record.platform.pose]]
-    return np.array([velocity_map(record, pose, mode).matrix for pose, mode in zip(poses, here.modes, strict=True)])
+    return np.array([velocity_map(record, pose, mode).matrix for pose, mode in zip(poses, sampled.modes, strict=True)])

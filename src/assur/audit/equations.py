@@ -26,7 +26,7 @@ ROUNDING = 1e-8
 """Share of the characteristic length (to the power of the equation's unit) that closing the loops may leave."""
 
 
-class Equation(Entry):
+class PrintedEquation(Entry):
     """left = right: formulas of the joint graph; `unit` is the power of the length in both.
 
     A list of formulas is an equation of vectors. `rate.q` is the time derivative of a quantity q.
@@ -40,20 +40,20 @@ class Equation(Entry):
     erratum: str = ""
 
 
-def equation_rows(record: MechanismRecord, entry: Equation, letters: Letters) -> list[Row]:
+def equation_rows(record: MechanismRecord, entry: PrintedEquation, letters: Letters) -> list[Row]:
     """One row: the largest difference of the two sides, over configurations and components."""
     if len(entry.left) != len(entry.right):
         raise UsageError(f"{entry.source}: {len(entry.left)} formulas on the left, {len(entry.right)} on the right")
-    here = configurations(record)
+    sampled = configurations(record)
     gaps = [
-        evaluate(record, left, here.values, here.rates, letters)
-        - evaluate(record, right, here.values, here.rates, letters)
+        evaluate(record, left, sampled.values, sampled.rates, letters)
+        - evaluate(record, right, sampled.values, sampled.rates, letters)
         for left, right in zip(entry.left, entry.right, strict=True)
     ]
     worst = float(max(np.max(np.abs(gap)) for gap in gaps))
     tolerance = ROUNDING * characteristic_length(record) ** entry.unit
     holds = worst <= tolerance
-    count = len(here.values)
+    count = len(sampled.values)
     return [
         Row(
             source=entry.source,

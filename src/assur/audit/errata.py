@@ -75,8 +75,8 @@ def _entries(path: Path) -> dict[str, ErratumEntry]:
 
 def _erratum(record: MechanismRecord, name: str, entry: ErratumEntry, path: Path) -> Erratum:
     function = _function(record, name, entry.evidence, path)
-    found = NOT_RUN if function is None else function(record)
-    if not isinstance(found, Evidence) or (function and not isinstance(found.holds, bool)):
+    result = NOT_RUN if function is None else function(record)
+    if not isinstance(result, Evidence) or (function and not isinstance(result.holds, bool)):
         raise _fault(
             path,
             name,
@@ -89,7 +89,7 @@ def _erratum(record: MechanismRecord, name: str, entry: ErratumEntry, path: Path
         printed=entry.printed,
         finding=entry.finding,
         evidence_name=entry.evidence,
-        evidence=found,
+        evidence=result,
         not_computed=entry.not_computed,
         status=entry.status,
     )
@@ -107,10 +107,10 @@ def _function(
     text = file_text(file)
     if not may_run(file, text.encode(), "evidence is Python", "nothing is said of the erratum"):
         return None
-    found = vars(_module(file, text, f"assur_evidence_of_{record.name}_{stem}")).get(function)
-    if not callable(found):
+    member = vars(_module(file, text, f"assur_evidence_of_{record.name}_{stem}")).get(function)
+    if not callable(member):
         raise _fault(path, name, f"no function '{evidence}'", allowed)
-    return cast("Callable[[MechanismRecord], object]", found)
+    return cast("Callable[[MechanismRecord], object]", member)
 
 
 def _module(file: Path, text: str, name: str) -> ModuleType:
@@ -120,6 +120,6 @@ def _module(file: Path, text: str, name: str) -> ModuleType:
     return module
 
 
-def _fault(path: Path, name: str, found: str, allowed: str) -> MechanismFileError:
+def _fault(path: Path, name: str, offending: str, allowed: str) -> MechanismFileError:
     place = f"{name}.evidence" if name else ""
-    return MechanismFileError([Problem(str(path), None, place, found, f"allowed: {allowed}")])
+    return MechanismFileError([Problem(str(path), None, place, offending, f"allowed: {allowed}")])

@@ -80,8 +80,8 @@ class LinkMotion:
                 raise UnknownNameError("joint of this part", name, place)
         twists = np.concatenate([place[name].twists for name in names], axis=-1)
         turning = np.any(np.abs(twists[:, :3]) > WITHIN, axis=1, keepdims=True)
-        found = np.where(turning, twists[:, :3], twists[:, 3:])
-        directions: FloatArray = found / np.linalg.norm(found, axis=1, keepdims=True)
+        parts = np.where(turning, twists[:, :3], twists[:, 3:])
+        directions: FloatArray = parts / np.linalg.norm(parts, axis=1, keepdims=True)
         return directions
 
     @property
@@ -134,19 +134,19 @@ def link_motion(
     >>> link_motion(load_record("zeng2019"), "platform", ("D1", "D2"), base="link11").poc.text("ascii")
     't^2(_|_R3) r^1(||R3)'
     """
-    here = sampled(record)
-    some = _part(here.linkage, called(record, joints) or tuple(here.linkage.joints), link, base)
-    still = here.keeps_orientation and (some.base, link) == (here.linkage.base, here.linkage.platform)
+    sample = sampled(record)
+    some = _part(sample.linkage, called(record, joints) or tuple(sample.linkage.joints), link, base)
+    still = sample.keeps_orientation and (some.base, link) == (sample.linkage.base, sample.linkage.platform)
     if opened:
         some = _opened(some, *called(record, [opened]))
     _check_connected(some)
-    found = edges(some, limb_values(here.linkage, some, here.values), collapsed=False)
-    space = motion_space(found, some.base, some.platform)
+    moved = edges(some, limb_values(sample.linkage, some, sample.values), collapsed=False)
+    space = motion_space(moved, some.base, some.platform)
     rules = _rules(some, still, dimensions(space))
     if isinstance(rules, Refusal):
-        return LinkMotion(by_twists(space), rules.reason, space, found)
+        return LinkMotion(by_twists(space), rules.reason, space, moved)
     what = f"{record.name}, {link} moved by {' '.join(joints) or 'all joints'}"
-    return LinkMotion(agreed(what, rules, space), "", space, found)
+    return LinkMotion(agreed(what, rules, space), "", space, moved)
 
 
 def _rules(some: Linkage, still: bool, numbers: tuple[int, int, int]) -> PocSet | Refusal:
@@ -179,7 +179,7 @@ def _opened(some: Linkage, name: str) -> Linkage:
     if link not in (joint.parent, joint.child):
         raise UsageError(f"the joint {name} is not on {link}, off which it was to be taken")
     end = f"{link} at {name}"
-    parent, child = (end if item == link else item for item in (joint.parent, joint.child))
+    parent, child = (end if side == link else side for side in (joint.parent, joint.child))
     moved = dataclasses.replace(joint, parent=parent, child=child)
     return dataclasses.replace(some, joints={**some.joints, name: moved}, platform=end)
 

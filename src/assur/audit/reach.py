@@ -21,7 +21,7 @@ ROUNDS = 90
 SHRINK = 0.75
 
 
-class Range(Entry):
+class PrintedRange(Entry):
     """An interval in which the source looks for a coordinate of the workspace."""
 
     source: str
@@ -32,7 +32,7 @@ class Range(Entry):
     erratum: str = ""
 
 
-def range_rows(record: MechanismRecord, entry: Range) -> list[Row]:
+def range_rows(record: MechanismRecord, entry: PrintedRange) -> list[Row]:
     """Two rows, low and high end: wrong where the range cuts off poses that can be reached."""
     if entry.quantity not in record.platform.pose:
         raise UnknownNameError(f"pose coordinate of {record.name}", entry.quantity, record.platform.pose)
@@ -43,7 +43,7 @@ def range_rows(record: MechanismRecord, entry: Range) -> list[Row]:
     ]
 
 
-def _row(record: MechanismRecord, entry: Range, end: str, digits: Printed, side: float, mode: str) -> Row:
+def _row(record: MechanismRecord, entry: PrintedRange, end: str, digits: Printed, side: float, mode: str) -> Row:
     computed = extreme(record, entry.quantity, side, mode)
     off = None if computed is None else digits.value - computed
     cuts = off is not None and side * off < -digits.half_unit

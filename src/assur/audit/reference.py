@@ -89,13 +89,13 @@ def read_reference(record: MechanismRecord, kinds: Mapping[str, type[Entry]]) ->
     """
     folder = reference_folder(record)
     files = [read_form(path, kinds) for path in sorted(folder.glob("*.toml")) if path.name != ERRATA]
-    abouts = [item.about for item in files if item.about]
+    abouts = [file.about for file in files if file.about]
     if len(abouts) != 1:
         raise MechanismFileError([Problem(str(folder), None, "about", f"{len(abouts)} tables [about]", "allowed: one")])
-    _check_parameters(record, {name: digits for item in files for name, digits in item.parameters.items()})
-    definitions = {name: formula for item in files for name, formula in item.definitions.items()}
+    _check_parameters(record, {name: digits for file in files for name, digits in file.parameters.items()})
+    definitions = {name: formula for file in files for name, formula in file.definitions.items()}
     _check_definitions(definitions, folder)
-    entries = {kind: tuple(entry for item in files for entry in getattr(item, kind)) for kind in kinds}
+    entries = {kind: tuple(entry for file in files for entry in getattr(file, kind)) for kind in kinds}
     return Reference(abouts[0], definitions, entries)
 
 
@@ -126,9 +126,11 @@ def checked(form: type[EntryType], source: TomlSource, path: Path) -> EntryType:
 def _problem(details: Any, source: TomlSource, path: Path) -> Problem:
     place = tuple(details["loc"])
     context = details.get("ctx", {})
-    found = context.get("found") or ("unknown key" if details["type"] == "extra_forbidden" else shown(details["input"]))
+    offending = context.get("found") or (
+        "unknown key" if details["type"] == "extra_forbidden" else shown(details["input"])
+    )
     allowed = context.get("allowed") or f"allowed: {details['msg'].removeprefix('Input should be ')}"
-    return Problem(str(path), source.line(place), path_text(place), found, allowed, context.get("hint", ""))
+    return Problem(str(path), source.line(place), path_text(place), offending, allowed, context.get("hint", ""))
 
 
 def _check_definitions(definitions: Mapping[str, Formula], folder: Path) -> None:
@@ -137,9 +139,9 @@ def _check_definitions(definitions: Mapping[str, Formula], folder: Path) -> None
     for name, formula in definitions.items():
         needed = sorted(later & formula.names)
         if needed:
-            found = f"needs {', '.join(needed)}, which stands after it or is itself"
+            offending = f"needs {', '.join(needed)}, which stands after it or is itself"
             raise MechanismFileError(
-                [Problem(str(folder), None, f"definitions.{name}", found, "allowed: letters before it")]
+                [Problem(str(folder), None, f"definitions.{name}", offending, "allowed: letters before it")]
             )
         later.remove(name)
 

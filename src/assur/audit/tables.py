@@ -45,7 +45,7 @@ class TableRow(Entry):
     erratum: str = ""
 
 
-class Table(Entry):
+class PrintedTable(Entry):
     """Poses at given inputs, or inputs at a given pose; `erratum` explains the solutions that it leaves out."""
 
     source: str
@@ -70,7 +70,7 @@ class _Border:
     def angular(self) -> list[bool]:
         if self.problem == "direct":
             return [is_angle(name) for name in self.record.platform.pose]
-        return [item.coordinate.kind == "angle" for item in self.record.inputs]
+        return [actuated.coordinate.kind == "angle" for actuated in self.record.inputs]
 
     @property
     def units(self) -> list[str]:
@@ -103,25 +103,25 @@ class _Border:
         return float(np.linalg.norm(gap * size))
 
 
-def direct_rows(record: MechanismRecord, entry: Table) -> list[Row]:
+def direct_rows(record: MechanismRecord, entry: PrintedTable) -> list[Row]:
     """Rows for a table of direct solutions."""
     return _table_rows(_Border(record, "direct"), entry)
 
 
-def inverse_rows(record: MechanismRecord, entry: Table) -> list[Row]:
+def inverse_rows(record: MechanismRecord, entry: PrintedTable) -> list[Row]:
     """Rows for a table of inverse solutions."""
     return _table_rows(_Border(record, "inverse"), entry)
 
 
 def solve(record: MechanismRecord, problem: Problem, given: Sequence[Printed]) -> list[Solution]:
     """The real solutions of a printed problem."""
-    values = np.array([item.value for item in given])
+    values = np.array([digits.value for digits in given])
     if problem == "direct":
         return list(direct(record, at_border.inputs_from_border(record, values)))
     return list(inverse(record, at_border.pose_from_border(record, values)))
 
 
-def _table_rows(view: _Border, entry: Table) -> list[Row]:
+def _table_rows(view: _Border, entry: PrintedTable) -> list[Row]:
     solutions = solve(view.record, view.problem, entry.given)
     if not solutions:
         raise UsageError(f"{entry.source}: there is no real solution to compare it with")
@@ -130,23 +130,25 @@ def _table_rows(view: _Border, entry: Table) -> list[Row]:
     for line in entry.rows:
         if len(line.values) != len(view.names):
             raise UsageError(f"{entry.source} row {line.row}: {len(line.values)} values, {len(view.names)} wanted")
-        found, nearest = _line_rows(view, entry, line, solutions)
-        agreeing = sum(row.verdict == "ok" for row in found)
-        if 2 * agreeing >= len(found):
+        of_line, nearest = _line_rows(view, entry, line, solutions)
+        agreeing = sum(row.verdict == "ok" for row in of_line)
+        if 2 * agreeing >= len(of_line):
             if nearest in claimed:
                 again = f"the same solution as row {claimed[nearest]}"
-                found = [_with_note(row, again, line.erratum) for row in found]
+                of_line = [_with_note(row, again, line.erratum) for row in of_line]
             claimed.setdefault(nearest, line.row)
-        rows += found
+        rows += of_line
     left_out = [solution for index, solution in enumerate(solutions) if index not in claimed]
     for number, solution in enumerate(left_out, start=1):
         rows += _missing_rows(view, entry, number, solution)
     return rows
 
 
-def _line_rows(view: _Border, entry: Table, line: TableRow, solutions: Sequence[Solution]) -> tuple[list[Row], int]:
+def _line_rows(
+    view: _Border, entry: PrintedTable, line: TableRow, solutions: Sequence[Solution]
+) -> tuple[list[Row], int]:
     """Rows of one printed line, and the index of the nearest solution."""
-    printed = np.array([item.value for item in line.values])
+    printed = np.array([digits.value for digits in line.values])
     results = [view.aligned(view.result(solution), printed) for solution in solutions]
     nearest = int(np.argmin([view.distance(result, printed) for result in results]))
     solution, computed = solutions[nearest], results[nearest]
@@ -172,7 +174,7 @@ def _line_rows(view: _Border, entry: Table, line: TableRow, solutions: Sequence[
     ], nearest
 
 
-def _note(view: _Border, entry: Table, line: TableRow, solution: Solution, agrees: NDArray[np.bool_]) -> str:
+def _note(view: _Border, entry: PrintedTable, line: TableRow, solution: Solution, agrees: NDArray[np.bool_]) -> str:
     """What a reader has to know about a line: what it breaks, or what the solution that it names is."""
     if not np.all(agrees):
         rows, given = list(line.values), list(entry.given)
@@ -182,14 +184,18 @@ def _note(view: _Border, entry: Table, line: TableRow, solution: Solution, agree
         return f"{what}: {reasons or 'every length is right'}; nearest is {solution.mode}"
     notes = [] if solution.status <= Status.near_singular else [f"its status is {solution.status.name}"]
     joints = np.array(list(solution.joints.values()))
-    notes += [item.otherwise for item in entry.requires if not float(quantity(view.record, item.positive, joints)) > 0]
+    notes += [
+        condition.otherwise
+        for condition in entry.requires
+        if not float(quantity(view.record, condition.positive, joints)) > 0
+    ]
     return "; ".join(notes)
 
 
 def _both(record: MechanismRecord, pose: list[Printed], inputs: list[Printed]) -> tuple[FloatArray, FloatArray]:
     return (
-        at_border.pose_from_border(record, np.array([item.value for item in pose])),
-        at_border.inputs_from_border(record, np.array([item.value for item in inputs])),
+        at_border.pose_from_border(record, np.array([digits.value for digits in pose])),
+        at_border.inputs_from_border(record, np.array([digits.value for digits in inputs])),
     )
 
 
@@ -200,7 +206,7 @@ def _halves(record: MechanismRecord, pose: list[Printed], inputs: list[Printed])
     )
 
 
-def _missing_rows(view: _Border, entry: Table, number: int, solution: Solution) -> list[Row]:
+def _missing_rows(view: _Border, entry: PrintedTable, number: int, solution: Solution) -> list[Row]:
     """Rows for a real solution that no line of the table has."""
     return [
         Row(

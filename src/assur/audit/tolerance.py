@@ -23,7 +23,7 @@ FloatArray = NDArray[np.float64]
 
 def half_units(digits: Sequence[Printed]) -> FloatArray:
     """Half a unit of the last place of each number (k,), in its own unit."""
-    return np.array([item.half_unit for item in digits])
+    return np.array([number.half_unit for number in digits])
 
 
 def tolerances(
@@ -52,10 +52,10 @@ def _sensitivity(record: MechanismRecord, problem: Problem, pose: FloatArray, mo
     shape = (len(pose), len(inputs_unit)) if problem == "direct" else (len(inputs_unit), len(pose))
     if mode not in all_modes(record, "inverse"):
         return np.zeros(shape)
-    here = velocity_map(record, pose, mode)
+    velocity = velocity_map(record, pose, mode)
     if problem == "direct":
-        matrix = here.matrix * inputs_unit / pose_unit[:, None]
+        matrix = velocity.matrix * inputs_unit / pose_unit[:, None]
     else:
-        columns = [here.input(direction) for direction in np.eye(len(pose))]
+        columns = [velocity.input(direction) for direction in np.eye(len(pose))]
         matrix = np.stack(columns, axis=-1) * pose_unit / inputs_unit[:, None]
     return matrix if np.all(np.isfinite(matrix)) else np.zeros(shape)

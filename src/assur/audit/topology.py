@@ -18,7 +18,7 @@ TWISTS = f"rank of twists at {COUNT} random finite displacements"
 COLLAPSED = "parallelograms as one joint"
 
 
-class PocSet(Entry):
+class PrintedPocSet(Entry):
     """A printed POC set: that of a link moved by some joints, against the base of the mechanism or another link.
 
     O' is a general point of the link, as where sets are united or intersected. `poc` is the numbers of elements, as
@@ -43,7 +43,7 @@ class PocSet(Entry):
     erratum: str = ""
 
 
-class Loop(Entry):
+class PrintedLoop(Entry):
     """A single open chain in the source's order, generalised joints counting as one joint each."""
 
     name: str
@@ -54,50 +54,50 @@ class Loop(Entry):
     delta: Digits
 
 
-class Decomposition(Entry):
+class PrintedDecomposition(Entry):
     """The source's loops, and the numbers that follow from them."""
 
     sources: Mapping[str, str]
-    loops: tuple[Loop, ...]
+    loops: tuple[PrintedLoop, ...]
     loop_count: Digits
     freedom: Digits
     kappa: Digits
 
 
-def poc_rows(record: MechanismRecord, entry: PocSet) -> list[Row]:
+def poc_rows(record: MechanismRecord, entry: PrintedPocSet) -> list[Row]:
     """One row: a link's POC set, with its directions.
 
     Errors:
         RoutesDisagreeError: rules and twists differ. UnknownNameError, UsageError: no such part of the joint graph.
     """
-    found = link_motion(record, entry.link, entry.joints, entry.base, entry.opened)
-    directions = _directions(record, entry, found)
-    holds = entry.poc == f"t{found.poc.t} r{found.poc.r}" and all(directions.values())
+    motion = link_motion(record, entry.link, entry.joints, entry.base, entry.opened)
+    directions = _directions(record, entry, motion)
+    holds = entry.poc == f"t{motion.poc.t} r{motion.poc.r}" and all(directions.values())
     return [
         Row(
             source=entry.source,
             quantity=entry.quantity,
             printed=entry.printed,
-            computed=matrix(found.poc, "ascii"),
+            computed=matrix(motion.poc, "ascii"),
             verdict="ok" if holds else "wrong",
             erratum="" if holds else entry.erratum,
-            note="; ".join([_dimension(found), _known_by(found), *map(_said, directions, directions.values())]),
+            note="; ".join([_dimension(motion), _known_by(motion), *map(_said, directions, directions.values())]),
         )
     ]
 
 
-def _directions(record: MechanismRecord, entry: PocSet, found: LinkMotion) -> dict[str, bool]:
+def _directions(record: MechanismRecord, entry: PrintedPocSet, motion: LinkMotion) -> dict[str, bool]:
     """What the source prints of directions -> whether it holds at every configuration."""
     checked = {}
     if entry.t_axes:
-        axes = found.axes(called(record, entry.t_axes))
-        checked[_along("t", entry.t_axes)] = within(found.translations, axes)
+        axes = motion.axes(called(record, entry.t_axes))
+        checked[_along("t", entry.t_axes)] = within(motion.translations, axes)
     if entry.t_normal:
-        axes = found.axes(called(record, [entry.t_normal]))
-        checked[f"t perpendicular to {entry.t_normal}"] = square(found.translations, axes)
+        axes = motion.axes(called(record, [entry.t_normal]))
+        checked[f"t perpendicular to {entry.t_normal}"] = square(motion.translations, axes)
     if entry.r_axes:
-        axes = found.axes(called(record, entry.r_axes))
-        checked[_along("r", entry.r_axes)] = within(found.rotations, axes)
+        axes = motion.axes(called(record, entry.r_axes))
+        checked[_along("r", entry.r_axes)] = within(motion.rotations, axes)
     return checked
 
 
@@ -109,27 +109,27 @@ def _said(direction: str, holds: bool) -> str:
     return f"{direction} {'as printed' if holds else 'does not hold'}"
 
 
-def _dimension(found: LinkMotion) -> str:
-    dependent = found.poc.dependent
-    return f"dim {found.poc.dim}" + (f", {counted(dependent, 'element')} not independent" if dependent else "")
+def _dimension(motion: LinkMotion) -> str:
+    dependent = motion.poc.dependent
+    return f"dim {motion.poc.dim}" + (f", {counted(dependent, 'element')} not independent" if dependent else "")
 
 
-def _known_by(found: LinkMotion) -> str:
-    return f"{TWISTS}; the rules refuse: {found.refusal}" if found.refusal else f"by the rules and by {TWISTS}"
+def _known_by(motion: LinkMotion) -> str:
+    return f"{TWISTS}; the rules refuse: {motion.refusal}" if motion.refusal else f"by the rules and by {TWISTS}"
 
 
-def decomposition_rows(record: MechanismRecord, entry: Decomposition) -> list[Row]:
+def decomposition_rows(record: MechanismRecord, entry: PrintedDecomposition) -> list[Row]:
     """Rows for f, I, xi and Delta of every loop in the source's order, then for v, F and kappa.
 
     Errors:
         UnknownNameError: no such joint. UsageError: the loops of the entry are not those of the joint graph.
     """
-    here = sampled(record)
-    free = mobility(here.collapsed, here.linkage.base, here.linkage.platform)
-    internal = motions(here.collapsed, here.linkage.base, here.linkage.platform).internal
+    sample = sampled(record)
+    free = mobility(sample.collapsed, sample.linkage.base, sample.linkage.platform)
+    internal = motions(sample.collapsed, sample.linkage.base, sample.linkage.platform).internal
     order = [called(record, loop.joints) for loop in entry.loops]
     rows: list[Row] = []
-    for printed, loop in zip(entry.loops, coupling_of(here.collapsed, order, internal).loops, strict=True):
+    for printed, loop in zip(entry.loops, coupling_of(sample.collapsed, order, internal).loops, strict=True):
         rows += [
             _row(
                 entry.sources["freedoms"], f"sum of f, {printed.name}", printed.freedoms, loop.freedoms, "joint graph"
@@ -138,7 +138,7 @@ def decomposition_rows(record: MechanismRecord, entry: Decomposition) -> list[Ro
             _row(entry.sources["xi"], f"xi, {printed.name}", printed.xi, loop.xi, TWISTS),
             _row(entry.sources["delta"], f"Delta, {printed.name}", printed.delta, loop.delta, TWISTS),
         ]
-    kappa = coupling(here.collapsed, internal).coupling_degree
+    kappa = coupling(sample.collapsed, internal).coupling_degree
     least = f"{TWISTS}; the least of all orders of loops"
     return [
         *rows,

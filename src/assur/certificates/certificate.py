@@ -15,7 +15,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from assur.certificates.formulas import Formulas, formulas
+from assur.certificates.formulas import RegionFormulas, formulas
 from assur.certificates.leaves import INSIDE, OPEN, OUTSIDE, REGULAR, Leaves
 from assur.certificates.tree import Limits, Progress, Tree, grow, planted
 from assur.errors import UsageError
@@ -190,7 +190,7 @@ def _checked(kind: str, gap: float | None, finest: float, most: int) -> float:
 
 
 def common_statement(
-    record: MechanismRecord, mode: str | None, strokes: Mapping[str, Stroke | None] | None, rules: Formulas
+    record: MechanismRecord, mode: str | None, strokes: Mapping[str, Stroke | None] | None, rules: RegionFormulas
 ) -> dict[str, Any]:
     """What every kind states: which mechanism, in which mode, with which strokes, and over which coordinates."""
     given = {name: None if pair is None else exact(pair) for name, pair in (strokes or {}).items()}
@@ -249,5 +249,5 @@ def _volume(boxes: Boxes) -> Fraction:
 
 def _below(value: Fraction) -> float:
     """The largest float that is not above an exact number."""
-    found = float(value)
-    return found if Fraction(found) <= value else math.nextafter(found, -math.inf)
+    rounded = float(value)
+    return rounded if Fraction(rounded) <= value else math.nextafter(rounded, -math.inf)

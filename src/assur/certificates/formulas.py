@@ -33,7 +33,7 @@ SLACK = 2.0**-46
 
 
 @dataclass(frozen=True, eq=False)
-class Formulas:
+class RegionFormulas:
     """Margins, divisors and factors of a working mode over the free coordinates of a slice.
 
     Attributes:
@@ -60,22 +60,22 @@ class Formulas:
         values: list[Any] = []
         varying, numbers = iter(box), iter(self.numbers.values())
         real = np.ones(box[0].shape, dtype=bool)
-        for item in self.tape.operations:
-            arguments = [values[k] for k in item.arguments]
-            if item.name == "varying":
+        for operation in self.tape.operations:
+            arguments = [values[k] for k in operation.arguments]
+            if operation.name == "varying":
                 values.append(next(varying))
-            elif item.name == "uniform":
+            elif operation.name == "uniform":
                 values.append(next(numbers))
-            elif item.name == "number":
-                values.append(as_interval(item.number))
-            elif item.name == "root":
+            elif operation.name == "number":
+                values.append(as_interval(operation.number))
+            elif operation.name == "root":
                 root = arguments[0].sqrt()
                 real = real & (arguments[0].low >= 0)
                 values.append(Interval(root.low, root.high, arguments[0].defined))
-            elif item.name in ("cosine", "sine"):
-                values.append(cosine_sine(arguments[0])[item.name == "sine"])
+            elif operation.name in ("cosine", "sine"):
+                values.append(cosine_sine(arguments[0])[operation.name == "sine"])
             else:
-                values.append(MEANING[item.name](*arguments))
+                values.append(MEANING[operation.name](*arguments))
         return {name: values[k] for name, k in self.tape.outputs.items()}, real
 
     @cached_property
@@ -88,16 +88,16 @@ class Formulas:
         """Operations as lists: a name and earlier entries, a coordinate, or bounds of a number and what it is."""
         varying, numbers = iter(self.tape.varying), iter(self.numbers.items())
         operations: list[list[Any]] = []
-        for item in self.tape.operations:
-            if item.name == "varying":
+        for operation in self.tape.operations:
+            if operation.name == "varying":
                 operations.append(["coordinate", next(varying)])
-            elif item.name == "uniform":
+            elif operation.name == "uniform":
                 name, value = next(numbers)
                 operations.append(["number", float(value.low).hex(), float(value.high).hex(), name])
-            elif item.name == "number":
-                operations.append(["number", item.number.hex(), item.number.hex(), ""])
+            elif operation.name == "number":
+                operations.append(["number", operation.number.hex(), operation.number.hex(), ""])
             else:
-                operations.append([item.name, *item.arguments])
+                operations.append([operation.name, *operation.arguments])
         places = {
             group: [[name, self.tape.outputs[f"{group}: {name}"]] for name in self.names(group)] for group in GROUPS
         }
@@ -109,7 +109,7 @@ def formulas(
     mode: str | None = None,
     strokes: Mapping[str, Stroke | None] | None = None,
     held: Mapping[str, float] | None = None,
-) -> Formulas:
+) -> RegionFormulas:
     """The formulas of a working mode; mode and strokes are those of the file by default.
 
     Args:
@@ -146,7 +146,7 @@ def formulas(
     outputs |= {f"margins: {name}": bound(joints) for name, bound in limits.items()}
     outputs |= {f"nonzero: {m.name}": branch.margins[m.name] for m in form.inverse_margins if m.zero == "degenerate"}
     outputs |= {f"factors: {f.name}": factors[f.name] for f in form.factor_list if f.kind != "other"}
-    return Formulas(poses, recorder.tape(outputs), numbers)
+    return RegionFormulas(poses, recorder.tape(outputs), numbers)
 
 
 def _wider(value: Interval) -> Interval:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.certificates.formulas import Formulas
+from assur.certificates.formulas import RegionFormulas
 from assur.numerics.intervals.interval import Interval
 from assur.workspace.certified.boxes import Boxes
 
@@ -23,7 +23,7 @@ BLOCK = 8192
 class Leaves:
     """The rules by which boxes of one mechanism are decided."""
 
-    formulas: Formulas
+    formulas: RegionFormulas
 
     def tokens(self, boxes: Boxes) -> Tokens:
         """The leaf (N,) that each box would be: i, r, oNN with the number of the margin in hex, or b.
@@ -39,19 +39,19 @@ class Leaves:
         return np.concatenate(parts)
 
     def _tokens(self, boxes: Boxes) -> Tokens:
-        found, real = self.formulas.over(boxes.intervals)
+        values, real = self.formulas.over(boxes.intervals)
         tokens = np.full(len(boxes), OPEN, dtype="<U3")
         inside, outside = real.copy(), []
         for name in self.formulas.names("margins"):
-            value = found[f"margins: {name}"]
+            value = values[f"margins: {name}"]
             inside &= value.defined & (value.low >= 0)
             outside.append(np.broadcast_to(value.negative, inside.shape))
         for name in self.formulas.names("nonzero"):
-            inside &= found[f"nonzero: {name}"].nonzero
+            inside &= values[f"nonzero: {name}"].nonzero
         tokens[inside] = INSIDE
         regular = inside.copy()
         for name in self.formulas.names("factors"):
-            regular &= found[f"factors: {name}"].nonzero
+            regular &= values[f"factors: {name}"].nonzero
         tokens[regular] = REGULAR
         for index, holds in reversed(list(enumerate(outside))):
             tokens[holds] = f"{OUTSIDE}{index:02x}"
@@ -59,13 +59,13 @@ class Leaves:
 
     def signs(self, boxes: Boxes) -> set[tuple[str, bool]]:
         """Signs of the factors over regular boxes: (name, whether positive)."""
-        found: set[tuple[str, bool]] = set()
+        signs: set[tuple[str, bool]] = set()
         for k in range(0, len(boxes), BLOCK):
             values, _ = self.formulas.over(boxes[k : k + BLOCK].intervals)
             for name in self.formulas.names("factors"):
                 positive = np.broadcast_to(values[f"factors: {name}"].positive, len(boxes[k : k + BLOCK]))
-                found |= {(name, sign) for sign in np.unique(positive).tolist()}
-        return found
+                signs |= {(name, sign) for sign in np.unique(positive).tolist()}
+        return signs
 
     def vanishes(self, regular: Boxes, inside: Boxes) -> bool:
         """Whether a factor is certainly zero somewhere in a box that is cut into these leaves alone.

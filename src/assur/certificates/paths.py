@@ -29,7 +29,7 @@ FloatArray = NDArray[np.float64]
 
 def path_certificate(
     record: MechanismRecord,
-    found: Aspects,
+    aspects: Aspects,
     path: AspectPath,
     most: int = MOST,
     progress: Progress | None = None,
@@ -41,8 +41,8 @@ def path_certificate(
 
     Args:
         record: the mechanism.
-        found: its aspects in one working mode.
-        path: one that is "connected", from `found.path`.
+        aspects: its aspects in one working mode.
+        path: one that is "connected", from `aspects.path`.
         most: leaves at most, of all boxes together; each has one at least.
         progress: called with boxes done and boxes in all.
 
@@ -64,8 +64,8 @@ def path_certificate(
     """
     if path.status != "connected":
         raise UsageError(f"no path to certify: {path.why}")
-    rules = formulas(record, found.mode, found.strokes, found.slice.held)
-    leaves, boxes = Leaves(rules), covering(found, path)
+    rules = formulas(record, aspects.mode, aspects.strokes, aspects.slice.held)
+    leaves, boxes = Leaves(rules), covering(aspects, path)
     trees: list[Tree] = []
     room = most
     for k in range(len(boxes)):
@@ -76,7 +76,7 @@ def path_certificate(
         if progress is not None:
             progress(k + 1, len(boxes))
     statement = {
-        **common_statement(record, found.mode, found.strokes, rules),
+        **common_statement(record, aspects.mode, aspects.strokes, rules),
         "from": exact(path.points[0]),
         "to": exact(path.points[-1]),
         "points": [exact(point) for point in path.points],
@@ -95,13 +95,13 @@ def path_certificate(
     )
 
 
-def covering(found: Aspects, path: AspectPath) -> Boxes:
+def covering(aspects: Aspects, path: AspectPath) -> Boxes:
     """The boxes of a path over all free coordinates, none of them flat: over those without influence, the box's range.
 
     Both ends of a piece lie in its box exactly, whatever was rounded on the way.
     """
     low, high = (
-        np.repeat(np.array(side)[:, None], len(path.boxes), axis=1) for side in (found.box.low, found.box.high)
+        np.repeat(np.array(side)[:, None], len(path.boxes), axis=1) for side in (aspects.box.low, aspects.box.high)
     )
     used = [path.coordinates.index(name) for name in path.names]
     low[used], high[used] = path.boxes.low, path.boxes.high

@@ -26,10 +26,12 @@ def at_hand(document: Mapping[str, Any], name_or_path: str | Path | None = None)
         UnknownNameError: no mechanism has the name that is given.
         MechanismFileError: its closed form does not agree with its joint graph.
     """
-    own = document["statement"]["mechanism"]
-    if name_or_path is None and own not in names():  # a path in a certificate must not make anyone run what is there
+    recorded_name = document["statement"]["mechanism"]
+    if (
+        name_or_path is None and recorded_name not in names()
+    ):  # a path in a certificate must not make anyone run what is there
         return None
-    record = load_record(own if name_or_path is None else name_or_path)
+    record = load_record(recorded_name if name_or_path is None else name_or_path)
     check_closed_form(record, IN_FULL)
     return record
 
@@ -65,17 +67,17 @@ def differences(document: Mapping[str, Any], record: MechanismRecord) -> tuple[s
     statement = document["statement"]
     if statement["mechanism"] != record.name:
         return (f"mechanism: {statement['mechanism']} there, {record.name} here",)
-    found = []
-    there = {name: float.fromhex(value) for name, value in statement["parameters"].items()}
-    if there != dict(record.overrides):
-        found.append(f"parameters: {_listed(there)} there, {_listed(record.overrides)} here")
-    here = file_hashes(record)
-    if statement["files"] != here:
+    reasons = []
+    recorded = {name: float.fromhex(value) for name, value in statement["parameters"].items()}
+    if recorded != dict(record.overrides):
+        reasons.append(f"parameters: {_listed(recorded)} there, {_listed(record.overrides)} here")
+    present = file_hashes(record)
+    if statement["files"] != present:
         changed = sorted(
-            name for name in {*here, *statement["files"]} if here.get(name) != statement["files"].get(name)
+            name for name in {*present, *statement["files"]} if present.get(name) != statement["files"].get(name)
         )
-        found.append(f"files: {', '.join(changed)} not as they were")
-    return (*found, *_formulas(document, record))
+        reasons.append(f"files: {', '.join(changed)} not as they were")
+    return (*reasons, *_formulas(document, record))
 
 
 def _listed(values: Mapping[str, float]) -> str:
@@ -84,7 +86,7 @@ def _listed(values: Mapping[str, float]) -> str:
 
 def _formulas(document: Mapping[str, Any], record: MechanismRecord) -> tuple[str, ...]:
     """The first difference of the formulas, if there is one."""
-    statement, there = document["statement"], document["program"]
+    statement, recorded = document["statement"], document["program"]
     held = {name: float.fromhex(value) for name, value in statement["held"].items()}
     strokes = {name: None if pair is None else _pair(pair) for name, pair in statement["strokes"].items()}
     try:
@@ -93,11 +95,11 @@ def _formulas(document: Mapping[str, Any], record: MechanismRecord) -> tuple[str
         return (f"statement: {error.message}",)
     if list(rules.slice.free) != statement["coordinates"]:
         return (f"coordinates: {', '.join(statement['coordinates'])} there, {', '.join(rules.slice.free)} here",)
-    here = rules.to_json()
-    for k, (one, two) in enumerate(zip_longest(there["operations"], here["operations"])):
-        if not _same(one, two):
-            return (f"formulas: {_shown(k, one, two)}",)
-    groups = [group for group in GROUPS if there[group] != here[group]]
+    present = rules.to_json()
+    for k, (old, new) in enumerate(zip_longest(recorded["operations"], present["operations"])):
+        if not _same(old, new):
+            return (f"formulas: {_shown(k, old, new)}",)
+    groups = [group for group in GROUPS if recorded[group] != present[group]]
     return tuple(f"formulas: other {group}" for group in groups)
 
 
@@ -105,22 +107,22 @@ def _pair(texts: list[str]) -> tuple[float, float]:
     return float.fromhex(texts[0]), float.fromhex(texts[1])
 
 
-def _same(one: list[Any] | None, two: list[Any] | None) -> bool:
+def _same(old: list[Any] | None, new: list[Any] | None) -> bool:
     """Equal; bounds of a constant need only enclose those recorded now, less their slack."""
-    if one == two:
+    if old == new:
         return True
-    if one is None or two is None or one[0] != "number" or two[0] != "number" or one[3] != two[3]:
+    if old is None or new is None or old[0] != "number" or new[0] != "number" or old[3] != new[3]:
         return False
-    if not one[3].startswith(f"{CONSTANT} "):
+    if not old[3].startswith(f"{CONSTANT} "):
         return False
-    (low, high), (least, most) = _pair(one[1:3]), _pair(two[1:3])
+    (low, high), (least, most) = _pair(old[1:3]), _pair(new[1:3])
     slack = (most - least) / 4
     return low <= least + slack and most - slack <= high
 
 
-def _shown(place: int, one: list[Any] | None, two: list[Any] | None) -> str:
-    if one is None or two is None:
-        return f"operations end at {place} {'there' if one is None else 'here'}"
-    if one[0] == two[0] == "number" and one[3] == two[3]:
-        return f"number {one[3] or place} is {float.fromhex(one[1])} there, {float.fromhex(two[1])} here"
-    return f"operation {place} is {' '.join(map(str, one))} there, {' '.join(map(str, two))} here"
+def _shown(place: int, old: list[Any] | None, new: list[Any] | None) -> str:
+    if old is None or new is None:
+        return f"operations end at {place} {'there' if old is None else 'here'}"
+    if old[0] == new[0] == "number" and old[3] == new[3]:
+        return f"number {old[3] or place} is {float.fromhex(old[1])} there, {float.fromhex(new[1])} here"
+    return f"operation {place} is {' '.join(map(str, old))} there, {' '.join(map(str, new))} here"

@@ -39,7 +39,7 @@ def statement_lines(document: Mapping[str, Any], record: MechanismRecord | None 
         changed = [f"{name} = {float.fromhex(value):g}" for name, value in statement["parameters"].items()]
         lines.append(f"dimensions: {', '.join(changed)}")
     if statement["strokes"]:
-        lines.append(f"strokes: {', '.join(_stroke(*item) for item in statement['strokes'].items())}")
+        lines.append(f"strokes: {', '.join(_stroke(*stroke) for stroke in statement['strokes'].items())}")
     if record is not None and not limits_stated(record, statement["strokes"]):
         lines.append(f"limits: {NO_LIMITS}")
     return lines
@@ -71,8 +71,8 @@ def _part_lines(document: Mapping[str, Any]) -> list[str]:
     counts, share = document["claims"]["leaves"], shares(document["proof"])
     parts, of_path = sum(counts.values()), document["kind"] == "path"
     where = f" in {len(document['statement']['boxes'])} boxes" if of_path else ", which cover the box without overlap"
-    told = [f"{counts[n]}{'' if of_path else f' ({_percent(share[n])})'} {PARTS[n]}" for n in PARTS if counts[n]]
-    return [f"parts: {parts}{where}; of these", *(f"  {text}" for text in told)]
+    texts = [f"{counts[n]}{'' if of_path else f' ({_percent(share[n])})'} {PARTS[n]}" for n in PARTS if counts[n]]
+    return [f"parts: {parts}{where}; of these", *(f"  {text}" for text in texts)]
 
 
 def shares(proof: str) -> dict[str, float]:
@@ -89,10 +89,10 @@ def shares(proof: str) -> dict[str, float]:
             depths += [depth + 1, depth + 1]
         else:
             leaves[_LEAVES[token[0]], depth] += 1
-    found = dict.fromkeys(PARTS, Fraction(0))
+    totals = dict.fromkeys(PARTS, Fraction(0))
     for (name, depth), count in leaves.items():
-        found[name] += Fraction(count, 2**depth)
-    return {name: float(total / max(trees, 1)) for name, total in found.items()}
+        totals[name] += Fraction(count, 2**depth)
+    return {name: float(total / max(trees, 1)) for name, total in totals.items()}
 
 
 def _percent(share: float) -> str:

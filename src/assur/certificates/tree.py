@@ -167,9 +167,9 @@ def planted(text: Any, whole: Boxes, judge: Callable[[Boxes], Tokens]) -> Tree:
         shares[child] = shares[parent] / 2
     if waiting:
         raise _no_tree()
-    boxes, leaf, found = Boxes(low, high), first < 0, np.array(tokens, dtype="<U3")
-    found[leaf] = judge(boxes[leaf])
-    return Tree(boxes, found, first, second, shares)
+    boxes, leaf, judged = Boxes(low, high), first < 0, np.array(tokens, dtype="<U3")
+    judged[leaf] = judge(boxes[leaf])
+    return Tree(boxes, judged, first, second, shares)
 
 
 def _no_tree() -> UsageError:

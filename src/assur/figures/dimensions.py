@@ -16,7 +16,7 @@ from assur.figures.style import BLUE, INK, RED, TEXT
 from assur.figures.symbols import direction
 from assur.joint_graph.frames import Frame
 from assur.numerics import rotations
-from assur.scene.skeleton import Mark, Skeleton
+from assur.scene.skeleton import JointMark, Skeleton
 
 FloatArray = NDArray[np.float64]
 SAMPLES = 48
@@ -70,7 +70,7 @@ def arcs(skeleton: Skeleton, radius: float) -> list[Arc]:
     return found
 
 
-def _arc(skeleton: Skeleton, mark: Mark, name: str, latex: str, value: float, radius: float) -> Arc | None:
+def _arc(skeleton: Skeleton, mark: JointMark, name: str, latex: str, value: float, radius: float) -> Arc | None:
     joint = mark.joint
     if joint.type.freedoms != 1:
         return None
@@ -90,7 +90,7 @@ def _arc(skeleton: Skeleton, mark: Mark, name: str, latex: str, value: float, ra
     return Arc(name, latex, value, mark.at, np.stack([zero, arm / size]), points)
 
 
-def _partner(skeleton: Skeleton, mark: Mark) -> FloatArray | None:
+def _partner(skeleton: Skeleton, mark: JointMark) -> FloatArray | None:
     """The other end of the part of the child that starts at a joint."""
     for rod in skeleton.rods:
         if rod.link == mark.joint.child and mark.joint.name in rod.ends:

@@ -18,7 +18,7 @@ from assur.figures.sketch import Pen, chain_colours, draw_bodies
 from assur.figures.spec import Drawing, Entry
 from assur.figures.style import GREY, INK, PAGE, TEXT
 from assur.scene.camera import AXES, Camera, plane
-from assur.scene.companion import Measure
+from assur.scene.companion import DrawnMeasure
 from assur.scene.letters import lettered
 from assur.scene.skeleton import Skeleton
 
@@ -186,7 +186,7 @@ def _corner(page: Canvas, view: View, skeleton: Skeleton, letters: Letters) -> N
     draw_frame(page, shifted, base, base[1], size, "", letters)
 
 
-def _measure(page: Canvas, view: View, skeleton: Skeleton, measure: Measure, letters: Letters) -> None:
+def _measure(page: Canvas, view: View, skeleton: Skeleton, measure: DrawnMeasure, letters: Letters) -> None:
     """A measure outside the drawing, below it or to its right."""
     ends = view(np.array([skeleton.points[name] for name in measure.ends]))
     flat = view(skeleton.cloud)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from assur.figures.canvas import Canvas, View, guide
 from assur.figures.style import INK, ORANGE, PAPER
 from assur.scene.hull import hull
-from assur.scene.skeleton import Mark
+from assur.scene.skeleton import JointMark
 
 FloatArray = NDArray[np.float64]
 RADIUS = 3.6
@@ -20,7 +20,7 @@ HATCH = 3.6
 ROUND = np.array([[-1.0, -1.0], [1.0, 1.0]])
 
 
-def joint_symbol(page: Canvas, view: View, mark: Mark, order: float, size: float = 1.0) -> FloatArray:
+def joint_symbol(page: Canvas, view: View, mark: JointMark, order: float, size: float = 1.0) -> FloatArray:
     """The symbol of one joint; a driven one is filled. Returns points (k, 2) about it."""
     at = view(mark.shown)
     fill = ORANGE if mark.driven else PAPER
@@ -41,7 +41,7 @@ def joint_symbol(page: Canvas, view: View, mark: Mark, order: float, size: float
     return np.concatenate(drawn)
 
 
-def _plane(page: Canvas, view: View, mark: Mark, fill: str, order: float, size: float) -> FloatArray:
+def _plane(page: Canvas, view: View, mark: JointMark, fill: str, order: float, size: float) -> FloatArray:
     """A plate in its plane as it is seen, and a disc on it where it turns."""
     at = view(mark.shown)
     first, second = (view.camera.project(axis) for axis in mark.axes[1:])

@@ -52,14 +52,14 @@ class Zeros:
     """What is known of the zeros in some boxes.
 
     Attributes:
-        found: (K, n) narrow boxes that hold exactly one zero each, no two the same.
+        isolated: (K, n) narrow boxes that hold exactly one zero each, no two the same.
         labels: (K,) the label of each.
         undecided: (U, n) boxes in which nothing is proved, neighbours joined; every other zero would be in one of them.
         undecided_labels: (U,) theirs; -1 where boxes of several labels were joined.
         examined: how many boxes were looked at.
     """
 
-    found: Interval
+    isolated: Interval
     labels: IntArray
     undecided: Interval
     undecided_labels: IntArray
@@ -91,7 +91,7 @@ def zeros(
 
     >>> answer = zeros(lambda ns, x, label: ([x[0] * x[0] - 2, x[0] * x[1] - 1], []),
     ...     Interval.of([[-3.0, -3.0]], [[3.0, 3.0]]), np.zeros(1, dtype=int), [1.0, 1.0])
-    >>> sorted(answer.found.middle.round(6).tolist()), len(answer.undecided.low)
+    >>> sorted(answer.isolated.middle.round(6).tolist()), len(answer.undecided.low)
     ([[-1.414214, -0.707107], [1.414214, 0.707107]], 0)
     """
     size = np.broadcast_to(np.asarray(scale, dtype=float), boxes.shape[-1:])
@@ -112,10 +112,10 @@ def zeros(
         done = np.max(boxes.width / size, axis=-1) < smallest
         left.append((boxes[done], labels[done]))
         boxes, labels = _halved(boxes[~done], labels[~done], size)
-    found, own, doubtful = _distinct(conditions, proved, boxes.shape[-1])
+    isolated, of_isolated, doubtful = _distinct(conditions, proved, boxes.shape[-1])
     left.append(doubtful)
     rest, of_rest = _clusters(*_joined(left, boxes.shape[-1]), 4 * smallest * size)
-    return Zeros(found, own, rest, of_rest, examined)
+    return Zeros(isolated, of_isolated, rest, of_rest, examined)
 
 
 def excluded(conditions: Conditions, boxes: Interval, labels: IntArray) -> NDArray[np.bool_]:
@@ -148,13 +148,13 @@ def _tested(
         return boxes, (boxes, boxes, labels), np.zeros(0, dtype=bool)
     wide = inflated(boxes, 1e-12 * size)
     picture = image(_equations(conditions, labels), wide)
-    one = proves(picture, wide)
-    one[one] &= certain(conditions, picture[one], labels[one])
-    open_ = ~one & ~refutes(picture, boxes)
+    unique = proves(picture, wide)
+    unique[unique] &= certain(conditions, picture[unique], labels[unique])
+    open_ = ~unique & ~refutes(picture, boxes)
     narrow, apart = common(boxes, picture)
     usable = narrow.defined & ~apart
     low, high = np.where(usable, narrow.low, boxes.low), np.where(usable, narrow.high, boxes.high)
-    return Interval(low, high, boxes.defined)[open_], (picture[one], wide[one], labels[one]), open_
+    return Interval(low, high, boxes.defined)[open_], (picture[unique], wide[unique], labels[unique]), open_
 
 
 def _equations(conditions: Conditions, labels: IntArray) -> Callable[[Any, tuple[Any, ...]], Sequence[Any]]:
@@ -179,10 +179,10 @@ def _halved(boxes: Interval, labels: IntArray, size: FloatArray) -> tuple[Interv
 
 def _joined(pieces: Sequence[tuple[Interval, IntArray]], width: int) -> tuple[Interval, IntArray]:
     """All boxes and labels of some pieces, one after the other."""
-    boxes = [item for item, _ in pieces if len(item.low)]
+    boxes = [box for box, _ in pieces if len(box.low)]
     if not boxes:
         return empty(width), np.zeros(0, dtype=np.intp)
-    return concatenate(boxes), np.concatenate([label for item, label in pieces if len(item.low)])
+    return concatenate(boxes), np.concatenate([label for box, label in pieces if len(box.low)])
 
 
 def _distinct(
@@ -193,8 +193,8 @@ def _distinct(
     Two proofs are of one zero where the narrow box of one lies where the other's is the only one, and of two where the
     narrow boxes have nothing in common.
     """
-    images, labels = _joined([(item, label) for item, _, label in proved], width)
-    unique, _ = _joined([(item, label) for _, item, label in proved], width)
+    images, labels = _joined([(box, label) for box, _, label in proved], width)
+    unique, _ = _joined([(box, label) for _, box, label in proved], width)
     if not len(images.low):
         return images, labels, (images, labels)
     narrow = tightened(_equations(conditions, labels), images)
@@ -209,8 +209,8 @@ def _distinct(
     return narrow[kept], labels[kept], (narrow[doubtful], labels[doubtful])
 
 
-def _within(one: Interval, other: Interval) -> bool:
-    return bool(np.all(one.within(other)))
+def _within(inner: Interval, outer: Interval) -> bool:
+    return bool(np.all(inner.within(outer)))
 
 
 def _clusters(boxes: Interval, labels: IntArray, near: FloatArray) -> tuple[Interval, IntArray]:

@@ -101,13 +101,13 @@ def _angle(vector: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _combined(
-    vector: FloatArray, one: FloatArray, outer: FloatArray, cross: FloatArray, batch: tuple[int, ...]
+    vector: FloatArray, identity: FloatArray, outer: FloatArray, cross: FloatArray, batch: tuple[int, ...]
 ) -> FloatArray:
-    """`one` times the identity, `outer` times v v^T and `cross` times the matrix of v x, each factor (...)."""
+    """`identity` times the unit matrix, `outer` times v v^T and `cross` times the matrix of v x, each factor (...)."""
     result = np.empty((3, 3, *batch))
     for k in range(3):
         i, j = (k + 1) % 3, (k + 2) % 3
-        result[k, k] = one + outer * vector[..., k] ** 2
+        result[k, k] = identity + outer * vector[..., k] ** 2
         symmetric, skew = outer * vector[..., i] * vector[..., j], cross * vector[..., k]
         result[i, j], result[j, i] = symmetric - skew, symmetric + skew
     return _batch_first(result, 2)

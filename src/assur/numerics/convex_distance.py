@@ -18,7 +18,7 @@ TOLERANCE = 1e-6
 WEIGHT = 1e4
 """How much more the sums of the weights count in `nearest_points` than the distance, in sizes of the bodies."""
 
-FACES = [list(item) for size in (1, 2, 3, 4) for item in combinations(range(4), size)]
+FACES = [list(corners) for size in (1, 2, 3, 4) for corners in combinations(range(4), size)]
 
 
 def convex_distance(
@@ -47,17 +47,17 @@ def convex_distance(
         busy = busy[distance[busy] > tolerance * size]
         if not len(busy):
             break
-        here = least[busy]
-        corner = _support(first, second, rotation[busy], origin[busy], here)
-        room = np.sum(here * (here - corner), axis=1)
+        vector = least[busy]
+        corner = _support(first, second, rotation[busy], origin[busy], vector)
+        room = np.sum(vector * (vector - corner), axis=1)
         open_ = room > tolerance * distance[busy] ** 2
         busy, corner = busy[open_], corner[open_]
         if not len(busy):
             break
-        found, kept = _least(simplex[busy], corner)
-        nearer = np.linalg.norm(found, axis=1) < distance[busy]  # rounding may stop it a little before
+        vectors, kept = _least(simplex[busy], corner)
+        nearer = np.linalg.norm(vectors, axis=1) < distance[busy]  # rounding may stop it a little before
         busy = busy[nearer]
-        least[busy], simplex[busy] = found[nearer], kept[nearer]
+        least[busy], simplex[busy] = vectors[nearer], kept[nearer]
         distance[busy] = np.linalg.norm(least[busy], axis=1)
     distance[distance <= tolerance * size] = 0.0
     return np.asarray(distance)
@@ -80,8 +80,8 @@ def nearest_points(first: FloatArray, second: FloatArray) -> FloatArray:
     matrix[:3, len(first) :] = -(second - middle).T / size
     matrix[3, : len(first)] = matrix[4, len(first) :] = WEIGHT
     weights, _ = nnls(matrix, np.array([0.0, 0.0, 0.0, WEIGHT, WEIGHT]))
-    one, other = weights[: len(first)], weights[len(first) :]
-    return np.array([one @ first / one.sum(), other @ second / other.sum()])
+    of_first, of_second = weights[: len(first)], weights[len(first) :]
+    return np.array([of_first @ first / of_first.sum(), of_second @ second / of_second.sum()])
 
 
 def _support(
@@ -104,26 +104,26 @@ def _least(simplex: FloatArray, corner: FloatArray) -> tuple[FloatArray, FloatAr
     best = np.full(len(points), np.inf)
     vectors, kept = np.zeros((len(points), 3)), points.copy()
     for face in FACES:
-        own = points[:, face]
-        weights, regular = _weights(own)
-        vector = np.einsum("kf,kfi->ki", weights, own)
+        corners = points[:, face]
+        weights, regular = _weights(corners)
+        vector = np.einsum("kf,kfi->ki", weights, corners)
         size = np.where(regular & np.all(weights >= -1e-12, axis=1), np.linalg.norm(vector, axis=1), np.inf)
         take = size < best
         best[take], vectors[take] = size[take], vector[take]
-        filled = np.concatenate([own, np.repeat(own[:, :1], 4 - len(face), axis=1)], axis=1)
+        filled = np.concatenate([corners, np.repeat(corners[:, :1], 4 - len(face), axis=1)], axis=1)
         kept[take] = filled[take]
     return vectors, kept
 
 
-def _weights(own: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+def _weights(corners: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Weights (k, f) of the corners (k, f, 3) for the point of their affine hull next to zero; which are sound."""
-    count = own.shape[1]
+    count = corners.shape[1]
     if count == 1:
-        return np.ones((len(own), 1)), np.ones(len(own), dtype=bool)
-    edges = own[:, 1:] - own[:, :1]
+        return np.ones((len(corners), 1)), np.ones(len(corners), dtype=bool)
+    edges = corners[:, 1:] - corners[:, :1]
     gram = np.einsum("kai,kbi->kab", edges, edges)
     scale = np.maximum(np.einsum("kaa->k", gram), 1e-300)
     regular = np.linalg.det(gram / scale[:, None, None]) > 1e-14
     safe = np.where(regular[:, None, None], gram, np.eye(count - 1))
-    rest = np.linalg.solve(safe, -np.einsum("kai,ki->ka", edges, own[:, 0])[..., None])[..., 0]
+    rest = np.linalg.solve(safe, -np.einsum("kai,ki->ka", edges, corners[:, 0])[..., None])[..., 0]
     return np.concatenate([1 - rest.sum(axis=1, keepdims=True), rest], axis=1), regular

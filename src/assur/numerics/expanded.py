@@ -1,8 +1,8 @@
 """Polynomials in several unknowns, expanded: a number type that reads a kernel of + - * once and keeps it as arrays.
 
 An `Expanded` maps exponents to coefficients, which may be arrays over a batch of problems. `expand` turns a system of
-them into a `System`: arrays that are evaluated fast at many points and at many values of its last unknown, the path's
-parameter t.
+them into an `ExpandedSystem`: arrays that are evaluated fast at many points and at many values of its last unknown, the
+path's parameter t.
 """
 
 from __future__ import annotations
@@ -99,7 +99,7 @@ def coefficients_of(polynomial: Expanded, count: int) -> tuple[Any, ...]:
 
 
 @dataclass(frozen=True, eq=False)
-class System:
+class ExpandedSystem:
     """A family of homogeneous systems H(x, t) = 0 of E equations in n = E + 1 unknowns, for P problems.
 
     Attributes:
@@ -118,13 +118,13 @@ class System:
         """H (N, E), its derivatives by x (N, E, n) and by t (N, E), at points (N, n) of problems (N,)."""
         problems, powers, equations, monomials = self.coefficients.shape
         flat = self.coefficients.reshape(problems, powers * equations, monomials)
-        own = flat[0] if problems == 1 else flat[problem]
-        parts = (own @ self._monomials(x)).reshape(len(x), powers, equations, self.size + 1)
-        here, rate = parts[:, -1], np.zeros_like(parts[:, -1])
+        coefficients = flat[0] if problems == 1 else flat[problem]
+        parts = (coefficients @ self._monomials(x)).reshape(len(x), powers, equations, self.size + 1)
+        values, rate = parts[:, -1], np.zeros_like(parts[:, -1])
         for k in range(powers - 2, -1, -1):  # Horner's rule, and for the derivative
-            rate = rate * t[:, None, None] + here
-            here = here * t[:, None, None] + parts[:, k]
-        return here[..., -1], here[..., :-1], rate[..., -1]
+            rate = rate * t[:, None, None] + values
+            values = values * t[:, None, None] + parts[:, k]
+        return values[..., -1], values[..., :-1], rate[..., -1]
 
     def _monomials(self, x: ComplexArray) -> ComplexArray:
         """Derivatives of all monomials by the unknowns, and last the monomials (N, M, n + 1), at points (N, n)."""
@@ -138,7 +138,7 @@ class System:
         return answer
 
 
-def expand(equations: Sequence[Expanded]) -> System:
+def expand(equations: Sequence[Expanded]) -> ExpandedSystem:
     """The arrays of homogeneous equations in n unknowns and, last, the parameter t.
 
     Errors:
@@ -153,11 +153,11 @@ def expand(equations: Sequence[Expanded]) -> System:
     ([[0.0]], [[[2.0, -2.0]]], [[-1.0]])
     """
     size = len(next(iter(equations[0].terms))) - 1
-    kept = [{power: factor for power, factor in item.terms.items() if np.any(factor)} for item in equations]
+    kept = [{power: factor for power, factor in equation.terms.items() if np.any(factor)} for equation in equations]
     degrees = [{sum(exponents[:-1]) for exponents in terms} for terms in kept]
-    if len(equations) != size - 1 or any(len(found) != 1 for found in degrees):
+    if len(equations) != size - 1 or any(len(sums) != 1 for sums in degrees):
         raise UsageError(
-            f"{len(equations)} equations of degrees {[sorted(found) for found in degrees]} in {size} unknowns",
+            f"{len(equations)} equations of degrees {[sorted(sums) for sums in degrees]} in {size} unknowns",
             hint="homogeneous equations are wanted, one fewer than the unknowns",
         )
     powers = 1 + max(exponents[-1] for terms in kept for exponents in terms)
@@ -167,7 +167,7 @@ def expand(equations: Sequence[Expanded]) -> System:
     for row, terms in enumerate(kept):
         for exponents, factor in terms.items():
             coefficients[:, exponents[-1], row, monomials.index(exponents[:-1])] = factor
-    degree = max(max(found) for found in degrees)
-    factors = [[k for k in range(size) for _ in range(item[k])] for item in monomials]
-    padded = [item + [size] * (degree - len(item)) for item in factors]
-    return System(coefficients, np.array(padded, dtype=np.intp), size)
+    degree = max(max(sums) for sums in degrees)
+    factors = [[k for k in range(size) for _ in range(monomial[k])] for monomial in monomials]
+    padded = [unknowns + [size] * (degree - len(unknowns)) for unknowns in factors]
+    return ExpandedSystem(coefficients, np.array(padded, dtype=np.intp), size)

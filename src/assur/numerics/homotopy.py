@@ -13,7 +13,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.numerics.expanded import System
+from assur.numerics.expanded import ExpandedSystem
 from assur.numerics.path_tracking import along, polished
 
 ComplexArray = NDArray[np.complex128]
@@ -34,7 +34,7 @@ SAME = 1e-6
 """Points of length 1 whose distance is smaller are one solution."""
 
 
-class End(IntEnum):
+class PathEnd(IntEnum):
     """How a path ended: at a regular solution, at one where solutions meet, or nowhere that is known."""
 
     regular = 0
@@ -43,15 +43,15 @@ class End(IntEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class Ends:
-    """Ends x (N, n) of paths, of length 1, what they are, `End` (N,), and the number of steps of the slowest."""
+class PathEnds:
+    """Ends x (N, n) of paths, of length 1, what they are, `PathEnd` (N,), and the number of steps of the slowest."""
 
     x: ComplexArray
     end: NDArray[np.int8]
     steps: int
 
 
-def solve(system: System, starts: ComplexArray) -> Ends:
+def solve(system: ExpandedSystem, starts: ComplexArray) -> PathEnds:
     """Follow every start (K, n), a solution at t = 1, to t = 0 in each of P problems: ends (P K), problem by problem.
 
     Paths that were lost, or came together at a regular end, where two cannot, are followed again with smaller steps.
@@ -69,15 +69,15 @@ def solve(system: System, starts: ComplexArray) -> Ends:
     problem = np.repeat(np.arange(count), len(starts))
     first = np.tile(starts, (count, 1))
     ends = follow(system, first, problem)
-    again = np.flatnonzero((ends.end == End.lost) | _together(ends, count))
+    again = np.flatnonzero((ends.end == PathEnd.lost) | _together(ends, count))
     if len(again):
         better = follow(system, first[again], problem[again], close=CLOSE / 100)
         ends.x[again], ends.end[again] = better.x, better.end
-        ends.end[_together(ends, count)] = End.lost
+        ends.end[_together(ends, count)] = PathEnd.lost
     return ends
 
 
-def follow(system: System, x: ComplexArray, problem: IndexArray, *, close: float = CLOSE) -> Ends:
+def follow(system: ExpandedSystem, x: ComplexArray, problem: IndexArray, *, close: float = CLOSE) -> PathEnds:
     """Follow solutions x (N, n) of problems (N,) from t = 1 to t = 0.
 
     An end is regular where the Jacobian has full rank, singular where the end game finds a limit, else lost.
@@ -88,16 +88,16 @@ def follow(system: System, x: ComplexArray, problem: IndexArray, *, close: float
     last, reached, more = along(system, before, problem, edge, np.zeros(count), close)
     last, converged = polished(system, last, np.zeros(count), problem)
     regular = arrived & reached & converged & (rank_gap(system, last, problem) > REGULAR)
-    end = np.where(regular, End.regular, End.lost).astype(np.int8)
+    end = np.where(regular, PathEnd.regular, PathEnd.lost).astype(np.int8)
     rest = np.flatnonzero(arrived & ~regular)
     if len(rest):
-        limit, found = _end_game(system, before[rest], problem[rest], close)
-        last[rest[found]] = limit[found]
-        end[rest[found]] = End.singular
-    return Ends(last, end, steps + more)
+        limit, settled = _end_game(system, before[rest], problem[rest], close)
+        last[rest[settled]] = limit[settled]
+        end[rest[settled]] = PathEnd.singular
+    return PathEnds(last, end, steps + more)
 
 
-def rank_gap(system: System, x: ComplexArray, problem: IndexArray) -> FloatArray:
+def rank_gap(system: ExpandedSystem, x: ComplexArray, problem: IndexArray) -> FloatArray:
     """Smallest singular value (N,) of the Jacobian at points x (N, n) of length 1 and t = 0.
 
     Each equation is divided by its largest coefficient.
@@ -117,34 +117,36 @@ def distinct(x: ComplexArray) -> IndexArray:
     return np.flatnonzero(~np.any(np.tril(1 - overlap**2 < SAME**2 + 1e-12, -1), axis=1))
 
 
-def _together(ends: Ends, count: int) -> BoolArray:
+def _together(ends: PathEnds, count: int) -> BoolArray:
     """Which regular ends (P K) are not the only one of their problem at their place."""
     x = ends.x.reshape(count, -1, ends.x.shape[-1])
-    regular = (ends.end == End.regular).reshape(count, -1)
+    regular = (ends.end == PathEnd.regular).reshape(count, -1)
     overlap = np.abs(x.conj() @ np.swapaxes(x, 1, 2)) ** 2
     near = (1 - overlap < SAME**2 + 1e-12) & regular[:, :, None] & regular[:, None, :]
     return np.asarray((np.sum(near, axis=2) > 1).ravel())
 
 
-def _end_game(system: System, x: ComplexArray, problem: IndexArray, close: float) -> tuple[ComplexArray, BoolArray]:
+def _end_game(
+    system: ExpandedSystem, x: ComplexArray, problem: IndexArray, close: float
+) -> tuple[ComplexArray, BoolArray]:
     """Limits (N, n) at t = 0 of paths that are at x (N, n) at the first radius, and whether they have settled (N,)."""
-    limit, found = _limits(system, x, problem, RADII[0], close)
+    limit, closed = _limits(system, x, problem, RADII[0], close)
     settled = np.zeros(len(x), dtype=bool)
-    rows = np.flatnonzero(found)
+    rows = np.flatnonzero(closed)
     for first, last in itertools.pairwise(RADII):
         ways = np.full(len(rows), first), np.full(len(rows), last)
         nearer, arrived, _ = along(system, x[rows], problem[rows], *ways, close)
         x[rows], rows = nearer, rows[arrived]
-        again, found = _limits(system, x[rows], problem[rows], last, close)
-        same = found & (_distance(again, limit[rows]) < SETTLED)
-        limit[rows[found]] = again[found]
+        again, closed = _limits(system, x[rows], problem[rows], last, close)
+        same = closed & (_distance(again, limit[rows]) < SETTLED)
+        limit[rows[closed]] = again[closed]
         settled[rows[same]] = True
-        rows = rows[found & ~same]
+        rows = rows[closed & ~same]
     return limit, settled
 
 
 def _limits(
-    system: System, x: ComplexArray, problem: IndexArray, radius: float, close: float
+    system: ExpandedSystem, x: ComplexArray, problem: IndexArray, radius: float, close: float
 ) -> tuple[ComplexArray, BoolArray]:
     """Limits (N, n) at t = 0 of paths that are at x (N, n) at t = radius, and whether they come back (N,).
 
@@ -153,20 +155,20 @@ def _limits(
     """
     corners = radius * np.exp(2j * np.pi * np.arange(CORNERS + 1) / CORNERS)
     reference = x.conj()
-    here, total, limit = x.copy(), np.zeros_like(x), np.ones_like(x)
-    found = np.zeros(len(x), dtype=bool)
+    points, total, limit = x.copy(), np.zeros_like(x), np.ones_like(x)
+    closed = np.zeros(len(x), dtype=bool)
     rows = np.arange(len(x))
     for circle in range(1, MOST_CIRCLES + 1):
         for first, last in itertools.pairwise(corners):
-            total[rows] += here[rows] / np.sum(reference[rows] * here[rows], axis=1, keepdims=True)
+            total[rows] += points[rows] / np.sum(reference[rows] * points[rows], axis=1, keepdims=True)
             ways = np.full(len(rows), first), np.full(len(rows), last)
-            here[rows], arrived, _ = along(system, here[rows], problem[rows], *ways, close)
+            points[rows], arrived, _ = along(system, points[rows], problem[rows], *ways, close)
             rows = rows[arrived]
-        back = _distance(here[rows], x[rows]) < SAME
+        back = _distance(points[rows], x[rows]) < SAME
         limit[rows[back]] = total[rows[back]] / (CORNERS * circle)
-        found[rows[back]] = True
+        closed[rows[back]] = True
         rows = rows[~back]
-    return limit / np.linalg.norm(limit, axis=1, keepdims=True), found
+    return limit / np.linalg.norm(limit, axis=1, keepdims=True), closed
 
 
 def _distance(first: ComplexArray, second: ComplexArray) -> FloatArray:

@@ -48,28 +48,28 @@ def image(equations: Equations, box: Interval) -> Interval:
     """
     middle = box.middle
     size = middle.shape[-1]
-    here = stacked(equations(Intervals(), parts(Interval.of(middle))), len(middle))
+    values = stacked(equations(Intervals(), parts(Interval.of(middle))), len(middle))
     slopes = derivative(equations, box)
     centre = slopes.middle
     sound = np.all(slopes.defined & np.isfinite(slopes.width), axis=(-2, -1))
     singular = np.linalg.det(np.where(sound[:, None, None], centre, np.eye(size))) == 0
     invertible = (sound & ~singular)[:, None, None]
     inverse = np.linalg.inv(np.where(invertible, centre, np.eye(size)))
-    found = _moved(middle, box - middle, here, slopes, inverse)
-    return Interval(found.low, found.high, found.defined & invertible[..., 0])
+    moved = _moved(middle, box - middle, values, slopes, inverse)
+    return Interval(moved.low, moved.high, moved.defined & invertible[..., 0])
 
 
-def _moved(middle: FloatArray, offset: Interval, here: Interval, slopes: Interval, inverse: FloatArray) -> Interval:
+def _moved(middle: FloatArray, offset: Interval, values: Interval, slopes: Interval, inverse: FloatArray) -> Interval:
     """The image (N, n), m - Y F(m) + (I - Y J) (X - m): by machine code where that is repaid, of the same bits."""
     count, size = middle.shape
     if size <= SMALL and repaid(len(_operator(size).tape.operations), count):
-        numbers = [*parts(Interval.of(middle)), *parts(offset), *parts(here)]
+        numbers = [*parts(Interval.of(middle)), *parts(offset), *parts(values)]
         numbers += [slopes[:, i, j] for i in range(size) for j in range(size)]
         numbers += [as_interval(inverse[:, i, j]) for i in range(size) for j in range(size)]
-        found = _operator(size)(numbers, [], "compiled")
-        return stacked([found[f"K{i}"] for i in range(size)], count)
+        components = _operator(size)(numbers, [], "compiled")
+        return stacked([components[f"K{i}"] for i in range(size)], count)
     rest = np.eye(size) - _total(Interval.of(inverse[..., None]) * _rows(slopes[:, None]))
-    moved = _total(Interval.of(inverse) * here[:, None, :], axis=-1)
+    moved = _total(Interval.of(inverse) * values[:, None, :], axis=-1)
     spread = _total(rest * _rows(offset)[:, None, :], axis=-1)
     return Interval.of(middle) - moved + spread
 
@@ -78,12 +78,12 @@ def _moved(middle: FloatArray, offset: Interval, here: Interval, slopes: Interva
 def _operator(size: int) -> IntervalProgram:
     """The same for so many unknowns as a program."""
     recorder, every = Recorder(), range(size)
-    middle, offset, here = ([recorder.varying(f"{name}{i}") for i in every] for name in "mdF")
+    middle, offset, values = ([recorder.varying(f"{name}{i}") for i in every] for name in "mdF")
     slopes, inverse = ([[recorder.varying(f"{name}{i}{j}") for j in every] for i in every] for name in "JY")
     outputs: dict[str, Recorded] = {}
     for i in every:
         rest = [float(i == j) - reduce(operator.add, [inverse[i][k] * slopes[k][j] for k in every]) for j in every]
-        moved = reduce(operator.add, [inverse[i][k] * here[k] for k in every])
+        moved = reduce(operator.add, [inverse[i][k] * values[k] for k in every])
         spread = reduce(operator.add, [rest[j] * offset[j] for j in every])
         outputs[f"K{i}"] = middle[i] - moved + spread
     return IntervalProgram(recorder.tape(outputs))
@@ -107,15 +107,15 @@ def derivative(equations: Equations, box: Interval) -> Interval:
     return Interval(columns.low.transpose(1, 2, 0), columns.high.transpose(1, 2, 0), columns.defined.transpose(1, 2, 0))
 
 
-def proves(found: Interval, box: Interval) -> BoolArray:
+def proves(image: Interval, box: Interval) -> BoolArray:
     """Where (N,) an image proves that its box holds exactly one zero."""
-    return np.asarray(np.all(found.within(box), axis=-1))
+    return np.asarray(np.all(image.within(box), axis=-1))
 
 
-def refutes(found: Interval, box: Interval) -> BoolArray:
+def refutes(image: Interval, box: Interval) -> BoolArray:
     """Where (N,) an image proves that its box holds no zero."""
-    apart = common(box, found)[1]
-    return np.asarray(np.any(apart, axis=-1) & np.all(found.defined, axis=-1))
+    apart = common(box, image)[1]
+    return np.asarray(np.any(apart, axis=-1) & np.all(image.defined, axis=-1))
 
 
 def inflated(box: Interval, floor: FloatArray | float = 0.0) -> Interval:
@@ -127,9 +127,9 @@ def inflated(box: Interval, floor: FloatArray | float = 0.0) -> Interval:
 def tightened(equations: Equations, box: Interval, times: int = 4) -> Interval:
     """Boxes (N, n) with one zero each, made as narrow as rounding lets them by taking the image again."""
     for _ in range(times):
-        found, apart = common(image(equations, box), box)
-        usable = found.defined & ~apart
-        box = Interval(np.where(usable, found.low, box.low), np.where(usable, found.high, box.high), box.defined)
+        narrowed, apart = common(image(equations, box), box)
+        usable = narrowed.defined & ~apart
+        box = Interval(np.where(usable, narrowed.low, box.low), np.where(usable, narrowed.high, box.high), box.defined)
     return box
 
 

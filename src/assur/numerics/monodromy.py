@@ -12,11 +12,11 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.numerics.expanded import System
-from assur.numerics.homotopy import End, distinct, follow
+from assur.numerics.expanded import ExpandedSystem
+from assur.numerics.homotopy import PathEnd, distinct, follow
 
 ComplexArray = NDArray[np.complex128]
-Family = Callable[[ComplexArray, ComplexArray], System]
+Family = Callable[[ComplexArray, ComplexArray], ExpandedSystem]
 """(parameters at t = 1, at t = 0) -> the systems on the way."""
 MOST_LOOPS = 60
 
@@ -44,18 +44,18 @@ def all_solutions(
     >>> np.sort_complex(found[:, 0] / found[:, 1]).round(9)
     array([-0.5-0.8660254j, -0.5+0.8660254j,  1. +0.j       ])
     """
-    found = (solution / np.linalg.norm(solution))[None]
+    solutions = (solution / np.linalg.norm(solution))[None]
     for _ in range(MOST_LOOPS):
         corners = [parameters, *(random_complex(rng, len(parameters)) for _ in range(2)), parameters]
-        x = found
+        x = solutions
         for first, last in itertools.pairwise(corners):
             ends = follow(family(first, last), x, np.zeros(len(x), dtype=int))
-            x = ends.x[ends.end == End.regular]
-        both = np.concatenate([found, x])
-        found = both[distinct(both)]
-        if len(found) >= degree:
+            x = ends.x[ends.end == PathEnd.regular]
+        both = np.concatenate([solutions, x])
+        solutions = both[distinct(both)]
+        if len(solutions) >= degree:
             break
-    return found
+    return solutions
 
 
 def random_complex(rng: np.random.Generator, count: int) -> ComplexArray:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.numerics.expanded import System
+from assur.numerics.expanded import ExpandedSystem
 
 ComplexArray = NDArray[np.complex128]
 FloatArray = NDArray[np.float64]
@@ -27,7 +27,7 @@ MOST_STEPS = 1000
 
 
 def along(
-    system: System,
+    system: ExpandedSystem,
     x: ComplexArray,
     problem: IndexArray,
     start: NDArray[np.inexact],
@@ -76,7 +76,7 @@ def along(
 
 
 def _predicted(
-    system: System, x: ComplexArray, t: NDArray[np.inexact], change: NDArray[np.inexact], problem: IndexArray
+    system: ExpandedSystem, x: ComplexArray, t: NDArray[np.inexact], change: NDArray[np.inexact], problem: IndexArray
 ) -> ComplexArray:
     """Points (N, n) at t + change, by the classical Runge-Kutta rule on dx/dt."""
     h = change[:, None]
@@ -87,7 +87,7 @@ def _predicted(
     return np.asarray(x + h / 6 * (first + 2 * second + 2 * third + fourth))
 
 
-def _tangent(system: System, x: ComplexArray, t: NDArray[np.inexact], problem: IndexArray) -> ComplexArray:
+def _tangent(system: ExpandedSystem, x: ComplexArray, t: NDArray[np.inexact], problem: IndexArray) -> ComplexArray:
     """dx/dt (N, n) of the solutions, orthogonal to x."""
     _, slope, rate = system.evaluate(x, t, problem)
     return _across(slope, -rate, x)
@@ -104,7 +104,7 @@ def _across(slope: ComplexArray, right: ComplexArray, x: ComplexArray) -> Comple
 
 
 def _corrected(
-    system: System, x: ComplexArray, t: NDArray[np.inexact], problem: IndexArray
+    system: ExpandedSystem, x: ComplexArray, t: NDArray[np.inexact], problem: IndexArray
 ) -> tuple[ComplexArray, FloatArray, BoolArray]:
     """Points (N, n) after two Newton steps, the size of the first step (N,), and whether the second was far smaller."""
     first, size = _newton_step(system, x, t, problem)
@@ -113,7 +113,7 @@ def _corrected(
 
 
 def _newton_step(
-    system: System, x: ComplexArray, t: NDArray[np.inexact], problem: IndexArray
+    system: ExpandedSystem, x: ComplexArray, t: NDArray[np.inexact], problem: IndexArray
 ) -> tuple[ComplexArray, FloatArray]:
     x = x / np.linalg.norm(x, axis=1, keepdims=True)
     value, slope, _ = system.evaluate(x, t, problem)
@@ -122,7 +122,7 @@ def _newton_step(
 
 
 def polished(
-    system: System, x: ComplexArray, t: NDArray[np.inexact], problem: IndexArray, steps: int = 8
+    system: ExpandedSystem, x: ComplexArray, t: NDArray[np.inexact], problem: IndexArray, steps: int = 8
 ) -> tuple[ComplexArray, BoolArray]:
     """Points (N, n) of length 1 after Newton's steps at t (N,), and whether the last one changed next to nothing."""
     x = x / np.linalg.norm(x, axis=1, keepdims=True)

@@ -106,14 +106,14 @@ def roots(coefficients: ArrayLike) -> ComplexArray:
     largest = np.max(np.abs(flat), axis=-1, initial=0.0)
     sound = np.isfinite(largest) & (largest > 0)
     present = (np.abs(flat) > NOTHING * largest[:, None]) & sound[:, None]
-    found = np.full((len(flat), degree), complex(np.nan, np.nan))
+    all_roots = np.full((len(flat), degree), complex(np.nan, np.nan))
     low, high = np.argmax(present, axis=-1), degree - np.argmax(present[:, ::-1], axis=-1)
     for first, last in {(int(a), int(b)) for a, b in zip(low[sound], high[sound], strict=True)}:
         rows = sound & (low == first) & (high == last)
-        found[rows, last:] = complex(np.inf, 0)
-        found[rows, :first] = 0
-        found[rows, first:last] = _finite_roots(flat[rows, first : last + 1])
-    return found.reshape((*given.shape[:-1], degree))
+        all_roots[rows, last:] = complex(np.inf, 0)
+        all_roots[rows, :first] = 0
+        all_roots[rows, first:last] = _finite_roots(flat[rows, first : last + 1])
+    return all_roots.reshape((*given.shape[:-1], degree))
 
 
 def _finite_roots(coefficients: FloatArray) -> ComplexArray:
@@ -129,27 +129,27 @@ def _finite_roots(coefficients: FloatArray) -> ComplexArray:
     companion = np.zeros((len(even), degree, degree))
     companion[:, np.arange(1, degree), np.arange(degree - 1)] = 1.0
     companion[:, :, -1] = -even[:, :-1] / even[:, -1:]
-    found = _polished(even, np.linalg.eigvals(companion).astype(complex))
-    return np.asarray(np.sort_complex(found) * np.exp2(power.astype(float))[:, None])
+    polished = _polished(even, np.linalg.eigvals(companion).astype(complex))
+    return np.asarray(np.sort_complex(polished) * np.exp2(power.astype(float))[:, None])
 
 
-def _polished(coefficients: FloatArray, found: ComplexArray) -> ComplexArray:
+def _polished(coefficients: FloatArray, points: ComplexArray) -> ComplexArray:
     """Roots (N, d) after Aberth's steps; a step that does not make the polynomial smaller is not taken."""
-    value, logarithmic = _values(coefficients, found)
-    other = ~np.eye(found.shape[-1], dtype=bool)
+    value, logarithmic = _values(coefficients, points)
+    other = ~np.eye(points.shape[-1], dtype=bool)
     for _ in range(POLISHING):
-        gaps = found[:, :, None] - found[:, None, :]
+        gaps = points[:, :, None] - points[:, None, :]
         push = np.sum(np.where(other & (gaps != 0), 1 / np.where(gaps == 0, 1, gaps), 0), axis=-1)
         denominator = logarithmic - push
         usable = (value > 0) & np.isfinite(denominator) & (denominator != 0)
-        moved = found - np.where(usable, 1 / np.where(usable, denominator, 1), 0)
+        moved = points - np.where(usable, 1 / np.where(usable, denominator, 1), 0)
         new_value, new_logarithmic = _values(coefficients, moved)
         better = new_value < value
         if not np.any(better):
             break
-        found = np.where(better, moved, found)
+        points = np.where(better, moved, points)
         value, logarithmic = np.where(better, new_value, value), np.where(better, new_logarithmic, logarithmic)
-    return found
+    return points
 
 
 def _values(coefficients: FloatArray, at: ComplexArray) -> tuple[FloatArray, ComplexArray]:
@@ -166,14 +166,14 @@ def _values(coefficients: FloatArray, at: ComplexArray) -> tuple[FloatArray, Com
     return np.abs(value), np.where(far, (degree - near_it * ratio) / safe, ratio)
 
 
-def angle_of(found: ComplexArray) -> ComplexArray:
+def angle_of(tangents: ComplexArray) -> ComplexArray:
     """The angles whose half has these tangents, real parts in (-pi, pi]; pi at infinity, no real angle at +-i.
 
     >>> (angle_of(roots([1.0, -1.0, 0.0])) / np.pi).round(12).real
     array([0.5, 1. ])
     """
-    infinite = np.isinf(found)
-    finite = np.where(infinite, 0, found)
+    infinite = np.isinf(tangents)
+    finite = np.where(infinite, 0, tangents)
     poles = (finite == 1j) | (finite == -1j)
     angle = 2 * np.arctan(np.where(poles, 0, finite))
     angle = np.where(infinite | (angle.real <= -np.pi), np.pi + 1j * angle.imag, angle)
@@ -181,7 +181,7 @@ def angle_of(found: ComplexArray) -> ComplexArray:
 
 
 def nearness(
-    coefficients: ArrayLike, found: ComplexArray, rounding: ArrayLike
+    coefficients: ArrayLike, points: ComplexArray, rounding: ArrayLike
 ) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
     """Whether roots (..., d) of polynomials (..., d + 1) may be real, and how many roots lie where each may lie.
 
@@ -206,7 +206,7 @@ def nearness(
     """
     given = np.asarray(coefficients, dtype=float)
     degree = given.shape[-1] - 1
-    flat, all_roots = given.reshape(-1, degree + 1), found.reshape(-1, degree)
+    flat, all_roots = given.reshape(-1, degree + 1), points.reshape(-1, degree)
     change = np.broadcast_to(np.asarray(rounding, dtype=float), given.shape).reshape(flat.shape)
     with np.errstate(all="ignore"):
         largest = np.max(np.abs(flat), axis=-1, keepdims=True, initial=0.0)
@@ -215,21 +215,21 @@ def nearness(
         finite = np.where(far, 0, all_roots)
         length = np.where(far, 1, np.sqrt(1 + np.abs(finite) ** 2))
         # points (1, t) / sqrt(1 + |t|^2), and below each root a real one, (cosine, sine)
-        one, other = np.where(far, 0, 1 / length), np.where(far, 1, finite / length)
+        first_part, second_part = np.where(far, 0, 1 / length), np.where(far, 1, finite / length)
         beyond = np.abs(all_roots) > 1
         nearer = np.where(far, 0, np.where(beyond, 1 / np.where(finite == 0, 1, finite), finite))
         angle = np.arctan2(2 * nearer.real, 1 - np.abs(nearer) ** 2)[:, :, None] / 2
         turned = beyond[:, :, None]
         cosine = np.where(turned, np.sin(angle), np.cos(angle))
         sine = np.where(turned, np.cos(angle), np.sin(angle))
-        chords = np.abs(cosine * other[:, None] - sine * one[:, None])  # (N, root, from each root)
+        chords = np.abs(cosine * second_part[:, None] - sine * first_part[:, None])  # (N, root, from each root)
         last = np.take_along_axis(np.abs(flat), (degree - np.sum(far, axis=-1))[:, None], axis=-1)
         size = last * np.prod(length, axis=-1, keepdims=True)
         powers = np.arange(degree + 1)
         bound = np.sum(change[:, None] * np.abs(cosine ** (degree - powers) * sine**powers), axis=-1)
         levels = np.sort(chords, axis=-1)
         reached = np.prod(np.maximum(levels[:, :, None], levels[..., None]), axis=-1) * size[..., None]
-        own = np.prod(np.maximum(chords, np.diagonal(chords, axis1=1, axis2=2)[..., None]), axis=-1) * size
-        real = own <= bound
+        products = np.prod(np.maximum(chords, np.diagonal(chords, axis1=1, axis2=2)[..., None]), axis=-1) * size
+        real = products <= bound
         count = np.maximum(np.sum(reached <= bound[..., None], axis=-1), 1)
-    return real.reshape(found.shape), count.reshape(found.shape)
+    return real.reshape(points.shape), count.reshape(points.shape)

@@ -97,9 +97,11 @@ def _radii(coefficients: Interval, points: NDArray[np.complex128]) -> FloatArray
     product = abs(coefficients[degree]) + 0 * x
     gap = _distance(x, y)
     for j in range(degree):
-        own = np.arange(degree) == j
+        itself = np.arange(degree) == j
         column = gap[:, j]
-        product = product * Interval(np.where(own, 1.0, column.low), np.where(own, 1.0, column.high), column.defined)
+        product = product * Interval(
+            np.where(itself, 1.0, column.low), np.where(itself, 1.0, column.high), column.defined
+        )
     bound = degree * (real.square() + imaginary.square()).sqrt() / product
     return np.where(bound.defined & np.isfinite(bound.high), bound.high, np.inf)
 

@@ -93,10 +93,10 @@ def condition_index(ns: Any, first: Rows, second: Rows) -> tuple[Any, Any]:
     """
     _check(first)
     size_a, size_b = abs(by_cofactors(first) + 0.0), abs(by_cofactors(second) + 0.0)
-    there = largest_singular_value(ns, product(adjugate(first), second))
+    largest_inverse = largest_singular_value(ns, product(adjugate(first), second))
     back = largest_singular_value(ns, product(adjugate(second), first))
     smallest = size_b / (back + TINY)
-    return smallest * (size_a / (there + TINY)), smallest
+    return smallest * (size_a / (largest_inverse + TINY)), smallest
 
 
 def largest_eigenvalue(ns: Any, entries: Sequence[Any]) -> Any:
@@ -158,8 +158,8 @@ def _coefficients() -> tuple[float, ...]:
     chebyshev = np.polynomial.chebyshev
     places = chebyshev.chebpts1(DEGREE + 1)
     values = np.cos(2 / 3 * np.arccos((1 + places) / 2))
-    found = chebyshev.cheb2poly(chebyshev.chebfit(places, values, DEGREE))
-    return tuple(float(number) for number in found)
+    coefficients = chebyshev.cheb2poly(chebyshev.chebfit(places, values, DEGREE))
+    return tuple(float(number) for number in coefficients)
 
 
 def _gram(rows: Rows) -> list[Any]:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from assur.audit import audit as auditing
 from assur.audit.reference import Reference, read_reference
 from assur.audit.rows import Audit, Row
-from assur.audit.tables import Table
+from assur.audit.tables import PrintedTable
 from assur.errors import UsageError
 from assur.figures import Context
 from assur.figures.aspects import no_aspects
@@ -33,7 +33,7 @@ from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import Branch, ClosedForm, Eliminant, PolynomialSystem
 from assur.model.mechanism import MechanismRecord
 from assur.performance.dexterity import GlobalIndex, global_condition_index
-from assur.report.formulas.reading import Reading, reading
+from assur.report.formulas.reading import FormulaReading, reading
 from assur.report.numbers import Style, style_of
 from assur.report.pictures import pictures
 from assur.report.proofs import cube
@@ -120,10 +120,10 @@ class Findings:
         make = auditing.KINDS[kind].rows
         return tuple(row for entry in self.reference.entries[kind] for row in make(self.record, self.reference, entry))
 
-    def table(self, problem: Problem) -> Table | None:
+    def table(self, problem: Problem) -> PrintedTable | None:
         """The source's first table of solutions of a problem."""
         entries = self.reference.entries[problem] if self.reference else ()
-        return cast("Table", entries[0]) if entries else None
+        return cast("PrintedTable", entries[0]) if entries else None
 
     # ---- topology ----------------------------------------------------------------------------------------------
 
@@ -139,16 +139,16 @@ class Findings:
         form = self.record.closed_form
         return None if form is None else form.direct if problem == "direct" else form.inverse
 
-    def formulas(self, problem: Problem) -> Reading:
+    def formulas(self, problem: Problem) -> FormulaReading:
         """The closed form, written down."""
         return self._direct_formulas if problem == "direct" else self._inverse_formulas
 
     @cached_property
-    def _direct_formulas(self) -> Reading:
+    def _direct_formulas(self) -> FormulaReading:
         return reading(self.record, "direct")
 
     @cached_property
-    def _inverse_formulas(self) -> Reading:
+    def _inverse_formulas(self) -> FormulaReading:
         return reading(self.record, "inverse")
 
     @cached_property

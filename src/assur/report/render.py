@@ -73,7 +73,7 @@ def page_html(page: Page) -> str:
     >>> "&lt;b&gt;" in page_html(Page("<b>", "", "", ()))
     True
     """
-    links = Links(dict(_entries(page.sections)))
+    links = Hyperlinks(dict(_entries(page.sections)))
     return (
         _environment()
         .get_template("page.html")
@@ -127,7 +127,7 @@ def blocks(results: Iterable[Result | Section]) -> list[tuple[str, object]]:
 
 
 @dataclass(frozen=True)
-class Links:
+class Hyperlinks:
     """Text with links: names of preprints to their place, ids of entries ("E1 · ...") to where they stand."""
 
     entries: Mapping[str, str]

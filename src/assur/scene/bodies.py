@@ -60,27 +60,27 @@ def bodies(record: MechanismRecord) -> tuple[Body, ...]:
     ('crank1', 1, 1)
     """
     names = companion_of(record)
-    here = home_skeleton(record, names)
-    made = parts(here, names)
-    found = []
+    drawn = home_skeleton(record, names)
+    made = parts(drawn, names)
+    collected = []
     for link in record.links:
-        own = [item for item in made if item.link == link]
-        if own:
-            pins = tuple(item for item in own if item.role == "pin")
-            inside = [_seen_from(here, item, link) for item in made if runs_in(record, item, link)]
-            bores = (*(item.shape for item in pins), *(grown(shape, PLAY * unit(here)) for shape in inside))
-            found.append(Body(link, tuple(item for item in own if item.role != "pin"), bores, pins))
-    return tuple(found)
+        of_link = [part for part in made if part.link == link]
+        if of_link:
+            pins = tuple(part for part in of_link if part.role == "pin")
+            inside = [_seen_from(drawn, part, link) for part in made if runs_in(record, part, link)]
+            bores = (*(pin.shape for pin in pins), *(grown(shape, PLAY * unit(drawn)) for shape in inside))
+            collected.append(Body(link, tuple(part for part in of_link if part.role != "pin"), bores, pins))
+    return tuple(collected)
 
 
-def runs_in(record: MechanismRecord, item: Part, link: str) -> bool:
+def runs_in(record: MechanismRecord, part: Part, link: str) -> bool:
     """Whether a part of another link turns or slides in a link."""
-    if item.role == "rail":  # a slider's joint is not told: it may share its rail with others
+    if part.role == "rail":  # a slider's joint is not told: it may share its rail with others
         pairs = [{joint.parent, joint.child} for joint in record.joints.values() if joint.type.carries]
-        return {item.link, link} in pairs
-    joint = record.joints.get(item.joint)
-    inside = item.role in ("pin", "ball", "rod")
-    return inside and joint is not None and link != item.link and link in (joint.parent, joint.child)
+        return {part.link, link} in pairs
+    joint = record.joints.get(part.joint)
+    inside = part.role in ("pin", "ball", "rod")
+    return inside and joint is not None and link != part.link and link in (joint.parent, joint.child)
 
 
 def grown(shape: Shape, play: float) -> Shape:
@@ -101,10 +101,10 @@ def grown(shape: Shape, play: float) -> Shape:
     raise UsageError(f"grown: no play is known for a {shape.kind}; there is: ball, cylinder, box")
 
 
-def _seen_from(here: Skeleton, item: Part, link: str) -> Shape:
+def _seen_from(skeleton: Skeleton, part: Part, link: str) -> Shape:
     """A part's shape in the frame of another link, as both stand at home."""
-    placed = item.shape.moved(*here.frames[item.link])
-    rotation, origin = here.frames[link]
+    placed = part.shape.moved(*skeleton.frames[part.link])
+    rotation, origin = skeleton.frames[link]
     return placed.moved(rotation.T, -rotation.T @ origin)
 
 
@@ -124,11 +124,11 @@ def corners(shape: Shape) -> FloatArray:
 
 def fused(body: Body) -> Manifold:
     """The link as one manifold, without chips that its bores cut off; empty where it has nothing but pins."""
-    whole = Manifold.batch_boolean([solid(item.shape) for item in body.fused], OpType.Add)
+    whole = Manifold.batch_boolean([solid(part.shape) for part in body.fused], OpType.Add)
     if not body.bores:
         return whole
-    for item in body.bores:
-        whole = whole - solid(item)
+    for bore in body.bores:
+        whole = whole - solid(bore)
         whole.num_tri()  # worked out before the next: bores that are joined first are not quite as wide as their pins
     pieces = whole.decompose()
     most = max((piece.volume() for piece in pieces), default=0.0)

@@ -61,7 +61,7 @@ class Collisions:
     @property
     def meeting(self) -> tuple[Nearest, ...]:
         """The pairs that meet somewhere."""
-        return tuple(item for item in self.pairs if item.meeting)
+        return tuple(pair for pair in self.pairs if pair.meeting)
 
 
 def collisions(record: MechanismRecord, joints: FloatArray, step: Step | None = None) -> Collisions:
@@ -83,17 +83,17 @@ def collisions(record: MechanismRecord, joints: FloatArray, step: Step | None = 
     made = {body.link: _hulls(body, placed[body.link]) for body in bodies(record)}
     hinged = [{joint.parent, joint.child} for joint in record.joints.values()]
     asked = [pair for pair in combinations(made, 2) if set(pair) not in hinged]
-    found = []
+    nearest = []
     for k, (first, second) in enumerate(asked):
         distance, row, names, meeting = _nearest(made[first], made[second])
-        found.append(Nearest((first, second), distance, names, joints[row], row, meeting))
+        nearest.append(Nearest((first, second), distance, names, joints[row], row, meeting))
         if step is not None:
             step(k + 1, len(asked))
-    found.sort(key=lambda item: (item.clearance, -item.meeting))
-    return Collisions(record, tuple(found), len(joints))
+    nearest.sort(key=lambda pair: (pair.clearance, -pair.meeting))
+    return Collisions(record, tuple(nearest), len(joints))
 
 
-def ends(record: MechanismRecord, item: Nearest) -> FloatArray:
+def ends(record: MechanismRecord, nearest: Nearest) -> FloatArray:
     """The nearest points (2, 3) of two links, in the base frame of their configuration; one point where they meet.
 
     >>> from assur.model.registry import load_record
@@ -104,15 +104,15 @@ def ends(record: MechanismRecord, item: Nearest) -> FloatArray:
     >>> bool(abs(np.linalg.norm(second - first) - nearest.clearance) < 1e-3)
     True
     """
-    placed = frames(record, item.joints)
+    placed = frames(record, nearest.joints)
     clouds = []
-    for link, name in zip(item.links, item.parts, strict=True):
+    for link, name in zip(nearest.links, nearest.parts, strict=True):
         rotation, origin = placed[link]
-        body = next(found for found in bodies(record) if found.link == link)
-        own = [part for part in (*body.fused, *body.pins) if part.name == name]  # plates of a fork share a name
-        clouds.append([np.unique(corners(part.shape), axis=0) @ rotation.T + origin for part in own])
-    found = [nearest_points(one, other) for one in clouds[0] for other in clouds[1]]
-    return min(found, key=lambda pair: float(np.linalg.norm(pair[1] - pair[0])))
+        body = next(candidate for candidate in bodies(record) if candidate.link == link)
+        of_name = [part for part in (*body.fused, *body.pins) if part.name == name]  # plates of a fork share a name
+        clouds.append([np.unique(corners(part.shape), axis=0) @ rotation.T + origin for part in of_name])
+    pairs = [nearest_points(near, far) for near in clouds[0] for far in clouds[1]]
+    return min(pairs, key=lambda pair: float(np.linalg.norm(pair[1] - pair[0])))
 
 
 def _nearest(first: _Hulls, second: _Hulls) -> tuple[float, int, tuple[str, str], int]:
@@ -123,10 +123,10 @@ def _nearest(first: _Hulls, second: _Hulls) -> tuple[float, int, tuple[str, str]
     best, where, names = np.inf, 0, ("", "")
     pairs = np.dstack(np.unravel_index(np.argsort(bounds.min(axis=0), axis=None), bounds.shape[1:]))[0]
     for a, b in pairs:
-        own = bounds[:, a, b]
-        lowest = int(np.argmin(own))
-        for rows in (np.array([lowest]), np.arange(len(own))):  # the first tells which of the others are worth it
-            rows = rows[(own[rows] < (1.0 - CLOSE) * best) | ((own[rows] <= 0.0) & ~meets[rows])]
+        lower = bounds[:, a, b]
+        lowest = int(np.argmin(lower))
+        for rows in (np.array([lowest]), np.arange(len(lower))):  # the first tells which of the others are worth it
+            rows = rows[(lower[rows] < (1.0 - CLOSE) * best) | ((lower[rows] <= 0.0) & ~meets[rows])]
             if not len(rows):
                 continue
             gaps = convex_distance(first.points[a], second.points[b], rotation[rows], origin[rows], CLOSE / 10)
@@ -149,10 +149,10 @@ def _bounds(first: _Hulls, second: _Hulls) -> FloatArray:
     axes = segment_distances(a[..., 0, :], a[..., 1, :], b[..., 0, :], b[..., 1, :])
     gaps = axes - first.radii[:, None] - second.radii
     way = second.middles[:, None] - first.middles[:, :, None]
-    for own in (first.sides[:, :, None], second.sides[:, None]):
-        size = np.linalg.norm(own, axis=-1, keepdims=True)
+    for box in (first.sides[:, :, None], second.sides[:, None]):
+        size = np.linalg.norm(box, axis=-1, keepdims=True)
         for k in range(3):
-            axis = own[..., k, :] / np.maximum(size[..., k, :], 1e-300)
+            axis = box[..., k, :] / np.maximum(size[..., k, :], 1e-300)
             reach = sum(
                 np.sum(np.abs(np.sum(sides * axis[..., None, :], axis=-1)), axis=-1)
                 for sides in (first.sides[:, :, None], second.sides[:, None])
@@ -185,15 +185,15 @@ class _Hulls:
 
 
 def _hulls(body: Body, placed: Frame) -> _Hulls:
-    own = (*body.fused, *body.pins)
-    points = tuple(np.unique(corners(item.shape), axis=0) for item in own)
-    rows = [_hull(item) for item in points]
+    all_parts = (*body.fused, *body.pins)
+    points = tuple(np.unique(corners(part.shape), axis=0) for part in all_parts)
+    rows = [_hull(cloud) for cloud in points]
     middles, sides, ends, radii = (np.array(column) for column in zip(*rows, strict=True))
     rotation, origin = placed
     ends = np.einsum("kij,pej->kpei", rotation, ends) + origin[:, None, None]
     middles = np.einsum("kij,pj->kpi", rotation, middles) + origin[:, None]
     sides = np.einsum("kij,psj->kpsi", rotation, sides)
-    return _Hulls(tuple(item.name for item in own), points, placed, middles, sides, ends, radii)
+    return _Hulls(tuple(part.name for part in all_parts), points, placed, middles, sides, ends, radii)
 
 
 def _hull(points: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, float]:

@@ -42,7 +42,7 @@ class Oblique(_Part):
     scale: Annotated[float, Field(gt=0, le=1)]
 
 
-class Bar(_Part):
+class DrawnBar(_Part):
     """A straight part of a link between two of its joints or lettered points."""
 
     link: str
@@ -51,7 +51,7 @@ class Bar(_Part):
     length: str = ""
 
 
-class Measure(_Part):
+class DrawnMeasure(_Part):
     """A distance of two points along one axis, with its letter, in the figure of a plane."""
 
     ends: Annotated[list[str], Field(min_length=2, max_length=2)]
@@ -75,7 +75,7 @@ class Examples(_Part):
     parallel: str = ""
 
 
-class Step(_Part):
+class FlowStep(_Part):
     """A box of the flow of the direct solution, or what is said of the box of a quantity beside its declaration.
 
     `needs` replaces what it is computed from, `adds` adds to it; `sign` is the mode sign that is chosen in it;
@@ -94,10 +94,10 @@ class Flow(_Part):
     """What the flow of the direct solution shows beside `ClosedForm.quantity_list`."""
 
     leave_out: list[str] = []
-    steps: dict[str, Step] = {}
+    steps: dict[str, FlowStep] = {}
 
 
-class Meeting(_Part):
+class MeetingLinks(_Part):
     """Two links that share no joint and still meet at home as they are drawn, and why that cannot be helped."""
 
     links: Annotated[list[str], Field(min_length=2, max_length=2)]
@@ -113,9 +113,9 @@ class Companion(_Part):
     inputs: list[float] = []
     rail: str = ""
     thickness: str = ""
-    meets: list[Meeting] = []
-    bars: list[Bar] = []
-    measures: list[Measure] = []
+    meets: list[MeetingLinks] = []
+    bars: list[DrawnBar] = []
+    measures: list[DrawnMeasure] = []
     links: dict[str, str] = {}
     chains: dict[str, str] = {}
     generalised: dict[str, str] = {}
@@ -149,14 +149,14 @@ def companion(record: MechanismRecord) -> Companion:
         return Companion()
     source = read_toml(file_text(path), str(path))
     faults = Faults(str(path), source)
-    found = _checked(source, faults)
-    if found is None:
+    checked = _checked(source, faults)
+    if checked is None:
         faults.raise_any()
         return Companion()
-    _check_names(record, found, faults)
+    _check_names(record, checked, faults)
     _check_texts(source.data, (), faults)
     faults.raise_any()
-    return found
+    return checked
 
 
 def _check_texts(data: Any, path: tuple[str | int, ...], faults: Faults) -> None:
@@ -175,58 +175,58 @@ def _checked(source: TomlSource, faults: Faults) -> Companion | None:
     try:
         return Companion.model_validate(source.data)
     except ValidationError as error:
-        for item in error.errors():
-            place = tuple(part for part in item["loc"] if part not in ("orthographic", "oblique"))
-            if item["type"] == "extra_forbidden" and len(place) == 1:
+        for details in error.errors():
+            place = tuple(part for part in details["loc"] if part not in ("orthographic", "oblique"))
+            if details["type"] == "extra_forbidden" and len(place) == 1:
                 faults.unknown(place, "key", str(place[0]), Companion.model_fields)
             else:
-                faults.add(place, repr(item["input"])[:60], item["msg"])
+                faults.add(place, repr(details["input"])[:60], details["msg"])
     return None
 
 
-def _check_names(record: MechanismRecord, found: Companion, faults: Faults) -> None:
+def _check_names(record: MechanismRecord, companion: Companion, faults: Faults) -> None:
     form = record.closed_form
-    factors = [item.name for item in form.factor_list] if form else []
+    factors = [factor.name for factor in form.factor_list] if form else []
     named = {**record.points, **record.joints}
-    for k, bar in enumerate(found.bars):
+    for k, bar in enumerate(companion.bars):
         _known(faults, ("bars", k, "link"), "link", bar.link, record.links)
         for end in bar.ends:
             _known(faults, ("bars", k, "ends"), "joint or point", end, named)
         _formula(record, faults, ("bars", k, "length"), bar.length)
-    for k, measure in enumerate(found.measures):
+    for k, measure in enumerate(companion.measures):
         for end in measure.ends:
             _known(faults, ("measures", k, "ends"), "joint or point", end, named)
         _formula(record, faults, ("measures", k, "length"), measure.length)
-    for k, meeting in enumerate(found.meets):
+    for k, meeting in enumerate(companion.meets):
         for name in meeting.links:
             _known(faults, ("meets", k, "links"), "link", name, record.links)
-    _formula(record, faults, ("rail",), found.rail)
-    thickness = _formula(record, faults, ("thickness",), found.thickness)
+    _formula(record, faults, ("rail",), companion.rail)
+    thickness = _formula(record, faults, ("thickness",), companion.thickness)
     if thickness is not None and not thickness > 0:
-        faults.add(("thickness",), f"{found.thickness} = {thickness:g}", "a length above 0")
+        faults.add(("thickness",), f"{companion.thickness} = {thickness:g}", "a length above 0")
     for part, choices in (
         ("links", record.links),
         ("chains", record.chains),
         ("generalised", record.generalised),
     ):
-        for name in getattr(found, part):
+        for name in getattr(companion, part):
             _known(faults, (part, name), part, name, choices)
-    for name in found.schematic.parameters:
+    for name in companion.schematic.parameters:
         _known(faults, ("schematic", "parameters", name), "parameter", name, record.parameters)
     for kind in ("serial", "parallel"):
-        name = getattr(found.examples, kind)
+        name = getattr(companion.examples, kind)
         if name:
             _known(faults, ("examples", kind), "factor", name, factors)
-    for path, values, wanted in (
-        (("inputs",), found.inputs, len(record.inputs)),
-        (("schematic", "pose"), found.schematic.pose, len(record.platform.pose)),
+    for path, values, length in (
+        (("inputs",), companion.inputs, len(record.inputs)),
+        (("schematic", "pose"), companion.schematic.pose, len(record.platform.pose)),
     ):
-        if values and len(values) != wanted:
-            faults.add(path, f"{len(values)} values", f"{wanted}")
+        if values and len(values) != length:
+            faults.add(path, f"{len(values)} values", f"{length}")
 
 
 def _known(faults: Faults, path: tuple[str | int, ...], kind: str, name: str, choices: object) -> None:
-    names = [str(item) for item in choices]  # type: ignore[attr-defined]  # dicts and lists of names
+    names = [str(choice) for choice in choices]  # type: ignore[attr-defined]  # dicts and lists of names
     if name not in names:
         faults.unknown(path, kind, name, names)
 
@@ -255,4 +255,4 @@ def length(record: MechanismRecord, text: str) -> float:
     return float(formula.evaluate(vars(record.values)))
 
 
-__all__ = ["FILE", "Bar", "Companion", "MechanismFileError", "companion", "length"]
+__all__ = ["FILE", "Companion", "DrawnBar", "MechanismFileError", "companion", "length"]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.scene.shapes import Bar, Cylinder
-from assur.scene.skeleton import Mark, Rod, Skeleton
+from assur.scene.skeleton import JointMark, Rod, Skeleton
 
 FloatArray = NDArray[np.float64]
 ALONG = 0.9
@@ -23,12 +23,14 @@ def webs(skeleton: Skeleton, rod: Rod, aside: FloatArray, radius: float) -> Iter
 
     A rod that slides in a tube has one near its far end.
     """
-    own = [mark for mark in skeleton.marks if rod.link in (mark.joint.parent, mark.joint.child)]
+    of_link = [mark for mark in skeleton.marks if rod.link in (mark.joint.parent, mark.joint.child)]
     middle = rod.points.mean(axis=0)
     shares: tuple[float, ...] = (0.5,)
-    if any(min(float(np.linalg.norm(place - middle)) for place in (mark.at, mark.rail)) < 4 * radius for mark in own):
+    if any(
+        min(float(np.linalg.norm(place - middle)) for place in (mark.at, mark.rail)) < 4 * radius for mark in of_link
+    ):
         shares = (0.25, 0.75)
-    for mark in own:
+    for mark in of_link:
         if mark.telescopes and mark.joint.child == rod.link:
             far = np.linalg.norm(mark.rail - rod.points[1]) > np.linalg.norm(mark.rail - rod.points[0])
             shares = (0.85 if far else 0.15,)
@@ -52,7 +54,7 @@ def posts(skeleton: Skeleton, level: float, radius: float) -> Iterator[Cylinder]
             yield Cylinder(foot, foot + height * rotation[:, 2], radius)
 
 
-def stand(mark: Mark, way: FloatArray, reach: float, size: float) -> Iterator[Bar | Cylinder]:
+def stand(mark: JointMark, way: FloatArray, reach: float, size: float) -> Iterator[Bar | Cylinder]:
     """What holds a joint over a plate or a carriage that lies by `way` (3,) from it: two lugs, or a post.
 
     A post holds a ball, and a hinge whose axis runs along the way.

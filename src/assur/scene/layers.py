@@ -94,7 +94,7 @@ def region(
     return workspace(record, mode, resolution=cells, held=held, progress=tick)
 
 
-def layers(record: MechanismRecord, found: Workspace | None) -> tuple[Layer, ...]:
+def layers(record: MechanismRecord, workspace: Workspace | None) -> tuple[Layer, ...]:
     """The layers of what `region` found, its sections among them, with `FACES` faces each at most.
 
     >>> from assur.model.registry import load_record
@@ -102,10 +102,10 @@ def layers(record: MechanismRecord, found: Workspace | None) -> tuple[Layer, ...
     >>> [(item.label, item.lines) for item in layers(record, region(record))][:1]
     [('workspace of mode -+', False)]
     """
-    return () if found is None else tuple(_layers(record, found))
+    return () if workspace is None else tuple(_layers(record, workspace))
 
 
-def layers_note(record: MechanismRecord, found: Workspace | None) -> str:
+def layers_note(record: MechanismRecord, workspace: Workspace | None) -> str:
     """A sentence on what the layers are of, or why there are none.
 
     >>> from assur.model.registry import load_record
@@ -115,26 +115,28 @@ def layers_note(record: MechanismRecord, found: Workspace | None) -> str:
     >>> layers_note(load_record("three_rps"), None)
     'The pose has fewer than two lengths: there is no workspace to be seen.'
     """
-    if found is None:
+    if workspace is None:
         lengths = [name for name in record.platform.pose if name in LENGTHS]
         if len(lengths) < 2:
             return "The pose has fewer than two lengths: there is no workspace to be seen."
         missing = ", ".join(name for name in lengths if name not in record.box)
         return f"The file gives no [workspace] box for {missing}: there is no workspace to be seen."
-    if not len(found.faces):
-        cells = found.region.grid.cells[0]
+    if not len(workspace.faces):
+        cells = workspace.region.grid.cells[0]
         return f"Nothing was found on {cells} cells along each coordinate: see the [workspace] box of the file."
-    low, high = np.asarray(found.box.low), np.asarray(found.box.high)
-    near = np.minimum(np.abs(found.vertices - low), np.abs(found.vertices - high)).min(axis=0)
-    cut = [name for name, away, side in zip(found.box.names, near, high - low, strict=True) if away < CUT * side]
+    low, high = np.asarray(workspace.box.low), np.asarray(workspace.box.high)
+    near = np.minimum(np.abs(workspace.vertices - low), np.abs(workspace.vertices - high)).min(axis=0)
+    cut = [name for name, away, side in zip(workspace.box.names, near, high - low, strict=True) if away < CUT * side]
     said = [f"Seen inside the box of the file only, which cuts the workspace in {', '.join(cut)}."] if cut else []
-    return " ".join([*said, *_held_words(record, found)])
+    return " ".join([*said, *_held_words(record, workspace)])
 
 
-def _held_words(record: MechanismRecord, found: Workspace) -> list[str]:
+def _held_words(record: MechanismRecord, workspace: Workspace) -> list[str]:
     """A sentence on the angles that are held, in the mechanism's unit."""
     turned = 180.0 / np.pi if record.angle == "deg" else 1.0
-    words = [f"{name} = {round(value * turned, 4) + 0.0:g} {record.angle}" for name, value in found.slice.held.items()]
+    words = [
+        f"{name} = {round(value * turned, 4) + 0.0:g} {record.angle}" for name, value in workspace.slice.held.items()
+    ]
     return [f"All of it at {', '.join(words)}."] if words else []
 
 
@@ -166,18 +168,18 @@ def _resolution(record: MechanismRecord, held: dict[str, float]) -> int:
     return FOLLOWED if followed else RESOLUTION
 
 
-def _layers(record: MechanismRecord, found: Workspace) -> Iterator[Layer]:
-    mode = f" of mode {found.mode}" if found.mode else ""
-    names = found.box.names
-    if len(found.faces):
-        mesh = thinned(_placed(record, names, found.vertices), found.faces, FACES)
+def _layers(record: MechanismRecord, workspace: Workspace) -> Iterator[Layer]:
+    mode = f" of mode {workspace.mode}" if workspace.mode else ""
+    names = workspace.box.names
+    if len(workspace.faces):
+        mesh = thinned(_placed(record, names, workspace.vertices), workspace.faces, FACES)
         yield Layer("workspace", f"workspace{mode}", SOLID, 0.18, *mesh)
-    for k, locus in enumerate(item for item in found.loci if len(item.faces)):
-        vertices, faces = _fine(locus, found.region.factors[locus.factor], found.region.grid)
+    for k, locus in enumerate(surface for surface in workspace.loci if len(surface.faces)):
+        vertices, faces = _fine(locus, workspace.region.factors[locus.factor], workspace.region.grid)
         mesh = thinned(_placed(record, names, vertices), faces, FACES)
         label = f"{locus.factor} = 0: {locus.meaning}"
         yield Layer("singular", label, SINGULAR[k % len(SINGULAR)], 0.45, *mesh, locus.factor)
-    for cut in found.sections:
+    for cut in workspace.sections:
         outline = section_layer(record, cut)
         if outline is not None:
             yield outline
@@ -215,7 +217,7 @@ def _outlines(polygons: tuple[FloatArray, ...]) -> tuple[FloatArray, Faces]:
     """Closed polygons as points (n, 2) and segments (n, 2)."""
     edges, start = [], 0
     for polygon in polygons:
-        here = start + np.arange(len(polygon))
-        edges.append(np.column_stack([here, np.roll(here, -1)]))
+        corners = start + np.arange(len(polygon))
+        edges.append(np.column_stack([corners, np.roll(corners, -1)]))
         start += len(polygon)
     return np.concatenate(polygons), np.concatenate(edges)

@@ -16,7 +16,7 @@ CLOSE = 0.03
 
 
 @dataclass(frozen=True, eq=False)
-class Letter:
+class PlacedLetter:
     """A letter at a point (3,) of a link's frame, in the mechanism's unit."""
 
     name: str
@@ -24,7 +24,7 @@ class Letter:
     at: FloatArray
 
 
-def letters(skeleton: Skeleton) -> tuple[Letter, ...]:
+def letters(skeleton: Skeleton) -> tuple[PlacedLetter, ...]:
     """The letters of a mechanism, one where several stand in one place, each on its link.
 
     >>> from assur.model.registry import load_record
@@ -35,11 +35,11 @@ def letters(skeleton: Skeleton) -> tuple[Letter, ...]:
     >>> [item.name for item in letters(skeleton(record, companion(record), home_values(record)))]
     ['A1', 'A2', 'B1', 'B2', 'P']
     """
-    found: dict[str, FloatArray] = {}
-    for name, here in lettered(skeleton).items():
-        if all(np.linalg.norm(here - other) > CLOSE * skeleton.size for other in found.values()):
-            found[name] = here
-    return tuple(Letter(name, *_of_link(skeleton.record, name)) for name in found)
+    places: dict[str, FloatArray] = {}
+    for name, point in lettered(skeleton).items():
+        if all(np.linalg.norm(point - other) > CLOSE * skeleton.size for other in places.values()):
+            places[name] = point
+    return tuple(PlacedLetter(name, *_of_link(skeleton.record, name)) for name in places)
 
 
 def _of_link(record: MechanismRecord, name: str) -> tuple[str, FloatArray]:
@@ -51,13 +51,13 @@ def _of_link(record: MechanismRecord, name: str) -> tuple[str, FloatArray]:
 def lettered(skeleton: Skeleton) -> dict[str, FloatArray]:
     """Letters of a drawing: the lettered points, and the joints whose place has no letter yet."""
     record = skeleton.record
-    found = {name: skeleton.points[name] for name in record.points}
+    points = {name: skeleton.points[name] for name in record.points}
     for name, joint in record.joints.items():
         if not joint.type.turning or _one_of_many(record, name):
             continue
-        if all(np.linalg.norm(skeleton.points[name] - at) > 1e-9 for at in found.values()):
-            found[name] = skeleton.points[name]
-    return found
+        if all(np.linalg.norm(skeleton.points[name] - at) > 1e-9 for at in points.values()):
+            points[name] = skeleton.points[name]
+    return points
 
 
 def _one_of_many(record: MechanismRecord, name: str) -> bool:

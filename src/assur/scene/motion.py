@@ -64,18 +64,18 @@ def closed_motion(record: MechanismRecord, frames: int = 60) -> FloatArray:
 def _run(record: MechanismRecord, home: FloatArray, course: FloatArray, ranks: dict[str, int]) -> FloatArray | None:
     """Joint values (k, n) at inputs (k, n), each from the frame before; None where a frame is out of the mode."""
     bounds = limits(record, home)
-    here, found = matrices(record, home), [home]
+    before, path = matrices(record, home), [home]
     for row in course[1:]:
-        start = held_inputs(record, found[-1], row)
+        start = held_inputs(record, path[-1], row)
         closed = assemble(record, start, held=record.input_indices, near=True)
-        if not closed.closed or any(float(item.margin(closed.values)) < -ROUND for item in bounds):
+        if not closed.closed or any(float(limit.margin(closed.values)) < -ROUND for limit in bounds):
             return None
-        there = matrices(record, closed.values)
-        if any(locked(here[name], ranks[name]).kept(there[name]) < KEPT for name in ("inputs", "poses")):
+        after = matrices(record, closed.values)
+        if any(locked(before[name], ranks[name]).kept(after[name]) < KEPT for name in ("inputs", "poses")):
             return None
-        here = there
-        found.append(closed.values)
-    values = np.array(found)
+        before = after
+        path.append(closed.values)
+    values = np.array(path)
     # inputs may come home with another pose, round a cusp
     return values if float(distances(record, values[-1:])[0]) <= SAME else None
 
@@ -83,9 +83,9 @@ def _run(record: MechanismRecord, home: FloatArray, course: FloatArray, ranks: d
 def _swing(record: MechanismRecord, frames: int) -> FloatArray:
     """How far the inputs (frames + 1, n) are from home: sines that begin at zero, each with its own phase."""
     length = characteristic_length(record)
-    size = np.array([SWING if item.coordinate.kind == "angle" else SLIDE * length for item in record.inputs])
+    size = np.array([SWING if actuated.coordinate.kind == "angle" else SLIDE * length for actuated in record.inputs])
     phase = np.pi * np.arange(len(size)) / len(size)
     turn = 2 * np.pi * np.arange(frames + 1) / frames
-    found = size * (np.sin(turn[:, None] + phase) - np.sin(phase)) / 2
-    found[-1] = 0.0
-    return np.asarray(found)
+    swings = size * (np.sin(turn[:, None] + phase) - np.sin(phase)) / 2
+    swings[-1] = 0.0
+    return np.asarray(swings)

@@ -20,7 +20,7 @@ from assur.scene.mesh import Mesh, joined
 from assur.scene.part import DARK, DRIVE, LINKS, PLAIN, STAGE, STEEL, Part
 from assur.scene.shapes import Ball, Bar, Box, Cylinder, Slab
 from assur.scene.sizes import thickness
-from assur.scene.skeleton import Mark, Rod, Skeleton
+from assur.scene.skeleton import JointMark, Rod, Skeleton
 from assur.scene.yokes import ASIDE, Yoke, cross, trimmed, yokes
 
 FloatArray = NDArray[np.float64]
@@ -57,11 +57,11 @@ def parts(skeleton: Skeleton, companion: Companion, accents: Mapping[str, str] |
     >>> [item.name for item in found if item.link == "crank1"]
     ['bar A1 B1', 'B1 pin']
     """
-    found = []
-    for item in _placed(skeleton, companion, {**_chain_colours(skeleton), **(accents or {})}):
-        rotation, origin = skeleton.frames[item.link]
-        found.append(replace(item, shape=item.shape.moved(rotation.T, -rotation.T @ origin)))
-    return tuple(found)
+    cut = []
+    for part in _placed(skeleton, companion, {**_chain_colours(skeleton), **(accents or {})}):
+        rotation, origin = skeleton.frames[part.link]
+        cut.append(replace(part, shape=part.shape.moved(rotation.T, -rotation.T @ origin)))
+    return tuple(cut)
 
 
 def model(skeleton: Skeleton, companion: Companion, accents: Mapping[str, str] | None = None) -> Mesh:
@@ -71,7 +71,7 @@ def model(skeleton: Skeleton, companion: Companion, accents: Mapping[str, str] |
 
 def placed(solids: tuple[Part, ...], skeleton: Skeleton) -> Mesh:
     """Parts as one mesh in the base frame, where this configuration has their links."""
-    return joined([item.shape.moved(*skeleton.frames[item.link]).mesh(item.colour) for item in solids])
+    return joined([part.shape.moved(*skeleton.frames[part.link]).mesh(part.colour) for part in solids])
 
 
 def _placed(skeleton: Skeleton, companion: Companion, colours: Mapping[str, str]) -> Iterator[Part]:
@@ -104,16 +104,16 @@ def _yoke(skeleton: Skeleton, yoke: Yoke, colour: str) -> Iterator[Part]:
 def link_layers(skeleton: Skeleton) -> dict[str, int]:
     """Link -> its layer, another one than those of the links that it is hinged to, but for universal joints."""
     hinges = [mark.joint for mark in skeleton.marks if not (mark.slides or mark.flat) and mark.joint.type.turns != 2]
-    found: dict[str, int] = {}
+    depths: dict[str, int] = {}
     for link in skeleton.record.links:
         others = {
             joint.child if joint.parent == link else joint.parent
             for joint in hinges
             if link in (joint.parent, joint.child)
         }
-        used = {found[other] for other in others if other in found and other != skeleton.record.base}
-        found[link] = next((k for k in range(len(LAYERS)) if k not in used), 0)
-    return found
+        used = {depths[other] for other in others if other in depths and other != skeleton.record.base}
+        depths[link] = next((k for k in range(len(LAYERS)) if k not in used), 0)
+    return depths
 
 
 def _chain_colours(skeleton: Skeleton) -> dict[str, str]:
@@ -143,13 +143,13 @@ def _hinge_normal(skeleton: Skeleton, rod: Rod) -> FloatArray | None:
     along = (rod.points[1] - rod.points[0]) / rod.size
     for mark in skeleton.marks:
         meets = np.min(np.linalg.norm(rod.points - mark.at, axis=1)) < 1e-9 * skeleton.size
-        own = rod.link in (mark.joint.parent, mark.joint.child)
-        if own and meets and not mark.slides and len(mark.axes) and abs(float(mark.axes[0] @ along)) < 1e-9:
+        of_rod = rod.link in (mark.joint.parent, mark.joint.child)
+        if of_rod and meets and not mark.slides and len(mark.axes) and abs(float(mark.axes[0] @ along)) < 1e-9:
             return np.asarray(mark.axes[0])
     return None
 
 
-def _joint(skeleton: Skeleton, mark: Mark, layers: Mapping[str, int]) -> Iterator[Part]:
+def _joint(skeleton: Skeleton, mark: JointMark, layers: Mapping[str, int]) -> Iterator[Part]:
     size, joint = unit(skeleton), mark.joint
     if joint.type.ball:
         yield Part(f"{joint.name} ball", joint.child, Ball(mark.at, 1.4 * size), DARK, "ball", joint.name)
@@ -163,7 +163,7 @@ def _joint(skeleton: Skeleton, mark: Mark, layers: Mapping[str, int]) -> Iterato
     elif mark.flat:
         yield from _table(skeleton, mark, colour)
     else:
-        over = any(mark in held(skeleton, item, size) for item in skeleton.marks)
+        over = any(mark in held(skeleton, slider, size) for slider in skeleton.marks)
         reach = _reach(mark, layers, mark.grounded or over) * size * mark.axes[0]
         shape = Cylinder(mark.at - reach, mark.at + reach, 0.7 * size)
         yield Part(f"{joint.name} pin", joint.parent, shape, colour, "pin", joint.name)
@@ -172,7 +172,7 @@ def _joint(skeleton: Skeleton, mark: Mark, layers: Mapping[str, int]) -> Iterato
         yield Part(f"{joint.name} pillar", skeleton.record.base, foot, colour, "pillar", joint.name)
 
 
-def _reach(mark: Mark, layers: Mapping[str, int], stands: bool) -> float:
+def _reach(mark: JointMark, layers: Mapping[str, int], stands: bool) -> float:
     """Half the length of a pin, in units of `unit`: through all layers, and through a stand."""
     if mark.joint.type.turns == 2:
         return ASIDE + 0.4
@@ -180,7 +180,7 @@ def _reach(mark: Mark, layers: Mapping[str, int], stands: bool) -> float:
     return widest + 0.75 + 0.6 * stands
 
 
-def _table(skeleton: Skeleton, mark: Mark, colour: str) -> Iterator[Part]:
+def _table(skeleton: Skeleton, mark: JointMark, colour: str) -> Iterator[Part]:
     """A round plate of the parent on which a puck of the child slides and turns."""
     size, normal, joint = unit(skeleton), mark.axes[0], mark.joint
     radius = float(np.linalg.norm(mark.at - mark.rail)) + 3.2 * size
@@ -191,7 +191,7 @@ def _table(skeleton: Skeleton, mark: Mark, colour: str) -> Iterator[Part]:
     yield Part(f"{joint.name} puck", joint.child, puck, colour, "puck", joint.name)
 
 
-def _slider(skeleton: Skeleton, mark: Mark, layers: Mapping[str, int]) -> Iterator[Part]:
+def _slider(skeleton: Skeleton, mark: JointMark, layers: Mapping[str, int]) -> Iterator[Part]:
     """A carriage on its rail; of a leg that grows longer a tube, a rod in it and a collar at the tube's end."""
     joint, axis, size = mark.joint, mark.axes[0], unit(skeleton)
     deep = 0.0 if mark.telescopes else depth(skeleton, size)
@@ -210,9 +210,9 @@ def _slider(skeleton: Skeleton, mark: Mark, layers: Mapping[str, int]) -> Iterat
     middle = where + (0.1 * size - deep) * up
     yield Part(f"{joint.name} {name}", link, Box(middle, sides), colour, name, joint.name)
     over = held(skeleton, mark, size) if deep else []
-    for item in over:
-        for shape in stand(item, middle - item.at, (_reach(item, layers, True) - 0.4) * size, size):
-            yield Part(f"{item.joint.name} stand", link, shape, colour, "stand", item.joint.name)
+    for mark_over in over:
+        for shape in stand(mark_over, middle - mark_over.at, (_reach(mark_over, layers, True) - 0.4) * size, size):
+            yield Part(f"{mark_over.joint.name} stand", link, shape, colour, "stand", mark_over.joint.name)
     if deep and not over:
         yield Part(f"{joint.name} post", link, Cylinder(middle, mark.at, 0.75 * size), colour, "post", joint.name)
 

@@ -68,8 +68,8 @@ def combed(vertices: FloatArray, faces: Faces, far: float, fixed: BoolArray) -> 
     moved = vertices.copy()
     for _ in range(STROKES):
         total = np.zeros_like(vertices)
-        for one, other in ((0, 1), (1, 0)):
-            np.add.at(total, rim[:, one], moved[rim[:, other]])
+        for first, second in ((0, 1), (1, 0)):
+            np.add.at(total, rim[:, first], moved[rim[:, second]])
         moved[loose] += 0.5 * (total[loose] / 2 - moved[loose])
         away = moved[loose] - vertices[loose]
         size = np.linalg.norm(away, axis=1, keepdims=True)
@@ -80,17 +80,17 @@ def combed(vertices: FloatArray, faces: Faces, far: float, fixed: BoolArray) -> 
 def _halved(vertices: FloatArray, faces: Faces, values: Values) -> tuple[FloatArray, Faces]:
     sides = [[0, 1], [1, 2], [2, 0]] if faces.shape[1] == 3 else [[0, 1]]
     pairs = np.sort(faces[:, sides].reshape(-1, 2), axis=1)
-    edges, own = np.unique(pairs, axis=0, return_inverse=True)
-    own = len(vertices) + own.reshape(len(faces), len(sides))
+    edges, numbers = np.unique(pairs, axis=0, return_inverse=True)
+    numbers = len(vertices) + numbers.reshape(len(faces), len(sides))
     middles = _onto(vertices[edges], _across(vertices, faces)[edges], values)
-    found = np.concatenate([vertices, middles])
+    points = np.concatenate([vertices, middles])
     if faces.shape[1] == 2:
-        return found, np.concatenate(
-            [np.column_stack([faces[:, 0], own[:, 0]]), np.column_stack([own[:, 0], faces[:, 1]])]
+        return points, np.concatenate(
+            [np.column_stack([faces[:, 0], numbers[:, 0]]), np.column_stack([numbers[:, 0], faces[:, 1]])]
         )
-    (a, b, c), (ab, bc, ca) = faces.T, own.T
+    (a, b, c), (ab, bc, ca) = faces.T, numbers.T
     corners = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
-    return found, np.concatenate([np.column_stack(corner) for corner in corners])
+    return points, np.concatenate([np.column_stack(corner) for corner in corners])
 
 
 def _across(vertices: FloatArray, faces: Faces) -> FloatArray:
@@ -113,21 +113,21 @@ def _onto(ends: FloatArray, normals: FloatArray, values: Values) -> FloatArray:
     way = normals.sum(axis=1)
     way = way / np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-300)
     far = FAR * length
-    before, here = np.zeros(len(middle)), 0.25 * far
-    last, now = values(middle), values(middle + here[:, None] * way)
+    before, shift = np.zeros(len(middle)), 0.25 * far
+    last, now = values(middle), values(middle + shift[:, None] * way)
     best, least = np.zeros(len(middle)), np.abs(last)
     most = float(np.max(np.abs([last, now]), initial=0.0, where=np.isfinite([last, now])))
     for _ in range(SECANTS):
         better = np.abs(now) < least
-        best[better], least[better] = here[better], np.abs(now[better])
+        best[better], least[better] = shift[better], np.abs(now[better])
         with np.errstate(divide="ignore", invalid="ignore"):
-            ahead = np.clip(here - now * (here - before) / (now - last), -far, far)
+            ahead = np.clip(shift - now * (shift - before) / (now - last), -far, far)
         rows = np.flatnonzero(np.isfinite(ahead) & (least > ZERO * most))
         if not len(rows):
             break
-        before, last, here, now = here.copy(), last.copy(), here.copy(), now.copy()
-        before[rows], last[rows], here[rows] = here[rows], now[rows], ahead[rows]
+        before, last, shift, now = shift.copy(), last.copy(), shift.copy(), now.copy()
+        before[rows], last[rows], shift[rows] = shift[rows], now[rows], ahead[rows]
         now[rows] = values(middle[rows] + ahead[rows, None] * way[rows])
     better = np.abs(now) < least
-    best[better] = here[better]
+    best[better] = shift[better]
     return np.asarray(middle + best[:, None] * way)

@@ -55,14 +55,16 @@ def sampled(record: MechanismRecord, count: int, mode: str | None = None, seed: 
         )
     rng = np.random.default_rng(seed)
     bounds = limits(record, home_values(record))
-    found: list[FloatArray] = []
+    drawn: list[FloatArray] = []
     for _ in range(ROUNDS):
         joints = _of_box(record, count, mode, rng) if in_box else _near_home(record, count, rng)
-        inside = np.all([item.margin(joints) >= 0 for item in bounds], axis=0) if bounds else np.ones(len(joints), bool)
-        found.append(joints[inside])
-        if sum(map(len, found)) >= count:
+        inside = (
+            np.all([limit.margin(joints) >= 0 for limit in bounds], axis=0) if bounds else np.ones(len(joints), bool)
+        )
+        drawn.append(joints[inside])
+        if sum(map(len, drawn)) >= count:
             break
-    joints = np.concatenate(found)[:count]
+    joints = np.concatenate(drawn)[:count]
     if not len(joints):
         name = (mode or record.modes.default_working) if in_box else ""
         raise UsageError(
@@ -76,13 +78,13 @@ def _of_box(record: MechanismRecord, count: int, mode: str | None, rng: np.rando
     names = record.platform.pose
     low, high = np.array([record.box[name] for name in names]).T
     poses = checked_poses(record, rng.uniform(low, high, size=(count, len(names))))
-    found = inverse(record, poses, mode or record.modes.default_working)
-    return np.asarray(found.joints[found.exists])
+    solutions = inverse(record, poses, mode or record.modes.default_working)
+    return np.asarray(solutions.joints[solutions.exists])
 
 
 def _near_home(record: MechanismRecord, count: int, rng: np.random.Generator) -> FloatArray:
     length = characteristic_length(record)
-    units = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
+    units = np.array([length if coordinate.kind == "length" else 1.0 for coordinate in record.coordinates])
     starts = home_values(record) + SPREAD * units * rng.uniform(-1, 1, size=(count, len(units)))
     near = assemble(record, starts)
     return np.asarray(near.values[near.closed])

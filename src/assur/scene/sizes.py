@@ -22,7 +22,7 @@ from assur.kinematics.home import home_values
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.segments import segment_distances
 from assur.scene.companion import Companion, companion, length
-from assur.scene.skeleton import Mark, Skeleton, skeleton
+from assur.scene.skeleton import JointMark, Skeleton, skeleton
 
 FloatArray = NDArray[np.float64]
 Record = TypeVar("Record", bound=MechanismRecord)
@@ -55,46 +55,48 @@ def thickness(record: MechanismRecord) -> float:
 
 def automatic(record: MechanismRecord, names: Companion) -> float:
     """The thickness where nothing is said: `USUAL`, or less, so that no two joints of a link overlap."""
-    here = skeleton(record, names, home_values(record))
-    return min([USUAL * here.size, *(limit for _, limit in limits(here)), rods_apart(here) / RODS])
+    drawn = skeleton(record, names, home_values(record))
+    return min([USUAL * drawn.size, *(limit for _, limit in limits(drawn)), rods_apart(drawn) / RODS])
 
 
-def rods_apart(here: Skeleton) -> float:
+def rods_apart(drawn: Skeleton) -> float:
     """Least distance of two rods of links that share no joint; those that cross are left out, infinite without any.
 
     Crossing rods meet however thin they are.
     """
-    straight = [(rod.link, rod.points) for rod in here.rods if rod.size > 0]
-    straight += [(item.link, item.points[[k, k - 1]]) for item in here.plates for k in range(len(item.points))]
-    hinged = [{joint.parent, joint.child} for joint in here.record.joints.values()]
+    straight = [(rod.link, rod.points) for rod in drawn.rods if rod.size > 0]
+    straight += [(plate.link, plate.points[[k, k - 1]]) for plate in drawn.plates for k in range(len(plate.points))]
+    hinged = [{joint.parent, joint.child} for joint in drawn.record.joints.values()]
     asked = [
-        (one, other)
-        for (first, one), (second, other) in combinations(straight, 2)
+        (near, far)
+        for (first, near), (second, far) in combinations(straight, 2)
         if first != second and {first, second} not in hinged
     ]
     if not asked:
         return math.inf
     ends = np.array(asked)  # (k, 2, 2, 3)
-    found = segment_distances(ends[:, 0, 0], ends[:, 0, 1], ends[:, 1, 0], ends[:, 1, 1])
-    return float(np.min(found[found > ONE_PLACE * here.size], initial=math.inf))
+    distances = segment_distances(ends[:, 0, 0], ends[:, 0, 1], ends[:, 1, 0], ends[:, 1, 1])
+    return float(np.min(distances[distances > ONE_PLACE * drawn.size], initial=math.inf))
 
 
-def limits(here: Skeleton) -> Iterator[tuple[tuple[str, str], float]]:
+def limits(drawn: Skeleton) -> Iterator[tuple[tuple[str, str], float]]:
     """Of every two joints of one link that are apart: their names, and the thickness at which they have just room.
 
     Telescopes are left out: what is drawn about them is on the leg, not at a point of it.
     """
-    for link in here.record.links:
-        own = [mark for mark in here.marks if link in (mark.joint.parent, mark.joint.child) and not mark.telescopes]
-        for first, second in combinations(own, 2):
+    for link in drawn.record.links:
+        of_link = [
+            mark for mark in drawn.marks if link in (mark.joint.parent, mark.joint.child) and not mark.telescopes
+        ]
+        for first, second in combinations(of_link, 2):
             way = second.at - first.at
             apart = float(np.linalg.norm(way))
-            if apart > ONE_PLACE * here.size:
+            if apart > ONE_PLACE * drawn.size:
                 needed = _takes(first, way / apart) + _takes(second, way / apart) + ROOM
                 yield (first.joint.name, second.joint.name), apart / needed
 
 
-def _takes(mark: Mark, way: FloatArray) -> float:
+def _takes(mark: JointMark, way: FloatArray) -> float:
     """Half of what is drawn about a joint along a way (3,), in thicknesses: that of a cylinder about its axis."""
     along, across = mark.joint.type.room
     cosine = abs(float(mark.axes[0] @ way)) if len(mark.axes) else 0.0

@@ -42,7 +42,7 @@ class Plate:
 
 
 @dataclass(frozen=True, eq=False)
-class Mark:
+class JointMark:
     """A joint as it is drawn.
 
     Attributes:
@@ -98,7 +98,7 @@ class Skeleton:
     points: Mapping[str, FloatArray]
     rods: tuple[Rod, ...]
     plates: tuple[Plate, ...]
-    marks: tuple[Mark, ...]
+    marks: tuple[JointMark, ...]
 
     @property
     def cloud(self) -> FloatArray:
@@ -121,14 +121,14 @@ class Skeleton:
         """Link -> the one chain that it belongs to; the base and the platform belong to none."""
         if not self.record.chains:
             return {link: link.partition(".")[0] for link in self.record.links if "." in link}
-        found: dict[str, set[str]] = {}
+        chains: dict[str, set[str]] = {}
         for chain in self.record.chains.values():
             for name in _joints_of(self.record, (*chain.serial, *chain.loop, *chain.tail)):
                 joint = self.record.joints[name]
                 for link in (joint.parent, joint.child):
-                    found.setdefault(link, set()).add(chain.name)
+                    chains.setdefault(link, set()).add(chain.name)
         shared = (self.record.base, self.record.platform.link)
-        return {link: next(iter(names)) for link, names in found.items() if len(names) == 1 and link not in shared}
+        return {link: next(iter(names)) for link, names in chains.items() if len(names) == 1 and link not in shared}
 
 
 def skeleton(record: MechanismRecord, companion: Companion, values: FloatArray) -> Skeleton:
@@ -142,7 +142,10 @@ def skeleton(record: MechanismRecord, companion: Companion, values: FloatArray) 
     ['crank1', 'crank2', 'rod1', 'rod2']
     """
     placed = frames(record, values)
-    points = {name: placed[item.link][0] @ item.at + placed[item.link][1] for name, item in record.points.items()}
+    points = {
+        name: placed[lettered.link][0] @ lettered.at + placed[lettered.link][1]
+        for name, lettered in record.points.items()
+    }
     points |= {name: _on_parent(placed, joint) for name, joint in record.joints.items()}
     rods, plates = _bodies(record, companion, placed)
     return Skeleton(record, values, placed, points, rods, plates, tuple(_marks(record, placed)))
@@ -152,10 +155,10 @@ def _bodies(
     record: MechanismRecord, companion: Companion, placed: Mapping[str, Frame]
 ) -> tuple[tuple[Rod, ...], tuple[Plate, ...]]:
     rods, plates = [], []
-    for item in companion.bars:
-        ends = np.array([link_point(record, placed, item.link, name) for name in item.ends])
-        rods.append(Rod(item.link, (item.ends[0], item.ends[1]), ends, item.label, item.length))
-    drawn = {item.link for item in companion.bars}
+    for bar in companion.bars:
+        ends = np.array([link_point(record, placed, bar.link, name) for name in bar.ends])
+        rods.append(Rod(bar.link, (bar.ends[0], bar.ends[1]), ends, bar.label, bar.length))
+    drawn = {bar.link for bar in companion.bars}
     for link in record.links:
         if link in drawn or link == record.base:
             continue
@@ -175,21 +178,21 @@ def _bodies(
 def _distinct(record: MechanismRecord, placed: Mapping[str, Frame], link: str) -> list[str]:
     """Joints of a link, one for each place; of a link with one joint its lettered points too."""
     joints = [name for name, joint in record.joints.items() if link in (joint.parent, joint.child)]
-    letters = [name for name, item in record.points.items() if item.link == link]
-    found: list[str] = []
+    letters = [name for name, point in record.points.items() if point.link == link]
+    names: list[str] = []
     for name in joints if len(joints) > 1 else (*joints, *letters):
-        here = link_point(record, placed, link, name)
-        if all(np.linalg.norm(here - link_point(record, placed, link, other)) > 1e-9 for other in found):
-            found.append(name)
-    return found
+        place = link_point(record, placed, link, name)
+        if all(np.linalg.norm(place - link_point(record, placed, link, other)) > 1e-9 for other in names):
+            names.append(name)
+    return names
 
 
 def link_point(record: MechanismRecord, placed: Mapping[str, Frame], link: str, name: str) -> FloatArray:
     """Position (3,) of a joint, on the side of that link, or of a lettered point."""
     if name in record.points:
-        item = record.points[name]
-        rotation, origin = placed[item.link]
-        return np.asarray(rotation @ item.at + origin)
+        lettered = record.points[name]
+        rotation, origin = placed[lettered.link]
+        return np.asarray(rotation @ lettered.at + origin)
     joint = record.joint(name)
     rotation, origin = placed[link]
     return np.asarray(rotation @ (joint.at if link == joint.parent else joint.child_at) + origin)
@@ -200,8 +203,8 @@ def _on_parent(placed: Mapping[str, Frame], joint: Joint) -> FloatArray:
     return np.asarray(rotation @ joint.at + origin)
 
 
-def _marks(record: MechanismRecord, placed: Mapping[str, Frame]) -> list[Mark]:
-    driven = {item.coordinate.joint for item in record.inputs}
+def _marks(record: MechanismRecord, placed: Mapping[str, Frame]) -> list[JointMark]:
+    driven = {actuated.coordinate.joint for actuated in record.inputs}
     marks = []
     for name, joint in record.joints.items():
         axes = np.array([placed[joint.parent][0] @ axis for axis in joint.axes]).reshape(-1, 3)
@@ -209,16 +212,16 @@ def _marks(record: MechanismRecord, placed: Mapping[str, Frame]) -> list[Mark]:
             axes[1] = placed[joint.child][0] @ joint.axes[1]
         at = link_point(record, placed, joint.child, name)
         grounded = record.base in (joint.parent, joint.child)
-        marks.append(Mark(joint, at, _on_parent(placed, joint), axes, grounded, name in driven))
+        marks.append(JointMark(joint, at, _on_parent(placed, joint), axes, grounded, name in driven))
     return marks
 
 
 def _joints_of(record: MechanismRecord, names: tuple[str, ...]) -> list[str]:
     """Joints by name, a generalised joint as those that it is made of."""
-    found: list[str] = []
+    joints: list[str] = []
     for name in names:
-        found += record.generalised[name].joints if name in record.generalised else [name]
-    return found
+        joints += record.generalised[name].joints if name in record.generalised else [name]
+    return joints
 
 
 def _collinear(points: FloatArray) -> bool:

@@ -22,11 +22,11 @@ def thinned(vertices: FloatArray, faces: Faces, most: int) -> tuple[FloatArray, 
     """
     extent = float(np.max(np.ptp(vertices, axis=0), initial=0.0)) if len(vertices) else 0.0
     cells = 400.0
-    found = vertices, faces
-    while len(found[1]) > most and cells > 2:
-        found = _clustered(vertices, faces, extent / cells)
+    thin = vertices, faces
+    while len(thin[1]) > most and cells > 2:
+        thin = _clustered(vertices, faces, extent / cells)
         cells /= 1.1
-    return found
+    return thin
 
 
 def _clustered(vertices: FloatArray, faces: Faces, size: float) -> tuple[FloatArray, Faces]:

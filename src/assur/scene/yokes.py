@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.scene.shapes import Ball, Bar, Cylinder
-from assur.scene.skeleton import Mark, Plate, Rod, Skeleton
+from assur.scene.skeleton import JointMark, Plate, Rod, Skeleton
 
 FloatArray = NDArray[np.float64]
 ARM, ASIDE = 3.0, 1.7
@@ -29,7 +29,7 @@ REACH = ASIDE + 0.5 * THIN + 0.15
 ALONG = 0.7
 """A link that lies along its pin by more than this cosine has no fork."""
 
-HERE = 1e-9
+COINCIDENT = 1e-9
 """Points nearer to each other than this share of the mechanism's size are one."""
 
 
@@ -74,7 +74,7 @@ class Yoke:
         yield "bridge", Cylinder(self.at + foot - aside, self.at + foot + aside, BRIDGE * size)
 
 
-def cross(mark: Mark, size: float) -> Iterator[tuple[str, str, Cylinder | Ball]]:
+def cross(mark: JointMark, size: float) -> Iterator[tuple[str, str, Cylinder | Ball]]:
     """Link, role and shape of the two pins of a universal joint and of the hub in which they meet."""
     for axis, link in zip(mark.axes, (mark.joint.parent, mark.joint.child), strict=True):
         reach = REACH * size * axis
@@ -82,39 +82,39 @@ def cross(mark: Mark, size: float) -> Iterator[tuple[str, str, Cylinder | Ball]]
     yield mark.joint.child, "hub", Ball(mark.at, HUB * size)
 
 
-def yokes(here: Skeleton) -> tuple[Yoke, ...]:
+def yokes(skeleton: Skeleton) -> tuple[Yoke, ...]:
     """Both links of every universal joint, the parent's first."""
-    found, tiny = [], HERE * here.size
-    for mark in here.marks:
+    forks, tiny = [], COINCIDENT * skeleton.size
+    for mark in skeleton.marks:
         if mark.joint.type.turns != 2:
             continue
         links, places = (mark.joint.parent, mark.joint.child), (mark.rail, mark.at)
-        ways = [_way(here, link, at, tiny) for link, at in zip(links, places, strict=True)]
+        ways = [_way(skeleton, link, at, tiny) for link, at in zip(links, places, strict=True)]
         for k in range(2):
             way, other = ways[k], ways[1 - k]
             chosen = _opposite(mark.axes[k], other) if way is None else way
-            found.append(Yoke(mark.joint.name, links[k], places[k], mark.axes[k], chosen))
-    return tuple(found)
+            forks.append(Yoke(mark.joint.name, links[k], places[k], mark.axes[k], chosen))
+    return tuple(forks)
 
 
-def _way(here: Skeleton, link: str, at: FloatArray, tiny: float) -> FloatArray | None:
+def _way(skeleton: Skeleton, link: str, at: FloatArray, tiny: float) -> FloatArray | None:
     """Unit vector (3,) from a joint to the rest of a link: the mean of its rods; None where it has none there."""
     ways = []
-    for rod in here.rods:
+    for rod in skeleton.rods:
         if rod.link == link:
             near, far = sorted(rod.points, key=lambda place: float(np.linalg.norm(place - at)))
-            if _one(near, at, tiny):
+            if _coincide(near, at, tiny):
                 ways.append(far - at)
-    for plate in here.plates:
+    for plate in skeleton.plates:
         if plate.link == link:
-            ways += [place - at for place in plate.points if not _one(place, at, tiny)]
-    for mark in here.marks:
+            ways += [place - at for place in plate.points if not _coincide(place, at, tiny)]
+    for mark in skeleton.marks:
         if mark.telescopes:
-            ways += [mark.at - at] if mark.joint.parent == link and _one(mark.rail, at, tiny) else []
-            ways += [mark.rail - at] if mark.joint.child == link and _one(mark.at, at, tiny) else []
+            ways += [mark.at - at] if mark.joint.parent == link and _coincide(mark.rail, at, tiny) else []
+            ways += [mark.rail - at] if mark.joint.child == link and _coincide(mark.at, at, tiny) else []
     total = np.sum([way / max(float(np.linalg.norm(way)), 1e-300) for way in ways], axis=0) if ways else np.zeros(3)
     size = float(np.linalg.norm(total))
-    return None if size < HERE else np.asarray(total / size)
+    return None if size < COINCIDENT else np.asarray(total / size)
 
 
 def _opposite(axis: FloatArray, other: FloatArray | None) -> FloatArray:
@@ -128,36 +128,36 @@ def _opposite(axis: FloatArray, other: FloatArray | None) -> FloatArray:
     return np.asarray(axis)  # no axis is along all of them
 
 
-def trimmed(here: Skeleton, found: Sequence[Yoke], size: float) -> Skeleton:
+def trimmed(skeleton: Skeleton, forks: Sequence[Yoke], size: float) -> Skeleton:
     """The skeleton whose rods, plates and telescopes end at the roots of yokes, for a thickness."""
-    tiny = HERE * here.size
+    tiny = COINCIDENT * skeleton.size
 
     def ended(link: str, place: FloatArray) -> FloatArray:
-        return next((item.root(size) for item in found if item.link == link and _one(item.at, place, tiny)), place)
+        return next((fork.root(size) for fork in forks if fork.link == link and _coincide(fork.at, place, tiny)), place)
 
-    def rod(item: Rod) -> Rod:
-        ends = np.array([ended(item.link, place) for place in item.points])
-        before = item.points[1] - item.points[0]
-        return replace(item, points=ends) if float((ends[1] - ends[0]) @ before) > 0 else item
+    def rod(whole: Rod) -> Rod:
+        ends = np.array([ended(whole.link, place) for place in whole.points])
+        before = whole.points[1] - whole.points[0]
+        return replace(whole, points=ends) if float((ends[1] - ends[0]) @ before) > 0 else whole
 
-    def plate(item: Plate) -> Plate:
-        return replace(item, points=np.array([ended(item.link, place) for place in item.points]))
+    def plate(whole: Plate) -> Plate:
+        return replace(whole, points=np.array([ended(whole.link, place) for place in whole.points]))
 
-    def mark(item: Mark) -> Mark:
-        if not item.telescopes:
-            return item
-        rail, at = ended(item.joint.parent, item.rail), ended(item.joint.child, item.at)
-        return replace(item, rail=rail, at=at) if float((at - rail) @ (item.at - item.rail)) > 0 else item
+    def mark(whole: JointMark) -> JointMark:
+        if not whole.telescopes:
+            return whole
+        rail, at = ended(whole.joint.parent, whole.rail), ended(whole.joint.child, whole.at)
+        return replace(whole, rail=rail, at=at) if float((at - rail) @ (whole.at - whole.rail)) > 0 else whole
 
-    if not found:
-        return here
+    if not forks:
+        return skeleton
     return replace(
-        here,
-        rods=tuple(rod(item) for item in here.rods),
-        plates=tuple(plate(item) for item in here.plates),
-        marks=tuple(mark(item) for item in here.marks),
+        skeleton,
+        rods=tuple(rod(item) for item in skeleton.rods),
+        plates=tuple(plate(item) for item in skeleton.plates),
+        marks=tuple(mark(item) for item in skeleton.marks),
     )
 
 
-def _one(first: FloatArray, second: FloatArray, tiny: float) -> bool:
+def _coincide(first: FloatArray, second: FloatArray, tiny: float) -> bool:
     return float(np.linalg.norm(first - second)) < tiny

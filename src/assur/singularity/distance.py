@@ -20,6 +20,7 @@ from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS
 from assur.results.json_text import plain
+from assur.singularity.parallel_factors import ParallelFactors
 from assur.singularity.rays import Rays
 
 FloatArray = NDArray[np.float64]
@@ -93,9 +94,9 @@ def distance(
     given = border.checked_poses(record, poses)
     flat = given.reshape(-1, given.shape[-1])
     engine: Engine = "compiled" if len(flat) >= MANY else "auto"
-    search = Rays(record, mode or record.modes.default_working, columns, engine)
-    parts = [search.of(flat[start : start + BLOCK], float(reach)) for start in range(0, max(1, len(flat)), BLOCK)]
+    rays = Rays(ParallelFactors(record, mode or record.modes.default_working, columns, engine))
+    parts = [rays.nearest(flat[start : start + BLOCK], float(reach)) for start in range(0, max(1, len(flat)), BLOCK)]
     value, which, nearest = (np.concatenate(column) for column in zip(*parts, strict=True))
     batch = given.shape[:-1]
-    names = np.array([*search.names, ""])
+    names = np.array([*rays.factors.names, ""])
     return Distance(value.reshape(batch), names[which].reshape(batch), nearest.reshape(given.shape), float(reach))

@@ -227,10 +227,12 @@ class _Candidate:
     others: int
 
 
-def _example(record: MechanismRecord, factor: Factor, found: _Candidate) -> SingularExample:
-    here = inverse(record, found.pose, found.mode)
-    status, inside = Status(int(here.status[0])), _in_box(record, found.pose)
-    return SingularExample(factor, found.mode, here.given, here.inputs[0], here.joints[0], status, inside)
+def _example(record: MechanismRecord, factor: Factor, candidate: _Candidate) -> SingularExample:
+    solutions = inverse(record, candidate.pose, candidate.mode)
+    status, inside = Status(int(solutions.status[0])), _in_box(record, candidate.pose)
+    return SingularExample(
+        factor, candidate.mode, solutions.given, solutions.inputs[0], solutions.joints[0], status, inside
+    )
 
 
 def _in_box(record: MechanismRecord, pose: FloatArray) -> bool:

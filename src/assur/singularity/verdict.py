@@ -200,26 +200,26 @@ def modes_at(record: MechanismRecord, pose: FloatArray) -> tuple[str, ...]:
 
 def _of_home(record: MechanismRecord, pose: FloatArray) -> Verdict:
     """The verdict on home's mode at a pose (m,)."""
-    there = home_mode_at(record, pose)
-    if there.joints is not None:
-        return replace(verdict_at(record, there.joints), home=True, home_by=there.words)
-    return replace(_nothing(there.status), home=False, home_by=there.words, known_modes=there.others)
+    at_pose = home_mode_at(record, pose)
+    if at_pose.joints is not None:
+        return replace(verdict_at(record, at_pose.joints), home=True, home_by=at_pose.words)
+    return replace(_nothing(at_pose.status), home=False, home_by=at_pose.words, known_modes=at_pose.others)
 
 
-def _of_the_one(record: MechanismRecord, found: SolutionSet) -> Verdict:
+def _of_the_one(record: MechanismRecord, solutions: SolutionSet) -> Verdict:
     """The verdict on the only solution of a set that was found by a search."""
-    joints = found.joints[found.exists]
+    joints = solutions.joints[solutions.exists]
     if not len(joints):
-        return _nothing(Status(int(found.overall_status)))
+        return _nothing(Status(int(solutions.overall_status)))
     if len(joints) > 1:
-        several = ", ".join(found.labels[found.exists])
+        several = ", ".join(solutions.labels[solutions.exists])
         raise UsageError(
             f"{record.name}: {len(joints)} assemblies at this pose", hint=f"name a working mode: {several}"
         )
-    there = home_mode_at(record, found.given)
-    same = there.is_home(record, joints[0])
-    other = f"another assembly than that of home, as far as {there.paths} paths from home tell"
-    return replace(verdict_at(record, joints[0]), home=same, home_by=there.words if same else other)
+    at_pose = home_mode_at(record, solutions.given)
+    same = at_pose.is_home(record, joints[0])
+    other = f"another assembly than that of home, as far as {at_pose.paths} paths from home tell"
+    return replace(verdict_at(record, joints[0]), home=same, home_by=at_pose.words if same else other)
 
 
 def _nothing(status: Status) -> Verdict:

@@ -16,14 +16,14 @@ from assur.topology.notation import symbolic_text
 from assur.topology.poc import PocSet
 
 
-def answers(found: Synthesis, top: int | None = None) -> dict[str, Any]:
+def answers(synthesis: Synthesis, top: int | None = None) -> dict[str, Any]:
     """Numbers, texts, lists and dictionaries only.
 
     Args:
-        found: by `synthesis`.
+        synthesis: of one question.
         top: how many mechanisms, the best ones; all where it is None.
     """
-    asked, tally = found.asked, found.tally
+    asked, tally = synthesis.asked, synthesis.tally
     return {
         "asked": {
             "motion": asked.motion.name,
@@ -35,9 +35,9 @@ def answers(found: Synthesis, top: int | None = None) -> dict[str, Any]:
         },
         "positions": in_words(asked.motion, asked.limbs),
         "limb_types": {
-            "with_motion": len(found.limbs),
-            "by_poc": dict(sorted(Counter(_numbers(limb.known.poc) for limb in found.limbs).items())),
-            "left_out": dict(sorted(found.left_out.items())),
+            "with_motion": len(synthesis.limbs),
+            "by_poc": dict(sorted(Counter(_numbers(limb.known.poc) for limb in synthesis.limbs).items())),
+            "left_out": dict(sorted(synthesis.left_out.items())),
         },
         "combinations": {
             "all": tally.combinations,
@@ -47,8 +47,8 @@ def answers(found: Synthesis, top: int | None = None) -> dict[str, Any]:
             "not_fixed_by_actuators": tally.unfixed,
             "listed_of_each_class_of_different_limbs": MEMBERS,
         },
-        "found": len(found.designs),
-        "mechanisms": [_design(rank, design) for rank, design in enumerate(found.designs[:top], 1)],
+        "found": len(synthesis.designs),
+        "mechanisms": [_design(rank, design) for rank, design in enumerate(synthesis.designs[:top], 1)],
     }
 
 
@@ -93,22 +93,22 @@ def _numbers(poc: PocSet) -> str:
     return f"t{poc.t} r{poc.r}"
 
 
-def skeletons(found: Synthesis, top: int | None = None) -> Mapping[str, str]:
+def skeletons(synthesis: Synthesis, top: int | None = None) -> Mapping[str, str]:
     """Names and texts of topology files, one for each of the best mechanisms, as `assur.topology` reads them."""
-    width = len(str(len(found.designs)))
+    width = len(str(len(synthesis.designs)))
     return {
-        f"{found.asked.motion.name.lower()}-{rank:0{width}}.toml": _skeleton(found, rank, width, design)
-        for rank, design in enumerate(found.designs[:top], 1)
+        f"{synthesis.asked.motion.name.lower()}-{rank:0{width}}.toml": _skeleton(synthesis, rank, width, design)
+        for rank, design in enumerate(synthesis.designs[:top], 1)
     }
 
 
-def _skeleton(found: Synthesis, rank: int, width: int, design: Design) -> str:
+def _skeleton(synthesis: Synthesis, rank: int, width: int, design: Design) -> str:
     poc = design.known.poc
     known = f", with the limbs of {' and '.join(design.names)}" if design.names else ""
     described = TopologyDescription(
-        name=f"{found.asked.motion.name.lower()}-{rank:0{width}}",
+        name=f"{synthesis.asked.motion.name.lower()}-{rank:0{width}}",
         chains=design.chains,
-        title=f"{found.asked.motion.name} mechanism {rank} of {len(found.designs)}{known}",
+        title=f"{synthesis.asked.motion.name} mechanism {rank} of {len(synthesis.designs)}{known}",
         source="assur synthesize",
         note=design.reason,
         actuate=design.actuated,

@@ -10,7 +10,7 @@ from assur.synthesis.classes import Class, are_equal, number_of_members, simples
 from assur.synthesis.confirmed import Confirmed, confirmed
 from assur.synthesis.designs import Design
 from assur.synthesis.expected import Expected, expected
-from assur.synthesis.limb_motions import Limb
+from assur.synthesis.limb_motions import CandidateLimb
 from assur.synthesis.tally import Tally
 from assur.synthesis.wanted import WantedMotion
 from assur.topology.facts import Known
@@ -45,20 +45,22 @@ class Rejected:
 
 
 @dataclass(frozen=True, eq=False)
-class Assembly:
+class DesignsOfClasses:
     """The mechanisms of a set of classes, and how many there were."""
 
     designs: tuple[Design, ...]
     tally: Tally
 
 
-def assemble(chosen: Sequence[Class], motion: WantedMotion, wanted: Range, *, symmetric: bool) -> Assembly:
+def assemble(
+    chosen: Sequence[Class], motion: WantedMotion, degrees_allowed: Range, *, symmetric: bool
+) -> DesignsOfClasses:
     """The mechanisms with one limb of each of these classes: those of equal limbs all, of the others the simplest.
 
     Args:
         chosen: one class for each position, equal ones side by side; only one class, if limbs must be equal.
         motion: wanted of the platform.
-        wanted: coupling degrees.
+        degrees_allowed: coupling degrees.
         symmetric: whether all limbs must be equal.
     """
     total = len(chosen[0]) if symmetric else number_of_members(chosen)
@@ -66,26 +68,26 @@ def assemble(chosen: Sequence[Class], motion: WantedMotion, wanted: Range, *, sy
     degrees: Counter[int] = Counter()
     if isinstance(rules, Expected):
         if not rules.reaches:
-            return Assembly((), Tally(classes=1, combinations=total))
+            return DesignsOfClasses((), Tally(classes=1, combinations=total))
         if rules.counts:
             degrees[rules.counts.coupling_degree] = total
     outcomes: list[Design | Rejected] = []
-    if not degrees or max(degrees) in wanted:
+    if not degrees or max(degrees) in degrees_allowed:
         equal = [(limb,) * len(chosen) for limb in chosen[0]] if are_equal(chosen) else []
-        outcomes += [_outcome(limbs, rules, motion, wanted) for limbs in equal]
+        outcomes += [_outcome(limbs, rules, motion, degrees_allowed) for limbs in equal]
         if not symmetric:
-            outcomes += _simplest(chosen, rules, motion, wanted)
-    rejected = [item for item in outcomes if isinstance(item, Rejected)]
+            outcomes += _simplest(chosen, rules, motion, degrees_allowed)
+    rejected = [outcome for outcome in outcomes if isinstance(outcome, Rejected)]
     tally = Tally(
         classes=1,
         combinations=total,
         with_motion=total if isinstance(rules, Expected) else 0,
         coupling_degrees=degrees,
         tried=len(outcomes),
-        unfixed=sum(item.unfixed for item in rejected),
-        disagreements=tuple(item.disagreement for item in rejected if item.disagreement),
+        unfixed=sum(rejection.unfixed for rejection in rejected),
+        disagreements=tuple(rejection.disagreement for rejection in rejected if rejection.disagreement),
     )
-    return Assembly(tuple(item for item in outcomes if isinstance(item, Design)), tally)
+    return DesignsOfClasses(tuple(outcome for outcome in outcomes if isinstance(outcome, Design)), tally)
 
 
 def _by_rules(chosen: Sequence[Class], motion: WantedMotion) -> Expected | Refusal:
@@ -97,51 +99,51 @@ def _by_rules(chosen: Sequence[Class], motion: WantedMotion) -> Expected | Refus
 
 
 def _simplest(
-    chosen: Sequence[Class], rules: Expected | Refusal, motion: WantedMotion, wanted: Range
+    chosen: Sequence[Class], rules: Expected | Refusal, motion: WantedMotion, degrees_allowed: Range
 ) -> list[Design | Rejected]:
     """The simplest mechanisms of limbs that are not all equal, and what was rejected on the way to them."""
     outcomes: list[Design | Rejected] = []
     for limbs in simplest_members(chosen)[:TRIES]:
-        outcomes.append(_outcome(limbs, rules, motion, wanted))
-        if sum(isinstance(item, Design) for item in outcomes) == MEMBERS:
+        outcomes.append(_outcome(limbs, rules, motion, degrees_allowed))
+        if sum(isinstance(outcome, Design) for outcome in outcomes) == MEMBERS:
             break
     return outcomes
 
 
 def _outcome(
-    limbs: Sequence[Limb], rules: Expected | Refusal, motion: WantedMotion, wanted: Range
+    limbs: Sequence[CandidateLimb], rules: Expected | Refusal, motion: WantedMotion, degrees_allowed: Range
 ) -> Design | Rejected:
     """The mechanism of these limbs, if the twists confirm it and its driven joints fix the platform."""
-    found = confirmed(limbs)
+    twists = confirmed(limbs)
     text = " | ".join(limb.chains[place].text for place, limb in enumerate(limbs))
-    if found.dof != motion.dim:
-        said = f"{text}: the rules say F = {motion.dim}, the twists {found.dof}"
+    if twists.dof != motion.dim:
+        said = f"{text}: the rules say F = {motion.dim}, the twists {twists.dof}"
         return Rejected(disagreement=said if isinstance(rules, Expected) else "")
-    if found.left:
+    if twists.left:
         return Rejected(unfixed=True)
-    difference = _difference(found, rules)
+    difference = _difference(twists, rules)
     if difference:
         return Rejected(disagreement=f"{text}: {difference}")
-    degree = found.loops.coupling_degree
-    if degree is None or degree not in wanted:
+    degree = twists.loops.coupling_degree
+    if degree is None or degree not in degrees_allowed:
         return Rejected()
     return Design(
         limbs=tuple(limbs),
         chains=parse_chains([limb.chains[place].text for place, limb in enumerate(limbs)]),
         known=_known(rules, motion),
-        loops=found.loops,
-        dof=found.dof,
+        loops=twists.loops,
+        dof=twists.dof,
         mode="translation" if any(limb.needs_mode for limb in limbs) else "home",
     )
 
 
-def _difference(found: Confirmed, rules: Expected | Refusal) -> str:
+def _difference(twists: Confirmed, rules: Expected | Refusal) -> str:
     """Where the counts of the two routes differ, in words."""
     if isinstance(rules, Refusal) or rules.counts is None:
         return ""
-    order = [found.names.index(name) for loop in found.loops.loops for name in loop.edges]
+    order = [twists.names.index(name) for loop in twists.loops.loops for name in loop.edges]
     said = (rules.counts.xi(order), rules.counts.coupling_degree)
-    counted = (tuple(loop.xi for loop in found.loops.loops), found.loops.coupling_degree)
+    counted = (tuple(loop.xi for loop in twists.loops.loops), twists.loops.coupling_degree)
     return (
         "" if said == counted else f"the rules say ξ = {said[0]}, κ = {said[1]}, the twists {counted[0]}, {counted[1]}"
     )

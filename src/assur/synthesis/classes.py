@@ -10,12 +10,12 @@ from itertools import combinations_with_replacement, product
 
 import numpy as np
 
-from assur.synthesis.limb_motions import Limb
+from assur.synthesis.limb_motions import CandidateLimb
 from assur.topology.directions import span
 from assur.topology.rules.orientations import Orientations, orientations
 from assur.topology.rules.spans import Span
 
-Class = tuple[Limb, ...]
+Class = tuple[CandidateLimb, ...]
 """Limbs with the same motion, the simplest first."""
 
 Simplicity = tuple[int, int, int, tuple[str, ...]]
@@ -25,12 +25,14 @@ AMONG = 20_000
 """The simplest members are looked for among about so many, of the simplest limbs of each class."""
 
 
-def classes(limbs: Sequence[Limb]) -> tuple[Class, ...]:
+def classes(limbs: Sequence[CandidateLimb]) -> tuple[Class, ...]:
     """The limbs by their motion; a limb on which the rules refuse is a class of its own."""
-    found: dict[object, list[Limb]] = {}
+    members_by_motion: dict[object, list[CandidateLimb]] = {}
     for limb in sorted(limbs, key=lambda limb: simplicity([limb])):
-        found.setdefault(_motion_key(limb), []).append(limb)
-    ordered = sorted(found.values(), key=lambda members: (members[0].type.freedoms, simplicity(members[:1])))
+        members_by_motion.setdefault(_motion_key(limb), []).append(limb)
+    ordered = sorted(
+        members_by_motion.values(), key=lambda members: (members[0].type.freedoms, simplicity(members[:1]))
+    )
     return tuple(map(tuple, ordered))
 
 
@@ -46,20 +48,20 @@ def number_of_members(chosen: Sequence[Class]) -> int:
     return math.prod(math.comb(sizes[key] + count - 1, count) for key, count in counts.items())
 
 
-def simplest_members(chosen: Sequence[Class]) -> list[tuple[Limb, ...]]:
+def simplest_members(chosen: Sequence[Class]) -> list[tuple[CandidateLimb, ...]]:
     """One limb of each class, not all equal, the simplest first."""
     different = [limbs for limbs in _members(chosen) if any(limb is not limbs[0] for limb in limbs)]
     return sorted(different, key=simplicity)
 
 
-def simplicity(limbs: Sequence[Limb]) -> Simplicity:
+def simplicity(limbs: Sequence[CandidateLimb]) -> Simplicity:
     """What limbs with equal motions are ranked by."""
     joints = sum(limb.type.joints for limb in limbs)
     parallelograms = sum(limb.type.parallelograms for limb in limbs)
     return (joints, parallelograms, len({id(limb) for limb in limbs}), tuple(limb.text for limb in limbs))
 
 
-def _members(chosen: Sequence[Class]) -> Iterator[tuple[Limb, ...]]:
+def _members(chosen: Sequence[Class]) -> Iterator[tuple[CandidateLimb, ...]]:
     simplest = int(AMONG ** (1 / len(chosen)))
     counts = Counter(map(id, chosen))
     groups = {id(members): members[:simplest] for members in chosen}
@@ -68,13 +70,13 @@ def _members(chosen: Sequence[Class]) -> Iterator[tuple[Limb, ...]]:
         yield tuple(joined.from_iterable(parts))
 
 
-def _motion_key(limb: Limb) -> object:
+def _motion_key(limb: CandidateLimb) -> object:
     """Equal for limbs with the same motion in their first position."""
     if not limb.motions:
         return limb.text
-    found = limb.motions[0]
-    taken = orientations(found.limb.structure) if found.limb and found.rotations.turning else found.orientations
-    return (limb.type.freedoms, _span_key(found.translations), _span_key(found.rotations), _axes_key(taken))
+    motion = limb.motions[0]
+    taken = orientations(motion.limb.structure) if motion.limb and motion.rotations.turning else motion.orientations
+    return (limb.type.freedoms, _span_key(motion.translations), _span_key(motion.rotations), _axes_key(taken))
 
 
 def _axes_key(taken: Orientations) -> tuple[object, ...]:
@@ -82,8 +84,8 @@ def _axes_key(taken: Orientations) -> tuple[object, ...]:
     return (taken.dim, *(_span_key(Span((axis,))) for axis in taken.axes))
 
 
-def _span_key(found: Span) -> tuple[object, ...]:
+def _span_key(subspace: Span) -> tuple[object, ...]:
     """A subspace by its projector, which does not depend on the basis."""
-    basis = span(found.fixed)
+    basis = span(subspace.fixed)
     projector = np.round(basis.T @ basis, 6) + 0.0
-    return (tuple(projector.ravel().tolist()), found.turning, found.plane)
+    return (tuple(projector.ravel().tolist()), subspace.turning, subspace.plane)

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from assur.synthesis.limb_motions import Limb
+from assur.synthesis.limb_motions import CandidateLimb
 from assur.topology.counting.coupling import Decomposition, coupling
 from assur.topology.linkages.edges import Edge, closure, input_columns, rank
 
@@ -40,7 +40,7 @@ class Confirmed:
         return coupling(self.edges)
 
 
-def confirmed(limbs: Sequence[Limb]) -> Confirmed:
+def confirmed(limbs: Sequence[CandidateLimb]) -> Confirmed:
     """F, and what is left of it with the driven joints locked.
 
     Every limb has the wanted motion, so the platform has it; with F equal to its dimension it has no other, and no

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from assur.model.topology_description import Mode
-from assur.synthesis.limb_motions import Limb
+from assur.synthesis.limb_motions import CandidateLimb
 from assur.topology.chains import Chain
 from assur.topology.counting.coupling import Decomposition
 from assur.topology.facts import Known, RedundantConstraints
@@ -30,7 +30,7 @@ class Design:
         names: known mechanisms with the same limbs.
     """
 
-    limbs: tuple[Limb, ...]
+    limbs: tuple[CandidateLimb, ...]
     chains: tuple[Chain, ...]
     known: Known
     loops: Decomposition

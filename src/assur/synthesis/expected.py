@@ -38,12 +38,12 @@ class Counts:
 
     def xi(self, order: Sequence[int]) -> tuple[int, ...]:
         """ξ of each loop, Eq. (4), where the limbs come in this order: dim of both sides less what they share."""
-        found, before = [], self.freedoms[order[0]]
+        ranks, before = [], self.freedoms[order[0]]
         for end in range(2, len(order) + 1):
             after = self.dims[frozenset(order[:end])]
-            found.append(before + self.freedoms[order[end - 1]] - after)
+            ranks.append(before + self.freedoms[order[end - 1]] - after)
             before = after
-        return tuple(found)
+        return tuple(ranks)
 
     def _coupling(self, order: Sequence[int]) -> int:
         """The largest κ of the Assur chains in one order; the first loop takes two limbs, each other one more."""
@@ -89,8 +89,8 @@ def expected(motions: Sequence[Motion], motion: WantedMotion) -> Expected | Refu
     if isinstance(platform, Refusal):
         return platform
     some = {chosen: parallel([motions[index] for index in sorted(chosen)], mode) for chosen in _sets(len(motions))}
-    dims = {chosen: found.dim for chosen, found in some.items() if isinstance(found, Motion)}
-    counts = Counts(dims, [item.freedoms for item in motions]) if len(dims) == len(some) else None
+    dims = {chosen: shared.dim for chosen, shared in some.items() if isinstance(shared, Motion)}
+    counts = Counts(dims, [limb.freedoms for limb in motions]) if len(dims) == len(some) else None
     return Expected(platform, _reaches(platform, motion), counts)
 
 

@@ -119,27 +119,27 @@ def _frames(turns: Sequence[_Turn], motion: WantedMotion) -> list[str]:
     axes = [turns[block[0]].axis for block in blocks]
     wrapped = len(blocks) == 3 and not motion.rotations and _along(axes[0], axes[2])
     simple = all(axes) and (len(blocks) <= 2 or wrapped)
-    found, here = [BASE], BASE
+    frames, frame = [BASE], BASE
     for number, block in enumerate(blocks):
-        found += [f"inside {place}" for place in block[:-1]]
+        frames += [f"inside {place}" for place in block[:-1]]
         if not simple:
-            here = f"behind {block[-1]}"
+            frame = f"behind {block[-1]}"
         elif wrapped:
-            here = "wrapped" if number < 2 else BASE
+            frame = "wrapped" if number < 2 else BASE
         elif motion.rotations and _along(axes[number], motion.rotations[0]):
-            here = TURNED
-        found.append(here)
-    return [*found[:-1], last if turns else BASE]
+            frame = TURNED
+        frames.append(frame)
+    return [*frames[:-1], last if turns else BASE]
 
 
 def _blocks(turns: Sequence[_Turn]) -> list[list[int]]:
-    found: list[list[int]] = []
+    blocks: list[list[int]] = []
     for place, turn in enumerate(turns):
-        if found and _along(turns[place - 1].axis, turn.axis):
-            found[-1].append(place)
+        if blocks and _along(turns[place - 1].axis, turn.axis):
+            blocks[-1].append(place)
         else:
-            found.append([place])
-    return found
+            blocks.append([place])
+    return blocks
 
 
 def _along(first: Vector | None, second: Vector | None) -> bool:
@@ -148,21 +148,21 @@ def _along(first: Vector | None, second: Vector | None) -> bool:
 
 def _orders(stretches: Sequence[Sequence[_Direction]]) -> Iterator[list[list[_Direction]]]:
     """The stretches with their P joints in every order; axes of turns keep their places."""
-    choices = [permutations([item for item in stretch if item.kind]) for stretch in stretches]
+    choices = [permutations([element for element in stretch if element.kind]) for stretch in stretches]
     for chosen in product(*choices):
         orders = [iter(order) for order in chosen]
         yield [
-            [next(order) if item.kind else item for item in stretch]
+            [next(order) if element.kind else element for element in stretch]
             for stretch, order in zip(stretches, orders, strict=True)
         ]
 
 
 def _described(stretches: Sequence[Sequence[_Direction]], frames: Sequence[str]) -> Key:
     """Kinds in each stretch, then relations in each frame, in the order in which frames first occur."""
-    kinds = tuple(tuple(item.kind for item in stretch) for stretch in stretches)
+    kinds = tuple(tuple(element.kind for element in stretch) for stretch in stretches)
     numbers = tuple(list(dict.fromkeys(frames)).index(frame) for frame in frames)
     shared = [
-        [item.axis for stretch, of in zip(stretches, frames, strict=True) if of == frame for item in stretch]
+        [element.axis for stretch, of in zip(stretches, frames, strict=True) if of == frame for element in stretch]
         for frame in dict.fromkeys(frames)
     ]
     return (kinds, numbers, tuple(_relations(axes) for axes in shared))

@@ -23,12 +23,12 @@ def known_mechanisms(motion: WantedMotion) -> Mapping[Key, tuple[str, ...]]:
     >>> sorted(name for names in known_mechanisms(MOTIONS["3T"]).values() for name in names if "glide" in name)
     ['orthoglide']
     """
-    found: dict[Key, list[str]] = defaultdict(list)
+    names_by_key: dict[Key, list[str]] = defaultdict(list)
     for name in topology_names():
         key = _key(load_topology(name), motion)
         if key is not None:
-            found[key].append(name)
-    return {key: tuple(names) for key, names in found.items()}
+            names_by_key[key].append(name)
+    return {key: tuple(names) for key, names in names_by_key.items()}
 
 
 def _key(described: TopologyDescription, motion: WantedMotion) -> Key | None:
@@ -50,8 +50,8 @@ def _driven(described: TopologyDescription) -> list[int] | None:
         if len(places) < len(described.actuate):
             return None
         return [places[number] for number in sorted(places)] if len(places) == len(described.chains) else None
-    found = [_first_driven(chain) for chain in described.chains]
-    return [index for index in found if index is not None] if None not in found else None
+    driven = [_first_driven(chain) for chain in described.chains]
+    return [index for index in driven if index is not None] if None not in driven else None
 
 
 def _first_driven(chain: Chain) -> int | None:

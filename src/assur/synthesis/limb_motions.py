@@ -39,7 +39,7 @@ Reason = Literal["", "a passive freedom", "not the motion", "an idle joint"]
 
 
 @dataclass(frozen=True, eq=False)
-class Limb:
+class CandidateLimb:
     """A limb that has the wanted motion.
 
     Attributes:
@@ -72,15 +72,15 @@ class Limb:
 
 
 @dataclass(frozen=True, eq=False)
-class Verdict:
+class LimbVerdict:
     """What became of a limb type: the limb, or why it is of no use, or how the two routes disagree on it."""
 
-    limb: Limb | None = None
+    limb: CandidateLimb | None = None
     reason: Reason = ""
     disagreement: str = ""
 
 
-def verdict(limb: LimbType, motion: WantedMotion, turns: Sequence[FloatArray]) -> Verdict:
+def verdict(limb: LimbType, motion: WantedMotion, turns: Sequence[FloatArray]) -> LimbVerdict:
     """Whether a limb has the wanted motion, all its freedoms are independent, and no joint of it stays at rest.
 
     Args:
@@ -91,23 +91,27 @@ def verdict(limb: LimbType, motion: WantedMotion, turns: Sequence[FloatArray]) -
     chains = tuple(parse_chain(plain_text(turned(limb.chain, turn))) for turn in turns)
     rules = [_by_rules(chain, motion) for chain in chains]
     orientations = np.concatenate([motion.orientations(ANGLES)] * len(turns))
-    found = twists_at_poses(limb.chain, orientations, np.random.default_rng(crc32(repr(limb.key).encode())))
-    by_twist = _reason_by_twists(found, limb, motion)
+    twists = twists_at_poses(limb.chain, orientations, np.random.default_rng(crc32(repr(limb.key).encode())))
+    by_twist = _reason_by_twists(twists, limb, motion)
     first = rules[0]
     if isinstance(first, Motion) and _reason_by_rules(first, motion) != by_twist:
         said = _reason_by_rules(first, motion) or "the motion"
-        return Verdict(disagreement=f"{chains[0].text}: the rules say {said}, the twists {by_twist or 'the motion'}")
-    if found is None or by_twist:
-        return Verdict(reason=by_twist)
-    if _idles(limb, found, motion):
-        return Verdict(reason="an idle joint")
-    parts = np.split(found, len(turns))
+        return LimbVerdict(
+            disagreement=f"{chains[0].text}: the rules say {said}, the twists {by_twist or 'the motion'}"
+        )
+    if twists is None or by_twist:
+        return LimbVerdict(reason=by_twist)
+    if _idles(limb, twists, motion):
+        return LimbVerdict(reason="an idle joint")
+    parts = np.split(twists, len(turns))
     try:
         known = _known(chains[0].text, first, parts[0])
     except RoutesDisagreeError as error:
-        return Verdict(disagreement=error.message)
+        return LimbVerdict(disagreement=error.message)
     placed = tuple(_turned_twists(part, turn) for part, turn in zip(parts, turns, strict=True))
-    return Verdict(Limb(limb, chains, known, tuple(item for item in rules if isinstance(item, Motion)), placed))
+    return LimbVerdict(
+        CandidateLimb(limb, chains, known, tuple(rule for rule in rules if isinstance(rule, Motion)), placed)
+    )
 
 
 def _by_rules(chain: Chain, motion: WantedMotion) -> Motion | Refusal:
@@ -118,23 +122,23 @@ def _by_rules(chain: Chain, motion: WantedMotion) -> Motion | Refusal:
     return motion_of(free.limb, Orientations(1, motion.rotations))
 
 
-def _reason_by_rules(found: Motion, motion: WantedMotion) -> Reason:
-    if found.orientations.dim < len(motion.rotations):
+def _reason_by_rules(limb_motion: Motion, motion: WantedMotion) -> Reason:
+    if limb_motion.orientations.dim < len(motion.rotations):
         return "not the motion"
-    if found.passive:
+    if limb_motion.passive:
         return "a passive freedom"
-    moves = all(found.translations.contains(direction) for direction in motion.translations)
-    turns = all(found.rotations.contains(direction) for direction in motion.rotations)
+    moves = all(limb_motion.translations.contains(direction) for direction in motion.translations)
+    turns = all(limb_motion.rotations.contains(direction) for direction in motion.rotations)
     return "" if moves and turns else "not the motion"
 
 
-def _reason_by_twists(found: FloatArray | None, limb: LimbType, motion: WantedMotion) -> Reason:
-    if found is None:
+def _reason_by_twists(twists: FloatArray | None, limb: LimbType, motion: WantedMotion) -> Reason:
+    if twists is None:
         return "not the motion"
-    if rank(found) < limb.freedoms:
+    if rank(twists) < limb.freedoms:
         return "a passive freedom"
-    wanted = np.broadcast_to(motion.twists, (len(found), 6, motion.dim))
-    return "" if rank(np.concatenate([found, wanted], axis=-1)) == limb.freedoms else "not the motion"
+    motion_twists = np.broadcast_to(motion.twists, (len(twists), 6, motion.dim))
+    return "" if rank(np.concatenate([twists, motion_twists], axis=-1)) == limb.freedoms else "not the motion"
 
 
 def _idles(limb: LimbType, twists: FloatArray, motion: WantedMotion) -> bool:

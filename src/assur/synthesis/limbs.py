@@ -79,11 +79,11 @@ def limb_types(motion: WantedMotion, max_joints: int, actuators: Actuators) -> t
     for groups, driven in _candidates(motion, max_joints, actuators):
         chain = Chain(tuple(_element(group) for group in groups))
         ways.setdefault(limb_key(chain, motion, driven), []).append((chain, driven))
-    found = []
+    types = []
     for key, written in ways.items():
         chain, driven = next((way for way in written if not is_special(way[0])), written[0])
-        found.append(LimbType(upright(chain, motion), driven, key))
-    return tuple(found)
+        types.append(LimbType(upright(chain, motion), driven, key))
+    return tuple(types)
 
 
 def _candidates(

@@ -75,17 +75,17 @@ def is_special(chain: Chain) -> bool:
 
 
 def _steps(chain: Chain) -> list[_Step]:
-    found: list[_Step] = []
+    steps: list[_Step] = []
     for element in chain.elements:
-        found.append(("link", np.zeros(3)))
+        steps.append(("link", np.zeros(3)))
         if isinstance(element, Parallelogram) and element.kind == "4R":
-            found.append(("A", np.array(element.axis)))
+            steps.append(("A", np.array(element.axis)))
         elif isinstance(element, ChainJoint) and not element.point and element.type.letter in _ELEMENTARY:
             axes = np.array(element.axes) if element.axes else np.eye(3)
-            found += [(kind, axes[place]) for kind, place in _ELEMENTARY[element.type.letter]]
+            steps += [(kind, axes[place]) for kind, place in _ELEMENTARY[element.type.letter]]
         else:
             raise UsageError("only R, P, C, U, S and P(4R) without points in common can be placed here")
-    return [*found, ("link", np.zeros(3))]
+    return [*steps, ("link", np.zeros(3))]
 
 
 _ELEMENTARY: dict[str, tuple[tuple[str, int], ...]] = {
@@ -97,25 +97,25 @@ _ELEMENTARY: dict[str, tuple[tuple[str, int], ...]] = {
 }
 
 
-def _angles(axes: Sequence[FloatArray], wanted: FloatArray, generator: np.random.Generator) -> FloatArray | None:
+def _angles(axes: Sequence[FloatArray], rotations: FloatArray, generator: np.random.Generator) -> FloatArray | None:
     """Angles (N, number of R) with which the platform has the wanted orientations."""
     if not axes:
-        at_rest = np.allclose(wanted, np.eye(3))
-        return np.zeros((len(wanted), 0)) if at_rest else None
+        at_rest = np.allclose(rotations, np.eye(3))
+        return np.zeros((len(rotations), 0)) if at_rest else None
 
     def system(angles: FloatArray, rows: IndexArray) -> tuple[FloatArray, FloatArray]:
         turned, columns = np.broadcast_to(np.eye(3), (len(rows), 3, 3)), []
         for index, axis in enumerate(axes):
             columns.append(turned @ axis)
             turned = turned @ about_axis(axis, angles[:, index])
-        error = to_vector(turned @ np.swapaxes(wanted[rows], -1, -2))
+        error = to_vector(turned @ np.swapaxes(rotations[rows], -1, -2))
         return error, np.stack(columns, axis=-1)
 
     for _ in range(TRIES):
-        start = generator.uniform(-SPREAD, SPREAD, (len(wanted), len(axes)))
-        found = minimise(system, start, tolerance=TOLERANCE)
-        if found.converged.all():
-            return found.x
+        start = generator.uniform(-SPREAD, SPREAD, (len(rotations), len(axes)))
+        minimum = minimise(system, start, tolerance=TOLERANCE)
+        if minimum.converged.all():
+            return minimum.x
     return None
 
 

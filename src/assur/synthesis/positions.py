@@ -97,11 +97,11 @@ def upright(chain: Chain, motion: WantedMotion) -> Chain:
 
 def _turning_axes(chain: Chain) -> list[Vector]:
     """Different directions of the joints that turn."""
-    found: list[Vector] = []
+    axes: list[Vector] = []
     for element in chain.elements:
         if isinstance(element, ChainJoint) and element.type.turning:
-            found += [axis for axis in element.axes if not any(parallel(axis, other) for other in found)]
-    return found
+            axes += [axis for axis in element.axes if not any(parallel(axis, other) for other in axes)]
+    return axes
 
 
 def _first_axis(chain: Chain) -> Vector:
@@ -110,11 +110,11 @@ def _first_axis(chain: Chain) -> Vector:
 
 
 def _with_axes(chain: Chain, changed: Callable[[Vector], Vector]) -> Chain:
-    def element(item: Element) -> Element:
-        if isinstance(item, Parallelogram):
-            return dataclasses.replace(item, axis=changed(item.axis))
-        if isinstance(item, ChainJoint):
-            return dataclasses.replace(item, axes=tuple(changed(axis) for axis in item.axes))
-        return item
+    def element(old: Element) -> Element:
+        if isinstance(old, Parallelogram):
+            return dataclasses.replace(old, axis=changed(old.axis))
+        if isinstance(old, ChainJoint):
+            return dataclasses.replace(old, axes=tuple(changed(axis) for axis in old.axes))
+        return old
 
-    return Chain(tuple(element(item) for item in chain.elements))
+    return Chain(tuple(element(old) for old in chain.elements))

@@ -11,12 +11,12 @@ from itertools import combinations_with_replacement
 from typing import get_args
 
 from assur.errors import Interrupted, UnknownNameError, UsageError
-from assur.synthesis.assembly import Assembly, Range, assemble
+from assur.synthesis.assembly import DesignsOfClasses, Range, assemble
 from assur.synthesis.classes import Class, are_equal, classes
 from assur.synthesis.designs import Design
 from assur.synthesis.isomorphism import mechanism_key
 from assur.synthesis.known_mechanisms import known_mechanisms
-from assur.synthesis.limb_motions import Limb, Verdict, verdict
+from assur.synthesis.limb_motions import CandidateLimb, LimbVerdict, verdict
 from assur.synthesis.limbs import Actuators, limb_types
 from assur.synthesis.positions import positions
 from assur.synthesis.tally import Tally, total
@@ -35,7 +35,7 @@ class TooManyError(UsageError):
 
 
 @dataclass(frozen=True)
-class Question:
+class SynthesisQuestion:
     """What was asked for; see `synthesis`."""
 
     motion: WantedMotion
@@ -62,8 +62,8 @@ class Synthesis:
         designs: the mechanisms, best first.
     """
 
-    asked: Question
-    limbs: tuple[Limb, ...]
+    asked: SynthesisQuestion
+    limbs: tuple[CandidateLimb, ...]
     left_out: Counter[str]
     tally: Tally
     designs: tuple[Design, ...]
@@ -112,29 +112,33 @@ def synthesis(
     """
     asked = _question(motion, limbs, max_joints, coupling, symmetric, actuators)
     usable, left_out, disagreements = _limbs(asked, step)
-    found = classes(usable)
+    classes_of_limbs = classes(usable)
     count = number_of_combinations(len(usable), asked.limbs, symmetric=symmetric)
     if most is not None and count > most:
         raise TooManyError(
             f"{count} combinations of {len(usable)} limb types, and {most} are looked at unasked",
             hint="ask for fewer joints or for equal limbs, or allow more by `most`",
         )
-    chosen = [some for some in combinations_with_replacement(found, asked.limbs) if not symmetric or are_equal(some)]
-    parts: list[Assembly] = []
+    chosen = [
+        some
+        for some in combinations_with_replacement(classes_of_limbs, asked.limbs)
+        if not symmetric or are_equal(some)
+    ]
+    parts: list[DesignsOfClasses] = []
     try:
         for done, some in enumerate(chosen):
             step(len(chosen) + done, 2 * len(chosen))
             parts.append(assemble(some, asked.motion, Range(*coupling), symmetric=symmetric))
     except KeyboardInterrupt:
-        raise Interrupted(_answer(asked, found, left_out, parts, disagreements)) from None
-    return _answer(asked, found, left_out, parts, disagreements)
+        raise Interrupted(_answer(asked, classes_of_limbs, left_out, parts, disagreements)) from None
+    return _answer(asked, classes_of_limbs, left_out, parts, disagreements)
 
 
 def _answer(
-    asked: Question,
-    found: Sequence[Class],
+    asked: SynthesisQuestion,
+    classes_of_limbs: Sequence[Class],
     left_out: Counter[str],
-    parts: Sequence[Assembly],
+    parts: Sequence[DesignsOfClasses],
     disagreements: tuple[str, ...],
 ) -> Synthesis:
     """What was found in the sets of classes that were looked at."""
@@ -145,7 +149,7 @@ def _answer(
     designs = sorted((design for part in parts for design in part.designs), key=lambda design: design.order)
     return Synthesis(
         asked=asked,
-        limbs=tuple(limb for members in found for limb in members),
+        limbs=tuple(limb for members in classes_of_limbs for limb in members),
         left_out=left_out,
         tally=tally,
         designs=_named(designs, asked.motion),
@@ -163,12 +167,12 @@ def number_of_combinations(types: int, limbs: int, *, symmetric: bool) -> int:
 
 def _question(
     motion: str, limbs: int | None, max_joints: int, coupling: tuple[int, int], symmetric: bool, actuators: Actuators
-) -> Question:
-    wanted = motion_named(motion)
-    if limbs is not None and limbs != wanted.dim:
+) -> SynthesisQuestion:
+    target = motion_named(motion)
+    if limbs is not None and limbs != target.dim:
         raise UsageError(
-            f"{limbs} limbs for {wanted.name}; {wanted.dim} are wanted, one actuator in each",
-            hint=f"give {wanted.dim}, or leave the number out",
+            f"{limbs} limbs for {target.name}; {target.dim} are wanted, one actuator in each",
+            hint=f"give {target.dim}, or leave the number out",
         )
     if max_joints < 1:
         raise UsageError(f"at most {max_joints} joints in a limb; allowed: 1 or more", hint="5 finds all known ones")
@@ -176,14 +180,14 @@ def _question(
         raise UsageError(f"coupling degrees {coupling[0]}..{coupling[1]}: there are none", hint="give them as 0..1")
     if actuators not in get_args(Actuators):
         raise UnknownNameError("place of the actuators", actuators, get_args(Actuators))
-    return Question(wanted, max_joints, coupling, symmetric, actuators)
+    return SynthesisQuestion(target, max_joints, coupling, symmetric, actuators)
 
 
-def _limbs(asked: Question, step: Step) -> tuple[list[Limb], Counter[str], tuple[str, ...]]:
+def _limbs(asked: SynthesisQuestion, step: Step) -> tuple[list[CandidateLimb], Counter[str], tuple[str, ...]]:
     """Limbs with the motion, how many have it not and why, and those on which the routes disagree."""
     types = limb_types(asked.motion, asked.max_joints, asked.actuators)
     turns = positions(asked.motion, asked.limbs)
-    verdicts: list[Verdict] = []
+    verdicts: list[LimbVerdict] = []
     try:
         for done, limb in enumerate(types):
             step(done, 2 * len(types))
@@ -194,12 +198,12 @@ def _limbs(asked: Question, step: Step) -> tuple[list[Limb], Counter[str], tuple
     return _sorted(verdicts)
 
 
-def _sorted(verdicts: Sequence[Verdict]) -> tuple[list[Limb], Counter[str], tuple[str, ...]]:
+def _sorted(verdicts: Sequence[LimbVerdict]) -> tuple[list[CandidateLimb], Counter[str], tuple[str, ...]]:
     """Verdicts by what they say."""
     return (
-        [item.limb for item in verdicts if item.limb],
-        Counter(item.reason for item in verdicts if item.reason),
-        tuple(item.disagreement for item in verdicts if item.disagreement),
+        [verdict.limb for verdict in verdicts if verdict.limb],
+        Counter(verdict.reason for verdict in verdicts if verdict.reason),
+        tuple(verdict.disagreement for verdict in verdicts if verdict.disagreement),
     )
 
 

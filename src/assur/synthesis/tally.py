@@ -36,13 +36,13 @@ def total(parts: Iterable[Tally]) -> Tally:
     >>> total([Tally(tried=2), Tally(tried=3, unfixed=1)]).tried
     5
     """
-    found = list(parts)
+    tallies = list(parts)
     return Tally(
-        classes=sum(part.classes for part in found),
-        combinations=sum(part.combinations for part in found),
-        with_motion=sum(part.with_motion for part in found),
-        coupling_degrees=sum((part.coupling_degrees for part in found), Counter()),
-        tried=sum(part.tried for part in found),
-        unfixed=sum(part.unfixed for part in found),
-        disagreements=tuple(text for part in found for text in part.disagreements),
+        classes=sum(part.classes for part in tallies),
+        combinations=sum(part.combinations for part in tallies),
+        with_motion=sum(part.with_motion for part in tallies),
+        coupling_degrees=sum((part.coupling_degrees for part in tallies), Counter()),
+        tried=sum(part.tried for part in tallies),
+        unfixed=sum(part.unfixed for part in tallies),
+        disagreements=tuple(text for part in tallies for text in part.disagreements),
     )

@@ -68,8 +68,8 @@ def motion_named(name: str) -> WantedMotion:
     >>> motion_named("3T").dim
     3
     """
-    found = MOTIONS.get(name.strip().upper())
-    if found is None:
+    motion = MOTIONS.get(name.strip().upper())
+    if motion is None:
         hint = "T counts translations, R rotations: 3T is three translations without rotation"
         raise UnknownNameError("motion", name, MOTIONS, hint=hint)
-    return found
+    return motion

@@ -52,25 +52,25 @@ def agreed(what: str, rules: PocSet, basis: FloatArray) -> PocSet:
             hint=SPECIAL,
         )
     marks, counts = (rules.t_mark, rules.r_mark), (t, r)
-    for part, mark, count, found in zip("tr", marks, counts, fixed_directions(basis), strict=True):
-        if mark.axes and not (len(mark.axes) == count and _same(mark, found)):
+    for part, mark, count, fixed in zip("tr", marks, counts, fixed_directions(basis), strict=True):
+        if mark.axes and not (len(mark.axes) == count and _same(mark, fixed)):
             raise RoutesDisagreeError(
                 f"{what}: the rules say {part}({mark.relation} {', '.join(mark.names)}), the twists do not",
                 hint="the directions of its axes at home may not be what they seem; or assur has an error",
             )
-    moved, turned = (_located(*item) for item in zip(marks, counts, fixed_directions(basis), strict=True))
+    moved, turned = (_located(*group) for group in zip(marks, counts, fixed_directions(basis), strict=True))
     return dataclasses.replace(rules, t_mark=moved, r_mark=turned)
 
 
-def _located(mark: Mark, count: int, found: FloatArray) -> Mark:
+def _located(mark: Mark, count: int, fixed: FloatArray) -> Mark:
     """The mark, or "located" where no axis names its directions and they stay fixed all the same."""
-    return Mark("located") if mark.relation == "moving" and len(found) == count else mark
+    return Mark("located") if mark.relation == "moving" and len(fixed) == count else mark
 
 
-def _same(mark: Mark, found: FloatArray) -> bool:
+def _same(mark: Mark, fixed: FloatArray) -> bool:
     """Whether the axes of a mark lie among the directions that stay fixed."""
     axes = span(mark.axes)
-    return bool(np.max(np.abs(axes - axes @ found.T @ found), initial=0.0) < SAME)
+    return bool(np.max(np.abs(axes - axes @ fixed.T @ fixed), initial=0.0) < SAME)
 
 
 def by_twists(basis: FloatArray) -> PocSet:

@@ -16,13 +16,13 @@ from assur.topology.agreement import RoutesDisagreeError, by_twists
 from assur.topology.chains import Chain
 from assur.topology.counting.actuation import actuation
 from assur.topology.counting.coupling import Loop, coupling
-from assur.topology.counting.decoupling import Decoupling, Judged, by_jacobian, judged
+from assur.topology.counting.decoupling import Decoupling, JudgedPattern, by_jacobian, judged
 from assur.topology.counting.decoupling import by_rules as decoupled_by_rules
 from assur.topology.counting.drives import admissible_drives
 from assur.topology.counting.mobility import Mobility, mobility, motions
 from assur.topology.counting.relaxation import relaxation
 from assur.topology.counting.solution_plan import solution_plan
-from assur.topology.facts import InputsBy, Known, Limb, OperationModeFacts, RedundantConstraints, Topology
+from assur.topology.facts import InputsBy, Known, LimbFacts, OperationModeFacts, RedundantConstraints, Topology
 from assur.topology.linkages.configurations import Hold, home_is_special
 from assur.topology.linkages.edges import Edge, closure, rank
 from assur.topology.linkages.linkage import Linkage
@@ -137,12 +137,12 @@ def analyse(
         UsageError: links that nothing connects, more inputs than freedoms, a platform that turns in translation mode.
     """
     chains = recognised(linkage) if chains is None else tuple(chains)
-    here = sample(linkage, mode)
+    home = sample(linkage, mode)
     base, platform = linkage.base, linkage.platform
-    collapsed = mobility(here.collapsed, base, platform)
-    whole = mobility(here.joints, base, platform)
-    if inputs_by == "first joints" and collapsed.loops and not _are_valid(here):
-        inputs = admissible_drives(here.collapsed, linkage, chains or ())
+    collapsed = mobility(home.collapsed, base, platform)
+    whole = mobility(home.joints, base, platform)
+    if inputs_by == "first joints" and collapsed.loops and not _are_valid(home):
+        inputs = admissible_drives(home.collapsed, linkage, chains or ())
         if inputs is not None:
             said = _driven_words(linkage, inputs)
             driven = dataclasses.replace(linkage, inputs=inputs)
@@ -157,62 +157,62 @@ def analyse(
                 notes=(*notes, said),
             )
     refuse_too_many(linkage, collapsed)
-    if mode == "translation" and len(chains or ()) != 1 and here.poc[1]:
+    if mode == "translation" and len(chains or ()) != 1 and home.poc[1]:
         raise UsageError(
             "there is no translation mode: where the platform keeps its orientation, it can turn as well",
             hint="leave out the mode",
         )
-    still, held = here.keeps_orientation, mode == "translation"
+    still, held = home.keeps_orientation, mode == "translation"
     at = point_of_platform(linkage, chains or ())
     rules = by_rules(chains, still=still, held=held, at=at)
-    limbs = _limbs(here, chains or (), rules)
+    limbs = _limbs(home, chains or (), rules)
     rules = as_the_limbs_are(rules, limbs)
-    order = coupling(here.collapsed, motions(here.collapsed, base, platform).internal)
-    if not here.is_branch_point:  # the rules may speak of another mode
+    order = coupling(home.collapsed, motions(home.collapsed, base, platform).internal)
+    if not home.is_branch_point:  # the rules may speak of another mode
         check_xi(chains or (), [limb.here for limb in limbs], order.loops, held=held)
-    decoupling = _decoupling(by_jacobian(here.collapsed, base, platform), chains, rules.platform, still=still)
-    plan = solution_plan(order, here.collapsed, base, platform)
+    decoupling = _decoupling(by_jacobian(home.collapsed, base, platform), chains, rules.platform, still=still)
+    plan = solution_plan(order, home.collapsed, base, platform)
     solvable = not plan.free
-    modes = tuple(_mode_facts(linkage, item) for item in here.modes)
+    modes = tuple(_mode_facts(linkage, values) for values in home.modes)
     return Topology(
         name=name,
         title=title,
         source=source,
         mode=mode,
         limbs=tuple(_limb(chain, limb.known) for chain, limb in zip(chains or (), limbs, strict=True)),
-        known=_platform_known(rules.platform, here),
+        known=_platform_known(rules.platform, home),
         dof=collapsed.dof,
         internal_freedoms=collapsed.internal_freedoms,
-        internal_joints=tuple(item.joints for item in whole.internal),
+        internal_joints=tuple(freedom.joints for freedom in whole.internal),
         idle_joints=collapsed.idle,
         loops=order.loops,
         assur_chains=order.assur_chains if solvable else (),
         coupling_degree=order.coupling_degree if solvable else None,
         redundant_constraints=RedundantConstraints(collapsed.redundant_constraints, whole.redundant_constraints),
-        redundant_by_loop=(*_of_loops(order.loops), *_of_parallelograms(here)),
-        inputs=_input_names(here),
+        redundant_by_loop=(*_of_loops(order.loops), *_of_parallelograms(home)),
+        inputs=_input_names(home),
         inputs_by=inputs_by,
         decoupling=decoupling.decoupling,
         decoupling_refusal=decoupling.refusal,
         plan=plan,
         linkage=linkage,
         modes=modes,
-        notes=(*notes, _met_at_home(modes)) if here.special or here.is_branch_point else notes,
+        notes=(*notes, _met_at_home(modes)) if home.special or home.is_branch_point else notes,
         derive=rules.derivations,
-        actuate=partial(actuation, here.collapsed, base, platform),
-        relax=partial(relaxation, here.joints, base, platform),
+        actuate=partial(actuation, home.collapsed, base, platform),
+        relax=partial(relaxation, home.joints, base, platform),
     )
 
 
-def _platform_known(rules: Motion | Refusal, here: Sample) -> Known:
+def _platform_known(rules: Motion | Refusal, home: Sample) -> Known:
     """The platform's POC set; where operation modes meet at home the rules may speak of another one than this."""
     try:
-        return both("the platform", rules, here.space)
+        return both("the platform", rules, home.space)
     except RoutesDisagreeError as error:
-        if not here.is_branch_point:
+        if not home.is_branch_point:
             raise
         reason = f"operation modes meet at home, and the rules speak of another one than the twists ({error.message})"
-        return Known(by_twists(here.space), "twists", reason)
+        return Known(by_twists(home.space), "twists", reason)
 
 
 def _mode_facts(linkage: Linkage, mode: OperationMode) -> OperationModeFacts:
@@ -238,29 +238,29 @@ def _met_at_home(modes: Sequence[OperationModeFacts]) -> str:
 
 def _decoupling(
     twists: Decoupling | None, chains: Sequence[Chain] | None, platform: Motion | Refusal, *, still: bool
-) -> Judged:
+) -> JudgedPattern:
     """The Jacobian's pattern, and why the theory does not confirm it where it does not.
 
     Where the rules do not know how the whole mechanism moves, they do not know it with joints locked either.
     """
     if twists is None:
-        return Judged(None)
+        return JudgedPattern(None)
     if chains is None or not still:
-        return Judged(twists, "the platform turns" if chains else "the joint graph has no limbs")
+        return JudgedPattern(twists, "the platform turns" if chains else "the joint graph has no limbs")
     if isinstance(platform, Refusal):
-        return Judged(twists, platform.reason)
+        return JudgedPattern(twists, platform.reason)
     return judged(decoupled_by_rules(chains, twists.inputs), twists)
 
 
-def _limbs(here: Sample, chains: Sequence[Chain], rules: Rules) -> list[KnownLimb]:
+def _limbs(home: Sample, chains: Sequence[Chain], rules: Rules) -> list[KnownLimb]:
     return [
-        limb_known(f"limb {number}, {_text(chain)}", motions, here.linkage, chain, here.values)
+        limb_known(f"limb {number}, {_text(chain)}", motions, home.linkage, chain, home.values)
         for number, (chain, *motions) in enumerate(zip(chains, rules.still, rules.free, strict=True), 1)
     ]
 
 
-def _limb(chain: Chain, known: Known) -> Limb:
-    return Limb(_text(chain), symbolic_text(chain), sum(joint.freedoms for joint in chain.joints), known)
+def _limb(chain: Chain, known: Known) -> LimbFacts:
+    return LimbFacts(_text(chain), symbolic_text(chain), sum(joint.freedoms for joint in chain.joints), known)
 
 
 def _text(chain: Chain) -> str:
@@ -271,25 +271,25 @@ def _of_loops(loops: Sequence[Loop]) -> list[tuple[str, int]]:
     return [(f"loop {number}", loop.redundant_constraints) for number, loop in enumerate(loops, 1)]
 
 
-def _of_parallelograms(here: Sample) -> list[tuple[str, int]]:
+def _of_parallelograms(home: Sample) -> list[tuple[str, int]]:
     """Redundant constraints of the loop inside each parallelogram."""
-    place = {edge.name: edge for edge in here.joints}
-    inside = {name: [place[joint] for joint in group.joints] for name, group in here.linkage.groups.items()}
+    place = {edge.name: edge for edge in home.joints}
+    inside = {name: [place[joint] for joint in group.joints] for name, group in home.linkage.groups.items()}
     return [(name, 6 - rank(closure(joints))) for name, joints in inside.items()]
 
 
-def _input_names(here: Sample) -> tuple[str, ...]:
+def _input_names(home: Sample) -> tuple[str, ...]:
     """The inputs as joints, or "C1.1" where a joint has several components, in the order of the linkage."""
-    found = []
-    for joint, component in here.linkage.inputs:
-        edge = next(edge for edge in here.collapsed if joint in edge.joints)
-        found.append(edge.name if edge.freedoms == 1 else f"{edge.name}.{component + 1}")
-    return tuple(found)
+    names = []
+    for joint, component in home.linkage.inputs:
+        edge = next(edge for edge in home.collapsed if joint in edge.joints)
+        names.append(edge.name if edge.freedoms == 1 else f"{edge.name}.{component + 1}")
+    return tuple(names)
 
 
-def _are_valid(here: Sample) -> bool:
+def _are_valid(home: Sample) -> bool:
     """Whether the inputs determine the mechanism, and none is too many."""
-    return actuation(here.collapsed, here.linkage.base, here.linkage.platform, limit=0).verdict == "valid"
+    return actuation(home.collapsed, home.linkage.base, home.linkage.platform, limit=0).verdict == "valid"
 
 
 def _driven_words(linkage: Linkage, inputs: Sequence[tuple[str, int]]) -> str:
@@ -308,12 +308,14 @@ def _driven_words(linkage: Linkage, inputs: Sequence[tuple[str, int]]) -> str:
     )
 
 
-def refuse_too_many(linkage: Linkage, found: Mobility) -> None:
+def refuse_too_many(linkage: Linkage, mobility: Mobility) -> None:
     """UsageError where there are more inputs than freedoms to lock."""
-    allowed = max(found.controlled, 0)
+    allowed = max(mobility.controlled, 0)
     if len(linkage.inputs) > allowed:
         names = ", ".join(joint for joint, _ in linkage.inputs)
-        internal = f" beside {counted(found.internal_freedoms, 'internal one')}" if found.internal_freedoms else ""
+        internal = (
+            f" beside {counted(mobility.internal_freedoms, 'internal one')}" if mobility.internal_freedoms else ""
+        )
         raise UsageError(
             f"{counted(len(linkage.inputs), 'actuated joint')} ({names}) for {counted(allowed, 'degree')} of freedom"
             f"{internal}",

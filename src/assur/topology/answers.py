@@ -12,71 +12,71 @@ from typing import Any
 from assur.topology.counting.coupling import Loop
 from assur.topology.counting.relaxation import Replacement
 from assur.topology.counting.solution_plan import AssurPlan
-from assur.topology.facts import Known, Limb, Topology
+from assur.topology.facts import Known, LimbFacts, Topology
 from assur.topology.poc import Mark, PocSet
 
 
-def answers(found: Topology) -> dict[str, Any]:
+def answers(topology: Topology) -> dict[str, Any]:
     """The facts as numbers, texts, lists and dictionaries; what does not exist is None.
 
     `loops` are in the order that attains the coupling degree, and `loops` inside `assur_chains` are indices into
     it. `decoupling[i][j]` says whether output i of `outputs` depends on input j of `inputs`.
     """
-    decoupling = found.decoupling
+    decoupling = topology.decoupling
     return {
-        "name": found.name,
-        "title": found.title,
-        "source": found.source,
-        "mode": found.mode,
-        "poc": {**_poc(found.poc), "directions": _directions(found.poc), **_route(found.known)},
-        "limbs": [_limb(limb) for limb in found.limbs],
-        "dof": found.dof,
-        "internal_freedoms": found.internal_freedoms,
-        "internal_joints": [list(joints) for joints in found.internal_joints],
-        "idle_joints": list(found.idle_joints),
-        "loops": [_loop(loop) for loop in found.loops],
+        "name": topology.name,
+        "title": topology.title,
+        "source": topology.source,
+        "mode": topology.mode,
+        "poc": {**_poc(topology.poc), "directions": _directions(topology.poc), **_route(topology.known)},
+        "limbs": [_limb(limb) for limb in topology.limbs],
+        "dof": topology.dof,
+        "internal_freedoms": topology.internal_freedoms,
+        "internal_joints": [list(joints) for joints in topology.internal_joints],
+        "idle_joints": list(topology.idle_joints),
+        "loops": [_loop(loop) for loop in topology.loops],
         "assur_chains": [
-            {"loops": list(chain.loops), "coupling_degree": chain.coupling_degree} for chain in found.assur_chains
+            {"loops": list(chain.loops), "coupling_degree": chain.coupling_degree} for chain in topology.assur_chains
         ],
-        "coupling_degree": found.coupling_degree,
-        "coupling_refusal": found.coupling_refusal,
+        "coupling_degree": topology.coupling_degree,
+        "coupling_refusal": topology.coupling_refusal,
         "redundant_constraints": {
-            "collapsed": found.redundant_constraints.collapsed,
-            "joint_graph": found.redundant_constraints.joint_graph,
+            "collapsed": topology.redundant_constraints.collapsed,
+            "joint_graph": topology.redundant_constraints.joint_graph,
         },
-        "redundant_by_loop": dict(found.redundant_by_loop),
-        "inputs": list(decoupling.inputs if decoupling else found.inputs),
-        "inputs_by": found.inputs_by,
+        "redundant_by_loop": dict(topology.redundant_by_loop),
+        "inputs": list(decoupling.inputs if decoupling else topology.inputs),
+        "inputs_by": topology.inputs_by,
         "outputs": list(decoupling.outputs) if decoupling else [],
         "decoupling": [list(row) for row in decoupling.depends] if decoupling else None,
-        "decoupling_refusal": found.decoupling_refusal,
-        "actuation": _actuation(found),
-        "relaxation": _relaxation(found),
+        "decoupling_refusal": topology.decoupling_refusal,
+        "actuation": _actuation(topology),
+        "relaxation": _relaxation(topology),
         "plan": {
-            "search": found.plan.search,
-            "words": list(found.plan.words),
-            "assur_chains": [_plan(part) for part in found.plan.parts],
+            "search": topology.plan.search,
+            "words": list(topology.plan.words),
+            "assur_chains": [_plan(part) for part in topology.plan.parts],
         },
-        "routes_agree": found.routes_agree,
-        "refusals": refusals(found),
-        "derivation": [line for item in found.derivations for line in item.text().splitlines()],
-        "operation_modes": [dataclasses.asdict(mode) for mode in found.modes],
-        "notes": list(found.notes),
+        "routes_agree": topology.routes_agree,
+        "refusals": refusals(topology),
+        "derivation": [line for derivation in topology.derivations for line in derivation.text().splitlines()],
+        "operation_modes": [dataclasses.asdict(mode) for mode in topology.modes],
+        "notes": list(topology.notes),
     }
 
 
-def refusals(found: Topology) -> list[dict[str, str]]:
+def refusals(topology: Topology) -> list[dict[str, str]]:
     """Where the rules gave no answer, and why: the limbs in order, then the platform."""
-    named = [*((limb.text, limb.known) for limb in found.limbs), ("platform", found.known)]
+    named = [*((limb.text, limb.known) for limb in topology.limbs), ("platform", topology.known)]
     return [{"of": name, "reason": known.refusal} for name, known in named if known.refusal]
 
 
-def replacements_by_kind(found: Topology) -> list[tuple[Replacement, tuple[str, ...]]]:
+def replacements_by_kind(topology: Topology) -> list[tuple[Replacement, tuple[str, ...]]]:
     """Replacements that remove redundant constraints by themselves: one of each kind, and all joints that allow it."""
     kinds: dict[Replacement, list[Replacement]] = {}
-    for item in found.relaxation.single:
-        kinds.setdefault(dataclasses.replace(item, joint=""), []).append(item)
-    return [(items[0], tuple(item.joint for item in items)) for items in kinds.values()]
+    for replacement in topology.relaxation.single:
+        kinds.setdefault(dataclasses.replace(replacement, joint=""), []).append(replacement)
+    return [(items[0], tuple(replacement.joint for replacement in items)) for items in kinds.values()]
 
 
 def mark_text(mark: Mark) -> str:
@@ -106,7 +106,7 @@ def _directions(poc: PocSet) -> list[dict[str, Any]]:
     ]
 
 
-def _limb(limb: Limb) -> dict[str, Any]:
+def _limb(limb: LimbFacts) -> dict[str, Any]:
     poc = {key: value for key, value in _poc(limb.poc).items() if key != "text"}
     return {
         "text": limb.text,
@@ -130,31 +130,31 @@ def _loop(loop: Loop) -> dict[str, Any]:
     }
 
 
-def _actuation(found: Topology) -> dict[str, Any]:
-    asked = found.actuation
+def _actuation(topology: Topology) -> dict[str, Any]:
+    asked = topology.actuation
     return {
         "verdict": asked.verdict,
         "needed": asked.needed,
         "hint": asked.hint,
         "admissible": list(asked.in_some),
         "indispensable": list(asked.in_every),
-        "sets": [list(item) for item in asked.sets],
+        "sets": [list(names) for names in asked.sets],
         "complete": asked.complete,
     }
 
 
-def _relaxation(found: Topology) -> dict[str, Any]:
-    asked = found.relaxation
+def _relaxation(topology: Topology) -> dict[str, Any]:
+    asked = topology.relaxation
     return {
         "redundant": asked.redundant,
         "left": asked.left,
-        "single": [_replacement(item) for item in asked.single],
-        "together": [_replacement(item) for item in asked.together],
+        "single": [_replacement(replacement) for replacement in asked.single],
+        "together": [_replacement(replacement) for replacement in asked.together],
     }
 
 
-def _replacement(item: Replacement) -> dict[str, Any]:
-    return dataclasses.asdict(item)
+def _replacement(replacement: Replacement) -> dict[str, Any]:
+    return dataclasses.asdict(replacement)
 
 
 def _plan(part: AssurPlan) -> dict[str, Any]:

@@ -76,13 +76,13 @@ def contains(basis: FloatArray, vector: Vector) -> bool:
 
 def near_slips(vectors: Iterable[Vector]) -> list[tuple[int, int, str]]:
     """Pairs (i, j, "parallel" or "perpendicular") that are nearly but not exactly so."""
-    found = []
+    slips = []
     for (i, first), (j, second) in combinations(enumerate(vectors), 2):
         if parallel(first, second, NEARLY) and not parallel(first, second):
-            found.append((i, j, "parallel"))
+            slips.append((i, j, "parallel"))
         elif perpendicular(first, second, NEARLY) and not perpendicular(first, second):
-            found.append((i, j, "perpendicular"))
-    return found
+            slips.append((i, j, "perpendicular"))
+    return slips
 
 
 def _basis(rows: FloatArray) -> FloatArray:

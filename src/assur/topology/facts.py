@@ -36,7 +36,7 @@ class Known:
 
 
 @dataclass(frozen=True)
-class Limb:
+class LimbFacts:
     """A limb: its text in the plain form and in the literature's, its freedoms, its POC set in its mechanism."""
 
     text: str
@@ -105,7 +105,7 @@ class Topology:
     title: str
     source: str
     mode: str
-    limbs: tuple[Limb, ...]
+    limbs: tuple[LimbFacts, ...]
     known: Known
     dof: int
     internal_freedoms: int
@@ -160,7 +160,7 @@ class Topology:
         There is no False: where they give different answers an error is raised.
         """
         known = (self.known, *(limb.known for limb in self.limbs))
-        return True if all(item.route == "both" for item in known) else None
+        return True if all(answer.route == "both" for answer in known) else None
 
     @cached_property
     def derivations(self) -> tuple[Derivation, ...]:

@@ -10,9 +10,9 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from assur.topology.facts import Limb, Topology
+from assur.topology.facts import LimbFacts, Topology
 from assur.topology.poc import Mark, PocSet
-from assur.topology.rules.derivation import Derivation, Step
+from assur.topology.rules.derivation import Derivation, DerivationStep
 
 NEEDS = r"\usepackage{amsmath,amssymb}"
 XI = r"\dim\left\{\left(\bigcap_{i=1}^{j} M_{b_i}\right) \cup M_{b_{j+1}}\right\}"
@@ -38,23 +38,23 @@ class Equation:
     dim: int | None = None
 
 
-def fragment(found: Topology) -> str:
+def fragment(topology: Topology) -> str:
     r"""The equations of a topology, aligned, to be put into a document with the packages of `NEEDS`."""
     lines = [
-        f"{item.left} &= {item.right}{_dimension(item)}".replace("\n", f" {BROKEN}\n  &\\quad ")
-        for item in equations(found)
+        f"{equation.left} &= {equation.right}{_dimension(equation)}".replace("\n", f" {BROKEN}\n  &\\quad ")
+        for equation in equations(topology)
     ]
     body = " \\\\\n".join(f"  {line}" for line in lines)
-    return f"% {_ascii(found.name)}: needs {NEEDS}\n\\begin{{align}}\n{body}\n\\end{{align}}"
+    return f"% {_ascii(topology.name)}: needs {NEEDS}\n\\begin{{align}}\n{body}\n\\end{{align}}"
 
 
-def _dimension(item: Equation) -> str:
-    return "" if item.dim is None else rf", \quad \dim {item.left} = {item.dim}"
+def _dimension(equation: Equation) -> str:
+    return "" if equation.dim is None else rf", \quad \dim {equation.left} = {equation.dim}"
 
 
-def equations(found: Topology) -> tuple[Equation, ...]:
+def equations(topology: Topology) -> tuple[Equation, ...]:
     """POC sets of limbs and platform, then freedoms, constraint degrees and coupling degree in numbers."""
-    return (*_poc_sets(found), *_freedoms(found), *_degrees(found))
+    return (*_poc_sets(topology), *_freedoms(topology), *_degrees(topology))
 
 
 def poc_matrix(poc: PocSet) -> str:
@@ -72,8 +72,8 @@ def name(text: str) -> str:
     >>> name("R3"), name("B3a"), name("Pa1"), name("slider_1")
     ('R_{3}', 'B_{3a}', '\\mathrm{Pa}_{1}', '\\mathrm{slider\\_1}')
     """
-    found = _INDEXED.fullmatch(text)
-    stem, index = found.groups() if found else (text, "")
+    match = _INDEXED.fullmatch(text)
+    stem, index = match.groups() if match else (text, "")
     letters = stem if len(stem) == 1 else rf"\mathrm{{{_escaped(stem)}}}"
     return f"{letters}_{{{index}}}" if index else letters
 
@@ -90,21 +90,23 @@ def _escaped(text: str) -> str:
     return re.sub(r"([&%$#_{}])", r"\\\1", _ascii(text))
 
 
-def _poc_sets(found: Topology) -> Iterator[Equation]:
+def _poc_sets(topology: Topology) -> Iterator[Equation]:
     """The sets of inner loops and limbs, and what the limbs have in common: Eqs. (1) and (2)."""
-    platform = next((item for item in found.derivations if item.whole.operation == "intersection"), None)
-    parts = {item.of: item for item in (platform.parts if platform else found.derivations)}
-    for number, limb in enumerate(found.limbs, 1):
+    platform = next(
+        (derivation for derivation in topology.derivations if derivation.whole.operation == "intersection"), None
+    )
+    parts = {derivation.of: derivation for derivation in (platform.parts if platform else topology.derivations)}
+    for number, limb in enumerate(topology.limbs, 1):
         yield from _limb(number, limb, parts.get(f"limb {number}"))
-    count = len(found.limbs)
+    count = len(topology.limbs)
     if platform:
         yield _equation("M_{Pa}", platform.whole, "(2)", f"the platform; O' {platform.origin}")
     elif count != 1:
         common = rf"\bigcap_{{i=1}}^{{{count}}} M_{{b_i}} = " if count else ""
-        yield Equation("M_{Pa}", common + poc_matrix(found.poc), "(2)", "the platform, by twists", found.poc.dim)
+        yield Equation("M_{Pa}", common + poc_matrix(topology.poc), "(2)", "the platform, by twists", topology.poc.dim)
 
 
-def _limb(number: int, limb: Limb, part: Derivation | None) -> Iterator[Equation]:
+def _limb(number: int, limb: LimbFacts, part: Derivation | None) -> Iterator[Equation]:
     """The sets of its inner loops, and its own; another time if it has another one in the mechanism."""
     left, said = rf"M_{{b_{{{number}}}}}", f"limb {number}: {limb.text}"
     if part is None:
@@ -119,50 +121,50 @@ def _limb(number: int, limb: Limb, part: Derivation | None) -> Iterator[Equation
         yield Equation(f"{left}'", poc_matrix(limb.poc), "", said, limb.poc.dim)
 
 
-def step_latex(step: Step) -> str:
+def step_latex(step: DerivationStep) -> str:
     """A union or an intersection with its result."""
     return f"{_joined(step)} = {poc_matrix(step.result)}"
 
 
-def _equation(left: str, step: Step, number: str, meaning: str) -> Equation:
+def _equation(left: str, step: DerivationStep, number: str, meaning: str) -> Equation:
     before = "" if step.operands == (step.result,) else f"{_joined(step)}\n= "
     return Equation(left, before + poc_matrix(step.result), number, meaning, step.result.dim)
 
 
-def _joined(step: Step) -> str:
+def _joined(step: DerivationStep) -> str:
     sign = SIGNS[step.operation]
     sets = list(map(poc_matrix, step.operands))
     rows = [f" {sign} ".join(sets[start : start + PER_LINE]) for start in range(0, len(sets), PER_LINE)]
     return f"\n{sign} ".join(rows)
 
 
-def _freedoms(found: Topology) -> Iterator[Equation]:
+def _freedoms(topology: Topology) -> Iterator[Equation]:
     """Eqs. (4) and (3)."""
-    if not found.loops:
+    if not topology.loops:
         return
     yield Equation(r"\xi_{L_j}", XI, "(4)", "independent equations of loop j")
-    for number, loop in enumerate(found.loops, 1):
+    for number, loop in enumerate(topology.loops, 1):
         yield Equation(rf"\xi_{{L_{{{number}}}}}", str(loop.xi), "", f"loop {number}: {' '.join(loop.edges)}")
-    total = found.dof + sum(found.xi)
-    equations = " + ".join(map(str, found.xi))
-    equations = f"({equations})" if len(found.loops) > 1 else equations
-    internal = f", {found.internal_freedoms} of them internal" if found.internal_freedoms else ""
+    total = topology.dof + sum(topology.xi)
+    equations = " + ".join(map(str, topology.xi))
+    equations = f"({equations})" if len(topology.loops) > 1 else equations
+    internal = f", {topology.internal_freedoms} of them internal" if topology.internal_freedoms else ""
     sums = r"\sum_{i=1}^{m} f_i - \sum_{j=1}^{v} \xi_{L_j}"
-    yield Equation("F", f"{sums} = {total} - {equations} = {found.dof}", "(3)", f"degrees of freedom{internal}")
+    yield Equation("F", f"{sums} = {total} - {equations} = {topology.dof}", "(3)", f"degrees of freedom{internal}")
 
 
-def _degrees(found: Topology) -> Iterator[Equation]:
+def _degrees(topology: Topology) -> Iterator[Equation]:
     """Eqs. (5) and (6)."""
-    for number, loop in enumerate(found.loops, 1):
+    for number, loop in enumerate(topology.loops, 1):
         index = f"{{{number}}}"
         general = rf"\sum_{{i=1}}^{{m_{index}}} f_i - I_{index} - \xi_{{L_{index}}}"
         freedoms = f"({loop.freedoms} - {loop.internal})" if loop.internal else str(loop.freedoms)
         value = f"{freedoms} - {loop.inputs} - {loop.xi} = {_signed(loop.delta)}"
         said = f"constraint degree of loop {number}" + (", internal freedoms left out" if loop.internal else "")
         yield Equation(rf"\Delta_{index}", f"{general} = {value}", "(5)", said)
-    several = len(found.assur_chains) > 1
-    for number, chain in enumerate(found.assur_chains, 1):
-        values = " + ".join(f"|{_signed(found.loops[place].delta)}|" for place in chain.loops)
+    several = len(topology.assur_chains) > 1
+    for number, chain in enumerate(topology.assur_chains, 1):
+        values = " + ".join(f"|{_signed(topology.loops[place].delta)}|" for place in chain.loops)
         general = r"\frac{1}{2} \min\left\{\sum_{j} |\Delta_j|\right\}"
         left = rf"\kappa_{{{number}}}" if several else r"\kappa"
         said = f"coupling degree of Assur chain {number}" if several else "coupling degree"

@@ -43,7 +43,7 @@ class Rules:
     def derivations(self) -> tuple[Derivation, ...]:
         """Of the platform with its limbs, or of the limbs where the rules refuse the platform."""
         whole = (self.platform,) if isinstance(self.platform, Motion) else self.free
-        return tuple(item.derive() for item in whole if isinstance(item, Motion) and item.derive is not None)
+        return tuple(motion.derive() for motion in whole if isinstance(motion, Motion) and motion.derive is not None)
 
 
 def by_rules(chains: Sequence[Chain] | None, *, still: bool, held: bool, at: str = "") -> Rules:
@@ -156,15 +156,19 @@ def check_xi(chains: Sequence[Chain], limbs: Sequence[Motion | None], loops: Seq
     if len(motions) < len(chains):
         return
     names = [{joint.name for joint in chain.joints} for chain in chains]
-    passed = [{item.name for item in chain.elements if not isinstance(item, InnerLoop)} for chain in chains]
+    passed = [{joint.name for joint in chain.elements if not isinstance(joint, InnerLoop)} for chain in chains]
     taken: set[str] = set()
     inside: list[int] = []
     for number, loop in enumerate(loops, 1):
         taken |= set(loop.edges)
         new = [index for index, name in enumerate(names) if name <= taken and index not in inside]
         # a loop may pass a limb and leave one of its branches to later loops: no POC set stands for such a part
-        part = [own for name, own in zip(names, passed, strict=True) if name & taken and not name <= taken]
-        broken = any(not own or own & taken for own in part)
+        part = [
+            names_of_part
+            for name, names_of_part in zip(names, passed, strict=True)
+            if name & taken and not name <= taken
+        ]
+        broken = any(not names_of_part or names_of_part & taken for names_of_part in part)
         whole = not broken and all(passed[index] and passed[index] <= set(loop.edges) for index in new)
         free = held or all(_by_itself(motions[index]) for index in (*inside, *new))
         if whole and free and (len(inside), len(new)) in ((0, 2), (len(inside) or -1, 1)):

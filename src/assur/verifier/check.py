@@ -63,9 +63,9 @@ def _check(document: dict[str, Any], folder: Path | None) -> None:
     if is_path:
         _covered(statement, boxes)
     proved = _proved(Program(document["program"], coordinates), coordinates, boxes, document["proof"])
-    wanted = {name: proved[name] for name in CLAIMS[document["kind"]]}
-    if json.dumps(claims, sort_keys=True) != json.dumps(wanted, sort_keys=True):  # where true is not 1
-        raise RefusedError(f"{claims} is claimed, {wanted} is proved")
+    stated = {name: proved[name] for name in CLAIMS[document["kind"]]}
+    if json.dumps(claims, sort_keys=True) != json.dumps(stated, sort_keys=True):  # where true is not 1
+        raise RefusedError(f"{claims} is claimed, {stated} is proved")
     if is_path and proved["regular"] != "yes":
         raise RefusedError("not every box of the path is reached and free of singularities")
 
@@ -142,13 +142,13 @@ def _holds(program: Program, box: Box, token: str, signs: set[tuple[int, bool]])
     if token == "b":
         return True
     if token[0] == "o":
-        found = program.over(box, [program.margins[int(token[1:], 16)]], strict=False)
-        return found is not None and bool(found[0][1] < 0)
+        values = program.over(box, [program.margins[int(token[1:], 16)]], strict=False)
+        return values is not None and bool(values[0][1] < 0)
     factors = program.factors if token == "r" else []
-    found = program.over(box, [*program.margins, *factors, *program.nonzero])
-    if found is None:
+    values = program.over(box, [*program.margins, *factors, *program.nonzero])
+    if values is None:
         return False
-    margins, others = found[: len(program.margins)], found[len(program.margins) :]
+    margins, others = values[: len(program.margins)], values[len(program.margins) :]
     signs.update((k, bool(value[0] > 0)) for k, value in zip(factors, others, strict=False))
     return all(margin[0] >= 0 for margin in margins) and all(map(nonzero, others))
 
@@ -156,5 +156,5 @@ def _holds(program: Program, box: Box, token: str, signs: set[tuple[int, bool]])
 def _below(value: fmpq) -> float:
     """The largest float that is not above an exact number."""
     exact = Fraction(int(value.p), int(value.q))
-    found = float(exact)
-    return found if Fraction(found) <= exact else math.nextafter(found, -math.inf)
+    rounded = float(exact)
+    return rounded if Fraction(rounded) <= exact else math.nextafter(rounded, -math.inf)

@@ -53,8 +53,8 @@ def _whole(document: Any) -> dict[str, Any]:
         raise MalformedError(f"version {document.get('version')!r} of the format; this verifier knows {VERSION}")
     for part, usual in KEYS.items():
         keys = PATH if part == "statement" and document["kind"] == "path" else usual
-        found = document[part] if part else document
-        if not isinstance(found, dict) or set(found) != keys:
+        keyed = document[part] if part else document
+        if not isinstance(keyed, dict) or set(keyed) != keys:
             raise MalformedError(f"{part or 'the certificate'} does not have the keys {', '.join(sorted(keys))}")
     rest = {key: value for key, value in document.items() if key != "sha256"}
     text = json.dumps(rest, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
@@ -97,7 +97,7 @@ def numbers(value: list[str]) -> list[float]:
     """A list of such floats."""
     if type(value) is not list:
         raise ValueError(f"{str(value)[:40]!r} is no list of numbers")
-    return [number(item) for item in value]
+    return [number(text) for text in value]
 
 
 def printable(value: str) -> str:
@@ -109,7 +109,7 @@ def printable(value: str) -> str:
 
 def names(value: list[str]) -> list[str]:
     """A list of different printable texts."""
-    if type(value) is not list or len({printable(item) for item in value}) != len(value):
+    if type(value) is not list or len({printable(name) for name in value}) != len(value):
         raise ValueError(f"{str(value)[:40]!r} is no list of different names")
     return value
 
@@ -123,7 +123,7 @@ def _table(value: dict[str, Any]) -> dict[str, Any]:
 
 
 def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    if len(found) != len(pairs):
+    members = dict(pairs)
+    if len(members) != len(pairs):
         raise ValueError("a key twice in one object")
-    return found
+    return members

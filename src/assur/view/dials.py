@@ -86,11 +86,11 @@ def inputs(record: MechanismRecord) -> tuple[Dial, ...]:
     >>> [(item.name, item.unit, item.limits) for item in inputs(load_record("three_rps"))][0]
     ('rho1', 'mm', True)
     """
-    found = []
-    for item, (low, high) in zip(record.inputs, input_ranges(record), strict=True):
-        angle = item.coordinate.kind == "angle"
-        found.append(Dial(item.name, low, high, angle, _unit(record, angle), item.stroke is not None))
-    return tuple(found)
+    sliders = []
+    for actuated, (low, high) in zip(record.inputs, input_ranges(record), strict=True):
+        angle = actuated.coordinate.kind == "angle"
+        sliders.append(Dial(actuated.name, low, high, angle, _unit(record, angle), actuated.stroke is not None))
+    return tuple(sliders)
 
 
 @lru_cache(maxsize=16)
@@ -104,12 +104,12 @@ def dials(record: MechanismRecord) -> tuple[Dial, ...]:
     pose = record.platform.pose
     ranges = dict(zip(pose, pose_ranges(record), strict=True))
     names = [name for name in pose if name not in QUATERNION]
-    found = [
+    sliders = [
         Dial(name, ranges[name][0], ranges[name][1], is_angle(name), _unit(record, is_angle(name))) for name in names
     ]
     if has_quaternion(pose):
-        found += [Dial(name, -TURN[name], TURN[name], True, _unit(record, True)) for name in ANGLES]
-    return tuple(found)
+        sliders += [Dial(name, -TURN[name], TURN[name], True, _unit(record, True)) for name in ANGLES]
+    return tuple(sliders)
 
 
 def read(record: MechanismRecord, values: FloatArray) -> FloatArray:
@@ -119,7 +119,7 @@ def read(record: MechanismRecord, values: FloatArray) -> FloatArray:
     if has_quaternion(record.platform.pose):
         turn = rotations.from_quaternion(np.array([named[name] for name in QUATERNION]))
         named |= {name: float(angle) for name, angle in zip(ANGLES, rotations.to_angles(turn), strict=True)}
-    return np.array([named[item.name] for item in dials(record)])
+    return np.array([named[dial.name] for dial in dials(record)])
 
 
 def pose_with(record: MechanismRecord, named: Mapping[str, float]) -> FloatArray:

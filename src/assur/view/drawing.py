@@ -12,7 +12,7 @@ from assur.joint_graph.frames import frames
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import rotations
 from assur.scene.companion import companion
-from assur.scene.letters import Letter, letters
+from assur.scene.letters import PlacedLetter, letters
 from assur.scene.mesh import Mesh, joined, rgb
 from assur.scene.parts import parts
 from assur.scene.skeleton import skeleton
@@ -34,7 +34,7 @@ class Solid:
 
 
 @dataclass(frozen=True, eq=False)
-class Drawing:
+class SolidDrawing:
     """What is drawn of one mechanism; every length times `scale`.
 
     Attributes:
@@ -43,11 +43,11 @@ class Drawing:
     """
 
     solids: tuple[Solid, ...]
-    letters: tuple[Letter, ...]
+    letters: tuple[PlacedLetter, ...]
     scale: float
 
 
-def drawing(record: MechanismRecord, values: FloatArray) -> Drawing:
+def drawing(record: MechanismRecord, values: FloatArray) -> SolidDrawing:
     """What is drawn of a mechanism, made for joint values (n,).
 
     >>> from assur.kinematics.home import home_values
@@ -67,8 +67,8 @@ def drawing(record: MechanismRecord, values: FloatArray) -> Drawing:
         Solid(link, f"{link} {colour[1:]}", *_indexed(joined(meshes), scale), _bytes(colour))
         for (link, colour), meshes in grouped.items()
     ]
-    named = tuple(replace(item, at=item.at * scale) for item in letters(shape))
-    return Drawing(tuple(solids), named, scale)
+    named = tuple(replace(letter, at=letter.at * scale) for letter in letters(shape))
+    return SolidDrawing(tuple(solids), named, scale)
 
 
 def places(record: MechanismRecord, values: FloatArray, scale: float) -> Mapping[str, tuple[FloatArray, FloatArray]]:
@@ -90,13 +90,13 @@ def places(record: MechanismRecord, values: FloatArray, scale: float) -> Mapping
     }
 
 
-def cloud(found: Drawing, record: MechanismRecord, values: FloatArray) -> FloatArray:
+def cloud(drawn: SolidDrawing, record: MechanismRecord, values: FloatArray) -> FloatArray:
     """The vertices (m, 3) of all that is drawn, where it stands at joint values (n,), in the view's unit."""
-    stand = places(record, values, found.scale)
+    stand = places(record, values, drawn.scale)
     return np.concatenate(
         [
-            item.vertices @ rotations.from_quaternion(stand[item.link][0]).T + stand[item.link][1]
-            for item in found.solids
+            solid.vertices @ rotations.from_quaternion(stand[solid.link][0]).T + stand[solid.link][1]
+            for solid in drawn.solids
         ]
     )
 

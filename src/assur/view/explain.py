@@ -41,7 +41,7 @@ class Reason:
         return self.text
 
 
-def explain(path: Path, wanted: FloatArray) -> Reason | None:
+def explain(path: Path, target: FloatArray) -> Reason | None:
     """Why a path ended before the inputs or the pose (k,) that were wanted; None where it did not.
 
     >>> from assur.kinematics.home import home_values
@@ -68,7 +68,7 @@ def explain(path: Path, wanted: FloatArray) -> Reason | None:
         else name
     )
     said = [f"{head}: {stop.meaning}" if stop.meaning else head]
-    missing = gap(path, wanted)
+    missing = gap(path, target)
     if missing:
         said.append(missing)
     return Reason(stop.kind, "; ".join(said))
@@ -94,18 +94,18 @@ def _number(record: MechanismRecord, bound: Limit, value: float) -> str:
     return f"{math.degrees(value):.4g} deg" if record.angle == "deg" else f"{value:.4g} rad"
 
 
-def gap(path: Path, wanted: FloatArray) -> str:
+def gap(path: Path, target: FloatArray) -> str:
     """Which legs or which loop stay open at what was wanted, and by how much; "" where all of them close."""
     record, start = path.record, path.joints[-1]
     if path.prescribed == "poses":
-        return listed(record.unit, misses(record, start, wanted))
-    held = held_inputs(record, start, wanted)
-    found = assemble(record, held, held=record.input_indices)
-    if bool(found.closed):
+        return listed(record.unit, misses(record, start, target))
+    held = held_inputs(record, start, target)
+    nearest = assemble(record, held, held=record.input_indices)
+    if bool(nearest.closed):
         return ""
-    gaps = np.linalg.norm(residuals(record, found.values)[:, :3], axis=-1)
+    gaps = np.linalg.norm(residuals(record, nearest.values)[:, :3], axis=-1)
     joint = joint_graph(record).cut[int(np.argmax(gaps))]
-    return f"the loop closed by {joint.name} stays open by {float(found.residual):.3g} {record.unit}"
+    return f"the loop closed by {joint.name} stays open by {float(nearest.residual):.3g} {record.unit}"
 
 
 def listed(unit: str, missed: Sequence[Miss]) -> str:
@@ -114,7 +114,7 @@ def listed(unit: str, missed: Sequence[Miss]) -> str:
     >>> listed("mm", [Miss("leg1", 14.0583, "too short"), Miss("leg2", 3.0, "off")])
     'leg1 is 14.1 mm too short, leg2 is 3 mm off'
     """
-    return _first(f"{item.leg} is {item.amount:.3g} {unit} {item.sense}" for item in missed)
+    return _first(f"{miss.leg} is {miss.amount:.3g} {unit} {miss.sense}" for miss in missed)
 
 
 def _first(said: Iterable[str]) -> str:

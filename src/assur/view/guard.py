@@ -27,7 +27,7 @@ BYTES = 24
 """Random bytes of a token."""
 
 
-class Answer(Enum):
+class RequestAnswer(Enum):
     """What becomes of a request."""
 
     page = "page"
@@ -36,10 +36,10 @@ class Answer(Enum):
 
 
 @dataclass(frozen=True)
-class Verdict:
+class RequestVerdict:
     """The answer to a request, and why it is refused; the reason is for tests and logs, never sent."""
 
-    answer: Answer
+    answer: RequestAnswer
     why: str = ""
 
 
@@ -66,11 +66,11 @@ class Guard:
         >>> len(guard.token), guard.hosts
         (32, ('127.0.0.1', 'localhost', '[::1]'))
         """
-        own = as_sent(host)
-        hosts = LOOPBACK if own in LOOPBACK else (*LOOPBACK, own)
+        host_as_sent = as_sent(host)
+        hosts = LOOPBACK if host_as_sent in LOOPBACK else (*LOOPBACK, host_as_sent)
         return cls(secrets.token_urlsafe(BYTES), hosts, any_address=is_everywhere(host))
 
-    def check(self, path: str, headers: Iterable[tuple[str, str]], port: int) -> Verdict:
+    def check(self, path: str, headers: Iterable[tuple[str, str]], port: int) -> RequestVerdict:
         """What becomes of a GET request that came in on `port`.
 
         Args:
@@ -82,7 +82,7 @@ class Guard:
         >>> guard.check("/secret/", [("Host", "127.0.0.1:8123")], 8123).answer.value
         'page'
         >>> guard.check("/secret/", [("Host", "evil.example:8123")], 8123)
-        Verdict(answer=<Answer.refused: 'refused'>, why='host')
+        RequestVerdict(answer=<RequestAnswer.refused: 'refused'>, why='host')
         """
         sent: dict[str, list[str]] = {}
         for name, value in headers:
@@ -90,8 +90,8 @@ class Guard:
         socket = "upgrade" in sent or "sec-websocket-key" in sent
         why = self._fault(path, sent, port, socket)
         if why:
-            return Verdict(Answer.refused, why)
-        return Verdict(Answer.socket if socket else Answer.page)
+            return RequestVerdict(RequestAnswer.refused, why)
+        return RequestVerdict(RequestAnswer.socket if socket else RequestAnswer.page)
 
     def _fault(self, path: str, sent: dict[str, list[str]], port: int, socket: bool) -> str:
         hosts = sent.get("host", [])
@@ -114,9 +114,9 @@ class Guard:
 
     def _has_token(self, target: str) -> bool:
         """Whether a path is that of the page, compared in constant time and never decoded."""
-        wanted = f"/{self.token}".encode()
+        expected = f"/{self.token}".encode()
         given = target.encode("utf-8", "surrogatepass")
-        bare, slash = hmac.compare_digest(given, wanted), hmac.compare_digest(given, wanted + b"/")
+        bare, slash = hmac.compare_digest(given, expected), hmac.compare_digest(given, expected + b"/")
         return bare or slash
 
 

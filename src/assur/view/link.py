@@ -76,11 +76,11 @@ def restored(record: MechanismRecord, text: str) -> tuple[Snapshot, Viewpoint | 
     if names != [record.name]:
         raise UsageError(f"this is a link of {', '.join(names)}, not of {record.name}", hint=f"assur view {names[0]}")
     changed = {}
-    for item in fields.get("set", []):
-        name, _, value = item.partition(":")
+    for parameter in fields.get("set", []):
+        name, _, value = parameter.partition(":")
         changed[name] = float(_read(value, 1)[0])
-    found = with_parameters(record, **changed) if changed else record
-    snapshot = start(found)
+    changed_record = with_parameters(record, **changed) if changed else record
+    snapshot = start(changed_record)
     if "at" in fields:
         snapshot = with_values(snapshot, _read(fields["at"][-1], len(snapshot.values)))
     if "camera" not in fields:

@@ -82,16 +82,16 @@ def misses(record: MechanismRecord, start: FloatArray, pose: FloatArray) -> tupl
         return ()
     rotation, origin = frames(pushed, values)[record.platform.link]
     at_platform = rotation @ record.platform.point + origin
-    found: dict[str, Miss] = {}
+    by_leg: dict[str, Miss] = {}
     for k, foot in enumerate(_feet(record)):
         push = values[len(start) + 3 * k : len(start) + 3 * k + 3]
         amount = float(np.linalg.norm(push))
-        if amount > found.get(foot.leg, Miss(foot.leg, 0.0, "")).amount:
-            found[foot.leg] = Miss(foot.leg, amount, _sense(push, at_platform - foot.at))
-    worst = max((item.amount for item in found.values()), default=0.0)
+        if amount > by_leg.get(foot.leg, Miss(foot.leg, 0.0, "")).amount:
+            by_leg[foot.leg] = Miss(foot.leg, amount, _sense(push, at_platform - foot.at))
+    worst = max((miss.amount for miss in by_leg.values()), default=0.0)
     least = max(MISSED * characteristic_length(record), SLIGHT * worst)
-    order = sorted(found.values(), key=lambda item: -float(f"{item.amount:.{DIGITS}g}"))
-    return tuple(item for item in order if item.amount > least)
+    order = sorted(by_leg.values(), key=lambda miss: -float(f"{miss.amount:.{DIGITS}g}"))
+    return tuple(miss for miss in order if miss.amount > least)
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,7 +112,7 @@ def _feet(record: MechanismRecord) -> tuple[_Foot, ...]:
     groups: dict[str, list[Joint]] = {}
     for joint in record.joints.values():
         if record.base in _links(joint) and _to_platform(record, joint):
-            together = [name for name, item in record.generalised.items() if joint.name in item.joints]
+            together = [name for name, generalised in record.generalised.items() if joint.name in generalised.joints]
             groups.setdefault(together[0] if together else joint.name, []).append(joint)
     return tuple(
         _Foot(
@@ -147,9 +147,11 @@ def _links(joint: Joint) -> tuple[str, str]:
 
 def _named(record: MechanismRecord, joints: Sequence[str]) -> str:
     """The chain of the file to which most of the joints belong, or the repeated limb; else the leg of the first."""
-    own = {chain.name: sum(name in joints for name in _members(record, chain.name)) for chain in record.chains.values()}
-    best = max(own, key=lambda name: own[name], default="")
-    if best and own[best]:
+    joints_in_chain = {
+        chain.name: sum(name in joints for name in _members(record, chain.name)) for chain in record.chains.values()
+    }
+    best = max(joints_in_chain, key=lambda name: joints_in_chain[name], default="")
+    if best and joints_in_chain[best]:
         return best
     links = [link for name in joints for link in _links(record.joints[name])]
     limbs = [link.partition(".")[0] for link in links if "." in link]
@@ -158,8 +160,8 @@ def _named(record: MechanismRecord, joints: Sequence[str]) -> str:
 
 def _members(record: MechanismRecord, chain: str) -> Iterator[str]:
     """Joints of a chain, those of its generalised joints too."""
-    found = record.chains[chain]
-    for name in dict.fromkeys((*found.serial, *found.loop, *found.tail)):
+    chain_record = record.chains[chain]
+    for name in dict.fromkeys((*chain_record.serial, *chain_record.loop, *chain_record.tail)):
         yield from record.generalised[name].joints if name in record.generalised else (name,)
 
 
@@ -196,31 +198,31 @@ def _stretched(record: MechanismRecord, start: FloatArray, pose: FloatArray) -> 
     does (Damping parameter in Marquardt's method, IMM-REP-1999-05, 1999), but every leg by as much as it is pushed,
     as the curvature that Gauss and Newton leave out is in proportion to that.
     """
-    pushed, wanted = _on_feet(record), _whole(record, start, pose)
+    pushed, whole_pose = _on_feet(record), _whole(record, start, pose)
     size = characteristic_length(record)
-    scale = np.array([size if item.kind == "length" else 1.0 for item in pushed.coordinates])
+    scale = np.array([size if coordinate.kind == "length" else 1.0 for coordinate in pushed.coordinates])
     feet, legs, damping, harder = np.arange(len(start), len(scale)), _legs(pushed), DAMPING, 2.0
-    first = assemble(pushed, np.concatenate([start, np.zeros(len(feet))]), poses=wanted)
+    first = assemble(pushed, np.concatenate([start, np.zeros(len(feet))]), poses=whole_pose)
     if not bool(first.closed):
         return None
-    here = first.values
+    values = first.values
     for _ in range(STEPS):
-        push = here[feet] / size
+        push = values[feet] / size
         error = float(push @ push)
         if error <= CLOSED**2:
-            return here
-        free = null_space(closing_system(pushed, here[None], wanted[None])[1][0] * scale / size, rcond=RANK_GAP)
+            return values
+        free = null_space(closing_system(pushed, values[None], whole_pose[None])[1][0] * scale / size, rcond=RANK_GAP)
         turned = free[feet]
         pushes = np.bincount(legs[feet], push**2, minlength=int(np.max(legs)) + 1) ** 0.5
         curved = free.T @ (np.maximum(pushes[legs], LEAST)[:, None] * free)
         step = np.linalg.solve(turned.T @ turned + damping * curved, -turned.T @ push)
         promised = error - float(np.sum((push + turned @ step) ** 2))
         if promised <= GAIN * error:
-            return here if damping <= DAMPING else None
-        there = assemble(pushed, here + scale * (free @ step), poses=wanted, near=True)
-        gain = error - float(np.sum((there.values[feet] / size) ** 2))
-        if bool(there.closed) and gain > 0.0:
-            here, harder = there.values, 2.0
+            return values if damping <= DAMPING else None
+        closed = assemble(pushed, values + scale * (free @ step), poses=whole_pose, near=True)
+        gain = error - float(np.sum((closed.values[feet] / size) ** 2))
+        if bool(closed.closed) and gain > 0.0:
+            values, harder = closed.values, 2.0
             damping *= max(1 / 3, 1.0 - (2.0 * gain / promised - 1.0) ** 3)
         else:
             damping, harder = damping * harder, 2.0 * harder
@@ -235,8 +237,8 @@ def _legs(record: MechanismRecord) -> NDArray[np.int64]:
     for joint in record.joints.values():
         if joint.parent in number and joint.child in number:
             old, new = number[joint.parent], number[joint.child]
-            number = {link: new if own == old else own for link, own in number.items()}
-    ends = [_links(record.joints[item.joint]) for item in record.coordinates]
+            number = {link: new if leg == old else leg for link, leg in number.items()}
+    ends = [_links(record.joints[coordinate.joint]) for coordinate in record.coordinates]
     return np.array([next(number[link] for link in pair if link in number) for pair in ends])
 
 

@@ -36,7 +36,7 @@ class Overlays:
         self.window = window
         self.boxes: list[Any] = []
         self.height: Any = None
-        self._wanted: object | None = None
+        self._request: object | None = None
         with window.gui.add_folder("Layers", expand_by_default=False) as self._folder:
             self.button = window.gui.add_button(COMPUTE)
             self.progress = window.gui.add_progress_bar(0.0, visible=False)
@@ -45,53 +45,55 @@ class Overlays:
 
     def compute(self) -> None:
         """Find every layer of the working mode that is shown."""
-        wanted = self._wanted = object()
+        request = self._request = object()
         snapshot = self.window.snapshot
 
         def tick(done: int, total: int) -> None:
-            if wanted is not self._wanted:
+            if request is not self._request:
                 raise CancelledError
             self.progress.value = 100.0 * done / total
 
         self.button.label, self.progress.value, self.progress.visible = CANCEL, 0.0, True
         try:
-            found = region(snapshot.record, snapshot.modes[0] or None, tick=tick)
-            made = layers(snapshot.record, found)
+            workspace = region(snapshot.record, snapshot.modes[0] or None, tick=tick)
+            made = layers(snapshot.record, workspace)
         except CancelledError:
-            self._end(wanted)
+            self._end(request)
         except Exception as error:  # this thread has nobody else who would hear of it
-            self._end(wanted)
+            self._end(request)
             self.window.failed(error)
         else:  # by the worker, which changes dimensions too
-            self.window.worker.ask("layers", lambda: self._show(wanted, snapshot.record, found, made))
+            self.window.worker.ask("layers", lambda: self._show(request, snapshot.record, workspace, made))
 
     def clear(self) -> None:
         """Forget the layers, and what is being computed."""
-        self._wanted = None
+        self._request = None
         for handle in (*self.boxes, *([self.height] if self.height else [])):
             handle.remove()
         self.boxes, self.height, self.note.visible = [], None, False
         self.window.stage.layers(())
 
     def _pressed(self) -> None:
-        if self._wanted is None:
+        if self._request is None:
             threading.Thread(target=self.compute, daemon=True).start()
         else:
-            self._wanted = None
+            self._request = None
 
-    def _end(self, wanted: object) -> None:
+    def _end(self, request: object) -> None:
         """The button as it was, unless something newer is being computed."""
-        if self._wanted is None or self._wanted is wanted:
-            self._wanted = None
+        if self._request is None or self._request is request:
+            self._request = None
             self.button.label, self.progress.visible = COMPUTE, False
 
-    def _show(self, wanted: object, record: MechanismRecord, found: Workspace | None, made: tuple[Layer, ...]) -> None:
-        fresh = wanted is self._wanted
-        self._end(wanted)
+    def _show(
+        self, request: object, record: MechanismRecord, workspace: Workspace | None, made: tuple[Layer, ...]
+    ) -> None:
+        fresh = request is self._request
+        self._end(request)
         if not fresh:
             return
         self.clear()
-        self._say(layers_note(record, found))
+        self._say(layers_note(record, workspace))
         if not made:
             return
         with self._folder:
@@ -101,13 +103,13 @@ class Overlays:
                 node.visible = bool(box.value)
                 box.on_update(lambda event, node=node: setattr(node, "visible", bool(event.target.value)))
                 self.boxes.append(box)
-            if found is not None and len(found.box.names) == IN_SPACE:
-                self._offer_section(record, found)
+            if workspace is not None and len(workspace.box.names) == IN_SPACE:
+                self._offer_section(record, workspace)
 
-    def _offer_section(self, record: MechanismRecord, found: Workspace) -> None:
+    def _offer_section(self, record: MechanismRecord, workspace: Workspace) -> None:
         """A slider for the height of a section, and a box; only the last height that is asked for is cut."""
-        name = found.box.names[-1]
-        low, high = float(found.box.low[-1]), float(found.box.high[-1])
+        name = workspace.box.names[-1]
+        low, high = float(workspace.box.low[-1]), float(workspace.box.high[-1])
         dial = Dial(name, low, high, False, record.unit, limits=True)
         height = self.height = self.window.gui.add_slider(
             f"section {name} [{record.unit}]", min=low, max=high, step=dial.step, initial_value=(low + high) / 2,
@@ -118,7 +120,7 @@ class Overlays:
 
         def cut() -> None:
             if height is self.height:  # else it is of layers that are gone
-                self._cut(record, found, float(height.value), shown=bool(box.value))
+                self._cut(record, workspace, float(height.value), shown=bool(box.value))
 
         def moved(_: Any) -> None:
             box.value = True
@@ -127,9 +129,9 @@ class Overlays:
         height.on_update(moved)
         box.on_update(lambda _: self.window.worker.ask("section", cut))
 
-    def _cut(self, record: MechanismRecord, found: Workspace, value: float, *, shown: bool) -> None:
-        name = found.box.names[-1]
-        layer = section_layer(record, found.section(min(max(value, found.box.low[-1]), found.box.high[-1])))
+    def _cut(self, record: MechanismRecord, workspace: Workspace, value: float, *, shown: bool) -> None:
+        name = workspace.box.names[-1]
+        layer = section_layer(record, workspace.section(min(max(value, workspace.box.low[-1]), workspace.box.high[-1])))
         self.window.stage.section(layer if shown else None)
         self._say(layer.label if layer else f"nothing is reached at {name} = {value:g} {record.unit}")
 

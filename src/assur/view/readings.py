@@ -76,13 +76,13 @@ def limits_reading(snapshot: Snapshot) -> Reading:
     ('no limits are stated', 'within')
     """
     record, about = snapshot.record, "strokes, limits of joints and cones of the file"
-    found = excesses(record, "inverse", snapshot.pose, snapshot.values)
-    if not found:
+    exceeded = excesses(record, "inverse", snapshot.pose, snapshot.values)
+    if not exceeded:
         return Reading("limits", limits_note(record) or "within", about)
     length = characteristic_length(record)
-    worst = max(found, key=lambda item: item.by / (1.0 if item.angular else length))
+    worst = max(exceeded, key=lambda excess: excess.by / (1.0 if excess.angular else length))
     by = angle_at_border(record, worst.by) if worst.angular else worst.by
-    more = f", {len(found) - 1} more" if len(found) > 1 else ""
+    more = f", {len(exceeded) - 1} more" if len(exceeded) > 1 else ""
     unit = record.angle if worst.angular else record.unit
     return Reading("limits", f"{worst.joint} outside by {by:.4g} {unit}{more}", about)
 
@@ -97,12 +97,14 @@ def closest_factor(snapshot: Snapshot, working: Postures) -> Reading | None:
     >>> closest_factor(here, postures(here.record, here.values, "inverse")).name
     'closest factor'
     """
-    form, here, found = snapshot.record.closed_form, working.current, working.answer.factors
-    if form is None or here is None or any(item.name not in found for item in form.factor_list):
+    form, posture, values = snapshot.record.closed_form, working.current, working.answer.factors
+    if form is None or posture is None or any(factor.name not in values for factor in form.factor_list):
         return None
-    relative = {name: float(value[here.candidate]) for name, value in relative_factors(snapshot.record, found).items()}
-    factors = {item.name: item for item in form.factor_list if item.kind != "other"}
-    name = min(factors, key=lambda item: abs(relative[item]))
+    relative = {
+        name: float(value[posture.candidate]) for name, value in relative_factors(snapshot.record, values).items()
+    }
+    factors = {factor.name: factor for factor in form.factor_list if factor.kind != "other"}
+    name = min(factors, key=lambda candidate: abs(relative[candidate]))
     return Reading("closest factor", f"{name} = {relative[name]:.3g}", f"0 where {factors[name].meaning}")
 
 
@@ -112,20 +114,20 @@ def clearance(snapshot: Snapshot, working: Postures) -> Reading | None:
     Takes seconds: for when nothing moves.
     """
     record = snapshot.record
-    here = working.current
-    if record.closed_form is None or here is None or not any(name in LENGTHS for name in record.platform.pose):
+    posture = working.current
+    if record.closed_form is None or posture is None or not any(name in LENGTHS for name in record.platform.pose):
         return None
     try:
-        found = distance(record, snapshot.pose, here.label or None)
+        nearest = distance(record, snapshot.pose, posture.label or None)
     except AssurError:  # a mode by number: closed forms know it by signs alone
         return None
-    value = float(found.value)
+    value = float(nearest.value)
     if math.isnan(value):
         return None
     if math.isinf(value):
-        seen = f"none seen within {found.reach:.3g} {record.unit}"
+        seen = f"none seen within {nearest.reach:.3g} {record.unit}"
         return Reading("to a parallel singularity", seen, "along rays; what is proved, `assur workspace --prove` says")
-    return Reading("to a parallel singularity", f"{value:.4g} {record.unit}", f"there {found.factor} = 0")
+    return Reading("to a parallel singularity", f"{value:.4g} {record.unit}", f"there {nearest.factor} = 0")
 
 
 def shown(dial: dials.Dial, value: float) -> str:

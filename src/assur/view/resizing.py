@@ -90,57 +90,57 @@ def resized(
     """
     before = record.parameters[name].value if name in record.parameters else value
     with_parameters(record, **{name: value})  # raises where there is no such dimension
-    here = first = _place(record, values, ranks)
+    place = first = _place(record, values, ranks)
     if _least(first) < FLOOR:
         return Resized(record, values, before, _why(first, first, ""))
     done, step, why = 0.0, 1.0, ""
     while done < 1.0:
         share = min(1.0, done + step)
-        wanted = value if share == 1.0 else before + share * (value - before)
-        tried = _step(here, name, wanted, held, ranks)
+        target = value if share == 1.0 else before + share * (value - before)
+        tried = _step(place, name, target, held, ranks)
         if isinstance(tried, str):
             why = tried
             if step <= TOLERANCE:
-                return Resized(here.record, here.values, before + done * (value - before), _why(first, here, why))
+                return Resized(place.record, place.values, before + done * (value - before), _why(first, place, why))
             step = max(step / 2, TOLERANCE)
             continue
-        here, done, step = tried, share, max((share - done) * tried.longer, TOLERANCE)
-    return Resized(here.record, here.values, value)
+        place, done, step = tried, share, max((share - done) * tried.longer, TOLERANCE)
+    return Resized(place.record, place.values, value)
 
 
 def _place(record: MechanismRecord, values: FloatArray, ranks: Mapping[str, int], longer: float = 1.0) -> _Place:
-    found = matrices(record, values)
-    return _Place(record, values, {held: locked(found[held], ranks[held]) for held in KINDS}, longer)
+    screws = matrices(record, values)
+    return _Place(record, values, {held: locked(screws[held], ranks[held]) for held in KINDS}, longer)
 
 
 def _least(place: _Place) -> float:
-    return min(float(item.sizes[-1]) for item in place.locks.values())
+    return min(float(lock.sizes[-1]) for lock in place.locks.values())
 
 
-def _step(here: _Place, name: str, wanted: float, held: Prescribed, ranks: Mapping[str, int]) -> _Place | str:
+def _step(place: _Place, name: str, target: float, held: Prescribed, ranks: Mapping[str, int]) -> _Place | str:
     """The assembly with another dimension near this one, or what forbids it."""
     try:
-        record = with_parameters(here.record, **{name: wanted})
+        record = with_parameters(place.record, **{name: target})
     except UsageError as error:  # between two dimensions that are allowed there may be one that is not
         return error.message
-    poses = pose_of(here.record, here.values) if held == "poses" else None
+    poses = pose_of(place.record, place.values) if held == "poses" else None
     locks = record.input_indices if held == "inputs" else ()
-    first = _newton(record, here.values, locks, poses)
-    found = assemble(record, first, held=locks, poses=poses, near=True)
-    if not bool(found.closed):
+    first = _newton(record, place.values, locks, poses)
+    assembly = assemble(record, first, held=locks, poses=poses, near=True)
+    if not bool(assembly.closed):
         return "the loops do not close"
     size = units(record)
-    moved, away = (float(np.linalg.norm(change / size)) for change in (first - here.values, found.values - first))
+    moved, away = (float(np.linalg.norm(change / size)) for change in (first - place.values, assembly.values - first))
     if moved > FURTHEST or away > CLOSE * moved + ROUNDING:
         return "the loops do not close in this mode"
-    rows = matrices(record, found.values)
-    if min(here.locks[item].kept(rows[item]) for item in KINDS) < KEPT:
+    rows = matrices(record, assembly.values)
+    if min(place.locks[kind].kept(rows[kind]) for kind in KINDS) < KEPT:
         return "the mode ends"
-    broken = [bound.name for bound in limits(record, found.values) if float(bound.margin(found.values)) < 0.0]
+    broken = [bound.name for bound in limits(record, assembly.values) if float(bound.margin(assembly.values)) < 0.0]
     if broken:
         return broken[0]
-    there = _place(record, found.values, ranks, min(2.0, AIM * CLOSE * moved / away if away > 0.0 else 2.0))
-    return "the mode ends" if _least(there) < FLOOR else there
+    next_place = _place(record, assembly.values, ranks, min(2.0, AIM * CLOSE * moved / away if away > 0.0 else 2.0))
+    return "the mode ends" if _least(next_place) < FLOOR else next_place
 
 
 def _newton(record: MechanismRecord, values: FloatArray, locks: Sequence[int], poses: FloatArray | None) -> FloatArray:

@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any
 
 from assur.errors import AssurError, UsageError, extra_hint
-from assur.view.guard import POLICY, Answer, Guard, as_sent, reached_at
+from assur.view.guard import POLICY, Guard, RequestAnswer, as_sent, reached_at
 
 REFUSED = b"refused\n"
 MOST = 8
@@ -88,11 +88,11 @@ class Served:
             port = connection.local_address[1]
             answer = self.guard.check(request.path, request.headers.raw_items(), port).answer
             kind, body, status = "text/plain; charset=utf-8", REFUSED, http.HTTPStatus.FORBIDDEN
-            if answer is not Answer.refused and self._open >= MOST:
+            if answer is not RequestAnswer.refused and self._open >= MOST:
                 body, status = FULL.format(most=MOST).encode(), http.HTTPStatus.SERVICE_UNAVAILABLE
-            elif answer is Answer.socket:
+            elif answer is RequestAnswer.socket:
                 return None
-            elif answer is Answer.page:
+            elif answer is RequestAnswer.page:
                 kind, body, status = "text/html; charset=utf-8", page, http.HTTPStatus.OK
                 opened(request.path.partition("?")[2])
             fields = {**POLICY, "Content-Type": kind, "Content-Length": str(len(body)), "Connection": "close"}

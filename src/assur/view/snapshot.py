@@ -91,9 +91,9 @@ def with_input(snapshot: Snapshot, index: int, value: float) -> Snapshot:
     >>> float(moved.inputs[0].round(9)), moved.reason is None
     (2.0, True)
     """
-    wanted = snapshot.inputs
-    wanted[index] = value
-    return to_inputs(snapshot, wanted)
+    inputs = snapshot.inputs
+    inputs[index] = value
+    return to_inputs(snapshot, inputs)
 
 
 def with_dial(snapshot: Snapshot, index: int, value: float) -> Snapshot:
@@ -105,9 +105,9 @@ def with_dial(snapshot: Snapshot, index: int, value: float) -> Snapshot:
     ['serial singularity: A1, B1, P are collinear', 'leg1 is 112 mm too short, leg2 is 112 mm too short']
     """
     record = snapshot.record
-    names = [item.name for item in dials(record)]
-    wanted = dict(zip(names, read(record, snapshot.values).tolist(), strict=True))
-    return to_poses(snapshot, pose_with(record, {**wanted, names[index]: value}))
+    names = [dial.name for dial in dials(record)]
+    targets = dict(zip(names, read(record, snapshot.values).tolist(), strict=True))
+    return to_poses(snapshot, pose_with(record, {**targets, names[index]: value}))
 
 
 def to_inputs(snapshot: Snapshot, inputs: ArrayLike) -> Snapshot:
@@ -128,8 +128,8 @@ def with_values(snapshot: Snapshot, values: ArrayLike) -> Snapshot:
     gap = float(closure_error(record, given))
     if gap > OPEN * characteristic_length(record):
         raise UsageError(f"{record.name}: these joint values are no assembly, a gap of {gap:.3g} {record.unit} remains")
-    found = assemble(record, given, near=True)
-    return Snapshot(record, found.values if bool(found.closed) else given)
+    assembly = assemble(record, given, near=True)
+    return Snapshot(record, assembly.values if bool(assembly.closed) else given)
 
 
 def with_parameter(snapshot: Snapshot, name: str, value: float) -> Snapshot:
@@ -148,22 +148,22 @@ def with_parameter(snapshot: Snapshot, name: str, value: float) -> Snapshot:
     ends = []
     for held in HELD:
         try:
-            found = resized(snapshot.record, snapshot.values, name, value, held, ranks)
+            change = resized(snapshot.record, snapshot.values, name, value, held, ranks)
         except AssurError as error:
             return replace(snapshot, reason=Reason("dimension", error.message))
-        if not found.why:
-            return Snapshot(found.record, found.values)
-        ends.append(f"{HELD[held]} it ends at {found.reached:.4g} ({found.why})")
+        if not change.why:
+            return Snapshot(change.record, change.values)
+        ends.append(f"{HELD[held]} it ends at {change.reached:.4g} ({change.why})")
     return replace(snapshot, reason=Reason("dimension", f"{name} = {value:g} leaves the mode: {', '.join(ends)}"))
 
 
-def _followed(snapshot: Snapshot, prescribed: Prescribed, wanted: FloatArray, turns: Turns) -> Snapshot:
+def _followed(snapshot: Snapshot, prescribed: Prescribed, target: FloatArray, turns: Turns) -> Snapshot:
     record = snapshot.record
-    here = snapshot.inputs if prescribed == "inputs" else snapshot.pose
-    if np.max(np.abs(wanted - here)) <= CLOSED * characteristic_length(record):
+    present = snapshot.inputs if prescribed == "inputs" else snapshot.pose
+    if np.max(np.abs(target - present)) <= CLOSED * characteristic_length(record):
         return replace(snapshot, reason=None)
     ranks = _ranks(snapshot)
-    inputs, poses = (wanted if prescribed == kind else None for kind in ("inputs", "poses"))
+    inputs, poses = (target if prescribed == kind else None for kind in ("inputs", "poses"))
     try:
         path = follow(
             record, snapshot.values, inputs=inputs, poses=poses, turns=turns, tolerance=TOLERANCE, largest_step=1.0,
@@ -171,7 +171,7 @@ def _followed(snapshot: Snapshot, prescribed: Prescribed, wanted: FloatArray, tu
         )  # fmt: skip
     except AssurError as error:
         return replace(snapshot, reason=Reason("input", error.message))
-    return Snapshot(record, path.joints[-1], explain(path, wanted), ranks)
+    return Snapshot(record, path.joints[-1], explain(path, target), ranks)
 
 
 def _ranks(snapshot: Snapshot) -> dict[str, int]:

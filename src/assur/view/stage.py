@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from assur.model.mechanism import MechanismRecord
 from assur.scene.layers import Layer
-from assur.view.drawing import Drawing, cloud, drawing, places
+from assur.view.drawing import SolidDrawing, cloud, drawing, places
 from assur.view.link import Viewpoint
 
 FloatArray = NDArray[np.float64]
@@ -41,7 +41,7 @@ class Stage:
 
     def __init__(self, server: Any, clicked: Callable[[int], None]) -> None:
         self.server, self.scene, self.clicked = server, server.scene, clicked
-        self.drawing: Drawing | None = None
+        self.drawing: SolidDrawing | None = None
         self._frames: dict[str, Any] = {}
         self._ghosts: list[tuple[str, Any]] = []
         self._layers: list[Any] = []
@@ -69,17 +69,17 @@ class Stage:
 
     def build(self, record: MechanismRecord, values: FloatArray) -> None:
         """Every link anew, made for joint values (n,), as dimensions may have changed."""
-        found = drawing(record, values)
+        drawn = drawing(record, values)
         with self.server.atomic():
             self._clear()
-            self.drawing = found
+            self.drawing = drawn
             for link in record.links:
                 self._frames[link] = self.scene.add_frame(f"/now/{link}", show_axes=False)
-            for k, solid in enumerate(found.solids):
+            for k, solid in enumerate(drawn.solids):
                 self.scene.add_mesh_simple(
                     f"/now/{solid.link}/solid{k}", solid.vertices, solid.faces, color=solid.colour
                 )
-            for k, letter in enumerate(found.letters):
+            for k, letter in enumerate(drawn.letters):
                 node = self.scene.add_label(
                     f"/now/{letter.link}/letter{k}", letter.name, position=letter.at, anchor="bottom-left"
                 )
@@ -105,12 +105,12 @@ class Stage:
                 return
             stand = places(record, shown, self.drawing.scale)
             for link in record.links:
-                found = self._whole(link)
-                if link == record.base or found is None:
+                mesh = self._whole(link)
+                if link == record.base or mesh is None:
                     continue
                 turn, origin = stand[link]
                 node = self.scene.add_batched_meshes_simple(
-                    f"/ghosts/{link}", *found, batched_wxyzs=turn, batched_positions=origin, batched_colors=GHOST,
+                    f"/ghosts/{link}", *mesh, batched_wxyzs=turn, batched_positions=origin, batched_colors=GHOST,
                     opacity=FAINT, lod="off", cast_shadow=False, receive_shadow=False, visible=visible,
                 )  # fmt: skip
                 node.on_click(lambda event: self.clicked(int(event.instance_index or 0)))
@@ -118,19 +118,19 @@ class Stage:
 
     def _whole(self, link: str) -> tuple[FloatArray, NDArray[np.int64]] | None:
         """Vertices and faces of all that is drawn of a link, whatever its colours; None where nothing is."""
-        solids = [item for item in self.drawing.solids if item.link == link] if self.drawing else []
+        solids = [solid for solid in self.drawing.solids if solid.link == link] if self.drawing else []
         if not solids:
             return None
-        starts = np.cumsum([0, *(len(item.vertices) for item in solids[:-1])])
-        faces = [item.faces + start for item, start in zip(solids, starts, strict=True)]
-        return np.concatenate([item.vertices for item in solids]), np.concatenate(faces)
+        starts = np.cumsum([0, *(len(solid.vertices) for solid in solids[:-1])])
+        faces = [solid.faces + start for solid, start in zip(solids, starts, strict=True)]
+        return np.concatenate([solid.vertices for solid in solids]), np.concatenate(faces)
 
-    def layers(self, found: Sequence[Layer]) -> list[Any]:
+    def layers(self, layers: Sequence[Layer]) -> list[Any]:
         """Surfaces and lines; their nodes, in the same order, none of which is visible yet."""
         self.section(None)
         for node in self._layers:
             node.remove()
-        self._layers = [self._layer(str(k), layer) for k, layer in enumerate(found)]
+        self._layers = [self._layer(str(k), layer) for k, layer in enumerate(layers)]
         return self._layers
 
     def section(self, layer: Layer | None) -> None:

@@ -86,9 +86,9 @@ def around(snapshot: Snapshot) -> Trajectory:
     >>> around(start(load_record("fivebar"))).reason is None
     True
     """
-    found = dials.dials(snapshot.record)
+    sliders = dials.dials(snapshot.record)
     columns = [k for k, name in enumerate(snapshot.record.platform.pose) if name in LENGTHS][:2] or [0]
-    size = SHARE * min(found[k].high - found[k].low for k in columns)
+    size = SHARE * min(sliders[k].high - sliders[k].low for k in columns)
     angles = np.linspace(0.0, 2 * np.pi, CORNERS + 1)[1:-1]
     for radius in size * 0.5 ** np.arange(TRIES):
         poses = np.tile(snapshot.pose, (len(angles), 1))

@@ -47,7 +47,7 @@ class Window:
     def __init__(self, record: MechanismRecord, served: Served) -> None:
         self.original, self.served, self.gui = record, served, served.viser.gui
         self.history = History(start(record))
-        self.found: dict[Problem, Postures] = {}
+        self.postures: dict[Problem, Postures] = {}
         self.more: tuple[Reading, ...] = ()
         self.settled = 0
         self.worker = Worker(self._idle, self.failed)
@@ -57,8 +57,8 @@ class Window:
         self.notes: dict[str, Any] = {}
         self.gui.set_panel_label(record.name)
         self._inputs = self._sliders("Inputs", dials.inputs(record), self.snapshot.inputs, with_input)
-        here = dials.read(record, self.snapshot.values)
-        self._platform = self._sliders("Platform", dials.dials(record), here, with_dial)
+        coordinates = dials.read(record, self.snapshot.values)
+        self._platform = self._sliders("Platform", dials.dials(record), coordinates, with_dial)
         self._make_numbers()
         self._make_modes()
         self.overlays = Overlays(self)
@@ -99,13 +99,13 @@ class Window:
     def _sliders(
         self,
         title: str,
-        found: tuple[dials.Dial, ...],
-        here: FloatArray,
+        sliders: tuple[dials.Dial, ...],
+        values: FloatArray,
         change: Change,
     ) -> list[Any]:
         handles = []
         with self.gui.add_folder(title):
-            for k, (dial, value) in enumerate(zip(found, here, strict=True)):
+            for k, (dial, value) in enumerate(zip(sliders, values, strict=True)):
                 low, high = dial.ends
                 shown = dial.shown(float(value))
                 about = "stroke" if dial.limits else "range"
@@ -156,14 +156,17 @@ class Window:
     def _make_parameters(self) -> None:
         with self.gui.add_folder("Dimensions", expand_by_default=False):
             self._parameters = {}
-            for item in self.original.parameters.values():
-                if item.drawn_only:
+            for parameter in self.original.parameters.values():
+                if parameter.drawn_only:
                     continue
                 handle = self.gui.add_number(
-                    f"{item.name} [{item.unit}]", initial_value=item.value, step=_step(item.value), hint=item.meaning
+                    f"{parameter.name} [{parameter.unit}]",
+                    initial_value=parameter.value,
+                    step=_step(parameter.value),
+                    hint=parameter.meaning,
                 )
-                self.on_person(handle, f"dimension {item.name}", partial(_resized, item.name))
-                self._parameters[item.name] = handle
+                self.on_person(handle, f"dimension {parameter.name}", partial(_resized, parameter.name))
+                self._parameters[parameter.name] = handle
             self.notes["dimension"] = self.gui.add_html("", visible=False)
         with self.gui.add_folder("Steps"):
             self._steps = self.gui.add_button_group("", ("undo", "redo", "home"))
@@ -200,17 +203,17 @@ class Window:
         self.stage.move(snapshot.record, snapshot.values)
         with self.served.viser.atomic():
             self._set("Inputs", self._inputs, dials.inputs(self.original), snapshot.inputs)
-            here = dials.read(snapshot.record, snapshot.values)
-            self._set("Platform", self._platform, dials.dials(self.original), here)
+            coordinates = dials.read(snapshot.record, snapshot.values)
+            self._set("Platform", self._platform, dials.dials(self.original), coordinates)
             for name, handle in self._parameters.items():
                 if not self.worker.waits(f"dimension {name}"):
                     handle.value = snapshot.record.parameters[name].value
             self._numbers.content = SMALL + table((*readings(snapshot), *self.more))
             self.explain(label, snapshot.reason)
 
-    def _set(self, title: str, handles: list[Any], found: tuple[dials.Dial, ...], values: FloatArray) -> None:
+    def _set(self, title: str, handles: list[Any], sliders: tuple[dials.Dial, ...], values: FloatArray) -> None:
         """Sliders to values (k,); one that a person has moved on meanwhile stays where that is."""
-        for handle, dial, value in zip(handles, found, values, strict=True):
+        for handle, dial, value in zip(handles, sliders, values, strict=True):
             if not self.worker.waits(f"{title} {dial.name}"):
                 _set(handle, dial, float(value))
 
@@ -218,47 +221,49 @@ class Window:
         """In red below the control that a label names, why it stopped; nowhere else."""
         place = "dimension" if label.startswith("dimension") else label
         for name, note in self.notes.items():
-            wanted = reason is not None and name == place
-            if wanted:
+            concerned = reason is not None and name == place
+            if concerned:
                 note.content = f'<div role="alert" style="{RED}">{html.escape(str(reason))}</div>'
-            note.visible = wanted
+            note.visible = concerned
 
     def _idle(self) -> bool:
         """What takes longer, when nothing moves: other modes first, then the distance to the nearest singularity."""
         if self.settled == 0:
             self.history = self.history.alone()
-            here = self.snapshot
-            self.found = {problem: postures(here.record, here.values, problem) for problem in PROBLEMS}
+            shown = self.snapshot
+            self.postures = {problem: postures(shown.record, shown.values, problem) for problem in PROBLEMS}
             self._show_modes()
-            factor = closest_factor(self.snapshot, self.found["inverse"])
+            factor = closest_factor(self.snapshot, self.postures["inverse"])
             self.more = (factor,) if factor else ()
             self.keeper.refresh()
         elif self.settled == 1:
-            found = clearance(self.snapshot, self.found["inverse"])
-            self.more = (*self.more, found) if found else self.more
+            distance = clearance(self.snapshot, self.postures["inverse"])
+            self.more = (*self.more, distance) if distance else self.more
         self.settled += 1
         self._numbers.content = SMALL + table((*readings(self.snapshot), *self.more))
         return self.settled < 2
 
     def _show_modes(self) -> None:
-        others = self.found["direct"].others
-        self.stage.ghosts(self.snapshot.record, [item.values for item in others], visible=self._ghosts_shown.value)
+        others = self.postures["direct"].others
+        self.stage.ghosts(
+            self.snapshot.record, [posture.values for posture in others], visible=self._ghosts_shown.value
+        )
         for problem, handle in self._lists.items():
-            found = self.found[problem]
-            names = tuple(_name(item) for item in found.listed)
-            handle.options = names if found.current else (NONE, *names)
-            handle.value = _name(found.current) if found.current else NONE
-        said = self.found["direct"].answer
+            listed = self.postures[problem]
+            names = tuple(_name(posture) for posture in listed.listed)
+            handle.options = names if listed.current else (NONE, *names)
+            handle.value = _name(listed.current) if listed.current else NONE
+        said = self.postures["direct"].answer
         right = f"{'complete, ' if said.complete else ''}{said.right}"
         self._right.content = f'<small style="display:block;padding:0 8px">assembly modes: {html.escape(right)}</small>'
 
     def _chosen(self, problem: Problem, name: str) -> Callable[[Snapshot], Snapshot]:
-        choices = self.found[problem].listed if problem in self.found else ()
-        wanted = next((item for item in choices if _name(item) == name), None)
-        return lambda snapshot: snapshot if wanted is None else with_values(snapshot, wanted.values)
+        choices = self.postures[problem].listed if problem in self.postures else ()
+        chosen = next((posture for posture in choices if _name(posture) == name), None)
+        return lambda snapshot: snapshot if chosen is None else with_values(snapshot, chosen.values)
 
     def _ghost_clicked(self, index: int) -> None:
-        others = self.found["direct"].others if self.found else ()
+        others = self.postures["direct"].others if self.postures else ()
         if index < len(others):
             self.worker.ask("ghost", lambda: self.now(with_values(self.snapshot, others[index].values), ""))
 
@@ -288,8 +293,8 @@ def _set(handle: Any, dial: dials.Dial, value: float) -> None:
         handle.value = shown
 
 
-def _name(item: Posture) -> str:
-    return item.label or "the one"
+def _name(posture: Posture) -> str:
+    return posture.label or "the one"
 
 
 def _step(value: float) -> float:

@@ -9,7 +9,7 @@ from assur.errors import UsageError
 from assur.kinematics.closed_form.start_system import FILE, dimensions, family, found_start, start_system, start_text
 from assur.model.closed_form import PolynomialSystem
 from assur.model.registry import load_record, names
-from assur.numerics.homotopy import End, distinct, solve
+from assur.numerics.homotopy import PathEnd, distinct, solve
 from assur.numerics.number_types import Floats
 
 
@@ -39,7 +39,7 @@ def test_a_start_from_nothing_leads_to_the_solutions_of_the_stored_one(record):
     parameters, found = found_start(record, system, seed=3)
     assert len(found) == system.degree
     ends = solve(family(record, system, parameters, stored[None]), found)
-    assert np.all(ends.end == End.regular)
+    assert np.all(ends.end == PathEnd.regular)
     overlap = np.abs(ends.x.conj() @ solutions.T)
     assert sorted(np.argmax(overlap, axis=1)) == list(range(system.degree))
     np.testing.assert_allclose(np.max(overlap, axis=1), 1.0, atol=1e-9)

@@ -7,7 +7,7 @@ import pytest
 
 import assur
 from assur.kinematics.status import Status
-from assur.numerics.homotopy import End
+from assur.numerics.homotopy import PathEnd
 
 DIETMAIER = [1, 0.645275, 1.086284, 1.503439, 1.281933, 0.771071]
 POSE = [0.1, 0.05, 0.9, 0.97, 0.1, 0.15, 0.1]
@@ -69,7 +69,7 @@ def test_legs_that_share_joints_have_sixteen_postures_and_the_answer_does_not_cl
     mechanism = platform(base, top)
     given = mechanism.inverse(POSE)
     found = mechanism.direct(given.inputs[0])
-    assert np.sum((found.end == End.regular) & ~found.infinite) == degree
+    assert np.sum((found.end == PathEnd.regular) & ~found.infinite) == degree
     assert not found.complete
     assert found.right.startswith("not proved: of 40 paths")
     pose = given.poses[0]

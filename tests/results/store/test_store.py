@@ -13,7 +13,7 @@ from assur.errors import DamagedStoreError, UsageError
 from assur.results.store import store as store_module
 from assur.results.store.layout import Array, Plan, Shard, block_length
 from assur.results.store.merged import parts_in
-from assur.results.store.store import Solved, Store
+from assur.results.store.store import SolvedBlock, Store
 from faulty_disk import FaultyDisk, Killed
 
 PLAN = Plan(
@@ -35,7 +35,7 @@ def solved(plan, number):
     """The numbers of a block, from the places alone."""
     places = np.arange(plan.part(number).start, plan.part(number).stop)
     many = np.sqrt([places + plan.question["seed"], places + 0.5])
-    return Solved({"many": many, "few": places % 5}, {"fives": {"0": int(np.sum(places % 5 == 0))}})
+    return SolvedBlock({"many": many, "few": places % 5}, {"fives": {"0": int(np.sum(places % 5 == 0))}})
 
 
 def told(plan, counts):

@@ -10,7 +10,7 @@ import pytest
 from assur.joint_graph.frames import frames
 from assur.kinematics.closure import closure_error
 from assur.model.file.reader import read_text
-from assur.synthesis.drafting.document import Chosen, Input, document
+from assur.synthesis.drafting.document import Chosen, DrivenJoint, document
 from assur.synthesis.drafting.layout import LAYOUTS, own_stations
 from assur.synthesis.drafting.templates import draft
 from assur.topology.notation import parse_chain, parse_chains
@@ -29,7 +29,7 @@ LIMBS = [
 def test_what_is_drawn_closes_and_has_the_axes_that_were_written(texts, layout):
     chains = parse_chains(texts)
     found = draft(chains, layout)
-    driven = Input(found.joint_of(0, 0), "first" if texts[0].startswith("U") else "")
+    driven = DrivenJoint(found.joint_of(0, 0), "first" if texts[0].startswith("U") else "")
     chosen = Chosen("my", (), ("x", "y", "z"), False, (driven,), {}, {})
     record = read_text(document(found, chosen), PATH)
     zeros = np.zeros(len(record.coordinates))
@@ -46,7 +46,7 @@ def test_what_is_drawn_closes_and_has_the_axes_that_were_written(texts, layout):
 
 def test_axes_through_a_point_that_limbs_share_go_through_it():
     found = draft(parse_chains(LIMBS[3][:2]), LAYOUTS[0][0])
-    record = read_text(document(found, Chosen("my", (), ("x",), False, (Input("leg1.A"),), {}, {})), PATH)
+    record = read_text(document(found, Chosen("my", (), ("x",), False, (DrivenJoint("leg1.A"),), {}, {})), PATH)
     placed = frames(record, np.zeros(len(record.coordinates)))
     centre = np.array([0.0, 0.0, record.parameters["height"].value])
     for joint in record.joints.values():
@@ -57,7 +57,7 @@ def test_axes_through_a_point_that_limbs_share_go_through_it():
 
 def test_a_general_slider_runs_along_its_leg():
     found = draft(parse_chains(["U P S"] * 3), LAYOUTS[0][0])
-    record = read_text(document(found, Chosen("my", (), ("x",), False, (Input("leg1.B"),), {}, {})), PATH)
+    record = read_text(document(found, Chosen("my", (), ("x",), False, (DrivenJoint("leg1.B"),), {}, {})), PATH)
     leg = record.joints["leg1.C"].at
     assert record.joints["leg1.B"].axes[0] == pytest.approx(leg / np.linalg.norm(leg))
 

@@ -8,7 +8,7 @@ import networkx as nx
 import numpy as np
 import pytest
 
-from assur.topology.counting.branches import Branch, branches, names_along, next_loops
+from assur.topology.counting.branches import LoopBranch, branches, names_along, next_loops
 from assur.topology.linkages.edges import Edge
 
 
@@ -87,7 +87,7 @@ def by_definition(parts, taken):
 def test_next_loops_are_the_least_sets_that_add_one_loop(seed):
     rng = np.random.default_rng(seed)
     links = [f"n{i}" for i in range(rng.integers(1, 5))]
-    parts = [Branch((f"J{i}",), *rng.choice(links, 2)) for i in range(rng.integers(1, 7))]
+    parts = [LoopBranch((f"J{i}",), *rng.choice(links, 2)) for i in range(rng.integers(1, 7))]
     taken = set()
     while True:
         found = list(next_loops(parts, taken))

@@ -13,7 +13,7 @@ from assur.kinematics.structure import linkage as structure
 from assur.numerics.rotations import to_vector
 from assur.topology import analysis
 from assur.topology.answers import answers
-from assur.topology.counting.decoupling import Decoupling, Judged, by_jacobian, by_rules, jacobian, judged
+from assur.topology.counting.decoupling import Decoupling, JudgedPattern, by_jacobian, by_rules, jacobian, judged
 from assur.topology.counting.inputs import default_inputs
 from assur.topology.linkages.configurations import configurations
 from assur.topology.linkages.edges import Edge, along, closure, column_names, input_columns, null_basis
@@ -209,7 +209,7 @@ def test_the_rules_give_the_pattern_of_the_jacobian(name, inputs):
     found = by_jacobian(edges(linkage, values), "base", "platform")
     assert list(found.inputs) == inputs
     assert by_rules(parse_chains(MECHANISMS[name]), inputs) == found
-    assert judged(by_rules(parse_chains(MECHANISMS[name]), inputs), found) == Judged(found)
+    assert judged(by_rules(parse_chains(MECHANISMS[name]), inputs), found) == JudgedPattern(found)
 
 
 def test_a_component_of_a_joint_is_locked_and_the_other_stays():
@@ -242,10 +242,10 @@ def test_a_limb_without_joints_left_is_not_decided():
 
 def test_what_the_theory_promises_must_hold():
     rules = Decoupling(("x", "y"), ("P1", "P2"), ((True, False), (True, True)))
-    assert judged(rules, rules) == Judged(rules)
-    assert judged(Refusal("because"), rules) == Judged(rules, "because")
+    assert judged(rules, rules) == JudgedPattern(rules)
+    assert judged(Refusal("because"), rules) == JudgedPattern(rules, "because")
     fewer = dataclasses.replace(rules, depends=((True, False), (False, True)))
-    assert judged(rules, fewer) == Judged(fewer, "the dimensions decouple more than the topology promises")
+    assert judged(rules, fewer) == JudgedPattern(fewer, "the dimensions decouple more than the topology promises")
     more = dataclasses.replace(rules, depends=((True, True), (True, True)))
     refused = judged(rules, more)
     assert refused.decoupling is None

@@ -15,7 +15,7 @@ from assur.topology.answers import answers
 from assur.topology.counting.coupling import coupling, coupling_of
 from assur.topology.counting.inputs import default_inputs, numbered_inputs
 from assur.topology.counting.mobility import motions
-from assur.topology.counting.solution_plan import AssurPlan, SolutionPlan, Step, solution_plan
+from assur.topology.counting.solution_plan import AssurPlan, PlanStep, SolutionPlan, solution_plan
 from assur.topology.linkages.configurations import configurations
 from assur.topology.linkages.linkage import part
 from assur.topology.linkages.placing import place
@@ -292,7 +292,7 @@ def test_the_papers_plan_in_words():
 def plan_of(*steps, search, reason=""):
     """A plan of one Assur chain; steps as (Δ, left)."""
     made = [
-        Step(index, (f"J{index}",), delta, max(delta, 0), max(-delta, 0), left)
+        PlanStep(index, (f"J{index}",), delta, max(delta, 0), max(-delta, 0), left)
         for index, (delta, left) in enumerate(steps)
     ]
     return SolutionPlan((AssurPlan(tuple(made), sum(abs(delta) for delta, _ in steps) // 2, search, reason),))

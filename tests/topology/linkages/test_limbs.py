@@ -5,13 +5,13 @@ import pytest
 from assur.joints.revolute import REVOLUTE
 from assur.joints.universal import UNIVERSAL
 from assur.topology.chains import ChainJoint, InnerLoop
-from assur.topology.linkages.limbs import Path, limbs
+from assur.topology.linkages.limbs import LinkagePath, limbs
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
-def path(start: str, end: str, name: str) -> Path:
-    return Path(start, end, (ChainJoint(REVOLUTE, (Z,), name=name),))
+def path(start: str, end: str, name: str) -> LinkagePath:
+    return LinkagePath(start, end, (ChainJoint(REVOLUTE, (Z,), name=name),))
 
 
 def names(elements):
@@ -52,7 +52,7 @@ def test_loops_nest():
 
 
 def test_a_joint_written_from_the_platform_is_passed_through_from_its_other_side():
-    backwards = Path("p", "a", (ChainJoint(UNIVERSAL, (X, Y), name="U"),))
+    backwards = LinkagePath("p", "a", (ChainJoint(UNIVERSAL, (X, Y), name="U"),))
     (chain,) = limbs([path("base", "a", "A"), backwards], "base", "p")
     assert chain.elements[1].axes == (Y, X)
 

@@ -26,14 +26,14 @@ def test_a_long_text_is_shown_around_the_place():
 
 
 def test_what_a_caller_can_ask():
-    with pytest.raises(UsageError) as error:
+    with pytest.raises(UsageError) as caught:
         parse_chains(["R[x]", "P[y] T"])
-    found = error.value
-    assert (found.limb, found.text, found.position, found.found) == (2, "P[y] T", 5, "'T'")
-    assert "R, P, H, C, U, S" in found.expected
-    assert "limb 2" in str(found)
-    assert "T is not a joint" in found.hint
-    assert found.exit_code == 2
+    error = caught.value
+    assert (error.limb, error.text, error.position, error.offending) == (2, "P[y] T", 5, "'T'")
+    assert "R, P, H, C, U, S" in error.expected
+    assert "limb 2" in str(error)
+    assert "T is not a joint" in error.hint
+    assert error.exit_code == 2
 
 
 def test_signs_that_look_like_nothing_are_named():

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from assur.topology.notation import parse_chain, parse_chains
 from assur.topology.poc import Mark, PocSet
-from assur.topology.rules.derivation import Derivation, Step, counted, in_words, matrix, under
+from assur.topology.rules.derivation import Derivation, DerivationStep, counted, in_words, matrix, under
 from assur.topology.rules.intersection import parallel
 from assur.topology.rules.motion import Motion
 from assur.topology.rules.union import serial
@@ -32,13 +32,13 @@ def test_a_matrix_in_three_styles(style, printed):
 )
 def test_union_and_intersection_in_three_styles(style, signs):
     for operation, sign in zip(("union", "intersection"), signs, strict=True):
-        text = Step(operation, (SET, SET), ("1", "2"), SET, "", "").text(style)
+        text = DerivationStep(operation, (SET, SET), ("1", "2"), SET, "", "").text(style)
         assert sign in text
         assert text.count(matrix(SET, style)) == 3
 
 
 def test_one_operand_is_no_equation():
-    assert Step("union", (SET,), ("R1",), SET, "", "").text() == matrix(SET)
+    assert DerivationStep("union", (SET,), ("R1",), SET, "", "").text() == matrix(SET)
 
 
 def test_words():

@@ -77,7 +77,7 @@ def direct_by_boxes(
 
 def _within_a_turn(names: tuple[str, ...], found: Zeros) -> tuple[Interval, set[int]]:
     """Poses (K, m) with angles about zero, and those that may be others' after a whole turn."""
-    poses = found.found
+    poses = found.isolated
     for k, name in enumerate(names):
         if is_angle(name):
             over = poses.middle[:, k] > HALF_TURN

@@ -25,7 +25,7 @@ from assur.kinematics.closed_form.stored import stored_sweep
 from assur.kinematics.modes import Problem
 from assur.model.registry import load_record
 from assur.results.store.note import asked, differences
-from assur.results.store.store import Solved, Store
+from assur.results.store.store import SolvedBlock, Store
 
 ANSWERS = 30.0
 """Seconds within which a scheduler must answer, and have a worker."""
@@ -72,7 +72,7 @@ def question_of(job: Job) -> dict[str, Any]:
     return asked(sweep_of(job).plan())
 
 
-def solved_block(job: Job, number: int) -> tuple[int, Solved]:
+def solved_block(job: Job, number: int) -> tuple[int, SolvedBlock]:
     """A block by its number among those of the whole grid, on a worker."""
     sweep = sweep_of(job)
     return number, sweep.block(sweep.grid.poses(sweep.plan().part(number)))
@@ -126,7 +126,7 @@ def _client(address: str) -> Iterator[Any]:
         yield client
 
 
-def _solved(client: Any, job: Job, numbers: Sequence[int]) -> Iterator[tuple[int, Solved]]:
+def _solved(client: Any, job: Job, numbers: Sequence[int]) -> Iterator[tuple[int, SolvedBlock]]:
     """Blocks as they are ready; only a few for each worker are under way."""
     left = iter(numbers)
     many = AHEAD * max(1, sum(client.nthreads().values()))

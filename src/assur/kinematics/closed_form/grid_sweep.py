@@ -24,7 +24,7 @@ from assur.model.pose import is_angle
 from assur.results.disk import DISK, Disk
 from assur.results.store.layout import Array, Plan, Shard
 from assur.results.store.note import Counts
-from assur.results.store.store import Solved, Store
+from assur.results.store.store import SolvedBlock, Store
 
 Found = Mapping[str, NDArray[Any]]
 
@@ -129,10 +129,10 @@ class GridSweep(ABC):
         """Work out what a store lacks, in this process, which may be interrupted."""
         fill(store, self.block, self.grid, progress=progress, threads=threads)
 
-    def block(self, given: FloatArray) -> Solved:
+    def block(self, given: FloatArray) -> SolvedBlock:
         """What is kept of the problems (m, b) of a block, and what is counted in it."""
         found = self.solve(given)
-        return Solved({name: found[name] for name in self.keep}, _counted(found))
+        return SolvedBlock({name: found[name] for name in self.keep}, _counted(found))
 
     def solve(self, given: FloatArray) -> Found:
         """What is kept of problems (m, b), and whether each exists: exists and status (K, b) or (b,), and so on."""

@@ -18,7 +18,7 @@ from assur.model.closed_form import ClosedForm, PolynomialSystem
 from assur.model.file.toml_source import read_toml
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion
-from assur.numerics.expanded import System, expand, unknowns
+from assur.numerics.expanded import ExpandedSystem, expand, unknowns
 from assur.numerics.monodromy import all_solutions, random_complex
 from assur.numerics.path_tracking import polished
 from assur.results.reading import file_text
@@ -49,7 +49,9 @@ def dimensions(record: MechanismRecord) -> FloatArray:
     return np.array([item.inside for item in record.parameters.values()]) / units
 
 
-def family(record: MechanismRecord, system: PolynomialSystem, first: ComplexArray, last: NDArray[np.inexact]) -> System:
+def family(
+    record: MechanismRecord, system: PolynomialSystem, first: ComplexArray, last: NDArray[np.inexact]
+) -> ExpandedSystem:
     """The systems on the straight way from one mechanism to others.
 
     Args:
@@ -96,7 +98,7 @@ def found_start(record: MechanismRecord, system: PolynomialSystem, seed: int = 0
     parameters = np.concatenate([chosen, np.array(inputs)])
     solution = np.array(system.lift(Complexes(), p, tuple(pose)))
 
-    def way(first: ComplexArray, last: ComplexArray) -> System:
+    def way(first: ComplexArray, last: ComplexArray) -> ExpandedSystem:
         return family(record, system, first, last[None])
 
     return parameters, all_solutions(way, parameters, solution, system.degree, rng)

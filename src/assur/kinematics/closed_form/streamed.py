@@ -25,7 +25,7 @@ from assur.kinematics.modes import mode_signs
 from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.results.store.layout import Array, Plan
-from assur.results.store.store import Solved, Store
+from assur.results.store.store import SolvedBlock, Store
 from assur.results.store.total import KeptTotal
 
 T = TypeVar("T")
@@ -94,13 +94,13 @@ def sweep_grid(
     )
     with Store(Path(into), Plan({"kind": "sweep", **question}, arrays, block)) as store:
         store.open()
-        fill(store, lambda poses: Solved(solve(poses), {}), grid, progress=progress, threads=threads)
+        fill(store, lambda poses: SolvedBlock(solve(poses), {}), grid, progress=progress, threads=threads)
         return store.finish()
 
 
 def fill(
     store: Store,
-    solve: Callable[[FloatArray], Solved],
+    solve: Callable[[FloatArray], SolvedBlock],
     grid: Grid,
     *,
     progress: Progress | None = None,
@@ -116,7 +116,7 @@ def fill(
         threads: how many work on it; as many as there are cores where 0.
     """
 
-    def one(number: int) -> tuple[int, Solved]:
+    def one(number: int) -> tuple[int, SolvedBlock]:
         return number, solve(grid.poses(store.plan.part(number)))
 
     store.fill(in_order(one, store.missing, threads_of(threads)), progress)

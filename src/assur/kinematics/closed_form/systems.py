@@ -20,7 +20,7 @@ from assur.kinematics.closed_form.start_system import dimensions, family, start_
 from assur.model.closed_form import Branch, Margin, PolynomialSystem
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION
-from assur.numerics.homotopy import SAME, End, solve
+from assur.numerics.homotopy import SAME, PathEnd, solve
 from assur.numerics.number_types import Floats
 
 FloatArray = NDArray[np.float64]
@@ -39,7 +39,7 @@ class SystemBranches(RootBranches):
     """The real solutions of a polynomial system, in the order of their pose.
 
     Attributes:
-        end: (..., K) how each path ended, `End`.
+        end: (..., K) how each path ended, `PathEnd`.
         infinite: (..., K) whether it ended at infinity.
     """
 
@@ -49,19 +49,19 @@ class SystemBranches(RootBranches):
     @property
     def complete(self) -> bool:
         """Whether every path ended at a regular finite solution, of which there can be no more."""
-        return not self.only and bool(np.all((self.end == End.regular) & ~self.infinite))
+        return not self.only and bool(np.all((self.end == PathEnd.regular) & ~self.infinite))
 
     @property
     def right(self) -> str:
         """By what right the answer is complete, or what became of the paths."""
         system = _system(self.record)
-        if np.all((self.end == End.regular) & ~self.infinite):
+        if np.all((self.end == PathEnd.regular) & ~self.infinite):
             return f"all {system.degree} complex solutions were found: there are no more ({system.because})"
         parts = {
-            "at a single solution": (self.end == End.regular) & ~self.infinite,
-            "at infinity": self.infinite & (self.end != End.lost),
-            "where solutions meet": (self.end == End.singular) & ~self.infinite,
-            "nowhere known": self.end == End.lost,
+            "at a single solution": (self.end == PathEnd.regular) & ~self.infinite,
+            "at infinity": self.infinite & (self.end != PathEnd.lost),
+            "where solutions meet": (self.end == PathEnd.singular) & ~self.infinite,
+            "nowhere known": self.end == PathEnd.lost,
         }
         ends = ", ".join(f"{int(np.sum(rows))} {where}" for where, rows in parts.items() if np.any(rows))
         return f"not proved: of {self.end.size} paths ended {ends}"
@@ -76,7 +76,7 @@ def solutions_of(
     empty = np.zeros((0, system.degree, len(system.unknowns)), dtype=complex), np.zeros((0, system.degree), np.int8)
     x, end = (np.concatenate([empty[k], *(block[k] for block in blocks)]) for k in (0, 1))
     infinite = np.abs(system.finite(tuple(np.moveaxis(x, -1, 0)))) <= INFINITE  # (N, K)
-    gap = np.where(infinite | (end == End.lost), 1.0, np.max(np.abs(x.imag), axis=-1))
+    gap = np.where(infinite | (end == PathEnd.lost), 1.0, np.max(np.abs(x.imag), axis=-1))
     gap = np.where(gap <= REAL, 0.0, gap)
     real = x.real * characteristic_length(record) ** np.array(system.units)
     order = _order(_poses(record, system, flat, real), gap)
@@ -85,7 +85,7 @@ def solutions_of(
     copy = np.zeros(gap.shape, dtype=bool)
     even = real / characteristic_length(record) ** np.array(system.units)
     near = np.max(np.abs(np.diff(even, axis=1)), axis=-1) < SAME**0.5
-    copy[:, 1:] = near & (end[:, 1:] == End.singular) & (gap[:, 1:] == 0)
+    copy[:, 1:] = near & (end[:, 1:] == PathEnd.singular) & (gap[:, 1:] == 0)
     branch = _poses(record, system, flat, real)
     shape = (*given.shape[:-1], system.degree)
     return SystemBranches(

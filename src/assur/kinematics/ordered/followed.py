@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.ordered.roots import AT_INFINITY, Roots
-from assur.numerics.expanded import System
-from assur.numerics.homotopy import End, solve
+from assur.numerics.expanded import ExpandedSystem
+from assur.numerics.homotopy import PathEnd, solve
 from assur.numerics.monodromy import random_complex
 
 ComplexArray = NDArray[np.complex128]
@@ -45,10 +45,10 @@ def followed(forms: ComplexArray) -> Roots:
         for part in (forms, start)
     ]
     coefficients = np.stack([ends[0], ends[1] - ends[0]])[None]
-    system = System(coefficients, np.stack([rows, columns], axis=1), size)
+    system = ExpandedSystem(coefficients, np.stack([rows, columns], axis=1), size)
     signs = np.array(list(product((1.0, -1.0), repeat=size - 1)))
     found = solve(system, np.concatenate([np.ones((len(signs), 1)), signs * first], axis=1))
-    regular = found.end == End.regular
+    regular = found.end == PathEnd.regular
     x = found.x[regular]
     finite = x[np.abs(x[:, 0]) > AT_INFINITY]
     error = np.max(np.abs(np.einsum("na,kab,nb->nk", x, forms, x)), initial=0.0)

@@ -130,7 +130,7 @@ def _chains(texts: object, faults: Faults) -> _READABLE:
 
 
 def _note_notation(error: NotationError, index: int, faults: Faults) -> None:
-    place = f"{error.found} at character {error.position + 1} of {shown(error.text)}"
+    place = f"{error.offending} at character {error.position + 1} of {shown(error.text)}"
     faults.add(("chains", index), place, f"expected {error.expected}", error.hint)
 
 

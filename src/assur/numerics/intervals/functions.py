@@ -65,10 +65,10 @@ def _whole(number: Interval) -> NDArray[np.bool_]:
 
 
 def _between(
-    one: NDArray[np.float64], two: NDArray[np.float64], top: NDArray[np.bool_], bottom: NDArray[np.bool_]
+    start: NDArray[np.float64], end: NDArray[np.float64], top: NDArray[np.bool_], bottom: NDArray[np.bool_]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Bounds from the values at both ends, and from where the function may reach 1 or -1 between."""
-    least, most = np.minimum(one, two), np.maximum(one, two)
+    least, most = np.minimum(start, end), np.maximum(start, end)
     low = rounding.down(least - np.abs(least) * ERROR)
     high = rounding.up(most + np.abs(most) * ERROR)
     return np.where(bottom, -1.0, np.maximum(low, -1.0)), np.where(top, 1.0, np.minimum(high, 1.0))

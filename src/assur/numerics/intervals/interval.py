@@ -80,9 +80,9 @@ class Interval:
         below, above = np.broadcast_arrays(below, above)
         wrong = ~((below <= above) & (below < np.inf) & (above > -np.inf))
         if np.any(wrong):
-            found = f"[{below[wrong][0]:.17g}, {above[wrong][0]:.17g}]"
+            offending = f"[{below[wrong][0]:.17g}, {above[wrong][0]:.17g}]"
             raise UsageError(
-                f"an interval holds numbers: low <= high, neither NaN, not both the same infinity; found {found}",
+                f"an interval holds numbers: low <= high, neither NaN, not both the same infinity; found {offending}",
                 hint="swap the bounds, or leave out what is empty",
             )
         return cls(below, above, np.ones(below.shape, dtype=bool))
@@ -263,9 +263,9 @@ def _quiet(operation: Callable[..., Any], a: FloatArray, b: FloatArray) -> Float
 def _corners(operation: Callable[..., Any], ends: Ends, others: Ends) -> tuple[FloatArray, FloatArray]:
     """Outward bounds of a product or quotient, which lie at ends of both; 0 inf, 0/0 and inf/inf have the limit 0."""
     with np.errstate(all="ignore"):
-        found = [operation(a, b) for a in ends for b in others]
-    least, most = reduce(np.minimum, found), reduce(np.maximum, found)
+        products = [operation(a, b) for a in ends for b in others]
+    least, most = reduce(np.minimum, products), reduce(np.maximum, products)
     if np.isnan(least).any():
-        found = [np.where(np.isnan(corner), 0.0, corner) for corner in found]
-        least, most = reduce(np.minimum, found), reduce(np.maximum, found)
+        products = [np.where(np.isnan(corner), 0.0, corner) for corner in products]
+        least, most = reduce(np.minimum, products), reduce(np.maximum, products)
     return rounding.down(least), rounding.up(most)

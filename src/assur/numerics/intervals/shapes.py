@@ -16,11 +16,11 @@ def stack(items: Sequence[Interval], axis: int = -1) -> Interval:
     array([[1., 3.],
            [2., 4.]])
     """
-    wide = [broadcast(item, item.shape) for item in items]
+    wide = [broadcast(interval, interval.shape) for interval in items]
     return Interval(
-        np.stack([item.low for item in wide], axis=axis),
-        np.stack([item.high for item in wide], axis=axis),
-        np.stack([item.defined for item in wide], axis=axis),
+        np.stack([interval.low for interval in wide], axis=axis),
+        np.stack([interval.high for interval in wide], axis=axis),
+        np.stack([interval.defined for interval in wide], axis=axis),
     )
 
 
@@ -30,22 +30,22 @@ def concatenate(items: Sequence[Interval]) -> Interval:
     >>> concatenate([Interval.of([1.0]), Interval.of([2.0, 3.0])]).high
     array([1., 2., 3.])
     """
-    wide = [broadcast(item, item.shape) for item in items]
+    wide = [broadcast(interval, interval.shape) for interval in items]
     return Interval(
-        np.concatenate([item.low for item in wide]),
-        np.concatenate([item.high for item in wide]),
-        np.concatenate([item.defined for item in wide]),
+        np.concatenate([interval.low for interval in wide]),
+        np.concatenate([interval.high for interval in wide]),
+        np.concatenate([interval.defined for interval in wide]),
     )
 
 
-def broadcast(item: Interval, shape: tuple[int, ...]) -> Interval:
+def broadcast(interval: Interval, shape: tuple[int, ...]) -> Interval:
     """An interval as a view of another shape.
 
     >>> broadcast(Interval.of(1.0), (2,)).defined
     array([ True,  True])
     """
-    low, high = np.broadcast_to(item.low, shape), np.broadcast_to(item.high, shape)
-    return Interval(low, high, np.broadcast_to(item.defined, shape))
+    low, high = np.broadcast_to(interval.low, shape), np.broadcast_to(interval.high, shape)
+    return Interval(low, high, np.broadcast_to(interval.defined, shape))
 
 
 def empty(width: int) -> Interval:

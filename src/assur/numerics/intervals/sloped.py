@@ -156,16 +156,16 @@ def _each(function: Callable[[Interval], Interval], slopes: Slopes) -> Slopes:
 
 
 def _both(
-    one: Callable[[Interval], Interval], two: Callable[[Interval], Interval], first: Slopes, second: Slopes
+    of_first: Callable[[Interval], Interval], of_second: Callable[[Interval], Interval], first: Slopes, second: Slopes
 ) -> Slopes:
     """Sums of what two functions make of the slopes of two numbers."""
-    found: list[Interval | None] = []
+    sums: list[Interval | None] = []
     for a, b in zip(first, second, strict=True):
         if a is None or b is None:
-            found.append(one(a) if a is not None else two(b) if b is not None else None)
+            sums.append(of_first(a) if a is not None else of_second(b) if b is not None else None)
         else:
-            found.append(one(a) + two(b))
-    return tuple(found)
+            sums.append(of_first(a) + of_second(b))
+    return tuple(sums)
 
 
 def ranged(number: Sloped, offsets: Sequence[Interval]) -> Interval:
@@ -183,5 +183,5 @@ def ranged(number: Sloped, offsets: Sequence[Interval]) -> Interval:
     usable = number.centre.defined & np.isfinite(total.low) & np.isfinite(total.high)
     low, high = np.where(usable, total.low, -np.inf), np.where(usable, total.high, np.inf)
     whole = number.whole
-    found = common(whole, Interval(low, high, whole.defined))[0]
-    return Interval(found.low, found.high, whole.defined)
+    narrowed = common(whole, Interval(low, high, whole.defined))[0]
+    return Interval(narrowed.low, narrowed.high, whole.defined)

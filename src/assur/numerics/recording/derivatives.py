@@ -47,12 +47,12 @@ def gradient(tape: Tape, outputs: Sequence[str], names: Sequence[str], *, keep: 
             raise UnknownNameError("given number of a tape", name, (*tape.varying, *tape.uniform))
     recorder, values = _replayed(tape)
     places = _given_places(tape)
-    found: dict[str, Any] = {name: values[k] for name, k in tape.outputs.items()} if keep else {}
+    numbers: dict[str, Any] = {name: values[k] for name, k in tape.outputs.items()} if keep else {}
     for output in outputs:
         adjoints = _adjoints(tape, values, tape.outputs[output], {places[name] for name in names})
         for name in names:
-            found[derivative(output, name)] = adjoints.get(places[name], 0.0)
-    return recorder.tape(found)
+            numbers[derivative(output, name)] = adjoints.get(places[name], 0.0)
+    return recorder.tape(numbers)
 
 
 def derivative(output: str, name: str) -> str:
@@ -77,20 +77,22 @@ def directional(tape: Tape, direction: str = "d") -> Tape:
     recorder, values = _replayed(tape)
     rates: list[Any] = []
     names = iter(tape.varying)
-    for k, item in enumerate(tape.operations):
-        if item.name == "varying":
+    for k, operation in enumerate(tape.operations):
+        if operation.name == "varying":
             rates.append(recorder.varying(f"{direction}{next(names)}"))
             continue
         parts = [
             _times(slope, rates[a])
-            for a, slope in zip(item.arguments, _slopes(item.name, values, item.arguments, k), strict=True)
+            for a, slope in zip(
+                operation.arguments, _slopes(operation.name, values, operation.arguments, k), strict=True
+            )
         ]
         rates.append(_sum(parts))
-    found: dict[str, Any] = {name: values[k] for name, k in tape.outputs.items()}
+    numbers: dict[str, Any] = {name: values[k] for name, k in tape.outputs.items()}
     for name, k in tape.outputs.items():
         if name not in tape.logical:
-            found[f"{direction}{name}"] = 0.0 if rates[k] is None else rates[k]
-    return recorder.tape(found)
+            numbers[f"{direction}{name}"] = 0.0 if rates[k] is None else rates[k]
+    return recorder.tape(numbers)
 
 
 def _replayed(tape: Tape) -> tuple[Recorder, list[Recorded]]:
@@ -98,45 +100,45 @@ def _replayed(tape: Tape) -> tuple[Recorder, list[Recorded]]:
     recorder = Recorder()
     values: list[Recorded] = []
     given = {"varying": (recorder.varying, iter(tape.varying)), "uniform": (recorder.uniform, iter(tape.uniform))}
-    for item in tape.operations:
-        if item.name in given:
-            make, names = given[item.name]
+    for operation in tape.operations:
+        if operation.name in given:
+            make, names = given[operation.name]
             values.append(make(next(names)))
-        elif item.name == "number":
-            values.append(recorder.number(item.number))
+        elif operation.name == "number":
+            values.append(recorder.number(operation.number))
         else:
-            values.append(recorder.apply(item.name, *(values[k] for k in item.arguments)))
+            values.append(recorder.apply(operation.name, *(values[k] for k in operation.arguments)))
     return recorder, values
 
 
 def _given_places(tape: Tape) -> dict[str, int]:
     names = {"varying": iter(tape.varying), "uniform": iter(tape.uniform)}
-    return {next(names[item.name]): k for k, item in enumerate(tape.operations) if item.name in names}
+    return {next(names[operation.name]): k for k, operation in enumerate(tape.operations) if operation.name in names}
 
 
-def _adjoints(tape: Tape, values: Sequence[Recorded], output: int, wanted: set[int]) -> dict[int, Any]:
+def _adjoints(tape: Tape, values: Sequence[Recorded], output: int, places: set[int]) -> dict[int, Any]:
     """Entry -> derivative of the output with respect to it, for the entries between the wanted ones and the output."""
-    between = _leading_to(tape, wanted)
+    between = _leading_to(tape, places)
     parts: dict[int, list[Any]] = {output: [1.0]} if output in between else {}
-    found: dict[int, Any] = {}
+    adjoints: dict[int, Any] = {}
     for k in range(output, -1, -1):
         if k not in parts:
             continue
-        item = tape.operations[k]
-        found[k] = _sum(parts[k])
-        for a, slope in zip(item.arguments, _slopes(item.name, values, item.arguments, k), strict=True):
-            if a in between and (part := _times(slope, found[k])) is not None:
+        operation = tape.operations[k]
+        adjoints[k] = _sum(parts[k])
+        for a, slope in zip(operation.arguments, _slopes(operation.name, values, operation.arguments, k), strict=True):
+            if a in between and (part := _times(slope, adjoints[k])) is not None:
                 parts.setdefault(a, []).append(part)
-    return found
+    return adjoints
 
 
-def _leading_to(tape: Tape, wanted: set[int]) -> set[int]:
+def _leading_to(tape: Tape, places: set[int]) -> set[int]:
     """Entries that depend on a wanted one."""
-    found = set(wanted)
-    for k, item in enumerate(tape.operations):
-        if item.name not in LOGICAL and found.intersection(item.arguments):
-            found.add(k)
-    return found
+    leading = set(places)
+    for k, operation in enumerate(tape.operations):
+        if operation.name not in LOGICAL and leading.intersection(operation.arguments):
+            leading.add(k)
+    return leading
 
 
 def _slopes(name: str, values: Sequence[Recorded], arguments: Sequence[int], k: int) -> Iterator[Any]:
@@ -170,9 +172,9 @@ def _times(slope: Any, number: Any) -> Any:
     """Their product; 1, -1 and None cost nothing."""
     if slope is None or number is None:
         return None
-    for one, other in ((slope, number), (number, slope)):
-        if isinstance(one, float) and abs(one) == 1.0:
-            return other if one == 1.0 else -other
+    for factor, rest in ((slope, number), (number, slope)):
+        if isinstance(factor, float) and abs(factor) == 1.0:
+            return rest if factor == 1.0 else -rest
     return slope * number
 
 

@@ -135,62 +135,62 @@ def run(steps: Any, given: Any, answer: Any, work: Any, clamped: bool) -> None:
     low, high, defined = work
     size, count = low.shape[1], answer[0].shape[1]
     for begin in range(0, count, size):
-        here = min(size, count - begin)
+        length = min(size, count - begin)
         for k in range(len(steps)):
             code, at, a, b, number = steps[k, 0], steps[k, 1], steps[k, 2], steps[k, 3], steps[k, 4]
             if code == _VARYING:
-                for i in range(here):
+                for i in range(length):
                     low[at, i], high[at, i] = given[0][a, begin + i], given[1][a, begin + i]
                     defined[at, i] = given[2][a, begin + i]
             elif code == _STORE:
-                for i in range(here):
+                for i in range(length):
                     answer[0][at, begin + i], answer[1][at, begin + i] = low[a, i], high[a, i]
                     answer[2][at, begin + i] = defined[a, i]
             elif code == _PLUS:
-                for i in range(here):
+                for i in range(length):
                     low[at, i] = _down_sum(low[a, i] + low[b, i])
                     high[at, i] = _up_sum(high[a, i] + high[b, i])
                     defined[at, i] = defined[a, i] & defined[b, i]
             elif code == _MINUS:
-                for i in range(here):
+                for i in range(length):
                     least, most = low[a, i] - high[b, i], high[a, i] - low[b, i]
                     low[at, i], high[at, i] = _down_sum(least), _up_sum(most)
                     defined[at, i] = defined[a, i] & defined[b, i]
             elif code == _TIMES and a == b:
-                for i in range(here):
+                for i in range(length):
                     low[at, i], high[at, i] = _square(low[a, i], high[a, i])
                     defined[at, i] = defined[a, i]
             elif code == _TIMES:
                 exact = number >= 0 and given[3][number]
-                for i in range(here):
+                for i in range(length):
                     least, most = _product(low[a, i], high[a, i], low[b, i], high[b, i])
                     nothing = exact and low[b, i] == 0.0
                     low[at, i], high[at, i] = (0.0 if nothing else least), (0.0 if nothing else most)
                     defined[at, i] = defined[a, i] & defined[b, i]
             elif code == _OVER:
-                for i in range(here):
+                for i in range(length):
                     low[at, i], high[at, i], around = _quotient(low[a, i], high[a, i], low[b, i], high[b, i])
                     defined[at, i] = defined[a, i] & defined[b, i] & (not around)
             elif code == _NEGATIVE:
-                for i in range(here):
+                for i in range(length):
                     low[at, i], high[at, i] = -high[a, i], -low[a, i]
                     defined[at, i] = defined[a, i]
             elif code == _MAGNITUDE:
-                for i in range(here):
+                for i in range(length):
                     low[at, i], high[at, i] = max(max(low[a, i], -high[a, i]), 0.0), max(-low[a, i], high[a, i])
                     defined[at, i] = defined[a, i]
             elif code == _ROOT:
-                for i in range(here):
+                for i in range(length):
                     known = defined[a, i] & (clamped or low[a, i] >= 0.0)
                     low[at, i], high[at, i] = _root(low[a, i], high[a, i])
                     defined[at, i] = known
             elif code == _SIGN_RATE:
-                for i in range(here):
+                for i in range(length):
                     sure = 1.0 if low[a, i] >= 0.0 else -1.0, -1.0 if high[a, i] <= 0.0 else 1.0
                     low[at, i], high[at, i] = min(sure[0], sure[1]), max(sure[0], sure[1])
                     defined[at, i] = defined[a, i]
             elif code == _ROOT_RATE:
-                for i in range(here):
+                for i in range(length):
                     least, most = _root_rate(low[a, i], high[a, i], low[b, i], high[b, i])
                     low[at, i], high[at, i] = least, most
                     defined[at, i] = defined[a, i] & defined[b, i]

@@ -63,11 +63,11 @@ class IntervalProgram:
         The bits do not depend on the engine, but for the sign of a zero; nor do the shapes: all outputs are (N,), or
         all () where nothing varying is (N,). They may be views that cannot be written.
         """
-        shape = np.broadcast_shapes(*(item.low.shape for item in varying))
+        shape = np.broadcast_shapes(*(number.low.shape for number in varying))
         if engine == "compiled" or (engine == "auto" and repaid(len(self.tape.operations), math.prod(shape))):
             return self._by_code(varying, uniform, shape)
-        found = self.tape.evaluate(varying, uniform, ClampedIntervals() if self.clamped else Intervals())
-        return {name: broadcast(as_interval(value), shape) for name, value in found.items()}
+        outputs = self.tape.evaluate(varying, uniform, ClampedIntervals() if self.clamped else Intervals())
+        return {name: broadcast(as_interval(value), shape) for name, value in outputs.items()}
 
     def _by_code(
         self, varying: Sequence[Interval], uniform: Sequence[Interval], shape: tuple[int, ...]
@@ -77,11 +77,11 @@ class IntervalProgram:
         rounding.check_nearest()
         plan, count = self._plan, math.prod(shape)
         same = [*uniform, *(as_interval(number) for number in plan.numbers)]
-        exact = np.array([item.low is item.high for item in (*varying, *same)], dtype=bool)
+        exact = np.array([number.low is number.high for number in (*varying, *same)], dtype=bool)
         given, work, answer = _rows(len(varying), count), _rows(plan.places, AT_ONCE), _rows(len(plan.rows), count)
         for rows, items in ((given, varying), (work, same)):
-            for k, item in enumerate(items):
-                rows[0][k], rows[1][k], rows[2][k] = item.low, item.high, item.defined
+            for k, number in enumerate(items):
+                rows[0][k], rows[1][k], rows[2][k] = number.low, number.high, number.defined
         run(plan.steps, (*given, exact), answer, work, self.clamped)
         stored = {k: Interval(*(part[row].reshape(shape) for part in answer)) for k, row in plan.rows.items()}
         return {name: stored[k] for name, k in self.tape.outputs.items()}

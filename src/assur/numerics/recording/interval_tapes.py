@@ -27,23 +27,28 @@ def folded(tape: Tape, uniform: Sequence[Interval], *, clamped: bool = True) -> 
     (['varying', 'uniform', '+'], True)
     """
     varies: list[bool] = []
-    for item in tape.operations:
-        varies.append(item.name == "varying" or any(varies[k] for k in item.arguments))
+    for operation in tape.operations:
+        varies.append(operation.name == "varying" or any(varies[k] for k in operation.arguments))
     every = replace(tape, outputs={str(k): k for k in range(len(varies))})
     ns = ClampedIntervals() if clamped else Intervals()
     values = every.evaluate([as_interval(0.0)] * len(tape.varying), uniform, ns)
     needed = {*tape.outputs.values()}
-    needed.update(k for item, own in zip(tape.operations, varies, strict=True) if own for k in item.arguments)
+    needed.update(
+        k
+        for operation, is_varying in zip(tape.operations, varies, strict=True)
+        if is_varying
+        for k in operation.arguments
+    )
     operations: list[Operation] = []
     numbers: list[Interval] = []
     place: dict[int, int] = {}
-    for k, item in enumerate(tape.operations):
+    for k, operation in enumerate(tape.operations):
         if varies[k]:
-            operations.append(Operation(item.name, tuple(place[argument] for argument in item.arguments)))
+            operations.append(Operation(operation.name, tuple(place[argument] for argument in operation.arguments)))
         elif k not in needed:
             continue
-        elif item.name == "number":
-            operations.append(item)
+        elif operation.name == "number":
+            operations.append(operation)
         else:
             operations.append(Operation("uniform"))
             numbers.append(as_interval(values[str(k)]))
@@ -69,12 +74,12 @@ class SlopedProgram:
 
     def __call__(self, varying: Sequence[Sloped | Interval], uniform: Sequence[Interval]) -> dict[str, Sloped]:
         """Outputs of the tape by name; numbers of the shape that it was made for."""
-        found = self.program([part for number in varying for part in _parts(number)], uniform)
+        outputs = self.program([part for number in varying for part in _parts(number)], uniform)
         return {
             name: Sloped(
-                found[f"{name} middle"],
-                found[name],
-                tuple(found.get(f"{name} slope {k}") for k in range(self.size)),
+                outputs[f"{name} middle"],
+                outputs[name],
+                tuple(outputs.get(f"{name} slope {k}") for k in range(self.size)),
             )
             for name in self.outputs
         }
@@ -94,22 +99,22 @@ def sloped_program(tape: Tape, varying: Sequence[Sloped | Interval], size: int) 
     """
     recorder, nothing = Recorder(), (None,) * size
     new: Callable[[str], Any] = recorder.varying  # it stands for an interval
-    own: list[Any] = []
+    numbers: list[Any] = []
     for name, number in zip(tape.varying, varying, strict=True):
         if isinstance(number, Sloped):
             having = enumerate(slope is not None for slope in number.slopes)
             slopes = tuple(new(f"{name} slope {k}") if has else None for k, has in having)
-            own.append(Sloped(new(f"{name} middle"), new(name), slopes))
+            numbers.append(Sloped(new(f"{name} middle"), new(name), slopes))
         else:
             whole = new(name)
-            own.append(Sloped(whole, whole, nothing))
+            numbers.append(Sloped(whole, whole, nothing))
     constants: list[Any] = [recorder.uniform(name) for name in tape.uniform]
-    found = tape.evaluate(own, [Sloped(number, number, nothing) for number in constants], SlopedNumbers())
+    values = tape.evaluate(numbers, [Sloped(number, number, nothing) for number in constants], SlopedNumbers())
     outputs: dict[str, Any] = {}
-    for name, value in found.items():
+    for name, value in values.items():
         outputs |= {f"{name} middle": value.centre, name: value.whole}
         outputs |= {f"{name} slope {k}": slope for k, slope in enumerate(value.slopes) if slope is not None}
-    return SlopedProgram(IntervalProgram(recorder.tape(outputs), clamped=True), tuple(found), size)
+    return SlopedProgram(IntervalProgram(recorder.tape(outputs), clamped=True), tuple(values), size)
 
 
 def _parts(number: Sloped | Interval) -> tuple[Interval, ...]:
@@ -146,11 +151,11 @@ def with_derivatives(tape: Tape, angles: Mapping[str, tuple[str, str]], names: S
             rates[cosine][k], rates[sine][k] = -given[sine], given[cosine]
         else:
             rates[name][k] = one
-    own: list[Any] = [Sloped(given[name], given[name], tuple(rates[name])) for name in tape.varying]
+    numbers: list[Any] = [Sloped(given[name], given[name], tuple(rates[name])) for name in tape.varying]
     nothing = (None,) * len(names)
     same: list[Any] = [Sloped(number, number, nothing) for number in constants]
     outputs: dict[str, Any] = {}
-    for output, value in tape.evaluate(own, same, _Derivatives(recorder)).items():
+    for output, value in tape.evaluate(numbers, same, _Derivatives(recorder)).items():
         outputs[output] = value.whole
         outputs |= {f"d{output}/d{names[k]}": rate for k, rate in enumerate(value.slopes) if rate is not None}
     return recorder.tape(outputs)

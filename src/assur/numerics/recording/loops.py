@@ -86,8 +86,8 @@ class Loop:
         else:
             with ThreadPoolExecutor(len(shares)) as pool:
                 list(pool.map(work, shares))
-        found = {**dict(zip(names[0], numbers, strict=True)), **dict(zip(names[1], truths, strict=True))}
-        return {name: found[name] for name in self.tape.outputs}
+        outputs = {**dict(zip(names[0], numbers, strict=True)), **dict(zip(names[1], truths, strict=True))}
+        return {name: outputs[name] for name in self.tape.outputs}
 
     def fill(
         self,

@@ -125,17 +125,17 @@ def _statements(tape: Tape) -> tuple[list[str], list[str]]:
     once, pitch = _uniform_entries(tape), group_size(tape)[1]
     before, inside = [], []
     varying, uniform = 0, 0
-    for k, item in enumerate(tape.operations):
-        if item.name == "varying":
+    for k, operation in enumerate(tape.operations):
+        if operation.name == "varying":
             inside += [f"v{k} = group[{varying * pitch} + i]", f"odd += 0 if abs(v{k}) < inf else 1"]
             varying += 1
-        elif item.name == "uniform":
+        elif operation.name == "uniform":
             before.append(f"v{k} = uniform[{uniform}]")
             uniform += 1
-        elif item.name == "number":
-            before.append(f"v{k} = {item.number!r}")
+        elif operation.name == "number":
+            before.append(f"v{k} = {operation.number!r}")
         else:
-            (before if k in once else inside).append(f"v{k} = {_text(item)}")
+            (before if k in once else inside).append(f"v{k} = {_text(operation)}")
     return before, inside
 
 
@@ -155,14 +155,14 @@ def places_of(tape: Tape) -> dict[str, int]:
 def _uniform_entries(tape: Tape) -> set[int]:
     """Entries that are the same for all elements: worked out once, before the loop."""
     once: set[int] = set()
-    for k, item in enumerate(tape.operations):
-        if item.name in ("uniform", "number") or (item.arguments and once.issuperset(item.arguments)):
+    for k, operation in enumerate(tape.operations):
+        if operation.name in ("uniform", "number") or (operation.arguments and once.issuperset(operation.arguments)):
             once.add(k)
     return once
 
 
-def _text(item: Operation) -> str:
-    return _TEXT[item.name].format(*(f"v{k}" for k in item.arguments))
+def _text(operation: Operation) -> str:
+    return _TEXT[operation.name].format(*(f"v{k}" for k in operation.arguments))
 
 
 @lru_cache(maxsize=1)

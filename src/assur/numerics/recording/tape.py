@@ -66,15 +66,15 @@ class Tape:
         values: list[Any] = []
         given = {"varying": iter(varying), "uniform": iter(uniform)}
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            for item in self.operations:
-                if item.name in given:
-                    values.append(next(given[item.name]))
-                elif item.name == "number":
-                    values.append(item.number)
-                elif item.name == "root":
-                    values.append(root(values[item.arguments[0]]))
+            for operation in self.operations:
+                if operation.name in given:
+                    values.append(next(given[operation.name]))
+                elif operation.name == "number":
+                    values.append(operation.number)
+                elif operation.name == "root":
+                    values.append(root(values[operation.arguments[0]]))
                 else:
-                    values.append(MEANING[item.name](*(values[k] for k in item.arguments)))
+                    values.append(MEANING[operation.name](*(values[k] for k in operation.arguments)))
         return {name: values[k] for name, k in self.outputs.items()}
 
     def dependence(self) -> dict[str, frozenset[str]]:
@@ -86,12 +86,12 @@ class Tape:
         >>> sorted(found["both"]), sorted(found["one"])
         (['x', 'y'], ['y'])
         """
-        found: list[frozenset[str]] = []
+        names_by_entry: list[frozenset[str]] = []
         names = iter(self.varying)
-        for item in self.operations:
-            own = frozenset([next(names)]) if item.name == "varying" else frozenset[str]()
-            found.append(own.union(*(found[k] for k in item.arguments)))
-        return {name: found[k] for name, k in self.outputs.items()}
+        for operation in self.operations:
+            own_name = frozenset([next(names)]) if operation.name == "varying" else frozenset[str]()
+            names_by_entry.append(own_name.union(*(names_by_entry[k] for k in operation.arguments)))
+        return {name: names_by_entry[k] for name, k in self.outputs.items()}
 
 
 MEANING: Mapping[str, Callable[..., Any]] = {
@@ -150,13 +150,13 @@ class Recorder:
 
     def apply(self, name: str, *arguments: Any) -> Recorded:
         """The result of an operation, found again where it was done before."""
-        indices = tuple(self._number(item).index for item in arguments)
+        indices = tuple(self._number(argument).index for argument in arguments)
         return self._shared(Operation(name, indices))
 
     def tape(self, outputs: Mapping[str, Any]) -> Tape:
         """What was recorded, with the numbers that are wanted of it; what these do not need is left out."""
-        wanted = {name: self._number(value).index for name, value in outputs.items()}
-        return pruned(self._operations, tuple(self._varying), tuple(self._uniform), wanted)
+        entries = {name: self._number(value).index for name, value in outputs.items()}
+        return pruned(self._operations, tuple(self._varying), tuple(self._uniform), entries)
 
     def number(self, value: float) -> Recorded:
         """A number that is written into the program."""
@@ -248,7 +248,7 @@ def pruned(
     for k in range(len(operations) - 1, -1, -1):
         if k in needed:
             needed.update(operations[k].arguments)
-    kept = [k for k, item in enumerate(operations) if k in needed or item.name in ("varying", "uniform")]
+    kept = [k for k, operation in enumerate(operations) if k in needed or operation.name in ("varying", "uniform")]
     place = {k: new for new, k in enumerate(kept)}
     moved = tuple(
         Operation(operations[k].name, tuple(place[a] for a in operations[k].arguments), operations[k].number)
@@ -266,15 +266,15 @@ def without_unused(tape: Tape) -> tuple[Tape, tuple[int, ...]]:
     >>> fewer.varying, places
     (('y',), (1,))
     """
-    used = {argument for item in tape.operations for argument in item.arguments} | set(tape.outputs.values())
-    given = [k for k, item in enumerate(tape.operations) if item.name == "varying"]
+    used = {argument for operation in tape.operations for argument in operation.arguments} | set(tape.outputs.values())
+    given = [k for k, operation in enumerate(tape.operations) if operation.name == "varying"]
     places = tuple(place for place, k in enumerate(given) if k in used)
     dropped = {k for k in given if k not in used}
     kept = [k for k in range(len(tape.operations)) if k not in dropped]
     new = {k: place for place, k in enumerate(kept)}
     operations = tuple(
-        Operation(item.name, tuple(new[argument] for argument in item.arguments), item.number)
-        for item in (tape.operations[k] for k in kept)
+        Operation(operation.name, tuple(new[argument] for argument in operation.arguments), operation.number)
+        for operation in (tape.operations[k] for k in kept)
     )
     outputs = {name: new[k] for name, k in tape.outputs.items()}
     return Tape(operations, tuple(tape.varying[place] for place in places), tape.uniform, outputs), places

@@ -47,7 +47,7 @@ SEED = 17
 
 
 @dataclass(frozen=True)
-class Line:
+class FormulaLine:
     """letter = term, with the number that the formula has in the source and what the letter means."""
 
     letter: Letter
@@ -57,7 +57,7 @@ class Line:
 
 
 @dataclass(frozen=True, eq=False)
-class Reading:
+class FormulaReading:
     """A closed form as it was read for one problem.
 
     Attributes:
@@ -69,14 +69,14 @@ class Reading:
         jp, jq: rows of recorded formulas with Jp v = Jq qdot.
     """
 
-    lines: tuple[Line, ...]
-    named: tuple[Line, ...]
+    lines: tuple[FormulaLine, ...]
+    named: tuple[FormulaLine, ...]
     margins: Mapping[str, Traced]
     jp: tuple[tuple[Traced, ...], ...]
     jq: tuple[tuple[Traced, ...], ...]
 
 
-def reading(record: MechanismRecord, problem: Problem) -> Reading:
+def reading(record: MechanismRecord, problem: Problem) -> FormulaReading:
     """The formulas of the direct or the inverse problem.
 
     Example: Eq. (18) of Zeng et al. 2019 and what follows from it: cos alpha, sin alpha and the height of C1.
@@ -147,7 +147,7 @@ class _Reader:
                 varying.setdefault(f"{letter.function} {letter.mathml}", (letter, part.values))
         return list(varying.values())
 
-    def written(self, run: _Run) -> Reading:
+    def written(self, run: _Run) -> FormulaReading:
         """The lines of a run."""
         met = run.book.met
         results = run.branch.pose if self.problem == "direct" else run.branch.inputs
@@ -159,11 +159,11 @@ class _Reader:
         entries = [entry for row in (*jp, *jq) for entry in row]
         terms = [met[letter] for letter in met if letter in needed] + [line.term for line in named] + entries
         brief = shorthand(terms, [*self.points, *sign_names(self.record, self.problem), *(key.name for key in met)])
-        lines: list[Line] = []
+        lines: list[FormulaLine] = []
 
         def short(term: Traced) -> Traced:
             written = brief.short(term)
-            lines.extend(Line(letter, definition) for letter, definition in brief.taken())
+            lines.extend(FormulaLine(letter, definition) for letter, definition in brief.taken())
             return written
 
         for letter in met:
@@ -173,9 +173,9 @@ class _Reader:
         margins = {name: short(_formula(met, name, value)) for name, value in run.branch.margins.items()}
         named = [replace(line, term=short(line.term)) for line in named]
         jp, jq = (tuple(tuple(map(short, row)) for row in rows) for rows in (jp, jq))
-        return Reading(tuple(lines), tuple(named), margins, jp, jq)
+        return FormulaReading(tuple(lines), tuple(named), margins, jp, jq)
 
-    def _named(self, run: _Run, written: set[Letter]) -> Iterable[Line]:
+    def _named(self, run: _Run, written: set[Letter]) -> Iterable[FormulaLine]:
         """Quantities of the source that no line has yet."""
         for quantity in closed_form_of(self.record).quantity_list:
             value = run.quantities[quantity.name]
@@ -184,12 +184,12 @@ class _Reader:
                 if letter not in written:
                     yield self._line(letter, run.book.met.get(letter, part))
 
-    def _line(self, letter: Letter, term: Traced) -> Line:
+    def _line(self, letter: Letter, term: Traced) -> FormulaLine:
         form = closed_form_of(self.record)
         for quantity in form.quantity_list:
             if quantity.name == letter.name:
-                return Line(letter, term, quantity.equation, quantity.meaning)
-        return Line(letter, term, form.sources.get(letter.name, ""), self._meaning(letter))
+                return FormulaLine(letter, term, quantity.equation, quantity.meaning)
+        return FormulaLine(letter, term, form.sources.get(letter.name, ""), self._meaning(letter))
 
     def _meaning(self, letter: Letter) -> str:
         """What a result or a margin means."""

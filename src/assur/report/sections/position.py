@@ -13,7 +13,7 @@ from assur.report.findings import Findings
 from assur.report.formulas.latex import is_understood, latex_mathml, name_mathml
 from assur.report.formulas.mathml import equation, inline, letter_mathml, term_mathml
 from assur.report.formulas.normal import text
-from assur.report.formulas.reading import Line
+from assur.report.formulas.reading import FormulaLine
 from assur.report.formulas.symbols import GREEK
 from assur.report.numbers import count, input_angles, pose_words, short, shown_unit
 from assur.report.sections.polynomial import polynomial, polynomial_words, system_words
@@ -169,11 +169,11 @@ def _formulas(findings: Findings, problem: Problem) -> list[Result]:
     return [*found_formulas, _margins(findings, problem)]
 
 
-def _name(line: Line) -> str:
+def _name(line: FormulaLine) -> str:
     return f"{line.letter.function} {line.letter.name}".strip()
 
 
-def _named(findings: Findings, problem: Problem, lines: Sequence[Line]) -> Table:
+def _named(findings: Findings, problem: Problem, lines: Sequence[FormulaLine]) -> Table:
     """Quantities of the source beside those of the lines, with their values in the configuration."""
     solution = findings.solution
     kinds = {quantity.name: quantity for quantity in findings.form.quantity_list}

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from assur.audit.documents import computed_text
 from assur.audit.rows import Row
-from assur.audit.tables import Table as Printed
+from assur.audit.tables import PrintedTable as Printed
 from assur.report.findings import Findings
 from assur.report.formulas.symbols import GREEK
 from assur.report.numbers import minus

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import cast
 
 from assur.audit.rows import Row
-from assur.audit.topology import Decomposition
+from assur.audit.topology import PrintedDecomposition
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import mobility
 from assur.kinematics.rates.instantaneous import instantaneous
@@ -103,7 +103,7 @@ def _declared(findings: Findings) -> list[Section]:
 
 def _method(findings: Findings) -> Formulas:
     entries = findings.reference.entries["decomposition"] if findings.reference else ()
-    where = cast("Decomposition", entries[0]).sources if entries else {}
+    where = cast("PrintedDecomposition", entries[0]).sources if entries else {}
     lines = tuple(
         Formula(display(latex_mathml(latex)), _number(where.get(name, "")), meaning)
         for latex, meaning, name in EQUATIONS

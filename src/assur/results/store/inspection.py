@@ -76,9 +76,9 @@ def faults_of(folder: Path, plan: Plan, done: Mapping[int, Done], progress: Prog
         faults += _of_file(path, array, tuple(done))
     missing = {fault.path for fault in faults if fault.blocks}
     present = [(k, path) for k, array in enumerate(plan.files) if (path := path_of(folder, array)) not in missing]
-    for count, (number, one) in enumerate(done.items(), start=1):
+    for count, (number, block) in enumerate(done.items(), start=1):
         for k, path in present:
-            if _digest_of(path, plan.files[k], plan.within(number)) != one.digests[k]:
+            if _digest_of(path, plan.files[k], plan.within(number)) != block.digests[k]:
                 bad.setdefault(path, []).append(number)
         if progress is not None:
             progress(count, len(done))

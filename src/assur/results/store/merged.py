@@ -13,13 +13,13 @@ from assur.errors import UsageError
 from assur.results.store.inspection import Fault, Progress, damaged, faults_of, path_of, read_rows, runs
 from assur.results.store.layout import Plan, Shard, known_array
 from assur.results.store.note import DamagedNoteError, Done, asked, blocks_done, differences, digest, unsealed
-from assur.results.store.store import STATE, Solved
+from assur.results.store.store import STATE, SolvedBlock
 
 REPAIR = "the command of that shard with --repair computes again what is damaged"
 
 
 @dataclass(frozen=True)
-class Part:
+class StoredShard:
     """The store of a shard.
 
     Attributes:
@@ -37,24 +37,24 @@ class Part:
         """Which one it is."""
         return self.plan.shard or Shard(1, 1)
 
-    def solved(self, number: int) -> Solved:
+    def solved(self, number: int) -> SolvedBlock:
         """A block, as it was written.
 
         Errors:
             DamagedStoreError: it is not what was written.
         """
         done, within, arrays = self.done[number], self.plan.within(number), {}
-        for array, wanted in zip(self.plan.files, done.digests, strict=True):
+        for array, checksum in zip(self.plan.files, done.digests, strict=True):
             path = path_of(self.folder, array)
             rows = b"".join(read_rows(path, array, within))
-            if digest([rows]) != wanted:
+            if digest([rows]) != checksum:
                 said = "its numbers are not those that were written", "they would have the checksum of the note"
                 raise damaged([Fault(path, *said, (number,))], REPAIR)
             arrays[array.name] = np.frombuffer(rows, dtype=array.dtype).reshape(array.height, -1)
-        return Solved(arrays, done.counts)
+        return SolvedBlock(arrays, done.counts)
 
 
-def parts_in(folders: Sequence[Path], progress: Progress | None = None) -> tuple[Part, ...]:
+def parts_in(folders: Sequence[Path], progress: Progress | None = None) -> tuple[StoredShard, ...]:
     """The shards in folders, in their order; of one grid, all of them, complete, and undamaged.
 
     Errors:
@@ -71,9 +71,9 @@ def parts_in(folders: Sequence[Path], progress: Progress | None = None) -> tuple
     missing = sorted({*range(1, first.shard.of + 1)} - {*numbers})
     if missing:
         raise UsageError(f"shard {runs(missing)} of {first.shard.of} is not among the folders", hint="give them all")
-    for one, other in pairwise(parts):
-        if one.shard == other.shard:
-            raise UsageError(f"{one.folder} and {other.folder} are the same shard", hint="give each once")
+    for part, following in pairwise(parts):
+        if part.shard == following.shard:
+            raise UsageError(f"{part.folder} and {following.folder} are the same shard", hint="give each once")
     for part in parts:
         if len(part.done) < len(part.plan.blocks):
             raise UsageError(
@@ -92,7 +92,7 @@ def parts_in(folders: Sequence[Path], progress: Progress | None = None) -> tuple
     return tuple(parts)
 
 
-def _same_grid(first: Part, part: Part) -> None:
+def _same_grid(first: StoredShard, part: StoredShard) -> None:
     other = differences(asked(first.plan.whole), asked(part.plan.whole))
     if part.shard.of != first.shard.of:
         other.append("the number of shards")
@@ -103,7 +103,7 @@ def _same_grid(first: Part, part: Part) -> None:
         )
 
 
-def _part(folder: Path) -> Part:
+def _part(folder: Path) -> StoredShard:
     path = folder / STATE
     if not path.exists():
         raise UsageError(f"{folder}: no shard is there", hint="give the folders that were written with --shard")
@@ -115,7 +115,7 @@ def _part(folder: Path) -> Part:
         raise damaged([Fault(path, str(error), "a note of the store is due")], REPAIR) from error
     if plan.shard is None:
         raise UsageError(f"{folder}: a whole grid, no shard of one", hint="there is nothing to merge with it")
-    return Part(folder, plan, done)
+    return StoredShard(folder, plan, done)
 
 
 def _plan(kept: Mapping[str, object]) -> Plan:

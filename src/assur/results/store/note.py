@@ -48,10 +48,10 @@ def digest(pieces: Iterable[bytes | memoryview]) -> str:
     >>> digest([b"one", b"two"]) == digest([b"onetwo"])
     True
     """
-    found = hashlib.blake2b(digest_size=16)
+    checksum = hashlib.blake2b(digest_size=16)
     for piece in pieces:
-        found.update(piece)
-    return found.hexdigest()
+        checksum.update(piece)
+    return checksum.hexdigest()
 
 
 def added(counts: Iterable[Counts]) -> dict[str, dict[str, int]]:
@@ -61,8 +61,8 @@ def added(counts: Iterable[Counts]) -> dict[str, dict[str, int]]:
     {'modes': {'0': 3, '1': 3}}
     """
     total: dict[str, Counter[str]] = {}
-    for one in counts:
-        for heading, names in one.items():
+    for part in counts:
+        for heading, names in part.items():
             total.setdefault(heading, Counter()).update(names)
     return {heading: dict(sorted(names.items())) for heading, names in sorted(total.items())}
 
@@ -122,7 +122,7 @@ def note_bytes(plan: Plan, done: Mapping[int, str]) -> bytes:
 
 def asked(plan: Plan) -> dict[str, Any]:
     """What a store is of, as its note has it."""
-    arrays = {item.name: {"dtype": item.dtype, "rows": item.rows, "places": item.places} for item in plan.arrays}
+    arrays = {array.name: {"dtype": array.dtype, "rows": array.rows, "places": array.places} for array in plan.arrays}
     shard = None if plan.shard is None else [plan.shard.index, plan.shard.of]
     kept = {"question": plan.question, "about": plan.about, "arrays": arrays, "block": plan.block, "shard": shard}
     return dict(json.loads(json.dumps(kept)))
@@ -135,8 +135,10 @@ def differences(first: Mapping[str, Any], second: Mapping[str, Any]) -> list[str
     ['mode']
     """
     outer = ("arrays", "block", "shard")
-    one, other = ({**note["question"], **{name: note.get(name) for name in outer}} for note in (first, second))
-    return [name for name in {**one, **other} if one.get(name) != other.get(name)]
+    asked_first, asked_second = (
+        {**note["question"], **{name: note.get(name) for name in outer}} for note in (first, second)
+    )
+    return [name for name in {**asked_first, **asked_second} if asked_first.get(name) != asked_second.get(name)]
 
 
 def blocks_done(plan: Plan, kept: Mapping[str, Any]) -> dict[int, Done]:
@@ -146,7 +148,7 @@ def blocks_done(plan: Plan, kept: Mapping[str, Any]) -> dict[int, Done]:
         DamagedNoteError: what it says of them is no such thing.
     """
     try:
-        found = {
+        blocks = {
             int(number): Done(
                 tuple(map(str, digests)),
                 {heading: {name: int(n) for name, n in names.items()} for heading, names in counts.items()},
@@ -155,7 +157,7 @@ def blocks_done(plan: Plan, kept: Mapping[str, Any]) -> dict[int, Done]:
         }
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         raise DamagedNoteError(f"has blocks that are none ({error})") from error
-    for number, one in found.items():
-        if number not in plan.blocks or len(one.digests) != len(plan.arrays):
+    for number, block in blocks.items():
+        if number not in plan.blocks or len(block.digests) != len(plan.arrays):
             raise DamagedNoteError(f"has a block {number} that is not of this grid")
-    return found
+    return blocks

@@ -49,7 +49,7 @@ Tell = Callable[[Plan, Counts], bytes]
 
 
 @dataclass(frozen=True)
-class Solved:
+class SolvedBlock:
     """The numbers of a block.
 
     Attributes:
@@ -79,7 +79,7 @@ class Store:
         ...     faults = store.open()
         ...     for number in store.missing:
         ...         part = plan.part(number)
-        ...         store.put(number, Solved({"square": np.arange(part.start, part.stop) ** 2.0}, {}))
+        ...         store.put(number, SolvedBlock({"square": np.arange(part.start, part.stop) ** 2.0}, {}))
         ...     store.save()
         ...     store.finish()["square"].tolist()
         [0.0, 1.0, 4.0, 9.0, 16.0]
@@ -111,7 +111,7 @@ class Store:
     @property
     def counts(self) -> dict[str, dict[str, int]]:
         """What was counted in all blocks that are done."""
-        return added(one.counts for one in self.done.values())
+        return added(block.counts for block in self.done.values())
 
     def open(self, *, repair: bool = False, progress: Progress | None = None) -> tuple[Fault, ...]:
         """Begin the store, or go on with what is there, every byte of which is checked.
@@ -145,7 +145,7 @@ class Store:
             self.disk.remove(self.folder / ABOUT)
         return tuple(faults)
 
-    def put(self, number: int, solved: Solved) -> None:
+    def put(self, number: int, solved: SolvedBlock) -> None:
         """Write the numbers of a block."""
         digests = []
         for array in self.plan.files:
@@ -173,7 +173,7 @@ class Store:
                 self._fresh = fresh
             raise
 
-    def fill(self, blocks: Iterable[tuple[int, Solved]], progress: Progress | None = None) -> None:
+    def fill(self, blocks: Iterable[tuple[int, SolvedBlock]], progress: Progress | None = None) -> None:
         """Put blocks, noting them now and then, and at the end however it comes."""
         done = self.places_done
         due = time.monotonic() + SAVED
@@ -233,8 +233,8 @@ class Store:
 
     @property
     def _lost(self) -> Fault:
-        told = ", ".join(path.name for path in self._taken)
-        return Fault(self.folder / STATE, "is missing", f"it would say what {told} is of")
+        names = ", ".join(path.name for path in self._taken)
+        return Fault(self.folder / STATE, "is missing", f"it would say what {names} is of")
 
     @property
     def _taken(self) -> list[Path]:
@@ -293,7 +293,7 @@ class Store:
 
     def _note(self) -> None:
         """Write the note."""
-        self._lines = {number: self._lines.get(number) or one.line for number, one in self.done.items()}
+        self._lines = {number: self._lines.get(number) or block.line for number, block in self.done.items()}
         self.disk.write_whole(self.folder / STATE, note_bytes(self.plan, self._lines))
 
     def _reopen(self) -> None:

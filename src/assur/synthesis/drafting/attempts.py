@@ -20,11 +20,11 @@ from assur.model.file.reader import read_text
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION
 from assur.synthesis.drafting.copying import next_steps
-from assur.synthesis.drafting.document import Chosen, Input, document
+from assur.synthesis.drafting.document import Chosen, DrivenJoint, document
 from assur.synthesis.drafting.facts import differences
 from assur.synthesis.drafting.homes import away, clearance, home_table
 from assur.synthesis.drafting.knees import knee_formula, turned_round
-from assur.synthesis.drafting.layout import Layout
+from assur.synthesis.drafting.layout import DraftLayout
 from assur.synthesis.drafting.limb import HEIGHT_NAME
 from assur.synthesis.drafting.pose import pose_for
 from assur.synthesis.drafting.tables import Knee
@@ -52,23 +52,23 @@ class Attempt:
 
 
 @dataclass(frozen=True)
-class Asked:
+class DraftQuestion:
     """What a draft must be: the chains, the file, what is driven, and the topology that it must have."""
 
     chains: Sequence[Chain]
     path: Path
     inputs: Sequence[str]
-    wanted: Topology
+    topology: Topology
     mode: Mode
 
-    def attempt(self, layout: Layout, *, moved: bool) -> Attempt:
+    def attempt(self, layout: DraftLayout, *, moved: bool) -> Attempt:
         """A layout as a file; `moved`: its home is not as drawn, but the platform a little away from there."""
-        found = draft(self.chains, layout)
-        driven = _inputs(self.chains, found, self.inputs)
+        drawn = draft(self.chains, layout)
+        driven = _inputs(self.chains, drawn, self.inputs)
         first = Chosen(self.path.stem, (), (*LENGTHS, *ANGLES), False, driven, {}, {})
-        still = self.wanted.poc.r == 0
+        still = self.topology.poc.r == 0
         try:
-            record = self._read(found, first)
+            record = self._read(drawn, first)
             values = away(record, still=still) if moved else np.zeros(len(record.coordinates))
             if values is None:
                 return Attempt("", None, "the platform cannot be moved away from home")
@@ -79,16 +79,16 @@ class Asked:
                 first,
                 pose=pose,
                 constant=still,
-                box=_box(pose, found),
-                header=_header(self.chains, self.wanted, self.path, moved=moved),
+                box=_box(pose, drawn),
+                header=_header(self.chains, self.topology, self.path, moved=moved),
                 home=home_table(record, values) if moved else {},
             )
-            chosen = self._with_modes(found, chosen)
-            record = self._read(found, chosen)
+            chosen = self._with_modes(drawn, chosen)
+            record = self._read(drawn, chosen)
             wrong = faults(record)
             if wrong:
                 return Attempt("", None, f"{wrong[0].path}: {wrong[0].found}")
-            return Attempt(document(found, chosen), record, clearance=clearance(record))
+            return Attempt(document(drawn, chosen), record, clearance=clearance(record))
         except AssurError as error:
             return Attempt("", None, error.message)
 
@@ -97,67 +97,67 @@ class Asked:
         if made.record is None:
             return False
         try:
-            wrong = differences(self.wanted, analyse(linkage(made.record), mode=self.mode))
+            wrong = differences(self.topology, analyse(linkage(made.record), mode=self.mode))
         except AssurError as error:
             wrong = (error.message,)
         reasons.update(dict.fromkeys(wrong))
         return not wrong
 
-    def _read(self, found: Draft, chosen: Chosen) -> MechanismRecord:
-        return read_text(document(found, chosen), self.path)
+    def _read(self, drawn: Draft, chosen: Chosen) -> MechanismRecord:
+        return read_text(document(drawn, chosen), self.path)
 
-    def _with_modes(self, found: Draft, chosen: Chosen) -> Chosen:
+    def _with_modes(self, drawn: Draft, chosen: Chosen) -> Chosen:
         """The same with working modes by the senses of the knees, where every limb has one that is bent."""
-        knees = [template.knee for template in found.templates if template.knee is not None]
-        if len(knees) < len(found.templates):
+        knees = [template.knee for template in drawn.templates if template.knee is not None]
+        if len(knees) < len(drawn.templates):
             return chosen
-        record = self._read(found, dataclasses.replace(chosen, working=_working(found, knees)))
+        record = self._read(drawn, dataclasses.replace(chosen, working=_working(drawn, knees)))
         values = home_values(record)
         sizes = iter([float(quantity(record, formula, values)) for formula in record.modes.working.values()])
         counted = []
-        for template, knee in zip(found.templates, knees, strict=True):
-            own = [next(sizes) for _ in template.angles]
-            if min(own) < STRAIGHT and max(own) > -STRAIGHT:
+        for template, knee in zip(drawn.templates, knees, strict=True):
+            bends = [next(sizes) for _ in template.angles]
+            if min(bends) < STRAIGHT and max(bends) > -STRAIGHT:
                 return chosen
-            counted.append(turned_round(knee) if max(own) < 0 else knee)
-        return dataclasses.replace(chosen, working=_working(found, counted))
+            counted.append(turned_round(knee) if max(bends) < 0 else knee)
+        return dataclasses.replace(chosen, working=_working(drawn, counted))
 
 
-def _working(found: Draft, knees: Sequence[Knee]) -> dict[str, str]:
+def _working(drawn: Draft, knees: Sequence[Knee]) -> dict[str, str]:
     limbs = [
         (knee, f"{template.name}{number}", angle)
-        for template, knee in zip(found.templates, knees, strict=True)
+        for template, knee in zip(drawn.templates, knees, strict=True)
         for number, angle in enumerate(template.angles, 1)
     ]
     return {f"k{number}": knee_formula(*limb) for number, limb in enumerate(limbs, 1)}
 
 
-def _inputs(chains: Sequence[Chain], found: Draft, inputs: Sequence[str]) -> tuple[Input, ...]:
+def _inputs(chains: Sequence[Chain], drawn: Draft, inputs: Sequence[str]) -> tuple[DrivenJoint, ...]:
     """The actuated joints of the chains as the file calls them; of a C or U the first component."""
     places = {
         joint.name: (number, place) for number, chain in enumerate(chains) for place, joint in enumerate(chain.joints)
     }
     kinds = {
         f"{template.name}{number}.{joint.name}": joint.type
-        for template in found.templates
+        for template in drawn.templates
         for number, _ in enumerate(template.members, 1)
         for joint in template.joints
     }
-    names = [found.joint_of(*places[name]) for name in inputs]
-    return tuple(Input(name, kinds[name].components[0] if kinds[name].freedoms > 1 else "") for name in names)
+    names = [drawn.joint_of(*places[name]) for name in inputs]
+    return tuple(DrivenJoint(name, kinds[name].components[0] if kinds[name].freedoms > 1 else "") for name in names)
 
 
-def _box(pose: Sequence[str], found: Draft) -> dict[str, tuple[str, str]]:
+def _box(pose: Sequence[str], drawn: Draft) -> dict[str, tuple[str, str]]:
     """Where to look for the workspace: around home."""
     box = dict.fromkeys(LENGTHS, (f"-{ROOM}", f"{ROOM}"))
-    if not found.flat:
+    if not drawn.flat:
         box["z"] = (f'"{HEIGHT_NAME} - {ROOM}"', f'"{HEIGHT_NAME} + {ROOM}"')
     box |= dict.fromkeys(ANGLES, (f"-{TILT}", f"{TILT}"))
     box |= dict.fromkeys(QUATERNION, ("-0.2", "0.2")) | {"qw": ("0.9", "1")}
     return {name: box[name] for name in pose}
 
 
-def _header(chains: Sequence[Chain], wanted: Topology, path: Path, *, moved: bool) -> tuple[str, ...]:
+def _header(chains: Sequence[Chain], topology: Topology, path: Path, *, moved: bool) -> tuple[str, ...]:
     texts = (" ".join((chain.text or plain_text(chain)).split()) for chain in chains)
     limbs = [f"    limb {number}: {text}" for number, text in enumerate(texts, 1)]
     steps = [line.removeprefix("# ") for line in next_steps(path)]
@@ -165,8 +165,8 @@ def _header(chains: Sequence[Chain], wanted: Topology, path: Path, *, moved: boo
     return (
         f"{path.stem}: drafted from chains in notation. All dimensions are defaults, none is from a source.",
         *limbs,
-        f"Their topology: {wanted.poc}, {counted(wanted.dof - wanted.internal_freedoms, 'degree')} of freedom, "
-        f"coupling degree {wanted.coupling_degree}.",
+        f"Their topology: {topology.poc}, {counted(topology.dof - topology.internal_freedoms, 'degree')} of freedom, "
+        f"coupling degree {topology.coupling_degree}.",
         "",
         "As drawn, all joint values are zero and all link frames are parallel to the base's. The parameters say where",
         f"joints are there, so that the loops close whatever their values are. {home}",

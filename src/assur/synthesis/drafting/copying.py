@@ -33,10 +33,10 @@ def in_catalogue(name: str) -> str:
     ('zeng2019', 'tripteron')
     """
     known = sorted({*names(), *topology_names()})
-    meant = [name] if name in known else [item for item in known if name and item.startswith(name)]
+    meant = [name] if name in known else [entry for entry in known if name and entry.startswith(name)]
     if len(meant) == 1:
         return meant[0]
-    reasons = {item.name: f"{item.title} is left out: {item.reason}" for item in left_out()}
+    reasons = {mechanism.name: f"{mechanism.title} is left out: {mechanism.reason}" for mechanism in left_out()}
     several = f"did you mean {' or '.join(meant)}?" if meant else reasons.get(name, "")
     raise UnknownNameError("mechanism", name, known, hint=several)
 
@@ -71,7 +71,7 @@ def copied(model: str, path: Path) -> Copied:
     record = load_record(model)
     text = description_text(record.file)
     beside = record.file.parent / CLOSED_FORM
-    renamed = _NAME.sub(lambda found: f'name{found[1]}= "{name}"', text, count=1)
+    renamed = _NAME.sub(lambda match: f'name{match[1]}= "{name}"', text, count=1)
     comments = _COMMENTS.match(renamed)
     end = comments.end() if comments else 0
     said = f"#\n# The comment of {model}:\n#\n{renamed[:end]}" if end else ""

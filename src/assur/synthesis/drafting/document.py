@@ -15,7 +15,7 @@ from assur.synthesis.drafting.templates import Draft
 
 
 @dataclass(frozen=True)
-class Input:
+class DrivenJoint:
     """What is driven: the full name of a joint, and its component where it has several."""
 
     joint: str
@@ -37,7 +37,7 @@ class Chosen:
     header: tuple[str, ...]
     pose: tuple[str, ...]
     constant: bool
-    inputs: tuple[Input, ...]
+    inputs: tuple[DrivenJoint, ...]
     box: Mapping[str, tuple[str, str]]
     working: Mapping[str, str]
     home: Mapping[str, Sequence[float]] = field(default_factory=dict)
@@ -103,20 +103,20 @@ def _four_places(number: re.Match[str]) -> str:
 
 
 def _parameters(draft: Draft) -> list[str]:
-    listed = [*draft.dimensions, *(item for template in draft.templates for item in template.dimensions)]
-    width = max((len(item.name) for item in listed), default=0)
+    listed = [*draft.dimensions, *(dimension for template in draft.templates for dimension in template.dimensions)]
+    width = max((len(dimension.name) for dimension in listed), default=0)
     return [
         "[parameters]                         # places at home; change them as you like",
-        *(_dimension(item, width) for item in listed),
+        *(_dimension(dimension, width) for dimension in listed),
     ]
 
 
-def _dimension(item: Dimension, width: int) -> str:
-    sign = "" if item.sign == "positive" else f', sign = "{item.sign}"'
-    return f'{item.name:{width}} = {{ value = {item.value:g}, meaning = "{item.meaning}"{sign} }}'
+def _dimension(dimension: Dimension, width: int) -> str:
+    sign = "" if dimension.sign == "positive" else f', sign = "{dimension.sign}"'
+    return f'{dimension.name:{width}} = {{ value = {dimension.value:g}, meaning = "{dimension.meaning}"{sign} }}'
 
 
-def _limb(template: Template, driven: Mapping[str, Input], *, drawn: bool, chained: bool) -> Iterator[list[str]]:
+def _limb(template: Template, driven: Mapping[str, DrivenJoint], *, drawn: bool, chained: bool) -> Iterator[list[str]]:
     top = f"limbs.{template.name}"
     names = ", ".join(f"{template.name}{number}" for number, _ in enumerate(template.members, 1))
     angles = (
@@ -146,25 +146,25 @@ def _limb(template: Template, driven: Mapping[str, Input], *, drawn: bool, chain
 
 
 def _joints(joints: Sequence[DraftJoint]) -> list[str]:
-    names, kinds = max(len(item.name) for item in joints), max(len(item.type.name) for item in joints)
-    return [f"{item.name:{names}} = {{ {' '.join(_parts(item, kinds))} }}".replace(", }", " }") for item in joints]
+    names, kinds = max(len(joint.name) for joint in joints), max(len(joint.type.name) for joint in joints)
+    return [f"{joint.name:{names}} = {{ {' '.join(_parts(joint, kinds))} }}".replace(", }", " }") for joint in joints]
 
 
-def _parts(item: DraftJoint, width: int) -> Iterator[str]:
-    kind = f'"{item.type.name}"'
+def _parts(joint: DraftJoint, width: int) -> Iterator[str]:
+    kind = f'"{joint.type.name}"'
     yield f"type = {kind + ',':{width + 3}}"
-    yield f'parent = "{item.parent}",'
-    yield f'child = "{item.child}",'
-    if item.at != ORIGIN:
-        yield f"at = {point_text(item.at)},"
-    if item.child_at != ORIGIN:
-        yield f"child_at = {point_text(item.child_at)},"
-    if len(item.axes) == 1:
-        yield f"axis = {item.axes[0]},"
-    elif item.axes:
-        yield f"axes = [{', '.join(item.axes)}],"
-    if item.pitch:
-        yield f'pitch = "{item.pitch}",'
+    yield f'parent = "{joint.parent}",'
+    yield f'child = "{joint.child}",'
+    if joint.at != ORIGIN:
+        yield f"at = {point_text(joint.at)},"
+    if joint.child_at != ORIGIN:
+        yield f"child_at = {point_text(joint.child_at)},"
+    if len(joint.axes) == 1:
+        yield f"axis = {joint.axes[0]},"
+    elif joint.axes:
+        yield f"axes = [{', '.join(joint.axes)}],"
+    if joint.pitch:
+        yield f'pitch = "{joint.pitch}",'
 
 
 def _group(top: str, group: GeneralisedJoint) -> list[str]:
@@ -176,25 +176,25 @@ def _group(top: str, group: GeneralisedJoint) -> list[str]:
     ]
 
 
-def _in_template(draft: Draft, inputs: Sequence[Input]) -> dict[str, Input]:
+def _in_template(draft: Draft, inputs: Sequence[DrivenJoint]) -> dict[str, DrivenJoint]:
     """Inputs as a template has them, where there is one template and each of its limbs has the same single one."""
     if len(draft.templates) != 1:
         return {}
     template = draft.templates[0]
-    locals_ = [(item.joint.split(".", 1)[1], item.component) for item in inputs]
-    limbs = [item.joint.split(".", 1)[0] for item in inputs]
+    locals_ = [(actuated.joint.split(".", 1)[1], actuated.component) for actuated in inputs]
+    limbs = [actuated.joint.split(".", 1)[0] for actuated in inputs]
     every = [f"{template.name}{number}" for number, _ in enumerate(template.members, 1)]
     if limbs != every or len(set(locals_)) != 1:
         return {}
-    return {template.name: Input(*locals_[0])}
+    return {template.name: DrivenJoint(*locals_[0])}
 
 
-def _inputs(inputs: Sequence[Input]) -> list[str]:
-    return ["[inputs]", *(_input_line(item, f"q{number}") for number, item in enumerate(inputs, 1))]
+def _inputs(inputs: Sequence[DrivenJoint]) -> list[str]:
+    return ["[inputs]", *(_input_line(actuated, f"q{number}") for number, actuated in enumerate(inputs, 1))]
 
 
-def _input_line(item: Input, name: str) -> str:
-    key = f"{item.joint}.{item.component}" if item.component else item.joint
+def _input_line(actuated: DrivenJoint, name: str) -> str:
+    key = f"{actuated.joint}.{actuated.component}" if actuated.component else actuated.joint
     return (f'"{key}"' if "." in key else key) + f' = {{ name = "{name}" }}'
 
 
@@ -208,8 +208,8 @@ def _modes(chosen: Chosen) -> list[str]:
 
 def _aligned(links: Iterable[DraftLink]) -> list[str]:
     listed = list(links)
-    width = max((len(item.name) for item in listed), default=0)
-    return [f'{item.name:{width}} = {{ meaning = "{item.meaning}" }}' for item in listed]
+    width = max((len(entry.name) for entry in listed), default=0)
+    return [f'{entry.name:{width}} = {{ meaning = "{entry.meaning}" }}' for entry in listed]
 
 
 def _list(texts: Iterable[str]) -> str:

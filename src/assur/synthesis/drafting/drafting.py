@@ -9,7 +9,7 @@ from pathlib import Path
 
 from assur.errors import UsageError
 from assur.model.pose import LENGTHS
-from assur.synthesis.drafting.attempts import Asked, Attempt
+from assur.synthesis.drafting.attempts import Attempt, DraftQuestion
 from assur.synthesis.drafting.copying import mechanism_name
 from assur.synthesis.drafting.inputs import inputs_for
 from assur.synthesis.drafting.layout import LAYOUTS
@@ -64,8 +64,8 @@ def drafted(
             "one open chain closes no loop; a parallel mechanism needs two limbs or more, or an inner loop",
             hint='give --chain again, or --limb "..." --count 3, or branches in braces: "{P[y] R[x] R[x] | ...}"',
         )
-    inputs, wanted = inputs_for(chains, actuate, mode)
-    asked = Asked(chains, path, inputs, wanted, mode)
+    inputs, topology = inputs_for(chains, actuate, mode)
+    asked = DraftQuestion(chains, path, inputs, topology, mode)
     reasons: dict[str, None] = {}
     singular: list[Attempt] = []
     for moved, layouts in itertools.product((False, True), LAYOUTS):
@@ -75,19 +75,19 @@ def drafted(
             if made.fault or made.record is None:
                 reasons[made.fault] = None
                 continue
-            if made.clearance >= GOOD and _lengths(made) == min(len(inputs), wanted.poc.t):
+            if made.clearance >= GOOD and _lengths(made) == min(len(inputs), topology.poc.t):
                 if asked.agrees(made, reasons):
-                    return Drafted(made.text, wanted)
+                    return Drafted(made.text, topology)
                 continue
             sound.append(made)
         for made in _best_first(sound):
             if made.clearance >= CLEAR and asked.agrees(made, reasons):
-                return Drafted(made.text, wanted)
+                return Drafted(made.text, topology)
         singular += [made for made in sound if made.clearance < CLEAR]
     for made in _best_first(singular):
         if asked.agrees(made, reasons):
             note = "home is singular, or nearly so, in every layout that was tried: change the places of joints"
-            return Drafted(made.text, wanted, (note,))
+            return Drafted(made.text, topology, (note,))
     listed = "; ".join(list(reasons)[:3])
     raise UsageError(
         f"no default dimensions for {name} are sound and have the topology of its chains: {listed}",
@@ -97,7 +97,7 @@ def drafted(
 
 def _best_first(made: Sequence[Attempt]) -> list[Attempt]:
     """Attempts, first by the lengths in their pose, then by how far their home is from singular."""
-    return sorted(made, key=lambda item: (-_lengths(item), -item.clearance))
+    return sorted(made, key=lambda attempt: (-_lengths(attempt), -attempt.clearance))
 
 
 def _lengths(made: Attempt) -> int:

@@ -7,7 +7,7 @@ from typing import Any
 from assur.topology.facts import Topology
 
 
-def facts(found: Topology) -> dict[str, Any]:
+def facts(topology: Topology) -> dict[str, Any]:
     """What must not depend on dimensions, by the name under which a person knows it.
 
     >>> from assur.kinematics.structure import linkage
@@ -16,21 +16,21 @@ def facts(found: Topology) -> dict[str, Any]:
     >>> facts(analyse(linkage(load_record("zeng2019"))))["coupling degree"]
     1
     """
-    redundant = found.redundant_constraints
+    redundant = topology.redundant_constraints
     return {
-        "POC set": (found.poc.t, found.poc.r, found.poc.dim),
-        "degree of freedom": found.dof,
-        "internal freedoms": found.internal_freedoms,
-        "equations of the loops": tuple(sorted(found.xi)),
-        "coupling degree": found.coupling_degree,
+        "POC set": (topology.poc.t, topology.poc.r, topology.poc.dim),
+        "degree of freedom": topology.dof,
+        "internal freedoms": topology.internal_freedoms,
+        "equations of the loops": tuple(sorted(topology.xi)),
+        "coupling degree": topology.coupling_degree,
         "redundant constraints": (redundant.collapsed, redundant.joint_graph),
-        "POC sets of the limbs": tuple(sorted((limb.poc.t, limb.poc.r, limb.poc.dim) for limb in found.limbs)),
+        "POC sets of the limbs": tuple(sorted((limb.poc.t, limb.poc.r, limb.poc.dim) for limb in topology.limbs)),
     }
 
 
-def differences(wanted: Topology, found: Topology) -> tuple[str, ...]:
+def differences(of_chains: Topology, of_file: Topology) -> tuple[str, ...]:
     """Each fact of a file that is not that of its chains, in words."""
-    asked, given = facts(wanted), facts(found)
+    asked, given = facts(of_chains), facts(of_file)
     return tuple(
         f"{name} {given[name]}, that of the chains is {value}" for name, value in asked.items() if given[name] != value
     )

@@ -52,10 +52,10 @@ def families(chains: Sequence[Chain]) -> tuple[Family, ...]:
     """
     shared = shared_labels(chains)
     kinds = [_kind(chain, shared) for chain in chains]
-    found: list[tuple[list[int], list[float]]] = []
+    groups: list[tuple[list[int], list[float]]] = []
     for number, chain in enumerate(chains):
         alike = kinds.count(kinds[number])
-        for members, angles in found:
+        for members, angles in groups:
             if kinds[members[0]] != kinds[number]:
                 continue
             angle = _turn(chains[members[0]], chain, angles, len(angles) * 360.0 / alike)
@@ -64,8 +64,8 @@ def families(chains: Sequence[Chain]) -> tuple[Family, ...]:
                 angles.append(angle)
                 break
         else:
-            found.append(([number], [0.0]))
-    return tuple(Family(members[0], tuple(members), tuple(angles)) for members, angles in found)
+            groups.append(([number], [0.0]))
+    return tuple(Family(members[0], tuple(members), tuple(angles)) for members, angles in groups)
 
 
 def apart(family: Family, parts: int) -> tuple[Family, ...]:
@@ -96,7 +96,7 @@ def _label(joint: ChainJoint | Parallelogram) -> str:
 
 def _kind(chain: Chain, shared: frozenset[str]) -> Hashable:
     """What two limbs of a family have in common beside their directions."""
-    own: dict[str, int] = {}
+    private: dict[str, int] = {}
 
     def of(element: Element) -> Hashable:
         if isinstance(element, InnerLoop):
@@ -104,21 +104,21 @@ def _kind(chain: Chain, shared: frozenset[str]) -> Hashable:
         if isinstance(element, Parallelogram):
             return (element.kind, element.general)
         label = element.point
-        mark = label if label in shared or not label else own.setdefault(label, len(own))
+        mark = label if label in shared or not label else private.setdefault(label, len(private))
         return (element.type.letter, element.general, mark)
 
     return tuple(map(of, chain.elements))
 
 
-def _turn(first: Chain, other: Chain, taken: Sequence[float], wanted: float) -> float | None:
-    """The angle (deg) about z from a limb to another, of several possible ones that nearest to the wanted one."""
+def _turn(first: Chain, other: Chain, taken: Sequence[float], preferred: float) -> float | None:
+    """The angle (deg) about z from a limb to another, of several possible ones that nearest to the preferred one."""
     possible = turns(_axes(first), _axes(other))
     if possible is None:
-        possible = ([wanted], [])
+        possible = ([preferred], [])
     for some in possible:
         free = [angle for angle in some if all(_gap(angle, other_angle) > APART for other_angle in taken)]
         if free:
-            return min(free, key=lambda angle: _gap(angle, wanted))
+            return min(free, key=lambda angle: _gap(angle, preferred))
     return None
 
 
@@ -134,14 +134,14 @@ def turns(first: Sequence[Vector], other: Sequence[Vector]) -> tuple[list[float]
     if not level:
         same = all(math.hypot(axis[0], axis[1]) < EXACT for axis in other)
         return None if same else ([], [])
-    found: tuple[list[float], list[float]] = ([], [])
+    angles: tuple[list[float], list[float]] = ([], [])
     start, end = first[level[0]], other[level[0]]
     for sense in (1.0, -1.0):
         angle = math.atan2(sense * end[1], sense * end[0]) - math.atan2(start[1], start[0])
         fits = [_fits(_turned(axis, angle), goal) for axis, goal in zip(first, other, strict=True)]
         if all(fits):
-            found[2 - min(fits)].append(round(math.degrees(angle) % 360.0, 9) % 360.0)
-    return found
+            angles[2 - min(fits)].append(round(math.degrees(angle) % 360.0, 9) % 360.0)
+    return angles
 
 
 def _fits(axis: Vector, goal: Vector) -> int:
@@ -156,15 +156,15 @@ def _turned(axis: Vector, angle: float) -> Vector:
     return (cosine * axis[0] - sine * axis[1], sine * axis[0] + cosine * axis[1], axis[2])
 
 
-def _gap(one: float, other: float) -> float:
+def _gap(first: float, second: float) -> float:
     """Degrees between two directions around z."""
-    return abs((one - other + 180.0) % 360.0 - 180.0)
+    return abs((first - second + 180.0) % 360.0 - 180.0)
 
 
 def _axes(chain: Chain) -> list[Vector]:
     """The axes that were written."""
-    found: list[Vector] = []
+    axes: list[Vector] = []
     for joint in flattened(chain.elements):
         if not joint.general:
-            found += joint.axes if isinstance(joint, ChainJoint) else (joint.axis,)
-    return found
+            axes += joint.axes if isinstance(joint, ChainJoint) else (joint.axis,)
+    return axes

@@ -31,13 +31,13 @@ def away(record: MechanismRecord, *, still: bool) -> FloatArray | None:
     """
     start = np.zeros(len(record.coordinates))
     if still:
-        wanted = pose_of(record, start) + AWAY
-        found = assemble(record, start, poses=wanted)
+        pose = pose_of(record, start) + AWAY
+        assembly = assemble(record, start, poses=pose)
     else:
         motion = motions(record, start, RANK_GAP)
         shares = STEP * np.cos(1.0 + np.arange(len(start)))
-        found = assemble(record, motion.null @ shares * motion.scale)
-    return found.values if bool(found.closed) else None
+        assembly = assemble(record, motion.null @ shares * motion.scale)
+    return assembly.values if bool(assembly.closed) else None
 
 
 def home_table(record: MechanismRecord, values: FloatArray) -> dict[str, tuple[float, ...]]:
@@ -54,7 +54,7 @@ def home_table(record: MechanismRecord, values: FloatArray) -> dict[str, tuple[f
 
 def clearance(record: MechanismRecord) -> float:
     """How far home is from singular: the least of its measures, 0 where it is singular."""
-    here = instantaneous(record, home_values(record))
-    if any(bool(holds) for holds in here.types.values()):
+    motion = instantaneous(record, home_values(record))
+    if any(bool(holds) for holds in motion.types.values()):
         return 0.0
-    return min(float(measure) for measure in here.measures.values())
+    return min(float(measure) for measure in motion.measures.values())

@@ -27,34 +27,36 @@ def inputs_for(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mod
     ('P1', 'P2', 'P3')
     """
     names = numbered_inputs(chains, actuate) if actuate else default_inputs(chains)
-    found = analyse(place(chains, actuated=names), chains, mode=mode, inputs_by="given" if actuate else "first joints")
-    asked = found.actuation
+    topology = analyse(
+        place(chains, actuated=names), chains, mode=mode, inputs_by="given" if actuate else "first joints"
+    )
+    asked = topology.actuation
     if not asked.needed:
         raise UsageError(
-            f"the chains make a structure that does not move: {found.dof} degrees of freedom",
+            f"the chains make a structure that does not move: {topology.dof} degrees of freedom",
             hint=_why_rigid(chains),
         )
-    idle = sorted({joint for joints in found.internal_joints for joint in joints if joint in names})
-    if idle or asked.needed > found.poc.dim:
+    idle = sorted({joint for joints in topology.internal_joints for joint in joints if joint in names})
+    if idle or asked.needed > topology.poc.dim:
         moving = ", ".join(idle) or "driven joints"
         raise UsageError(
-            f"the platform has dimension {found.poc.dim}, {found.poc}, but {moving} can move "
+            f"the platform has dimension {topology.poc.dim}, {topology.poc}, but {moving} can move "
             "while it stands still: limbs move by themselves, so that no pose tells where the mechanism is",
             hint="leave joints out of a limb, or add a limb",
         )
-    driven = _first_components(found.inputs)
+    driven = _first_components(topology.inputs)
     if asked.verdict == "valid" and driven is not None:
-        return (names if actuate else driven), found
+        return (names if actuate else driven), topology
     if actuate:
         raise UsageError(f"the actuated joints do not determine the mechanism: {asked.verdict}", hint=asked.hint)
     limb_of = {joint.name: number for number, chain in enumerate(chains) for joint in chain.joints}
-    usable = [item for item in map(_first_components, asked.sets) if item is not None]
+    usable = [components for components in map(_first_components, asked.sets) if components is not None]
     if not usable:
         raise UsageError(
             f"no {asked.needed} joints that a draft could drive determine the mechanism",
             hint="an S is never driven, of a C only its translation, of a U only its first axis",
         )
-    chosen = min(usable, key=lambda item: max(Counter(limb_of[name] for name in item).values()))
+    chosen = min(usable, key=lambda components: max(Counter(limb_of[name] for name in components).values()))
     return chosen, analyse(place(chains, actuated=chosen), chains, mode=mode)
 
 

@@ -50,11 +50,11 @@ def knee(chain: Chain, letters: Sequence[str]) -> Knee | None:
     third = rest[2][0]
     if not isinstance(third, ChainJoint) or third.type not in (REVOLUTE, CYLINDRICAL, SPHERICAL):
         return None
-    labels = [item.point for item in (first, second, third) if isinstance(item, ChainJoint) and item.point]
+    labels = [joint.point for joint in (first, second, third) if isinstance(joint, ChainJoint) and joint.point]
     return None if len(set(labels)) < len(labels) else Knee((rest[0][1], rest[1][1], rest[2][1]), axis)
 
 
-def knee_formula(found: Knee, limb: str, angle: float) -> str:
+def knee_formula(bent: Knee, limb: str, angle: float) -> str:
     """The formula whose sign is the sense of a knee, for a limb at an angle (deg).
 
     Of three points it is (q - p) x (s - q) along the axis, of two q - p along it.
@@ -64,10 +64,10 @@ def knee_formula(found: Knee, limb: str, angle: float) -> str:
     >>> knee_formula(Knee(("Ba", "Bb"), (0.0, 0.6, -0.8)), "leg1", 0.0)
     '0.6*(leg1.Bb.y - leg1.Ba.y) - 0.8*(leg1.Bb.z - leg1.Ba.z)'
     """
-    points = [f"{limb}.{name}" for name in found.points]
+    points = [f"{limb}.{name}" for name in bent.points]
     terms = [
-        (size, _cross(points, one, other) if len(points) > 2 else f"{points[1]}.{own} - {points[0]}.{own}")
-        for size, own, one, other in zip(_turned(found.axis, angle), "xyz", "yzx", "zxy", strict=True)
+        (size, _cross(points, across, aside) if len(points) > 2 else f"{points[1]}.{along} - {points[0]}.{along}")
+        for size, along, across, aside in zip(_turned(bent.axis, angle), "xyz", "yzx", "zxy", strict=True)
         if abs(size) > DUST
     ]
     if len(terms) == 1 and abs(terms[0][0] - 1.0) < DUST:
@@ -80,23 +80,25 @@ def knee_formula(found: Knee, limb: str, angle: float) -> str:
     return formula
 
 
-def _cross(points: Sequence[str], one: str, other: str) -> str:
+def _cross(points: Sequence[str], across: str, aside: str) -> str:
     p, q, s = points
-    return f"({q}.{one} - {p}.{one})*({s}.{other} - {q}.{other}) - ({q}.{other} - {p}.{other})*({s}.{one} - {q}.{one})"
+    return f"({q}.{across} - {p}.{across})*({s}.{aside} - {q}.{aside})" + (
+        f" - ({q}.{aside} - {p}.{aside})*({s}.{across} - {q}.{across})"
+    )
 
 
 def _is_sliding(element: Element) -> TypeGuard[ChainJoint]:
     return isinstance(element, ChainJoint) and element.type is PRISMATIC and not element.general
 
 
-def turned_round(found: Knee) -> Knee:
+def turned_round(bent: Knee) -> Knee:
     """The same knee, its sense counted the other way.
 
     >>> turned_round(Knee(("A", "B", "C"), (0.0, 0.0, 1.0))).axis
     (0.0, 0.0, -1.0)
     """
-    x, y, z = found.axis
-    return Knee(found.points, (0.0 - x, 0.0 - y, 0.0 - z))
+    x, y, z = bent.axis
+    return Knee(bent.points, (0.0 - x, 0.0 - y, 0.0 - z))
 
 
 def _turns(element: object) -> bool:

@@ -26,7 +26,7 @@ ROUGH = (0.0, 1.0, -0.6, 0.3, -1.0, 0.7, -0.2, 0.9, -0.4)
 
 
 @dataclass(frozen=True)
-class Layout:
+class DraftLayout:
     """One way to choose default dimensions.
 
     Attributes:
@@ -47,19 +47,19 @@ class Layout:
 
 
 PLAIN = (
-    Layout(),
-    Layout(twist=60.0),
-    Layout(side=60.0),
-    Layout(side=-70.0, twist=50.0),
-    Layout(side=120.0, twist=100.0),
-    Layout(knee=150.0, side=100.0, twist=-60.0),
-    Layout(knee=130.0, side=60.0, twist=-40.0, rough=20.0),
+    DraftLayout(),
+    DraftLayout(twist=60.0),
+    DraftLayout(side=60.0),
+    DraftLayout(side=-70.0, twist=50.0),
+    DraftLayout(side=120.0, twist=100.0),
+    DraftLayout(knee=150.0, side=100.0, twist=-60.0),
+    DraftLayout(knee=130.0, side=60.0, twist=-40.0, rough=20.0),
 )
 DIVIDED = (
-    Layout(twist=80.0, parts=2),
-    Layout(knee=90.0, side=50.0, twist=70.0, rough=25.0, parts=2),
-    Layout(knee=120.0, side=50.0, twist=40.0, rough=35.0, nice=False),
-    Layout(knee=110.0, side=60.0, twist=60.0, rough=40.0, nice=False, parts=99),
+    DraftLayout(twist=80.0, parts=2),
+    DraftLayout(knee=90.0, side=50.0, twist=70.0, rough=25.0, parts=2),
+    DraftLayout(knee=120.0, side=50.0, twist=40.0, rough=35.0, nice=False),
+    DraftLayout(knee=110.0, side=60.0, twist=60.0, rough=40.0, nice=False, parts=99),
 )
 LAYOUTS = (PLAIN, DIVIDED)
 """Layouts in the order in which they are tried; of the first group the best, and only if none will do the others."""
@@ -79,10 +79,10 @@ class Stand:
     flat: bool = False
     sense: float = 1.0
 
-    def place(self, layout: Layout, share: float, station: int) -> Vector:
+    def place(self, layout: DraftLayout, share: float, station: int) -> Vector:
         """Where a station stands that has passed a share, 0 to 1, of the way from base to platform.
 
-        >>> Stand().place(Layout(), 0.5, 1)
+        >>> Stand().place(DraftLayout(), 0.5, 1)
         (250.0, 0.0, 150.0)
         """
         arch = math.sin(math.pi * share)
@@ -98,7 +98,7 @@ class Stand:
 
 
 @dataclass(frozen=True)
-class Row:
+class StationRow:
     """Stations of elements in series between two shares of the way, and how far aside their branch stands."""
 
     start: float
@@ -113,18 +113,18 @@ class Row:
             return (self.start + self.end) / 2
         return self.start + (self.end - self.start) * place / (self.count - 1)
 
-    def at(self, place: float, stand: Stand, layout: Layout) -> Vector:
+    def at(self, place: float, stand: Stand, layout: DraftLayout) -> Vector:
         """Where a station of the row stands; branches of a loop come nearer to each other on the way."""
         inside = place / (self.count - 1) if self.count > 1 else 0.5
         x, y, z = stand.place(layout, self.share(place), self.first + round(place))
         near = 1.0 - 0.5 * inside + 0.4 * math.sin(math.pi * inside)
         return (x + near * self.aside[0], y + near * self.aside[1], z + near * self.aside[2])
 
-    def within(self, place: int, stations: int, count: int, aside: Vector, branch: int) -> Row:
+    def within(self, place: int, stations: int, count: int, aside: Vector, branch: int) -> StationRow:
         """The row of a branch of an inner loop that spans some stations of this row."""
         moved = (self.aside[0] + aside[0], self.aside[1] + aside[1], self.aside[2] + aside[2])
         first = self.first + place + 4 * branch
-        return Row(self.share(place), self.share(place + stations - 1), count, first, moved)
+        return StationRow(self.share(place), self.share(place + stations - 1), count, first, moved)
 
 
 def own_stations(elements: Sequence[Element]) -> list[int]:
@@ -134,15 +134,15 @@ def own_stations(elements: Sequence[Element]) -> list[int]:
     >>> own_stations(parse_chain("P[x] R[y] P[z] P(4R)[y] P[x]").elements)
     [0, 1, 0, 2, 1]
     """
-    found = []
+    counts = []
     for place, element in enumerate(elements):
         if isinstance(element, InnerLoop):
-            found.append(max(2, *(stations(branch) for branch in element.branches)))
+            counts.append(max(2, *(stations(branch) for branch in element.branches)))
         elif isinstance(element, Parallelogram):
-            found.append(2)
+            counts.append(2)
         else:
-            found.append(0 if neighbour(elements, place) is not None else 1)
-    return found
+            counts.append(0 if neighbour(elements, place) is not None else 1)
+    return counts
 
 
 def stations(elements: Sequence[Element]) -> int:
@@ -171,9 +171,9 @@ def across(axis: Vector, rod: Vector) -> Vector:
     >>> across((0.0, 1.0, 0.0), (10.0, 0.0, 300.0))
     (1.0, 0.0, 0.0)
     """
-    level = [item for item in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) if abs(_dot(item, axis)) < 1e-9]
+    level = [unit for unit in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) if abs(_dot(unit, axis)) < 1e-9]
     if level:
-        return min(level, key=lambda item: abs(_dot(item, rod)))
+        return min(level, key=lambda unit: abs(_dot(unit, rod)))
     x, y, z = _cross(axis, rod)
     length = math.hypot(x, y, z)
     if length < 1e-6 * math.hypot(*rod):

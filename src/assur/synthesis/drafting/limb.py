@@ -18,9 +18,9 @@ from assur.model.mechanism import GeneralisedJoint
 from assur.synthesis.drafting.layout import (
     SPREAD,
     WIDTH,
-    Layout,
-    Row,
+    DraftLayout,
     Stand,
+    StationRow,
     across,
     neighbour,
     own_stations,
@@ -43,7 +43,7 @@ _NICE: dict[JointType, tuple[Vector, ...]] = {UNIVERSAL: (NAMED["y"], NAMED["x"]
 
 
 @dataclass(frozen=True)
-class Ends:
+class ElementEnds:
     """Points of an element on the links before and behind it, and the same as numbers."""
 
     near: Point
@@ -53,10 +53,10 @@ class Ends:
 
 
 @dataclass
-class Drawing:
+class LimbDrawing:
     """A limb that grows. `centres`: label of a point that limbs share -> the name of its height, empty for none."""
 
-    layout: Layout
+    layout: DraftLayout
     stand: Stand
     template: bool
     centres: Mapping[str, str]
@@ -66,7 +66,7 @@ class Drawing:
     joints: list[DraftJoint] = field(default_factory=list)
     groups: list[GeneralisedJoint] = field(default_factory=list)
     origins: dict[str, Point] = field(default_factory=dict)
-    labels: dict[str, Ends] = field(default_factory=dict)
+    labels: dict[str, ElementEnds] = field(default_factory=dict)
 
     def draw(self, chain: Chain) -> None:
         """Every element of a chain, from the base to the platform."""
@@ -74,12 +74,12 @@ class Drawing:
         self.origins = {BASE_LINK: ORIGIN, PLATFORM_LINK: (Linear(), Linear(), height)}
         elements = _named(chain.elements, self.names)
         self.dimensions = {joint.name: [] for joint in flattened(elements)}
-        self._series(elements, BASE_LINK, PLATFORM_LINK, Row(0.0, 1.0, stations(elements)))
+        self._series(elements, BASE_LINK, PLATFORM_LINK, StationRow(0.0, 1.0, stations(elements)))
 
-    def _series(self, elements: Sequence[Element], start: str, end: str, row: Row) -> list[Ends | None]:
+    def _series(self, elements: Sequence[Element], start: str, end: str, row: StationRow) -> list[ElementEnds | None]:
         owned = own_stations(elements)
         places = [sum(owned[:index]) for index in range(len(elements))]
-        ends: list[Ends | None] = [
+        ends: list[ElementEnds | None] = [
             self._ends(element, row, place, count)
             for element, place, count in zip(elements, places, owned, strict=True)
         ]
@@ -109,28 +109,28 @@ class Drawing:
         self.links.append(DraftLink(name, meaning))
         return name
 
-    def _ends(self, element: Element, row: Row, place: int, count: int) -> Ends | None:
+    def _ends(self, element: Element, row: StationRow, place: int, count: int) -> ElementEnds | None:
         """Where an element of its own stations is; None for a loop, and for a P that stands elsewhere."""
         if isinstance(element, InnerLoop) or not count:
             return None
         letter = element.name
-        here = row.at(place, self.stand, self.layout)
+        position = row.at(place, self.stand, self.layout)
         if isinstance(element, Parallelogram):
-            there = row.at(place + 1, self.stand, self.layout)
-            near, near_at = self._point(letter, "1", here, f"middle of the near ends of {letter}")
-            far, far_at = self._point(letter, "2", there, f"middle of the far ends of {letter}")
-            return Ends(near, far, near_at, far_at)
+            far_position = row.at(place + 1, self.stand, self.layout)
+            near, near_at = self._point(letter, "1", position, f"middle of the near ends of {letter}")
+            far, far_at = self._point(letter, "2", far_position, f"middle of the far ends of {letter}")
+            return ElementEnds(near, far, near_at, far_at)
         if element.point in self.centres:
             return self._about_centre(element, letter, row.share(place))
         if element.point in self.labels:
             return self.labels[element.point]
-        point, at = self._point(letter, "", here, f"joint {letter}")
-        found = Ends(point, point, at, at)
+        point, at = self._point(letter, "", position, f"joint {letter}")
+        ends = ElementEnds(point, point, at, at)
         if element.point:
-            self.labels[element.point] = found
-        return found
+            self.labels[element.point] = ends
+        return ends
 
-    def _about_centre(self, element: ChainJoint, letter: str, share: float) -> Ends:
+    def _about_centre(self, element: ChainJoint, letter: str, share: float) -> ElementEnds:
         """On its own axis through a point that limbs share, away from it; a U or an S, or all that is flat, in it."""
         name = self.centres[element.point]
         centre: Point = (Linear(), Linear(), dimension(name) if name else Linear())
@@ -139,10 +139,10 @@ class Drawing:
             value = round(REACH * (1.0 + 0.5 * share))
             self._dimension(letter, Dimension(size, value, f"from the point {element.point} to joint {letter}"))
             centre = plus(centre, along(size, element.axes[0]))
-        return Ends(centre, centre, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+        return ElementEnds(centre, centre, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
-    def _dimension(self, letter: str, item: Dimension) -> None:
-        self.dimensions[letter].append(item)
+    def _dimension(self, letter: str, size: Dimension) -> None:
+        self.dimensions[letter].append(size)
 
     def _point(self, letter: str, end: str, value: Vector, what: str) -> tuple[Point, Vector]:
         """A point by its coordinates at home, each a dimension; a flat limb has no height."""
@@ -173,7 +173,7 @@ class Drawing:
         at, child_at = minus(point, self.origins[parent]), minus(point, origin)
         self.joints.append(DraftJoint(name, kind, parent, child, at, child_at, tuple(axes), pitch))
 
-    def _joint(self, joint: ChainJoint, parent: str, child: str, ends: Ends, leg: Point | None) -> None:
+    def _joint(self, joint: ChainJoint, parent: str, child: str, ends: ElementEnds, leg: Point | None) -> None:
         name = joint.name
         pitch = ""
         if joint.type.screw:
@@ -186,7 +186,7 @@ class Drawing:
             axes = [axis_text(axis) for axis in nice or joint.axes]
         self._add(name, joint.type, (parent, child), ends.near, axes, pitch)
 
-    def _parallelogram(self, element: Parallelogram, parent: str, child: str, ends: Ends) -> None:
+    def _parallelogram(self, element: Parallelogram, parent: str, child: str, ends: ElementEnds) -> None:
         letter = element.name
         axis = NAMED["y"] if element.general and self.layout.nice else element.axis
         rod = tuple(far - near for near, far in zip(ends.near_at, ends.far_at, strict=True))
@@ -197,7 +197,7 @@ class Drawing:
         half = along(width, short, 0.5)
         rods = [f"rod{letter}1", f"rod{letter}2"]
         self.links += [DraftLink(rods[0], f"first rod of {letter}"), DraftLink(rods[1], f"second rod of {letter}")]
-        near = [axis_text(item) for item in (axis, aside)]
+        near = [axis_text(direction) for direction in (axis, aside)]
         axes = {REVOLUTE: near[:1], UNIVERSAL: near, SPHERICAL: []}
         corners = [f"{letter}{end}" for end in "abcd"]
         at_near, at_far = _NEAR[element.kind], _FAR[element.kind]
@@ -209,7 +209,7 @@ class Drawing:
             self._add(corners[other], at_far, (rod_name, child), plus(ends.far, shift), axes[at_far][::-1])
         self.groups.append(GeneralisedJoint(letter, f"P({element.kind})", tuple(corners), parent, child))
 
-    def _loop(self, loop: InnerLoop, parent: str, child: str, row: Row, place: int, count: int) -> None:
+    def _loop(self, loop: InnerLoop, parent: str, child: str, row: StationRow, place: int, count: int) -> None:
         """The branches side by side, apart in a direction that their first axis does not have."""
         number = len(loop.branches)
         aside = _apart(loop)
@@ -254,18 +254,18 @@ def _times(point: Point, factor: float) -> Point:
     return (point[0].times(factor), point[1].times(factor), point[2].times(factor))
 
 
-def _known(ends: Ends | None) -> Ends:
-    return ends or Ends(ORIGIN, ORIGIN, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+def _known(ends: ElementEnds | None) -> ElementEnds:
+    return ends or ElementEnds(ORIGIN, ORIGIN, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
-def _beside(ends: Ends | None, *, before: bool) -> Ends:
+def _beside(ends: ElementEnds | None, *, before: bool) -> ElementEnds:
     """Where a P stands that shares the place of the element before or behind it."""
     known = _known(ends)
     point, at = (known.far, known.far_at) if before else (known.near, known.near_at)
-    return Ends(point, point, at, at)
+    return ElementEnds(point, point, at, at)
 
 
-def _leg(elements: Sequence[Element], ends: Sequence[Ends | None], index: int) -> Point | None:
+def _leg(elements: Sequence[Element], ends: Sequence[ElementEnds | None], index: int) -> Point | None:
     """The vector from the joint before a P to the one behind it; None where there is no such pair."""
     element = elements[index]
     if not (isinstance(element, ChainJoint) and not element.type.turning):
@@ -289,6 +289,6 @@ def _apart(loop: InnerLoop) -> Vector:
     ]
     first = axes[0] if axes else NAMED["z"]
     chosen = min(
-        (NAMED["y"], NAMED["x"], NAMED["z"]), key=lambda item: abs(sum(a * b for a, b in zip(item, first, strict=True)))
+        (NAMED["y"], NAMED["x"], NAMED["z"]), key=lambda unit: abs(sum(a * b for a, b in zip(unit, first, strict=True)))
     )
     return (SPREAD * chosen[0], SPREAD * chosen[1], SPREAD * chosen[2])

@@ -15,10 +15,10 @@ class Linear:
     terms: tuple[tuple[str, float], ...] = ()
 
     def __add__(self, other: Linear) -> Linear:
-        found = dict(self.terms)
+        terms = dict(self.terms)
         for name, factor in other.terms:
-            found[name] = found.get(name, 0.0) + factor
-        return Linear(tuple((name, factor) for name, factor in found.items() if abs(factor) > DUST))
+            terms[name] = terms.get(name, 0.0) + factor
+        return Linear(tuple((name, factor) for name, factor in terms.items() if abs(factor) > DUST))
 
     def __sub__(self, other: Linear) -> Linear:
         return self + other.times(-1.0)
@@ -35,11 +35,11 @@ class Linear:
         >>> Linear().text()
         '0'
         """
-        found = ""
+        written = ""
         for name, factor in sorted(self.terms, key=lambda term: term[1] < 0):
-            sign = ("-" if factor < 0 else "") if not found else (" - " if factor < 0 else " + ")
-            found += sign + _share(name, abs(factor))
-        return found or "0"
+            sign = ("-" if factor < 0 else "") if not written else (" - " if factor < 0 else " + ")
+            written += sign + _share(name, abs(factor))
+        return written or "0"
 
 
 Point = tuple[Linear, Linear, Linear]

@@ -41,7 +41,7 @@ def pose_for(twists: FloatArray, count: int, *, still: bool = False) -> Pose | N
     if count == len(ROWS):
         return (*LENGTHS, *QUATERNION)
     for lengths in range(len(LENGTHS), -1, -1):
-        alike = [item for item in zip(choices, clear, strict=True) if len(set(item[0]) & set(LENGTHS)) == lengths]
+        alike = [pair for pair in zip(choices, clear, strict=True) if len(set(pair[0]) & set(LENGTHS)) == lengths]
         most = max((value for _, value in alike), default=0.0)
         if most >= FAIR * best:
             return next(choice for choice, value in alike if value >= GOOD * most)

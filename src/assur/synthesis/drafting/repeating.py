@@ -44,20 +44,20 @@ def has_one_centre(limb: Chain) -> bool:
 
 def _turned(elements: Sequence[Element], number: int, count: int, shared: bool) -> tuple[Element, ...]:
     angle = 2 * math.pi * number / count
-    found: list[Element] = []
+    turned: list[Element] = []
     for element in elements:
         if isinstance(element, InnerLoop):
             branches = tuple(_turned(branch, number, count, shared) for branch in element.branches)
-            found.append(dataclasses.replace(element, branches=branches))
+            turned.append(dataclasses.replace(element, branches=branches))
         elif isinstance(element, Parallelogram):
-            found.append(dataclasses.replace(element, axis=_about_z(element.axis, angle)))
+            turned.append(dataclasses.replace(element, axis=_about_z(element.axis, angle)))
         else:
             primes = element.point.count(PRIME)
-            own = f"{element.point.rstrip(PRIME)}{number + 1}{PRIME * primes}" if element.point else ""
+            label_of_limb = f"{element.point.rstrip(PRIME)}{number + 1}{PRIME * primes}" if element.point else ""
             axes = tuple(_about_z(axis, angle) for axis in element.axes)
-            label = element.point if shared else own
-            found.append(dataclasses.replace(element, axes=axes, point=label))
-    return tuple(found)
+            label = element.point if shared else label_of_limb
+            turned.append(dataclasses.replace(element, axes=axes, point=label))
+    return tuple(turned)
 
 
 def _about_z(axis: Vector, angle: float) -> Vector:

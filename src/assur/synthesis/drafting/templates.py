@@ -11,8 +11,8 @@ from assur.joints.prismatic import PRISMATIC
 from assur.joints.revolute import REVOLUTE
 from assur.synthesis.drafting.families import Family, apart, families, shared_labels
 from assur.synthesis.drafting.knees import knee
-from assur.synthesis.drafting.layout import BASE, HEIGHT, PLATFORM, Layout, Stand
-from assur.synthesis.drafting.limb import HEIGHT_NAME, Drawing
+from assur.synthesis.drafting.layout import BASE, HEIGHT, PLATFORM, DraftLayout, Stand
+from assur.synthesis.drafting.limb import HEIGHT_NAME, LimbDrawing
 from assur.synthesis.drafting.tables import Dimension, DraftChain, Template
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, flattened
 from assur.topology.directions import NAMED, parallel, perpendicular
@@ -47,11 +47,11 @@ class Draft:
         raise IndexError(chain)
 
 
-def draft(chains: Sequence[Chain], layout: Layout) -> Draft:
+def draft(chains: Sequence[Chain], layout: DraftLayout) -> Draft:
     """Chains drawn in a layout.
 
     >>> from assur.topology.notation import parse_chains
-    >>> found = draft(parse_chains(["R[z] R[z] R[z]"] * 3), Layout())
+    >>> found = draft(parse_chains(["R[z] R[z] R[z]"] * 3), DraftLayout())
     >>> found.templates[0].name, found.templates[0].even, found.flat, found.joint_of(2, 0)
     ('leg', True, True, 'leg3.A')
     """
@@ -65,8 +65,8 @@ def draft(chains: Sequence[Chain], layout: Layout) -> Draft:
     letters = map(_letter, count())
     named = [tuple(islice(letters, len(chains[group.pattern].joints))) for group in groups]
     templates = tuple(
-        _template(chains[group.pattern], group, own, centres, name, layout, stand)
-        for group, own, name, stand in zip(
+        _template(chains[group.pattern], group, letters_of_group, centres, name, layout, stand)
+        for group, letters_of_group, name, stand in zip(
             groups, named, _names(groups), _stands(groups, len(chains), flat), strict=True
         )
     )
@@ -106,10 +106,10 @@ def _template(
     letters: Sequence[str],
     centres: Mapping[str, str],
     name: str,
-    layout: Layout,
+    layout: DraftLayout,
     stand: Stand,
 ) -> Template:
-    drawing = Drawing(layout, stand, family.angles != (0.0,), centres, iter(letters))
+    drawing = LimbDrawing(layout, stand, family.angles != (0.0,), centres, iter(letters))
     drawing.draw(chain)
     return Template(
         name=name,
@@ -117,7 +117,7 @@ def _template(
         even=family.even,
         members=family.members,
         text=plain_text(chain),
-        dimensions=tuple(item for listed in drawing.dimensions.values() for item in listed),
+        dimensions=tuple(size for listed in drawing.dimensions.values() for size in listed),
         links=tuple(drawing.links),
         joints=tuple(drawing.joints),
         groups=tuple(drawing.groups),
@@ -131,15 +131,15 @@ def _stands(groups: Sequence[Family], limbs: int, flat: bool) -> list[Stand]:
     """Where the first limb of each family stands; one limb alone beside a family of three or more, in the middle."""
     single = [group for group in groups if group.angles == (0.0,)]
     middle = len(single) == 1 and any(len(group.angles) > 2 for group in groups)
-    found = []
+    stands = []
     for number, group in enumerate(groups):
         sense = -1.0 if number % 2 else 1.0
         scale = SCALES[number % len(SCALES)]
         angle = 0.0 if group.angles[0] else 2 * math.pi * group.members[0] / limbs
         if middle and group is single[0]:
             scale, angle = 0.0, 0.0
-        found.append(Stand(angle, BASE * scale, PLATFORM * scale, number, flat, sense))
-    return found
+        stands.append(Stand(angle, BASE * scale, PLATFORM * scale, number, flat, sense))
+    return stands
 
 
 def _is_flat(joint: object) -> bool:
@@ -155,7 +155,7 @@ def _letter(number: int) -> str:
     return LETTERS[number] if number < len(LETTERS) else f"J{number + 1}"
 
 
-def _driven(drawing: Drawing, letter: str) -> str:
+def _driven(drawing: LimbDrawing, letter: str) -> str:
     """The joint by which an element is driven: of a parallelogram its first."""
     return next((group.joints[0] for group in drawing.groups if group.name == letter), letter)
 

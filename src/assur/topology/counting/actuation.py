@@ -103,9 +103,9 @@ def locked_freedoms(edges: Sequence[Edge], inputs: Sequence[int], base: str, pla
     >>> locked_freedoms(table, [0], "base", "table"), locked_freedoms(table, [0, 1], "base", "table")
     (1, 0)
     """
-    found = motions(edges, base, platform, inputs)
-    freedoms: int = found.useful.shape[-1]
-    return freedoms - rank(found.useful[:, list(inputs)], scale=1.0)
+    space = motions(edges, base, platform, inputs)
+    freedoms: int = space.useful.shape[-1]
+    return freedoms - rank(space.useful[:, list(inputs)], scale=1.0)
 
 
 def actuation(edges: Sequence[Edge], base: str, platform: str, limit: int = SETS) -> Actuation:
@@ -129,13 +129,13 @@ def actuation(edges: Sequence[Edge], base: str, platform: str, limit: int = SETS
     >>> print(actuation(bars, "base", "rod"))
     valid: 1 input for 1 freedom; 4 admissible sets
     """
-    found = motions(edges, base, platform)
+    space = motions(edges, base, platform)
     names, chosen = column_names(edges), input_columns(edges)
-    needed = found.useful.shape[-1]
-    rows = driven_columns(edges, found.internal)
-    locked = rank(found.useful[:, chosen], scale=1.0)
-    sets, possible = _admissible(found.useful[:, rows], limit)
-    some, every = _in_sets(found.useful[:, rows])
+    needed = space.useful.shape[-1]
+    rows = driven_columns(edges, space.internal)
+    locked = rank(space.useful[:, chosen], scale=1.0)
+    sets, possible = _admissible(space.useful[:, rows], limit)
+    some, every = _in_sets(space.useful[:, rows])
     return Actuation(
         inputs=tuple(names[column] for column in chosen),
         needed=needed,
@@ -144,12 +144,12 @@ def actuation(edges: Sequence[Edge], base: str, platform: str, limit: int = SETS
         superfluous=tuple(
             names[column]
             for column in chosen
-            if rank(found.useful[:, [other for other in chosen if other != column]], scale=1.0) == locked
+            if rank(space.useful[:, [other for other in chosen if other != column]], scale=1.0) == locked
         ),
-        helpful=tuple(names[column] for column in rows if rank(found.useful[:, [*chosen, column]], scale=1.0) > locked)
+        helpful=tuple(names[column] for column in rows if rank(space.useful[:, [*chosen, column]], scale=1.0) > locked)
         if locked < needed
         else (),
-        sets=tuple(tuple(names[rows[index]] for index in item) for item in sets),
+        sets=tuple(tuple(names[rows[index]] for index in admissible) for admissible in sets),
         tried=min(limit, possible),
         possible=possible,
         in_some=tuple(names[rows[index]] for index in some),
@@ -179,7 +179,7 @@ def _admissible(rows: FloatArray, limit: int) -> tuple[list[tuple[int, ...]], in
     possible = comb(count, size)
     tried = np.array(list(islice(combinations(range(count), size), limit)), dtype=int)
     tried = tried.reshape(min(possible, limit), size)
-    return [tuple(item) for item in tried[spanning(rows, tried)].tolist()], possible
+    return [tuple(columns) for columns in tried[spanning(rows, tried)].tolist()], possible
 
 
 def _in_sets(rows: FloatArray) -> tuple[list[int], list[int]]:

@@ -16,7 +16,7 @@ from assur.topology.linkages.edges import Edge, graph
 
 
 @dataclass(frozen=True)
-class Branch:
+class LoopBranch:
     """Names of edges in series from one link to another; the two are one link where the branch closes on itself."""
 
     edges: tuple[str, ...]
@@ -24,7 +24,7 @@ class Branch:
     end: str
 
 
-def branches(edges: Sequence[Edge]) -> tuple[Branch, ...]:
+def branches(edges: Sequence[Edge]) -> tuple[LoopBranch, ...]:
     """The branches in the order of their first-named edges; edges that are in no loop are left out.
 
     Each is written from the end whose edge is named first.
@@ -43,23 +43,23 @@ def branches(edges: Sequence[Edge]) -> tuple[Branch, ...]:
         touching.setdefault(edge.child, []).append(edge)
     order = {edge.name: index for index, edge in enumerate(inside)}
     used: set[str] = set()
-    found = []
+    collected = []
     for edge in inside:
         if edge.name not in used:
             branch = _through(edge, touching)
             used.update(branch.edges)
             turn = order[branch.edges[-1]] < order[branch.edges[0]]
-            found.append(Branch(branch.edges[::-1], branch.end, branch.start) if turn else branch)
-    return tuple(found)
+            collected.append(LoopBranch(branch.edges[::-1], branch.end, branch.start) if turn else branch)
+    return tuple(collected)
 
 
-def _through(edge: Edge, touching: Mapping[str, list[Edge]]) -> Branch:
+def _through(edge: Edge, touching: Mapping[str, list[Edge]]) -> LoopBranch:
     """The branch that an edge lies on."""
     after, end = _walk(edge, edge.child, edge.parent, touching)
     if end == edge.parent:
-        return Branch((edge.name, *after), edge.parent, end)
+        return LoopBranch((edge.name, *after), edge.parent, end)
     before, start = _walk(edge, edge.parent, end, touching)
-    return Branch((*before[::-1], edge.name, *after), start, end)
+    return LoopBranch((*before[::-1], edge.name, *after), start, end)
 
 
 def _walk(edge: Edge, link: str, stop: str, touching: Mapping[str, list[Edge]]) -> tuple[list[str], str]:
@@ -74,7 +74,7 @@ def _walk(edge: Edge, link: str, stop: str, touching: Mapping[str, list[Edge]]) 
 
 
 def next_loops(
-    parts: Sequence[Branch], taken: Collection[int], among: Collection[int] | None = None
+    parts: Sequence[LoopBranch], taken: Collection[int], among: Collection[int] | None = None
 ) -> Iterator[tuple[int, ...]]:
     """Every loop that may come next, as the branches (their indices) around it, the first-named one first.
 
@@ -109,7 +109,7 @@ def _cycles(
             yield from _cycles((*way, index), (*nodes, node), goal, leaving)
 
 
-def _nodes(parts: Sequence[Branch], taken: Collection[int]) -> dict[str, str]:
+def _nodes(parts: Sequence[LoopBranch], taken: Collection[int]) -> dict[str, str]:
     """The node that each link belongs to once some branches are in, by the name of one of its links."""
     node = {link: link for part in parts for link in (part.start, part.end)}
     for index in taken:
@@ -118,14 +118,14 @@ def _nodes(parts: Sequence[Branch], taken: Collection[int]) -> dict[str, str]:
     return node
 
 
-def names_along(parts: Sequence[Branch], taken: Collection[int], loop: Sequence[int]) -> tuple[str, ...]:
+def names_along(parts: Sequence[LoopBranch], taken: Collection[int], loop: Sequence[int]) -> tuple[str, ...]:
     """Names of the edges in order along a loop, from the start of its first branch."""
     node = _nodes(parts, taken)
-    here = node[parts[loop[0]].start]
+    joined = node[parts[loop[0]].start]
     names: list[str] = []
     for index in loop:
         start, end = node[parts[index].start], node[parts[index].end]
-        forward = start == here
+        forward = start == joined
         names += parts[index].edges if forward else parts[index].edges[::-1]
-        here = end if forward else start
+        joined = end if forward else start
     return tuple(names)

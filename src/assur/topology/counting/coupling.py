@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
-from assur.topology.counting.branches import Branch, branches, names_along, next_loops
+from assur.topology.counting.branches import LoopBranch, branches, names_along, next_loops
 from assur.topology.linkages.edges import Edge, closure, rank
 
 FloatArray = NDArray[np.float64]
@@ -154,11 +154,13 @@ def coupling_of(
     return counted.decomposition(tuple(loops))
 
 
-def _as_loop(parts: Sequence[Branch], taken: frozenset[int], wanted: frozenset[int], number: int) -> tuple[int, ...]:
-    for loop in next_loops(parts, taken, wanted):
-        if len(loop) == len(wanted):
+def _as_loop(
+    parts: Sequence[LoopBranch], taken: frozenset[int], stated: frozenset[int], number: int
+) -> tuple[int, ...]:
+    for loop in next_loops(parts, taken, stated):
+        if len(loop) == len(stated):
             return loop
-    names = ", ".join(name for index in sorted(wanted) for name in parts[index].edges)
+    names = ", ".join(name for index in sorted(stated) for name in parts[index].edges)
     raise UsageError(
         f"loop {number} of the order ({names}) does not add exactly one loop to those before it",
         hint="name only the joints that a loop adds; they must run as one chain between links that are already there",
@@ -218,31 +220,31 @@ class _Counted:
 
     def indices(self, names: Iterable[str]) -> frozenset[int]:
         """The branches that some edges make up; whole ones only."""
-        wanted = set(names)
-        for name in wanted - set(self._place):
+        stated = set(names)
+        for name in stated - set(self._place):
             raise UnknownNameError("joint", name, self._place)
-        found = frozenset(index for index, part in enumerate(self.parts) if wanted.issuperset(part.edges))
-        broken = wanted - {name for index in found for name in self.parts[index].edges}
+        whole = frozenset(index for index, part in enumerate(self.parts) if stated.issuperset(part.edges))
+        broken = stated - {name for index in whole for name in self.parts[index].edges}
         if broken:
             raise UsageError(
                 f"{', '.join(sorted(broken))}: part of a chain of joints, or in no loop; a loop takes whole chains",
                 hint=f"the chains are {'; '.join(' '.join(part.edges) for part in self.parts)}",
             )
-        return found
+        return whole
 
 
-def _in_series(part: Branch, place: Mapping[str, Edge]) -> Edge:
+def _in_series(part: LoopBranch, place: Mapping[str, Edge]) -> Edge:
     """A branch as one edge, from its start to its end."""
-    here, columns = part.start, []
+    reached, columns = part.start, []
     for name in part.edges:
         edge = place[name]
-        forward = edge.parent == here
+        forward = edge.parent == reached
         columns.append(edge.twists if forward else -edge.twists)
-        here = edge.child if forward else edge.parent
+        reached = edge.child if forward else edge.parent
     return Edge(part.edges[0], part.start, part.end, np.concatenate(columns, axis=-1))
 
 
-def _sums(part: Branch, place: Mapping[str, Edge]) -> tuple[int, int]:
+def _sums(part: LoopBranch, place: Mapping[str, Edge]) -> tuple[int, int]:
     """Freedoms and inputs of a branch."""
     return sum(place[name].freedoms for name in part.edges), sum(len(place[name].inputs) for name in part.edges)
 
@@ -280,11 +282,11 @@ def _least_coupled(counted: _Counted, limit: int) -> tuple[tuple[int, ...], ...]
 
 def _assur_chains(deltas: Sequence[int]) -> tuple[AssurChain, ...]:
     """The shortest runs of loops from the first whose constraint degrees add up to zero."""
-    found = []
+    chains = []
     first = 0
     for end in range(1, len(deltas) + 1):
         run = deltas[first:end]
         if sum(run) == 0:
-            found.append(AssurChain(tuple(range(first, end)), sum(map(abs, run)) // 2))
+            chains.append(AssurChain(tuple(range(first, end)), sum(map(abs, run)) // 2))
             first = end
-    return tuple(found)
+    return tuple(chains)

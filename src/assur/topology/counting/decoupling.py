@@ -83,7 +83,7 @@ def by_jacobian(edges: Sequence[Edge], base: str, platform: str) -> Decoupling |
     used = np.any(np.abs(matrix) > ZERO * np.max(np.abs(matrix), axis=(1, 2), keepdims=True), axis=0)
     kept = [row for row in range(len(OUTPUTS)) if used[row].any()]
     return Decoupling(
-        tuple(OUTPUTS[row] for row in kept), names, tuple(tuple(bool(item) for item in used[row]) for row in kept)
+        tuple(OUTPUTS[row] for row in kept), names, tuple(tuple(bool(entry) for entry in used[row]) for row in kept)
     )
 
 
@@ -105,10 +105,10 @@ def by_rules(chains: Sequence[Chain], inputs: Sequence[str]) -> Decoupling | Ref
             if not left:
                 return Refusal(f"a limb has no joint left when every input but {name} is locked")
             limbs.append(left if isinstance(left, Refusal) else serial(left, "translation"))
-        found = _meeting(limbs)
-        if isinstance(found, Refusal):
-            return found
-        still = found.translations.complement
+        motion = _meeting(limbs)
+        if isinstance(motion, Refusal):
+            return motion
+        still = motion.translations.complement
         columns.append([not still.contains(axis) for axis in NAMED.values()])
     used = [tuple(row) for row in zip(*columns, strict=True)]
     kept = [index for index, row in enumerate(used) if any(row)]
@@ -116,28 +116,28 @@ def by_rules(chains: Sequence[Chain], inputs: Sequence[str]) -> Decoupling | Ref
 
 
 @dataclass(frozen=True)
-class Judged:
+class JudgedPattern:
     """The pattern, None where the routes differ; `refusal` says why the rules do not confirm it."""
 
     decoupling: Decoupling | None
     refusal: str = ""
 
 
-def judged(rules: Decoupling | Refusal, twists: Decoupling) -> Judged:
+def judged(rules: Decoupling | Refusal, twists: Decoupling) -> JudgedPattern:
     """The pattern of the Jacobian, unless the rules promise a zero where it has none: then neither is chosen.
 
     A pattern with more zeros than the theory promises is due to dimensions.
     """
     if isinstance(rules, Refusal):
-        return Judged(twists, rules.reason)
+        return JudgedPattern(twists, rules.reason)
     for output, row in zip(twists.outputs, twists.depends, strict=True):
         allowed = rules.inputs_of(output) if output in rules.outputs else ()
         for name, used in zip(twists.inputs, row, strict=True):
             if used and name not in allowed:
                 reason = f"the rules say that {output} does not depend on {name}, the twists say that it does"
-                return Judged(None, f"{reason}; one of them is wrong there, and neither is chosen")
+                return JudgedPattern(None, f"{reason}; one of them is wrong there, and neither is chosen")
     same = (rules.outputs, rules.depends) == (twists.outputs, twists.depends)
-    return Judged(twists, "" if same else "the dimensions decouple more than the topology promises")
+    return JudgedPattern(twists, "" if same else "the dimensions decouple more than the topology promises")
 
 
 def _meeting(limbs: Sequence[Motion | Refusal]) -> Motion | Refusal:

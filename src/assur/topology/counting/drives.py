@@ -74,8 +74,10 @@ def _one_each(candidates: Sequence[_Candidate], needed: int, useful: FloatArray)
     for candidate in candidates:
         groups.setdefault(candidate.group, []).append(candidate)
     sets = (some for parts in combinations(groups.values(), needed) for some in product(*parts))
-    tried = sorted(islice(sets, COMBINATIONS), key=lambda some: sum(item.distance for item in some))
-    columns = np.array([[item.column for item in some] for some in tried], dtype=int).reshape(len(tried), needed)
+    tried = sorted(islice(sets, COMBINATIONS), key=lambda some: sum(candidate.distance for candidate in some))
+    columns = np.array([[candidate.column for candidate in some] for some in tried], dtype=int).reshape(
+        len(tried), needed
+    )
     good = np.flatnonzero(spanning(useful, columns))
     return [int(column) for column in columns[good[0]]] if len(good) else []
 
@@ -84,9 +86,11 @@ def _in_turn(candidates: Sequence[_Candidate], needed: int, useful: FloatArray) 
     """Columns that span all motions: of each limb the nearest that adds something, then of each limb the next."""
     before: dict[tuple[int, ...], int] = {}
     turns = []
-    for item in sorted(candidates, key=lambda item: item.distance):
-        turns.append((item.distance >= UNUSUAL, before.setdefault(item.group, 0), item.group, item.column))
-        before[item.group] += 1
+    for candidate in sorted(candidates, key=lambda candidate: candidate.distance):
+        turns.append(
+            (candidate.distance >= UNUSUAL, before.setdefault(candidate.group, 0), candidate.group, candidate.column)
+        )
+        before[candidate.group] += 1
     chosen: list[int] = []
     for *_, column in sorted(turns):
         if rank(useful[:, [*chosen, column]], scale=1.0) > len(chosen):
@@ -102,11 +106,11 @@ def _candidates(edges: Sequence[Edge], chains: Sequence[Chain], columns: Sequenc
     }
     names = [edge.name for edge in edges for _ in range(edge.freedoms)]
     second = [name.endswith(".2") and name not in places for name in column_names(edges)]
-    found = []
+    candidates = []
     for column in columns:
         group, distance = places[names[column]]
-        found.append(_Candidate(column, group, distance + UNUSUAL * second[column]))
-    return sorted(found, key=lambda item: (item.group, item.distance))
+        candidates.append(_Candidate(column, group, distance + UNUSUAL * second[column]))
+    return sorted(candidates, key=lambda candidate: (candidate.group, candidate.distance))
 
 
 def _places(

@@ -19,9 +19,9 @@ def default_inputs(chains: Sequence[Chain]) -> tuple[str, ...]:
 def _first(elements: Sequence[Element]) -> list[str]:
     for element in elements:
         if isinstance(element, InnerLoop):
-            found = [name for branch in element.branches for name in _first(branch)]
-            if found:
-                return found
+            names = [name for branch in element.branches for name in _first(branch)]
+            if names:
+                return names
         elif isinstance(element, ChainJoint) and element.type.axial:
             return [element.name]
     return []
@@ -37,13 +37,13 @@ def numbered_inputs(chains: Sequence[Chain], numbers: Sequence[str]) -> tuple[st
     >>> numbered_inputs(parse_chains(["U[x,y] P[z] S", "{R[x] R[x] | R[x] R[x]} R[y]"]), ["1.2", "2.3"])
     ('P1', 'R3')
     """
-    found: list[str] = []
+    names: list[str] = []
     for number in numbers:
         name = _named(chains, number.strip())
-        if name in found:
+        if name in names:
             raise UsageError(f"--actuate names the joint {number} twice; each once")
-        found.append(name)
-    return tuple(found)
+        names.append(name)
+    return tuple(names)
 
 
 def _named(chains: Sequence[Chain], number: str) -> str:

@@ -77,7 +77,7 @@ class Mobility:
     @property
     def internal_freedoms(self) -> int:
         """How many of F are internal."""
-        return sum(item.count for item in self.internal)
+        return sum(freedom.count for freedom in self.internal)
 
     @property
     def controlled(self) -> int:
@@ -148,8 +148,8 @@ def mobility(edges: Sequence[Edge], base: str, platform: str) -> Mobility:
     (1, 1, 3)
     """
     built = _connected(edges, base, platform)
-    found = motions(edges, base, platform)
-    moving = np.concatenate([found.useful, found.internal], axis=-1)
+    space = motions(edges, base, platform)
+    moving = np.concatenate([space.useful, space.internal], axis=-1)
     still = np.max(np.abs(moving), axis=(0, 2), initial=0.0) < AT_REST
     owner = _owners(edges)
     idle = [edge.name for index, edge in enumerate(edges) if np.all(still[owner == index])]
@@ -162,8 +162,8 @@ def mobility(edges: Sequence[Edge], base: str, platform: str) -> Mobility:
         links=built.number_of_nodes(),
         freedoms=freedoms,
         rank=freedoms - moving.shape[-1],
-        platform=rank(found.platform, scale=1.0),
-        internal=_named(found.internal, edges),
+        platform=rank(space.platform, scale=1.0),
+        internal=_named(space.internal, edges),
         idle=tuple(idle),
         idle_components=tuple(name for name, edge in parts if edge.freedoms == 2 and edge.name not in idle),
     )
@@ -205,9 +205,9 @@ def _named(internal: FloatArray, edges: Sequence[Edge]) -> tuple[InternalFreedom
     _, labels = connected_components(together, directed=False)
     share = np.mean(np.sum(internal**2, axis=-1), axis=0)  # (c,), its sum over a part is the part's dimension
     moving = np.diag(projector) > AT_REST
-    found = []
+    freedoms = []
     for label in dict.fromkeys(labels[moving]):
         part = labels == label
         joints = tuple(edges[index].name for index in dict.fromkeys(owner[part & moving]))
-        found.append(InternalFreedom(joints, round(float(np.sum(share[part])))))
-    return tuple(found)
+        freedoms.append(InternalFreedom(joints, round(float(np.sum(share[part])))))
+    return tuple(freedoms)

@@ -66,7 +66,7 @@ class Relaxation:
     @property
     def left(self) -> int:
         """Redundant constraints that remain after all of `together`."""
-        return self.redundant - sum(item.removed for item in self.together)
+        return self.redundant - sum(replacement.removed for replacement in self.together)
 
 
 def relaxation(edges: Sequence[Edge], base: str, platform: str) -> Relaxation:
@@ -93,15 +93,15 @@ def relaxation(edges: Sequence[Edge], base: str, platform: str) -> Relaxation:
     """
     start = _State(tuple(edges), rank(closure(edges)), motions(edges, base, platform).useful.shape[-1])
     options = [(edge.name, new) for edge in edges for new in _options(edge)]
-    single = [item for item, _ in _tried(start, options, base, platform)]
+    single = [replacement for replacement, _ in _tried(start, options, base, platform)]
     together: list[Replacement] = []
-    now, found = start, single
-    while found:
+    now, useful = start, single
+    while useful:
         # A replacement that is of no use now is of none later: redundancy only shrinks and motions only grow.
-        names = {item.joint for item in together}
-        left = [(item.joint, item.new) for item in found if item.joint not in names]
+        names = {replacement.joint for replacement in together}
+        left = [(replacement.joint, replacement.new) for replacement in useful if replacement.joint not in names]
         tried = list(_tried(now, left, base, platform))
-        found = [item for item, _ in tried]
+        useful = [replacement for replacement, _ in tried]
         if tried:
             chosen, now = min(tried, key=lambda pair: _preference(pair[0]))
             together.append(chosen)
@@ -136,9 +136,9 @@ def _tried(
             )
 
 
-def _preference(item: Replacement) -> tuple[int, int]:
+def _preference(replacement: Replacement) -> tuple[int, int]:
     """Best first: most removed, then fewest internal freedoms."""
-    return -item.removed, item.internal
+    return -replacement.removed, replacement.internal
 
 
 def _slides(edge: Edge) -> bool:

@@ -22,7 +22,7 @@ FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Step:
+class PlanStep:
     """One loop of the plan.
 
     Attributes:
@@ -49,7 +49,7 @@ class AssurPlan:
     `reason` names the special constraints that make it fewer; empty where none does.
     """
 
-    steps: tuple[Step, ...]
+    steps: tuple[PlanStep, ...]
     coupling_degree: int
     search: int
     reason: str = ""
@@ -125,7 +125,7 @@ class _Stage:
 
     def unknowns(self, known: Sequence[SpecialConstraint]) -> int:
         """Freedoms of the loops that special constraints leave."""
-        rows = [item.rows @ self.moves for item in known if self.moves.shape[1]]
+        rows = [constraint.rows @ self.moves for constraint in known if self.moves.shape[1]]
         free = null_basis(np.concatenate([self.equations, *rows], axis=1))
         return rank(free[:, : self.inside], scale=1.0) - self.internal
 
@@ -161,20 +161,20 @@ def _plan(
     chain: AssurChain, loops: Sequence[Loop], stages: Sequence[_Stage], known: Sequence[SpecialConstraint]
 ) -> AssurPlan:
     """The plan of one Assur chain, with no more special constraints than give the least search."""
-    here = [stages[index] for index in chain.loops]
-    used = list(known) if _searched(here, known)[0] < chain.coupling_degree else []
-    least = _searched(here, used)[0]
-    for item in used[::-1]:
-        fewer = [other for other in used if other is not item]
-        if _searched(here, fewer)[0] == least:
+    own_stages = [stages[index] for index in chain.loops]
+    used = list(known) if _searched(own_stages, known)[0] < chain.coupling_degree else []
+    least = _searched(own_stages, used)[0]
+    for constraint in used[::-1]:
+        fewer = [other for other in used if other is not constraint]
+        if _searched(own_stages, fewer)[0] == least:
             used = fewer
-    search, left = _searched(here, used)
+    search, left = _searched(own_stages, used)
     steps = [
-        Step(index, loops[index].edges, delta, max(delta, 0), max(-delta, 0), assumed)
+        PlanStep(index, loops[index].edges, delta, max(delta, 0), max(-delta, 0), assumed)
         for index, assumed in zip(chain.loops, left, strict=True)
         for delta in [loops[index].delta]
     ]
-    return AssurPlan(tuple(steps), chain.coupling_degree, search, " and ".join(item.words for item in used))
+    return AssurPlan(tuple(steps), chain.coupling_degree, search, " and ".join(constraint.words for constraint in used))
 
 
 def _searched(stages: Sequence[_Stage], known: Sequence[SpecialConstraint]) -> tuple[int, list[int]]:
@@ -198,7 +198,7 @@ def _sentences(part: AssurPlan, number: int, of: int) -> list[str]:
     return [*(f"{head}{_said(step, part, number)}" for step in part.steps), f"{head}{_conclusion(part)}"]
 
 
-def _said(step: Step, part: AssurPlan, number: int) -> str:
+def _said(step: PlanStep, part: AssurPlan, number: int) -> str:
     """What one loop is for."""
     if step.virtual:
         does = f"takes {_count(step.virtual, 'virtual variable')}"

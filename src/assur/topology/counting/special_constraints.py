@@ -48,12 +48,14 @@ def special_constraints(edges: Sequence[Edge], base: str, platform: str) -> tupl
     >>> [item.words for item in special_constraints(table, "base", "table")][:2]
     ['the platform does not rotate', "O' stays in a known plane"]
     """
-    found = _blocked(along(edges, base, platform) @ null_basis(closure(edges)))
+    constraints = _blocked(along(edges, base, platform) @ null_basis(closure(edges)))
     for limb in _limbs(edges, base, platform):
         moves = np.delete(along(limb, base, platform), input_columns(limb), axis=-1)
         names = ", ".join(edge.name for edge in limb)
-        found += [SpecialConstraint(item.rows, f"by {names} alone {item.words}") for item in _blocked(moves)]
-    return tuple(found)
+        constraints += [
+            SpecialConstraint(constraint.rows, f"by {names} alone {constraint.words}") for constraint in _blocked(moves)
+        ]
+    return tuple(constraints)
 
 
 def connected(edges: Sequence[Edge], link: str) -> tuple[str, ...]:
@@ -82,7 +84,7 @@ def way_to(goal: str, links: Sequence[str], edges: Sequence[Edge], avoid: str) -
     if not starts:
         return []
     _, way = nx.multi_source_dijkstra(ways, starts, goal)
-    between = [ways[here][there] for here, there in pairwise(way)]
+    between = [ways[near][far] for near, far in pairwise(way)]
     names = {min(some, key=lambda name: some[name]["weight"]) for some in between}
     return [edge for edge in edges if edge.name in names]
 
@@ -92,12 +94,12 @@ def _blocked(moves: FloatArray) -> list[SpecialConstraint]:
     turns, slides = _never(moves[:, :3]), _never(moves[:, 3:])
     turned = {3: "the platform does not rotate", 2: "the platform rotates about one fixed direction only"}
     moved = {3: "O' stays at a known point", 2: "O' stays on a known line", 1: "O' stays in a known plane"}
-    found = []
+    constraints = []
     if len(turns) in turned:
-        found.append(SpecialConstraint(np.hstack([turns, np.zeros_like(turns)]), turned[len(turns)]))
+        constraints.append(SpecialConstraint(np.hstack([turns, np.zeros_like(turns)]), turned[len(turns)]))
     if len(slides) in moved:
-        found.append(SpecialConstraint(np.hstack([np.zeros_like(slides), slides]), moved[len(slides)]))
-    return found
+        constraints.append(SpecialConstraint(np.hstack([np.zeros_like(slides), slides]), moved[len(slides)]))
+    return constraints
 
 
 def _never(directions: FloatArray) -> FloatArray:

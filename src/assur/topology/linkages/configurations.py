@@ -18,7 +18,7 @@ from assur.errors import AssurError
 from assur.numerics.least_squares import minimise
 from assur.topology.linkages.edges import rank
 from assur.topology.linkages.linkage import Group, Linkage
-from assur.topology.linkages.screws import Placed, ScrewTree, screw_tree
+from assur.topology.linkages.screws import PlacedLinks, ScrewTree, screw_tree
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.intp]
@@ -119,14 +119,14 @@ def configurations(linkage: Linkage, count: int = 4, seed: int = 0, hold: Hold |
     columns = len(tree.scales)
     if not system.rows:
         return rng.uniform(-1.0, 1.0, (count, columns)) * np.where(_turning(tree), np.pi, tree.scales)
-    found = np.zeros((0, columns))
+    assemblies = np.zeros((0, columns))
     for attempt in range(TRIES):
         values, moved = _displaced(system, rng.normal(size=(count, columns)), STEP / (attempt + 1))
         if values is None:
             return np.zeros((count, columns))
-        found = np.concatenate([found, values[moved]])
-        if len(found) >= count:
-            return found[:count] * tree.scales
+        assemblies = np.concatenate([assemblies, values[moved]])
+        if len(assemblies) >= count:
+            return assemblies[:count] * tree.scales
     raise ImmobileError(
         f"the loops of the linkage have a freedom at home but do not close {count} times after a finite displacement",
         hint="a joint at a dead centre, or a freedom that is only instantaneous; start from another configuration",
@@ -153,8 +153,8 @@ def scattered(
     system = _System.of(linkage, tree, hold)
     if not system.rows:
         return start * tree.scales
-    found = minimise(system.at, start, tolerance=CLOSED, max_steps=max_steps, max_change=0.5)
-    return np.asarray(found.x[found.converged] * tree.scales)
+    minimum = minimise(system.at, start, tolerance=CLOSED, max_steps=max_steps, max_change=0.5)
+    return np.asarray(minimum.x[minimum.converged] * tree.scales)
 
 
 def walked(
@@ -351,7 +351,7 @@ class _System:
         jacobians = [jacobian.reshape(count, -1, columns) for _, jacobian in parts]
         return np.concatenate(residuals, axis=1), np.concatenate(jacobians, axis=1)
 
-    def _skewed(self, placed: Placed) -> tuple[FloatArray, FloatArray]:
+    def _skewed(self, placed: PlacedLinks) -> tuple[FloatArray, FloatArray]:
         """By how much short links of parallelograms differ in direction, (k, p, 3), and the Jacobian (k, p, 3, n)."""
         far, near = (
             np.einsum("kpij,pj->kpi", placed.frames[:, self.held[:, end], :3, :3], self.sides) for end in (0, 1)

@@ -107,9 +107,9 @@ def along(edges: Sequence[Edge], start: str, end: str) -> FloatArray:
     links = nx.shortest_path(built, start, end)
     place = {edge.name: edge for edge in edges}
     senses = {}
-    for here, there in pairwise(links):
-        name = min(built[here][there], key=list(place).index)
-        senses[name] = 1 if place[name].parent == here else -1
+    for near, far in pairwise(links):
+        name = min(built[near][far], key=list(place).index)
+        senses[name] = 1 if place[name].parent == near else -1
     columns = [senses.get(edge.name, 0) * edge.twists for edge in edges]
     return np.concatenate(columns, axis=-1)
 

@@ -14,29 +14,29 @@ from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop
 
 
 @dataclass(frozen=True)
-class Path:
+class LinkagePath:
     """Elements from one link to another, in order."""
 
     start: str
     end: str
     elements: tuple[Element, ...]
 
-    def reversed(self) -> Path:
+    def reversed(self) -> LinkagePath:
         """The same path from its other end."""
-        return Path(self.end, self.start, tuple(_turned(item) for item in reversed(self.elements)))
+        return LinkagePath(self.end, self.start, tuple(_turned(element) for element in reversed(self.elements)))
 
 
 def _turned(element: Element) -> Element:
     """An element passed through from its other side."""
     if isinstance(element, InnerLoop):
-        turned = tuple(tuple(_turned(item) for item in reversed(branch)) for branch in element.branches)
+        turned = tuple(tuple(_turned(inner) for inner in reversed(branch)) for branch in element.branches)
         return InnerLoop(turned, element.name)
     if isinstance(element, ChainJoint):
         return ChainJoint(element.type, element.axes[::-1], element.point, element.name, element.general)
     return element
 
 
-def limbs(paths: Iterable[Path], base: str, platform: str) -> tuple[Chain, ...] | None:
+def limbs(paths: Iterable[LinkagePath], base: str, platform: str) -> tuple[Chain, ...] | None:
     """Chains from base to platform, in the order of the first path of each; None where the graph does not reduce.
 
     Links that carry nothing (an arm with a free end) are dropped.
@@ -44,7 +44,7 @@ def limbs(paths: Iterable[Path], base: str, platform: str) -> tuple[Chain, ...] 
     >>> from assur.topology.chains import ChainJoint
     >>> from assur.joints.revolute import REVOLUTE
     >>> joint = lambda name: (ChainJoint(REVOLUTE, ((0.0, 0.0, 1.0),), name=name),)
-    >>> crank, rod = Path("base", "crank", joint("A")), Path("crank", "rod", joint("B"))
+    >>> crank, rod = LinkagePath("base", "crank", joint("A")), LinkagePath("crank", "rod", joint("B"))
     >>> [chain.joints[1].name for chain in limbs([crank, rod], "base", "rod")]
     ['B']
     """
@@ -56,13 +56,13 @@ def limbs(paths: Iterable[Path], base: str, platform: str) -> tuple[Chain, ...] 
         if reduced is None:
             break
         left = reduced
-    found = [item if item.start == base else item.reversed() for item in left]
-    if any((item.start, item.end) != (base, platform) for item in found):
+    oriented = [path if path.start == base else path.reversed() for path in left]
+    if any((path.start, path.end) != (base, platform) for path in oriented):
         return None
-    return tuple(Chain(item.elements) for item in found)
+    return tuple(Chain(path.elements) for path in oriented)
 
 
-def _series(paths: list[Path], ends: set[str]) -> list[Path] | None:
+def _series(paths: list[LinkagePath], ends: set[str]) -> list[LinkagePath] | None:
     """Two paths joined at a link that only they touch, or an end that hangs free dropped."""
     touching: dict[str, list[int]] = {}
     for index, path in enumerate(paths):
@@ -76,12 +76,12 @@ def _series(paths: list[Path], ends: set[str]) -> list[Path] | None:
         first, second = (paths[index] for index in indices)
         first = first if first.end == link else first.reversed()
         second = second if second.start == link else second.reversed()
-        joined = Path(first.start, second.end, (*first.elements, *second.elements))
+        joined = LinkagePath(first.start, second.end, (*first.elements, *second.elements))
         return [joined if i == indices[0] else path for i, path in enumerate(paths) if i != indices[1]]
     return None
 
 
-def _parallel(paths: list[Path], ends: set[str]) -> list[Path] | None:
+def _parallel(paths: list[LinkagePath], ends: set[str]) -> list[LinkagePath] | None:
     """The paths between one pair of links, not base and platform, made one path through an inner loop."""
     between: dict[frozenset[str], list[int]] = {}
     for index, path in enumerate(paths):
@@ -92,6 +92,6 @@ def _parallel(paths: list[Path], ends: set[str]) -> list[Path] | None:
         first = paths[indices[0]]
         branches = [paths[i] if paths[i].start == first.start else paths[i].reversed() for i in indices]
         loop = InnerLoop(tuple(branch.elements for branch in branches))
-        merged = Path(first.start, first.end, (loop,))
+        merged = LinkagePath(first.start, first.end, (loop,))
         return [merged if i == indices[0] else path for i, path in enumerate(paths) if i not in indices[1:]]
     return None

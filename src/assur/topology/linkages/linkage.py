@@ -81,7 +81,7 @@ class Linkage:
     @property
     def links(self) -> tuple[str, ...]:
         """Names of the links, in the order in which joints name them."""
-        return tuple(dict.fromkeys(link for item in self.joints.values() for link in (item.parent, item.child)))
+        return tuple(dict.fromkeys(link for joint in self.joints.values() for link in (joint.parent, joint.child)))
 
     @property
     def slices(self) -> dict[str, slice]:
@@ -116,5 +116,5 @@ def part(linkage: Linkage, names: Collection[str], platform: str, point: FloatAr
         platform=platform,
         point=linkage.point if point is None else point,
         groups={name: group for name, group in linkage.groups.items() if set(group.joints) <= set(joints)},
-        inputs=tuple(item for item in linkage.inputs if item[0] in joints),
+        inputs=tuple(actuated for actuated in linkage.inputs if actuated[0] in joints),
     )

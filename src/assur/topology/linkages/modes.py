@@ -109,11 +109,11 @@ def operation_modes(
         unclear: UnclearRankError | ImmobileError | None = error
     else:
         unclear = None
-    found: list[OperationMode] = []
+    modes: list[OperationMode] = []
     for number in range(ROUNDS):
-        if not any(mode.real for mode in found):
-            found = _met(linkage, WALKS, seed + number, hold, count, found)
-    ordered = sorted(found, key=lambda mode: (not mode.real, -mode.freedoms, -mode.met, mode.poc))
+        if not any(mode.real for mode in modes):
+            modes = _met(linkage, WALKS, seed + number, hold, count, modes)
+    ordered = sorted(modes, key=lambda mode: (not mode.real, -mode.freedoms, -mode.met, mode.poc))
     if not ordered:
         if isinstance(unclear, UnclearRankError):
             raise unclear
@@ -129,17 +129,21 @@ def _met(
 ) -> list[OperationMode]:
     """The modes of configurations at the ends of walks from home, beside those that are known."""
     ends = walked(linkage, np.zeros((walks, _columns(linkage))), seed, hold)
-    found = list(before)
+    modes = list(before)
     for value, lasts in zip(ends, lasting(linkage, ends, seed, hold), strict=True):
-        here = _regular(linkage, value) if lasts else None
-        same = (mode for mode in found if (_are_one(linkage, mode, here) if here else not mode.real))
+        mode_at_end = _regular(linkage, value) if lasts else None
+        same = (mode for mode in modes if (_are_one(linkage, mode, mode_at_end) if mode_at_end else not mode.real))
         known = next(same, None)
         if known is not None:
-            found[found.index(known)] = replace(known, met=known.met + 1)
-        elif len(found) < MOST:
-            new = _around(linkage, value, seed, hold, count, here) if here else _shaky_mode(linkage, value, seed, hold)
-            found += [new] if new else []
-    return found
+            modes[modes.index(known)] = replace(known, met=known.met + 1)
+        elif len(modes) < MOST:
+            new = (
+                _around(linkage, value, seed, hold, count, mode_at_end)
+                if mode_at_end
+                else _shaky_mode(linkage, value, seed, hold)
+            )
+            modes += [new] if new else []
+    return modes
 
 
 def _regular(linkage: Linkage, value: FloatArray) -> OperationMode | None:
@@ -154,7 +158,7 @@ def _shaky_mode(linkage: Linkage, value: FloatArray, seed: int, hold: Hold | Non
     """The finite motion at a singular configuration (n,), None where walks from it meet a regular one."""
     ends = walked(linkage, np.repeat(value[None], AROUND, axis=0), seed, hold)
     lasts = lasting(linkage, ends, seed, hold)
-    if any(item and _regular(linkage, end) for end, item in zip(ends, lasts, strict=True)):
+    if any(regular and _regular(linkage, end) for end, regular in zip(ends, lasts, strict=True)):
         return None
     return _finite_motion(linkage, value, hold)
 
@@ -173,7 +177,7 @@ def _roughly(matrix: FloatArray) -> int:
 
 
 def _around(
-    linkage: Linkage, value: FloatArray, seed: int, hold: Hold | None, count: int, here: OperationMode
+    linkage: Linkage, value: FloatArray, seed: int, hold: Hold | None, count: int, mode: OperationMode
 ) -> OperationMode | None:
     """A mode with more configurations, walked to from one of them; None where there are not enough of its kind.
 
@@ -181,16 +185,16 @@ def _around(
     of the one have in common, the ends of walks must have too.
     """
     neighbours = walked(linkage, np.repeat(value[None], AROUND, axis=0), seed, hold, CLOSE)
-    near = replace(here, values=np.concatenate([value[None], neighbours]))
+    near = replace(mode, values=np.concatenate([value[None], neighbours]))
     ends = walked(linkage, np.repeat(value[None], 4 * count, axis=0), seed, hold)
     kept = []
     for end in ends:
-        there = _regular(linkage, end)
-        if there and _are_one(linkage, near, there):
+        mode_at_end = _regular(linkage, end)
+        if mode_at_end and _are_one(linkage, near, mode_at_end):
             kept.append(end)
     if len(kept) < count:
         return None
-    return replace(here, values=np.stack(kept[:count]))
+    return replace(mode, values=np.stack(kept[:count]))
 
 
 def _mode(linkage: Linkage, values: FloatArray) -> OperationMode:
@@ -210,16 +214,16 @@ def _moving(linkage: Linkage, values: FloatArray) -> tuple[bool, ...]:
             "configurations disagree on which joints move",
             hint="home may lie where operation modes meet; start from a configuration inside one of them",
         )
-    return tuple(bool(item) for item in moving[0])
+    return tuple(bool(moves) for moves in moving[0])
 
 
-def _are_one(linkage: Linkage, mode: OperationMode, here: OperationMode) -> bool:
+def _are_one(linkage: Linkage, mode: OperationMode, other: OperationMode) -> bool:
     """Whether a configuration has the numbers and the fixed directions of a mode."""
-    if any(getattr(mode, key) != getattr(here, key) for key in ("freedoms", "poc", "real", "moving")):
+    if any(getattr(mode, key) != getattr(other, key) for key in ("freedoms", "poc", "real", "moving")):
         return False
     before, after = (
         [len(rows) for rows in fixed_directions(motion_space(edges(linkage, values), linkage.base, linkage.platform))]
-        for values in (mode.values, np.concatenate([mode.values, here.values]))
+        for values in (mode.values, np.concatenate([mode.values, other.values]))
     )
     return before == after
 

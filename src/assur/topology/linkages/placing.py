@@ -99,8 +99,8 @@ class _Building:
         tip = None
         for index, element in enumerate(elements):
             following = end if index == len(elements) - 1 else self._new_link()
-            here = self._element(element, start, following)
-            tip = tip if here is None else here
+            point = self._element(element, start, following)
+            tip = tip if point is None else point
             start = following
         return tip
 
@@ -173,9 +173,9 @@ def _screws(joint_type: JointType, axes: FloatArray, point: FloatArray, pitch: f
 
 def _names(chains: Sequence[Chain]) -> list[str]:
     """Names of all joints in order: their own if these are unique, else by limb and place."""
-    own = [joint.name for chain in chains for joint in chain.joints]
-    if all(own) and max(Counter(own).values(), default=1) == 1:
-        return own
+    declared = [joint.name for chain in chains for joint in chain.joints]
+    if all(declared) and max(Counter(declared).values(), default=1) == 1:
+        return declared
     return [
         f"{_letter(joint)}{index}" if len(chains) == 1 else f"{_letter(joint)}{number}.{index}"
         for number, chain in enumerate(chains, 1)

@@ -10,7 +10,7 @@ from typing import cast
 
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram, ParallelogramKind
 from assur.topology.directions import unit
-from assur.topology.linkages.limbs import Path, limbs
+from assur.topology.linkages.limbs import LinkagePath, limbs
 from assur.topology.linkages.linkage import Group, Linkage, LinkageJoint
 from assur.topology.linkages.shared_points import Line, line_of, meet, pivoted, size_of, with_shared_points
 
@@ -25,18 +25,20 @@ def recognised(linkage: Linkage) -> tuple[Chain, ...] | None:
     """
     inside = {name for group in linkage.groups.values() for name in group.joints}
     paths = [
-        Path(joint.parent, joint.child, (_joint(joint),))
+        LinkagePath(joint.parent, joint.child, (_joint(joint),))
         for name, joint in linkage.joints.items()
         if name not in inside
     ]
-    paths += [Path(group.parent, group.child, (_parallelogram(group, linkage),)) for group in linkage.groups.values()]
-    found = limbs(paths, linkage.base, linkage.platform)
-    if found is None:
+    paths += [
+        LinkagePath(group.parent, group.child, (_parallelogram(group, linkage),)) for group in linkage.groups.values()
+    ]
+    paths_of_limbs = limbs(paths, linkage.base, linkage.platform)
+    if paths_of_limbs is None:
         return None
     lines = {name: line_of(joint) for name, joint in linkage.joints.items()}
     size = size_of(linkage)
     labels = (f"M{number}" for number in count(1))
-    marked = [Chain(_marked(chain.elements, lines, labels, size)) for chain in found]
+    marked = [Chain(_marked(chain.elements, lines, labels, size)) for chain in paths_of_limbs]
     return with_shared_points(marked, lines, labels, size, linkage.point)
 
 
@@ -65,7 +67,7 @@ def _marked(
     run: list[ChainJoint] = []
     for element in elements:
         if isinstance(element, ChainJoint) and pivoted(element.type):
-            if not meet([lines[item.name] for item in (*run, element) if pivoted(item.type)], size):
+            if not meet([lines[joint.name] for joint in (*run, element) if pivoted(joint.type)], size):
                 marked += _labelled(run, labels)
                 run = []
             run.append(element)
@@ -90,7 +92,7 @@ def _called(branches: tuple[tuple[Element, ...], ...]) -> str:
 
 def _labelled(run: list[ChainJoint], labels: Iterator[str]) -> list[ChainJoint]:
     """The joints of a run, its axes with one label if there are several; slides among them have none."""
-    if sum(pivoted(item.type) for item in run) < 2:
+    if sum(pivoted(joint.type) for joint in run) < 2:
         return run
     label = next(labels)
-    return [dataclasses.replace(item, point=label) if pivoted(item.type) else item for item in run]
+    return [dataclasses.replace(joint, point=label) if pivoted(joint.type) else joint for joint in run]

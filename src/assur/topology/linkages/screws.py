@@ -51,7 +51,7 @@ class ScrewTree:
     loops: IndexArray
     paths: FloatArray
 
-    def at(self, values: FloatArray) -> Placed:
+    def at(self, values: FloatArray) -> PlacedLinks:
         """Frames and twists at values (N, n) in rad and lengths of the linkage."""
         sizes = np.stack([values, 1.0 - np.cos(values), values - np.sin(values)], axis=-1)  # (N, n, 3)
         # exp(q A) = 1 + q A + (1 - cos q) A^2 + (q - sin q) A^3, for unit rotations, translations and helices alike
@@ -65,23 +65,23 @@ class ScrewTree:
         turned = rotation @ self.screws.reshape(-1, 2, 3).swapaxes(-1, -2)  # (N, n, 3, 2)
         omega = turned[..., 0]
         twists = np.concatenate([omega, turned[..., 1] + _cross(origin, omega)], axis=-1).swapaxes(-1, -2)
-        return Placed(frames, twists)
+        return PlacedLinks(frames, twists)
 
-    def misfit(self, placed: Placed, first: IndexArray, second: IndexArray) -> tuple[FloatArray, FloatArray]:
+    def misfit(self, placed: PlacedLinks, first: IndexArray, second: IndexArray) -> tuple[FloatArray, FloatArray]:
         """Rotation vector and gap (N, v, 6) from frames `second` to frames `first`, and the Jacobian (N, v, 6, n)."""
-        one, two = placed.frames[:, first], placed.frames[:, second]
-        between = one[..., :3, :3] @ two[..., :3, :3].swapaxes(-1, -2)
+        near, far = placed.frames[:, first], placed.frames[:, second]
+        between = near[..., :3, :3] @ far[..., :3, :3].swapaxes(-1, -2)
         vector = to_vector(between)
-        residual = np.concatenate([vector, one[..., :3, 3] - two[..., :3, 3]], axis=-1)
+        residual = np.concatenate([vector, near[..., :3, 3] - far[..., :3, 3]], axis=-1)
         twist = placed.twists[:, None]
         one_twist, two_twist = twist * self.paths[first][:, None], twist * self.paths[second][:, None]
         spin = _inverse_left(vector) @ (one_twist[..., :3, :] - between @ two_twist[..., :3, :])
-        gap = _velocity(one_twist, one[..., :3, 3]) - _velocity(two_twist, two[..., :3, 3])
+        gap = _velocity(one_twist, near[..., :3, 3]) - _velocity(two_twist, far[..., :3, 3])
         return residual, np.concatenate([spin, gap], axis=-2)
 
 
 @dataclass(frozen=True, eq=False)
-class Placed:
+class PlacedLinks:
     """Frames (N, n + 1, 4, 4) and joint twists (N, 6, n), v at the origin, of a screw tree."""
 
     frames: FloatArray
@@ -106,14 +106,14 @@ def poses(linkage: Linkage, values: FloatArray) -> dict[str, tuple[FloatArray, F
     """
     tree = screw_tree(linkage)
     placed = tree.at(_checked(linkage, values) / tree.scales)
-    found = {}
+    poses_of_links = {}
     for link, frame in tree.frames.items():
         rotation = placed.frames[:, frame, :3, :3]
-        found[link] = (
+        poses_of_links[link] = (
             rotation,
             linkage.point - rotation @ linkage.point + linkage.length * placed.frames[:, frame, :3, 3],
         )
-    return found
+    return poses_of_links
 
 
 def joint_twists(linkage: Linkage, values: FloatArray) -> FloatArray:

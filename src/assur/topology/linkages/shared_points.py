@@ -53,9 +53,9 @@ def meet(lines: Sequence[Line], size: float) -> bool:
     >>> meet([(origin, x), (4 * y, y)], 4.0), meet([(origin, x), (np.array([0.0, 0.0, 1e-3]), y)], 4.0)
     (True, False)
     """
-    rows, wanted = _equations(lines)
-    found = np.linalg.lstsq(rows, wanted, rcond=None)[0]
-    return bool(np.max(np.abs(rows @ found - wanted)) < MEETING * size)
+    rows, offsets = _equations(lines)
+    point = np.linalg.lstsq(rows, offsets, rcond=None)[0]
+    return bool(np.max(np.abs(rows @ point - offsets)) < MEETING * size)
 
 
 def common_place(lines: Sequence[Line]) -> Line:
@@ -66,8 +66,8 @@ def common_place(lines: Sequence[Line]) -> Line:
     >>> bool(np.allclose(point, x)), bool(direction.any())
     (True, False)
     """
-    rows, wanted = _equations(lines)
-    point, _, rank, _ = np.linalg.lstsq(rows, wanted, rcond=1e-6)
+    rows, offsets = _equations(lines)
+    point, _, rank, _ = np.linalg.lstsq(rows, offsets, rcond=1e-6)
     return np.asarray(point), np.zeros(3) if int(rank) == 3 else lines[0][1]
 
 
@@ -152,20 +152,20 @@ class _Naming:
     def one_end(self, runs: Sequence[_Run]) -> None:
         """One label for one place at this end: first the points, then the lines through a point or on one line."""
         known: list[tuple[str, _Run]] = []
-        for run in sorted(runs, key=lambda item: item.is_line):
-            own = self.called[run.names[0]]
+        for run in sorted(runs, key=lambda run: run.is_line):
+            label_before = self.called[run.names[0]]
             same = next((label for label, other in known if self._one_place(run, other)), "")
-            if same and same != own:
-                self._rename(run, own, same)
+            if same and same != label_before:
+                self._rename(run, label_before, same)
             label = self.called[run.names[0]] or next(self.labels)
             self.called.update(dict.fromkeys(run.names, label))
             known.append((label, run))
 
-    def _rename(self, run: _Run, own: str, label: str) -> None:
+    def _rename(self, run: _Run, before: str, label: str) -> None:
         """A point that is another one is so wherever it is named; a line may run through several points."""
         if not run.is_line:
-            self.called.update({name: label for name, other in self.called.items() if own and other == own})
-        elif own and sum(other == own for other in self.called.values()) > len(run.names):
+            self.called.update({name: label for name, other in self.called.items() if before and other == before})
+        elif before and sum(other == before for other in self.called.values()) > len(run.names):
             return
         self.called.update(dict.fromkeys(run.names, label))
 
@@ -185,8 +185,8 @@ def _off(point: FloatArray, place: Line) -> float:
 def _equations(lines: Sequence[Line]) -> tuple[FloatArray, FloatArray]:
     """The linear equations of a point on all lines."""
     planes = [np.eye(3) - np.outer(axis, axis) for _, axis in lines]
-    wanted = [plane @ point for plane, (point, _) in zip(planes, lines, strict=True)]
-    return np.vstack(planes), np.concatenate(wanted)
+    offsets = [plane @ point for plane, (point, _) in zip(planes, lines, strict=True)]
+    return np.vstack(planes), np.concatenate(offsets)
 
 
 def _end_run(chain: Chain, end: int) -> tuple[str, ...]:
@@ -211,7 +211,9 @@ def _end_run(chain: Chain, end: int) -> tuple[str, ...]:
 def _slides_along(ordered: Sequence[Element]) -> bool:
     """Whether a limb begins with a slide along the axis behind it, which stays where it is as a line."""
     slide = ordered[0]
-    behind = next((item for item in ordered if not (isinstance(item, ChainJoint) and not item.type.turning)), slide)
+    behind = next(
+        (element for element in ordered if not (isinstance(element, ChainJoint) and not element.type.turning)), slide
+    )
     if not (isinstance(slide, ChainJoint) and not slide.type.turning and isinstance(behind, ChainJoint)):
         return False
     return pivoted(behind.type) and behind.type.turns == 1 and aligned(slide.axes[0], behind.axes[0])
@@ -222,13 +224,13 @@ def _label(joint: Element) -> str:
 
 
 def _renamed(elements: Sequence[Element], labels: Mapping[str, str]) -> tuple[Element, ...]:
-    found: list[Element] = []
+    renamed: list[Element] = []
     for element in elements:
         if isinstance(element, InnerLoop):
             branches = tuple(_renamed(branch, labels) for branch in element.branches)
-            found.append(dataclasses.replace(element, branches=branches))
+            renamed.append(dataclasses.replace(element, branches=branches))
         elif isinstance(element, ChainJoint):
-            found.append(dataclasses.replace(element, point=labels[element.name]))
+            renamed.append(dataclasses.replace(element, point=labels[element.name]))
         else:
-            found.append(element)
-    return tuple(found)
+            renamed.append(element)
+    return tuple(renamed)

@@ -103,9 +103,9 @@ def edges(linkage: Linkage, values: FloatArray, collapsed: bool = True) -> tuple
     """
     tree = screw_tree(linkage)
     placed = tree.at(values / tree.scales)
-    here = placed.frames[:, tree.frames[linkage.platform], :3, 3]  # O' of each configuration
+    points = placed.frames[:, tree.frames[linkage.platform], :3, 3]  # O' of each configuration
     omega = placed.twists[:, :3]
-    moved = placed.twists[:, 3:] + np.cross(omega, here[..., None], axis=1)
+    moved = placed.twists[:, 3:] + np.cross(omega, points[..., None], axis=1)
     twists = np.concatenate([omega, moved], axis=1)
     inputs: dict[str, tuple[int, ...]] = {}
     for name, component in linkage.inputs:
@@ -118,14 +118,14 @@ def edges(linkage: Linkage, values: FloatArray, collapsed: bool = True) -> tuple
     if not collapsed:
         return tuple(every.values())
     owner = {name: group for group in linkage.groups.values() for name in group.joints}
-    found: dict[str, Edge] = {}
+    joined: dict[str, Edge] = {}
     for name, edge in every.items():
         group = owner.get(name)
         if group is None:
-            found[name] = edge
-        elif group.name not in found:
-            found[group.name] = _generalised(group, [every[inner] for inner in group.joints])
-    return tuple(found.values())
+            joined[name] = edge
+        elif group.name not in joined:
+            joined[group.name] = _generalised(group, [every[inner] for inner in group.joints])
+    return tuple(joined.values())
 
 
 def _generalised(group: Group, inner: Sequence[Edge]) -> Edge:

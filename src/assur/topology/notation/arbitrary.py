@@ -83,8 +83,8 @@ def _perpendicular(normals: Sequence[Vector]) -> FloatArray:
 def _planes(directions: Sequence[Vector]) -> FloatArray:
     """Unit normals (n, 3) of the planes of any two directions."""
     rows = np.array(directions, dtype=float).reshape(-1, 3)
-    one, other = np.triu_indices(len(rows), 1)
-    normals = np.cross(rows[one], rows[other])
+    first, second = np.triu_indices(len(rows), 1)
+    normals = np.cross(rows[first], rows[second])
     lengths = np.linalg.norm(normals, axis=1)
     planes: FloatArray = normals[lengths > EXACT] / lengths[lengths > EXACT, None]
     return planes

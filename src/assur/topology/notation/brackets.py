@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from assur.topology.directions import DUST, NAMED, Vector, unit
 from assur.topology.notation.errors import Source
-from assur.topology.notation.syntax import Placed
+from assur.topology.notation.syntax import WrittenDirection
 
 _NAME = re.compile(r"([+-]?)\s*([xyzXYZ])")
 _NUMBER = re.compile(r"([+-]?)\s*((?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)", re.ASCII)
@@ -20,7 +20,7 @@ _UNIT = 4e-15
 _HUGE = 1e100
 
 
-def read_directions(source: Source, text: str, start: int, end: int) -> tuple[Placed, ...]:
+def read_directions(source: Source, text: str, start: int, end: int) -> tuple[WrittenDirection, ...]:
     """The directions written in text[start:end], what stands between a pair of brackets.
 
     Numbers are normalised; a vector whose length is one to its last digits stays as it is.
@@ -28,24 +28,24 @@ def read_directions(source: Source, text: str, start: int, end: int) -> tuple[Pl
     Errors:
         NotationError: neither a name nor three numbers; the zero vector; a number that no float holds.
     """
-    found: list[Placed] = []
+    directions: list[WrittenDirection] = []
     numbers: list[tuple[float, int]] = []
     for piece, at in _pieces(text, start, end):
         name, number = _NAME.fullmatch(piece), _NUMBER.fullmatch(piece)
         if name and not numbers:
-            found.append(_named(name, at))
+            directions.append(_named(name, at))
         elif number:
             numbers.append((_value(source, number, at), at))
         else:
             shown = f"'{piece}'" if piece else "nothing"
             raise source.error(at, shown, "a number" if numbers else _EXPECTED, _HINT)
         if len(numbers) == 3:
-            found.append(_vector(source, numbers, text[numbers[0][1] : at + len(piece)]))
+            directions.append(_vector(source, numbers, text[numbers[0][1] : at + len(piece)]))
             numbers = []
     if numbers:
         count = len(numbers)
         raise source.error(numbers[0][1], "one number" if count == 1 else f"{count} numbers", "three", _HINT)
-    return tuple(found)
+    return tuple(directions)
 
 
 def direction(numbers: tuple[float, float, float]) -> Vector:
@@ -87,8 +87,8 @@ def _pieces(text: str, start: int, end: int) -> Iterator[tuple[str, int]]:
         yield match.group(1).rstrip(), start + match.start(1)
 
 
-def _named(match: re.Match[str], at: int) -> Placed:
-    return Placed(_signed(match.group(1), NAMED[match.group(2).lower()]), match.group(), at)
+def _named(match: re.Match[str], at: int) -> WrittenDirection:
+    return WrittenDirection(_signed(match.group(1), NAMED[match.group(2).lower()]), match.group(), at)
 
 
 def _value(source: Source, match: re.Match[str], at: int) -> float:
@@ -98,12 +98,12 @@ def _value(source: Source, match: re.Match[str], at: int) -> float:
     return value
 
 
-def _vector(source: Source, numbers: list[tuple[float, int]], shown: str) -> Placed:
+def _vector(source: Source, numbers: list[tuple[float, int]], shown: str) -> WrittenDirection:
     x, y, z = (number for number, _ in numbers)
     at = numbers[0][1]
     if not (x or y or z):
         raise source.error(at, "the zero vector", "a direction", "one of the three numbers is not zero: [0,0,1]")
-    return Placed(direction((x, y, z)), shown, at)
+    return WrittenDirection(direction((x, y, z)), shown, at)
 
 
 def _signed(sign: str, vector: Vector) -> Vector:

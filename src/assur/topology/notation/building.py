@@ -8,7 +8,7 @@ from assur.joints.catalogue import BY_LETTER
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.directions import Vector
 from assur.topology.notation.groups import Groups
-from assur.topology.notation.names import Names
+from assur.topology.notation.names import JointNames
 from assur.topology.notation.sketch import ElementSketch, JointSketch, Sketch
 
 
@@ -18,48 +18,50 @@ def build(sketches: Sequence[Sketch], vectors: Sequence[Sequence[Vector]]) -> tu
     Errors:
         NotationError: two labels for one point.
     """
-    names = Names([sketch.names for sketch in sketches])
+    names = JointNames([sketch.names for sketch in sketches])
     labels = _fresh_labels({label for sketch in sketches for label in sketch.labels.values()})
     chains = []
     for sketch, axes in zip(sketches, vectors, strict=True):
         points = _points(sketch, labels)
-        elements = tuple(_element(sketch, item, axes, points, names) for item in sketch.elements)
+        elements = tuple(_element(sketch, element, axes, points, names) for element in sketch.elements)
         chains.append(Chain(elements, sketch.source.text))
     return tuple(chains)
 
 
 def _element(
-    sketch: Sketch, item: ElementSketch, axes: Sequence[Vector], points: dict[int, str], names: Names
+    sketch: Sketch, element: ElementSketch, axes: Sequence[Vector], points: dict[int, str], names: JointNames
 ) -> Element:
-    if isinstance(item, JointSketch):
-        return _joint(sketch, item, axes, points, names)
-    branches = tuple(tuple(_element(sketch, part, axes, points, names) for part in branch) for branch in item.branches)
+    if isinstance(element, JointSketch):
+        return _joint(sketch, element, axes, points, names)
+    branches = tuple(
+        tuple(_element(sketch, part, axes, points, names) for part in branch) for branch in element.branches
+    )
     loop = InnerLoop(branches)
-    return InnerLoop(branches, names.of_loop(item.name, loop))
+    return InnerLoop(branches, names.of_loop(element.name, loop))
 
 
 def _joint(
-    sketch: Sketch, item: JointSketch, axes: Sequence[Vector], points: dict[int, str], names: Names
+    sketch: Sketch, drawn: JointSketch, axes: Sequence[Vector], points: dict[int, str], names: JointNames
 ) -> ChainJoint | Parallelogram:
-    joint = item.joint
-    own = tuple(axes[slot] for slot in item.slots)
-    general = bool(own) and not any(sketch.slots[slot].placed or sketch.slots[slot].tied for slot in item.slots)
+    joint = drawn.joint
+    directions = tuple(axes[slot] for slot in drawn.slots)
+    general = bool(directions) and not any(sketch.slots[slot].placed or sketch.slots[slot].tied for slot in drawn.slots)
     if joint.kind:
-        return Parallelogram(joint.kind, own[0], names.of_joint("Pa", joint.name), general)
+        return Parallelogram(joint.kind, directions[0], names.of_joint("Pa", joint.name), general)
     name = names.of_joint(joint.letter, joint.name)
-    return ChainJoint(BY_LETTER[joint.letter], own, points.get(joint.at, ""), name, general)
+    return ChainJoint(BY_LETTER[joint.letter], directions, points.get(joint.at, ""), name, general)
 
 
 def _points(sketch: Sketch, fresh: Iterator[str]) -> dict[int, str]:
     """Label of every joint (by its place in the text) that shares a point or has a label."""
-    places = sorted({*sketch.labels, *(at for one, other, _ in sketch.meetings for at in (one, other))})
+    places = sorted({*sketch.labels, *(at for first, second, _ in sketch.meetings for at in (first, second))})
     groups = Groups(len(places))
     known = {places.index(at): (label, at) for at, label in sketch.labels.items()}
-    for one, other, at in sketch.meetings:
-        first, second = groups.of(places.index(one)), groups.of(places.index(other))
+    for near, far, at in sketch.meetings:
+        first, second = groups.of(places.index(near)), groups.of(places.index(far))
         if first in known and second in known and known[first][0] != known[second][0]:
-            found = f"a contradiction: one point with the labels {known[first][0]} and {known[second][0]}"
-            raise sketch.source.error(at, found, "one label for a point", "an axis runs through one labelled point")
+            offending = f"a contradiction: one point with the labels {known[first][0]} and {known[second][0]}"
+            raise sketch.source.error(at, offending, "one label for a point", "an axis runs through one labelled point")
         groups.join(first, second)
         if first in known or second in known:
             known[groups.of(first)] = known.get(first) or known[second]

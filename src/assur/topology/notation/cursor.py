@@ -62,9 +62,9 @@ class Cursor:
         self.skip()
         return self.at >= len(self.text)
 
-    def error(self, at: int, found: str, expected: str, hint: str = "") -> NotationError:
+    def error(self, at: int, offending: str, expected: str, hint: str = "") -> NotationError:
         """What to raise about a place."""
-        return self.source.error(at, found, expected, hint)
+        return self.source.error(at, offending, expected, hint)
 
     def unexpected(self, expected: str, hint: str = "") -> NotationError:
         """What to raise about the character here."""

@@ -7,14 +7,14 @@ from typing import Literal
 
 from assur.topology.notation.signs import WRITTEN
 from assur.topology.notation.sketch import ConditionKind, Sketch
-from assur.topology.notation.syntax import Joint, Sign
+from assur.topology.notation.syntax import WrittenJoint, WrittenSign
 
 _MARKS = WRITTEN["unicode"]
 _PLACE = "write - there, and place the axes: R[x]-P(4R)[y], y being the direction of its hinges"
 
 
 @dataclass(frozen=True)
-class End:
+class SketchEnd:
     """One side of an element.
 
     Attributes:
@@ -26,10 +26,10 @@ class End:
     kind: Literal["axis", "plane", "centre", "nothing"]
     what: str
     slot: int = -1
-    joint: Joint | None = None
+    joint: WrittenJoint | None = None
 
 
-def relate(sketch: Sketch, left: End, right: End, sign: Sign) -> None:
+def relate(sketch: Sketch, left: SketchEnd, right: SketchEnd, sign: WrittenSign) -> None:
     """Put what a sign says into the sketch.
 
     Errors:
@@ -46,7 +46,7 @@ def relate(sketch: Sketch, left: End, right: End, sign: Sign) -> None:
         sketch.require(kind, (left.slot, right.slot), sign.at, f"'{mark}'")
 
 
-def _share(sketch: Sketch, ends: tuple[End, End], at: int, mark: str, *, coaxial: bool) -> None:
+def _share(sketch: Sketch, ends: tuple[SketchEnd, SketchEnd], at: int, mark: str, *, coaxial: bool) -> None:
     """Two axes on one line, or through one point. A translation has no line: parallel is all there is."""
     left, right = ends
     _refuse(sketch, ends, at, mark, ("axis",) if coaxial else ("axis", "centre"))
@@ -59,7 +59,7 @@ def _share(sketch: Sketch, ends: tuple[End, End], at: int, mark: str, *, coaxial
         sketch.require("parallel" if coaxial else "different", (left.slot, right.slot), at, f"'{mark}'")
 
 
-def _refuse(sketch: Sketch, ends: tuple[End, End], at: int, mark: str, allowed: tuple[str, ...]) -> None:
+def _refuse(sketch: Sketch, ends: tuple[SketchEnd, SketchEnd], at: int, mark: str, allowed: tuple[str, ...]) -> None:
     for end in ends:
         if end.kind not in allowed:
             expected = (

@@ -19,20 +19,20 @@ class NotationError(UsageError):
         limb: number of the limb, from 1; 0 for a chain of its own.
     """
 
-    def __init__(self, source: Source, position: int, found: str, expected: str, *, hint: str = "") -> None:
+    def __init__(self, source: Source, position: int, offending: str, expected: str, *, hint: str = "") -> None:
         text = source.text
         start = max(0, position - _SHOWN)
         before, after = _plain(text[start:position]), _plain(text[position : position + _SHOWN])
         which = f"limb {source.limb}" if source.limb else "this chain"
         caret = " " * sum(map(_columns, before)) + "^"
         super().__init__(
-            f"cannot read {which}:\n  {before}{after}\n  {caret} {found}; expected {expected}",
+            f"cannot read {which}:\n  {before}{after}\n  {caret} {offending}; expected {expected}",
             hint=hint,
         )
         self.text = text
         self.position = position
         self.limb = source.limb
-        self.found = found
+        self.offending = offending
         self.expected = expected
 
 
@@ -43,9 +43,9 @@ class Source:
     text: str
     limb: int = 0
 
-    def error(self, position: int, found: str, expected: str, hint: str = "") -> NotationError:
+    def error(self, position: int, offending: str, expected: str, hint: str = "") -> NotationError:
         """What to raise about a place in this text."""
-        return NotationError(self, position, found, expected, hint=hint)
+        return NotationError(self, position, offending, expected, hint=hint)
 
 
 def character(text: str, position: int) -> str:
@@ -56,12 +56,12 @@ def character(text: str, position: int) -> str:
     """
     if position >= len(text):
         return "the end"
-    found = text[position]
-    if found.isascii() and found.isprintable():
-        return f"'{found}'"
-    name = unicodedata.name(found, "")
-    look = f"'{found}' " if found.isprintable() else ""
-    return f"{look}U+{ord(found):04X} {name}".rstrip()
+    sign = text[position]
+    if sign.isascii() and sign.isprintable():
+        return f"'{sign}'"
+    name = unicodedata.name(sign, "")
+    look = f"'{sign}' " if sign.isprintable() else ""
+    return f"{look}U+{ord(sign):04X} {name}".rstrip()
 
 
 def _plain(text: str) -> str:

@@ -15,11 +15,11 @@ class Groups:
     def __init__(self, count: int) -> None:
         self._above = list(range(count))
 
-    def of(self, item: int) -> int:
+    def of(self, member: int) -> int:
         """The group's smallest member."""
-        while self._above[item] != item:
-            item = self._above[item]
-        return item
+        while self._above[member] != member:
+            member = self._above[member]
+        return member
 
     def join(self, first: int, second: int) -> None:
         """Make two groups one."""

@@ -11,13 +11,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from assur.topology.notation.ends import End, relate
+from assur.topology.notation.ends import SketchEnd, relate
 from assur.topology.notation.sketch import ConditionKind, JointSketch, LoopSketch, Sketch
-from assur.topology.notation.syntax import Joint
+from assur.topology.notation.syntax import WrittenJoint
 from assur.topology.notation.tags import FREEDOMS, Tagged
 
 
-def expand(sketch: Sketch, tagged: Tagged) -> tuple[LoopSketch, End, End]:
+def expand(sketch: Sketch, tagged: Tagged) -> tuple[LoopSketch, SketchEnd, SketchEnd]:
     """The real loop, and its two ends: those of the elements that stand for it.
 
     Errors:
@@ -28,9 +28,9 @@ def expand(sketch: Sketch, tagged: Tagged) -> tuple[LoopSketch, End, End]:
     if not sketch.first:
         sketch.first.extend(slots.values())
     ends = [
-        End("axis", f"the tagged {item.letter}", slots[item.at])
-        if isinstance(item, Joint)
-        else End("plane", "a diamond", normal)
+        SketchEnd("axis", f"the tagged {item.letter}", slots[item.at])
+        if isinstance(item, WrittenJoint)
+        else SketchEnd("plane", "a diamond", normal)
         for item in tagged.items
     ]
     for left, right, sign in zip(ends, ends[1:], tagged.signs, strict=False):
@@ -42,7 +42,7 @@ def expand(sketch: Sketch, tagged: Tagged) -> tuple[LoopSketch, End, End]:
     return LoopSketch(((*first, *hinges[:cut]), (*second, *hinges[cut:])), name), ends[0], ends[-1]
 
 
-def _member(sketch: Sketch, tagged: Tagged, joint: Joint, normal: int) -> int:
+def _member(sketch: Sketch, tagged: Tagged, joint: WrittenJoint, normal: int) -> int:
     """A slot for a tagged element: an R along the normal of the plane, a P in the plane."""
     if joint.label:
         raise sketch.source.error(joint.at, "a label at a tagged element", "none: write the loop in braces")
@@ -60,24 +60,24 @@ def _sliders(sketch: Sketch, tagged: Tagged, slots: dict[int, int], normal: int)
     tag, why = tagged.tag, f"the tag {tagged.tag}"
     joints = [joint for joint in tagged.members if joint.letter == "P"]
     _refuse_extra(sketch, tagged, joints[tag.prismatic :])
-    found = [JointSketch(replace(joint, directions=()), (slots[joint.at],)) for joint in joints[: tag.prismatic]]
-    while len(found) < tag.prismatic:
-        found.append(JointSketch(Joint("P", tag.at), (sketch.slot(),)))
-        sketch.require("perpendicular", (found[-1].slots[0], normal), tag.at, why)
-    own = [item.slots[0] for item in found]
-    if len(own) > 1 and not _said(sketch, tagged, own):
-        sketch.require("parallel", (own[0], own[1]), tag.at, why)
-    for head, behind in zip(own, own[2:], strict=False):
+    sliders = [JointSketch(replace(joint, directions=()), (slots[joint.at],)) for joint in joints[: tag.prismatic]]
+    while len(sliders) < tag.prismatic:
+        sliders.append(JointSketch(WrittenJoint("P", tag.at), (sketch.slot(),)))
+        sketch.require("perpendicular", (sliders[-1].slots[0], normal), tag.at, why)
+    directions = [slider.slots[0] for slider in sliders]
+    if len(directions) > 1 and not _said(sketch, tagged, directions):
+        sketch.require("parallel", (directions[0], directions[1]), tag.at, why)
+    for head, behind in zip(directions, directions[2:], strict=False):
         sketch.require("different", (head, behind), tag.at, why)
-    return found
+    return sliders
 
 
-def _said(sketch: Sketch, tagged: Tagged, own: Sequence[int]) -> bool:
+def _said(sketch: Sketch, tagged: Tagged, directions: Sequence[int]) -> bool:
     """Whether the writer says how the P at the two heads lie to each other."""
-    letters = [item.letter if isinstance(item, Joint) else "" for item in tagged.items]
+    letters = [item.letter if isinstance(item, WrittenJoint) else "" for item in tagged.items]
     pairs = zip(letters, letters[1:], tagged.signs, strict=False)
     related = any(left == right == "P" and sign.relations for left, right, sign in pairs)
-    return related or all(sketch.slots[slot].placed for slot in own[:2])
+    return related or all(sketch.slots[slot].placed for slot in directions[:2])
 
 
 def _hinges(sketch: Sketch, tagged: Tagged, normal: int) -> tuple[list[JointSketch], str]:
@@ -86,13 +86,15 @@ def _hinges(sketch: Sketch, tagged: Tagged, normal: int) -> tuple[list[JointSket
     _refuse_extra(sketch, tagged, joints[tagged.tag.revolute :])
     names = [joint.name for joint in joints] if len(joints) > 1 else []
     names += [""] * (tagged.tag.revolute - len(names))
-    hinges = [JointSketch(Joint("R", tagged.tag.at, name=name), (normal,)) for name in names[: tagged.tag.revolute]]
+    hinges = [
+        JointSketch(WrittenJoint("R", tagged.tag.at, name=name), (normal,)) for name in names[: tagged.tag.revolute]
+    ]
     return hinges, joints[0].name if len(joints) == 1 else ""
 
 
-def _refuse_extra(sketch: Sketch, tagged: Tagged, joints: Sequence[Joint]) -> None:
+def _refuse_extra(sketch: Sketch, tagged: Tagged, joints: Sequence[WrittenJoint]) -> None:
     """A name or a direction of a joint that stands for the loop, but is none of its own, would be lost."""
     for joint in joints:
         if joint.name or (joint.directions and joint.letter == "P"):
-            found = f"a name or a direction for the tagged {joint.letter}"
-            raise sketch.source.error(joint.at, found, f"neither: the loop {tagged.tag} has no such {joint.letter}")
+            offending = f"a name or a direction for the tagged {joint.letter}"
+            raise sketch.source.error(joint.at, offending, f"neither: the loop {tagged.tag} has no such {joint.letter}")

@@ -10,7 +10,7 @@ from assur.joints.catalogue import BY_LETTER
 from assur.topology.chains import ParallelogramKind
 from assur.topology.notation.brackets import read_directions
 from assur.topology.notation.cursor import Cursor
-from assur.topology.notation.syntax import Joint, Placed, Tag
+from assur.topology.notation.syntax import Tag, WrittenDirection, WrittenJoint
 
 _KINDS: dict[str, ParallelogramKind] = {kind: kind for kind in get_args(ParallelogramKind)}
 _PARALLELOGRAM = re.compile(r"P(?:a(\d*)|_a(\d*)|_\{a(\d*)\})", re.ASCII)
@@ -24,7 +24,7 @@ _LABEL = re.compile(r"@\s*([A-Z][a-z0-9]*'*)", re.ASCII)
 _BEGIN = re.compile(r"[\[(@]|\^[{(]")
 
 
-def read_joint(cursor: Cursor) -> Joint | None:
+def read_joint(cursor: Cursor) -> WrittenJoint | None:
     """The joint that starts here, or None if none does.
 
     Errors:
@@ -33,10 +33,10 @@ def read_joint(cursor: Cursor) -> Joint | None:
     start = cursor.at
     if match := cursor.take(_PARALLELOGRAM):
         digits = _group(match)
-        joint = Joint("P", start, kind="4R", name=f"Pa{digits}" if digits else "")
+        joint = WrittenJoint("P", start, kind="4R", name=f"Pa{digits}" if digits else "")
     elif match := cursor.take(_LETTER):
         number = cursor.take(_NUMBER)
-        joint = Joint(match.group(), start, name=match.group() + _group(number) if number else "")
+        joint = WrittenJoint(match.group(), start, name=match.group() + _group(number) if number else "")
     else:
         return None
     while True:
@@ -46,7 +46,7 @@ def read_joint(cursor: Cursor) -> Joint | None:
         joint = grown
 
 
-def _grown(cursor: Cursor, joint: Joint) -> Joint | None:
+def _grown(cursor: Cursor, joint: WrittenJoint) -> WrittenJoint | None:
     """The joint with one more thing that is said about it, or None."""
     if not joint.name and (number := cursor.take(_SUBSCRIPT)):
         return replace(joint, name=joint.letter + _group(number))
@@ -69,7 +69,7 @@ def _grown(cursor: Cursor, joint: Joint) -> Joint | None:
     raise cursor.error(start, "a bracket that is not closed", closing)
 
 
-def _with_round(cursor: Cursor, joint: Joint, content: str, start: int) -> Joint:
+def _with_round(cursor: Cursor, joint: WrittenJoint, content: str, start: int) -> WrittenJoint:
     if joint.tag or joint.kind:
         raise cursor.error(start, "a second kind or tag", "one for each joint")
     if joint.letter == "P" and content in _KINDS:
@@ -83,12 +83,12 @@ def _with_round(cursor: Cursor, joint: Joint, content: str, start: int) -> Joint
     return replace(joint, tag=Tag(prismatic, revolute, start))
 
 
-def _round_expected(joint: Joint) -> str:
+def _round_expected(joint: WrittenJoint) -> str:
     tag = "the tag of a planar loop such as 2P4R"
     return f"{', '.join(_KINDS)} or {tag}" if joint.letter == "P" else tag
 
 
-def _with_label(cursor: Cursor, joint: Joint, label: str, start: int) -> Joint:
+def _with_label(cursor: Cursor, joint: WrittenJoint, label: str, start: int) -> WrittenJoint:
     if joint.label:
         raise cursor.error(start, "a second label", "one for each joint")
     if not BY_LETTER[joint.letter].turning:
@@ -97,7 +97,7 @@ def _with_label(cursor: Cursor, joint: Joint, label: str, start: int) -> Joint:
     return replace(joint, label=label)
 
 
-def _checked(cursor: Cursor, joint: Joint) -> Joint:
+def _checked(cursor: Cursor, joint: WrittenJoint) -> WrittenJoint:
     """The joint, if it has as many directions as its kind needs, or none."""
     count, needed = len(joint.directions), BY_LETTER[joint.letter].axes
     if count in (0, needed):
@@ -106,7 +106,7 @@ def _checked(cursor: Cursor, joint: Joint) -> Joint:
     if not needed:
         raise cursor.error(joint.directions[0].at, "a direction for S", "none: it turns about every axis")
     hint = "U[x,y]: the first fixed in the link before it, the second in the link after it" if needed == 2 else ""
-    extra: Placed = joint.directions[min(count - 1, needed)]
+    extra: WrittenDirection = joint.directions[min(count - 1, needed)]
     hint = hint or "decimals are written with a point: [0.5,0.866,0]"
     raise cursor.error(extra.at, f"{count} direction{'s' if count > 1 else ''} for {letter}", str(needed), hint)
 

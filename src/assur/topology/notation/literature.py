@@ -90,8 +90,8 @@ def _sign(left: _End, right: _End, style: Style) -> str:
 
 
 def _relations(left: _End, right: _End) -> tuple[str, ...]:
-    one, other = left.joint, right.joint
-    shared = one is not None and other is not None and one.point != "" and one.point == other.point
+    near, far = left.joint, right.joint
+    shared = near is not None and far is not None and near.point != "" and near.point == far.point
     if left.axis is None or right.axis is None:
         return ("meeting",) if shared else ()
     mixed = left.plane != right.plane

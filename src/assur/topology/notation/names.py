@@ -9,7 +9,7 @@ from assur.topology.chains import InnerLoop, flattened
 from assur.topology.notation.planar import planar_loop
 
 
-class Names:
+class JointNames:
     """Gives every joint of a mechanism its own name.
 
     A name that is written stays, the first time; a limb that repeats it is counted on. What has no name is

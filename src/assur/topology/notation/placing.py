@@ -10,7 +10,7 @@ from assur.topology.notation.brackets import direction_text
 from assur.topology.notation.errors import NotationError
 from assur.topology.notation.groups import Groups
 from assur.topology.notation.sketch import Condition, Sketch
-from assur.topology.notation.syntax import Placed
+from assur.topology.notation.syntax import WrittenDirection
 
 
 def place(sketches: Sequence[Sketch]) -> list[list[Vector]]:
@@ -29,14 +29,14 @@ def place(sketches: Sequence[Sketch]) -> list[list[Vector]]:
     _refuse_slips(sketches)
     taken = [placed.vector for _, placed in _written(sketches)]
     arbitrary = Arbitrary()
-    found = []
+    directions = []
     for sketch in sketches:
         alone = len(sketches) == 1 and sketch.literature
         vectors = _solved(sketch, arbitrary, taken, upright=alone)
         for condition in sketch.conditions:
             _verify(sketch, condition, vectors)
-        found.append(vectors)
-    return found
+        directions.append(vectors)
+    return directions
 
 
 def _solved(sketch: Sketch, arbitrary: Arbitrary, taken: list[Vector], *, upright: bool) -> list[Vector]:
@@ -65,14 +65,14 @@ def _solved(sketch: Sketch, arbitrary: Arbitrary, taken: list[Vector], *, uprigh
 
 def _normals(sketch: Sketch, groups: Groups, group: int, fixed: Mapping[int, Vector]) -> list[Vector]:
     """What a group is said to be perpendicular to, as far as it is known."""
-    found = []
+    normals = []
     for condition in sketch.conditions:
         pair = [groups.of(slot) for slot in condition.slots]
         if condition.kind == "perpendicular" and group in pair:
             partner = pair[0] if group == pair[1] else pair[1]
             if partner in fixed:
-                found.append(fixed[partner])
-    return found
+                normals.append(fixed[partner])
+    return normals
 
 
 def _forced(normals: Sequence[Vector]) -> bool:
@@ -83,9 +83,9 @@ def _forced(normals: Sequence[Vector]) -> bool:
 def _chosen(normals: list[Vector], arbitrary: Arbitrary, taken: Sequence[Vector], near: Sequence[Vector]) -> Vector:
     """A direction perpendicular to all normals. Where none is, to the first: what is said last will not verify."""
     while True:
-        found = arbitrary.within(normals, taken, near)
-        if found is not None:
-            return found
+        direction = arbitrary.within(normals, taken, near)
+        if direction is not None:
+            return direction
         normals = normals[:-1]
 
 
@@ -95,8 +95,12 @@ def _own(sketch: Sketch, slot: int, groups: Groups, fixed: Mapping[int, Vector])
     if entry.placed:
         return entry.placed.vector
     if entry.auxiliary:
-        said = [item for item in sketch.conditions if item.kind == "perpendicular" and slot == item.slots[1]]
-        members = [fixed[groups.of(item.slots[0])] for item in said[:2]]
+        said = [
+            condition
+            for condition in sketch.conditions
+            if condition.kind == "perpendicular" and slot == condition.slots[1]
+        ]
+        members = [fixed[groups.of(condition.slots[0])] for condition in said[:2]]
         if _forced(members):
             return _chosen(members, Arbitrary(), (), ())
     return fixed[groups.of(slot)]
@@ -132,14 +136,14 @@ def _refuse_unplaced(sketch: Sketch) -> None:
         raise sketch.source.error(at, "a limb in the literature's form", expected, hint)
 
 
-def _written(sketches: Sequence[Sketch]) -> list[tuple[Sketch, Placed]]:
+def _written(sketches: Sequence[Sketch]) -> list[tuple[Sketch, WrittenDirection]]:
     """Directions that were written, each once."""
-    found: dict[Vector, tuple[Sketch, Placed]] = {}
+    first_written: dict[Vector, tuple[Sketch, WrittenDirection]] = {}
     for sketch in sketches:
         for slot in sketch.slots:
             if slot.placed:
-                found.setdefault(slot.placed.vector, (sketch, slot.placed))
-    return list(found.values())
+                first_written.setdefault(slot.placed.vector, (sketch, slot.placed))
+    return list(first_written.values())
 
 
 def _refuse_slips(sketches: Sequence[Sketch]) -> None:
@@ -148,10 +152,12 @@ def _refuse_slips(sketches: Sequence[Sketch]) -> None:
         raise _slip(written[first], written[second], relation)
 
 
-def _slip(first: tuple[Sketch, Placed], second: tuple[Sketch, Placed], relation: str) -> NotationError:
+def _slip(
+    first: tuple[Sketch, WrittenDirection], second: tuple[Sketch, WrittenDirection], relation: str
+) -> NotationError:
     """What to raise about the later one of two directions, or the earlier if that one alone is in numbers."""
-    (other, reference), (sketch, placed) = sorted((first, second), key=lambda item: "," in item[1].shown)
+    (other, reference), (sketch, placed) = sorted((first, second), key=lambda entry: "," in entry[1].shown)
     where = f" of limb {other.source.limb}" if other is not sketch else ""
-    found = f"[{placed.shown}], nearly but not exactly {relation} to [{reference.shown}]{where}"
+    offending = f"[{placed.shown}], nearly but not exactly {relation} to [{reference.shown}]{where}"
     hint = "write more digits, 0.8660254037844386 and not 0.8661, or whole numbers in their ratio, [1,2,0]"
-    return sketch.source.error(placed.at, found, f"exactly {relation}, or clearly not", hint)
+    return sketch.source.error(placed.at, offending, f"exactly {relation}, or clearly not", hint)

@@ -18,7 +18,7 @@ from assur.topology.notation.cursor import LETTERS, Cursor
 from assur.topology.notation.errors import Source
 from assur.topology.notation.joint_reader import read_joint
 from assur.topology.notation.signs import Relation
-from assur.topology.notation.syntax import Diamond, Joint, Limb, Loop, Serial, Sign
+from assur.topology.notation.syntax import Diamond, Serial, WrittenJoint, WrittenLimb, WrittenLoop, WrittenSign
 
 MAX_LENGTH = 4000
 MAX_DEPTH = 10
@@ -28,7 +28,7 @@ _WRAPPER = re.compile(r"H?SOC(?:_?\d+|_\{\d+\})?(?=\s*(?:\\left)?\s*\\?\{)", re.
 _ROUND_OPEN, _ROUND_CLOSE, _COMMA = re.compile(r"\("), re.compile(r"\)"), re.compile(",")
 
 
-def read(source: Source) -> Limb:
+def read(source: Source) -> WrittenLimb:
     """What a chain's text says.
 
     Errors:
@@ -48,7 +48,7 @@ class _Reader:
         self.joints = 0
         self.literature = False
 
-    def limb(self) -> Limb:
+    def limb(self) -> WrittenLimb:
         cursor = self.cursor
         cursor.skip()
         wrapped = cursor.take(_WRAPPER) is not None
@@ -62,25 +62,25 @@ class _Reader:
             self._close(opened)
         if not cursor.ended:
             raise cursor.unexpected("the end" if wrapped else "a joint, a sign or the end")
-        return Limb(cursor.source, serial, self.literature)
+        return WrittenLimb(cursor.source, serial, self.literature)
 
     def _serial(self) -> Serial:
         self._sign(leading=True)
-        items, found = [self._element()], list[Sign]()
+        items, signs = [self._element()], list[WrittenSign]()
         while True:
             sign = self._sign()
             if self._serial_ends():
                 if sign.relations:
                     raise self.cursor.unexpected("a joint behind the sign")
-                return Serial(tuple(items), tuple(found))
+                return Serial(tuple(items), tuple(signs))
             items.append(self._element())
-            found.append(sign)
+            signs.append(sign)
 
     def _serial_ends(self) -> bool:
         cursor = self.cursor
         return cursor.ended or cursor.sees(signs.CLOSE) or (self.depth > 0 and cursor.sees(signs.BRANCH))
 
-    def _sign(self, *, leading: bool = False) -> Sign:
+    def _sign(self, *, leading: bool = False) -> WrittenSign:
         """Every sign up to the next element: hyphens say nothing, and only two relations go together."""
         cursor = self.cursor
         cursor.skip()
@@ -93,7 +93,7 @@ class _Reader:
                 continue
             relation = None if leading else self._relation()
             if relation is None:
-                return Sign(tuple(relations), start)
+                return WrittenSign(tuple(relations), start)
             if relations and {*relations, relation} != {"meeting", "perpendicular"}:
                 raise cursor.error(at, "a second sign", "a joint", "one sign between two joints, or ⌢⊥")
             relations.append(relation)
@@ -105,7 +105,7 @@ class _Reader:
                 return relation
         return "parallel" if self.depth == 0 and self.cursor.take(signs.BRANCH) else None
 
-    def _element(self) -> Joint | Diamond | Loop:
+    def _element(self) -> WrittenJoint | Diamond | WrittenLoop:
         cursor = self.cursor
         cursor.skip()
         start = cursor.at
@@ -115,7 +115,7 @@ class _Reader:
             return self._loop(start)
         return self._joint()
 
-    def _joint(self) -> Joint:
+    def _joint(self) -> WrittenJoint:
         self.cursor.skip()
         joint = read_joint(self.cursor)
         if joint is None:
@@ -126,7 +126,7 @@ class _Reader:
             raise self.cursor.error(joint.at, f"joint {self.joints}", f"at most {MAX_JOINTS} in a chain")
         return joint
 
-    def _loop(self, start: int) -> Loop:
+    def _loop(self, start: int) -> WrittenLoop:
         self.depth += 1
         if self.depth > MAX_DEPTH:
             raise self.cursor.error(start, "too deep a nesting", f"at most {MAX_DEPTH} braces")
@@ -138,7 +138,7 @@ class _Reader:
         if len(branches) == 1:
             hint = "a limb needs no braces; as the literature writes it, SOC{-R-R-}"
             raise self.cursor.error(start, "a loop with one branch", "two or more, with | between them", hint)
-        return Loop(tuple(branches), start)
+        return WrittenLoop(tuple(branches), start)
 
     def _close(self, opened: int) -> None:
         if self.cursor.take(signs.CLOSE):
@@ -156,7 +156,7 @@ class _Reader:
         self.cursor.take(_ROUND_CLOSE)
         return Diamond((first, second), start)
 
-    def _member(self, before: re.Pattern[str], shown: str) -> Joint:
+    def _member(self, before: re.Pattern[str], shown: str) -> WrittenJoint:
         if not self.cursor.sees(before):
             raise self.cursor.unexpected(shown, "◇(P1, P2) is the plane of two joints")
         self.cursor.take(before)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from assur.topology.notation.errors import Source
-from assur.topology.notation.syntax import Joint, Placed
+from assur.topology.notation.syntax import WrittenDirection, WrittenJoint
 
 ConditionKind = Literal["parallel", "perpendicular", "different"]
 
@@ -24,7 +24,7 @@ class Slot:
         auxiliary: no axis of the chain, such as the normal of a diamond: placed after the axes.
     """
 
-    placed: Placed | None = None
+    placed: WrittenDirection | None = None
     tied: bool = False
     auxiliary: bool = False
 
@@ -43,7 +43,7 @@ class Condition:
 class JointSketch:
     """A joint whose axes are slots."""
 
-    joint: Joint
+    joint: WrittenJoint
     slots: tuple[int, ...]
 
 
@@ -78,7 +78,7 @@ class Sketch:
     names: dict[str, int] = field(default_factory=dict)
     first: list[int] = field(default_factory=list)
 
-    def slot(self, placed: Placed | None = None, *, auxiliary: bool = False) -> int:
+    def slot(self, placed: WrittenDirection | None = None, *, auxiliary: bool = False) -> int:
         """A new slot."""
         self.slots.append(Slot(placed, auxiliary=auxiliary))
         return len(self.slots) - 1

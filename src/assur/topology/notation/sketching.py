@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from assur.joints.catalogue import BY_LETTER
-from assur.topology.notation.ends import End, relate
+from assur.topology.notation.ends import SketchEnd, relate
 from assur.topology.notation.inner import expand
 from assur.topology.notation.sketch import ConditionKind, ElementSketch, JointSketch, LoopSketch, Sketch
-from assur.topology.notation.syntax import Diamond, Joint, Limb, Loop, Serial
+from assur.topology.notation.syntax import Diamond, Serial, WrittenJoint, WrittenLimb, WrittenLoop
 from assur.topology.notation.tags import Part, parts
 
-Sketched = tuple[tuple[ElementSketch, ...], End, End]
+Sketched = tuple[tuple[ElementSketch, ...], SketchEnd, SketchEnd]
 
 
-def sketch_of(limb: Limb) -> Sketch:
+def sketch_of(limb: WrittenLimb) -> Sketch:
     """A sketch of a chain.
 
     Errors:
@@ -26,7 +26,7 @@ def sketch_of(limb: Limb) -> Sketch:
 def _series(sketch: Sketch, serial: Serial) -> tuple[ElementSketch, ...]:
     items, signs = parts(sketch.source, serial)
     elements: list[ElementSketch] = []
-    left: End | None = None
+    left: SketchEnd | None = None
     for item, sign in zip(items, (None, *signs), strict=True):
         made, first, last = _part(sketch, item)
         if left and sign:
@@ -37,13 +37,13 @@ def _series(sketch: Sketch, serial: Serial) -> tuple[ElementSketch, ...]:
 
 
 def _part(sketch: Sketch, item: Part) -> Sketched:
-    if isinstance(item, Joint):
+    if isinstance(item, WrittenJoint):
         return _joint(sketch, item)
     if isinstance(item, Diamond):
         return _diamond(sketch, item)
-    if isinstance(item, Loop):
+    if isinstance(item, WrittenLoop):
         loop = LoopSketch(tuple(_series(sketch, branch) for branch in item.branches))
-        end = End("nothing", "a loop in braces")
+        end = SketchEnd("nothing", "a loop in braces")
         return (loop,), end, end
     for joint in item.members:
         _note_name(sketch, joint)
@@ -51,7 +51,7 @@ def _part(sketch: Sketch, item: Part) -> Sketched:
     return (expanded,), first, last
 
 
-def _joint(sketch: Sketch, joint: Joint) -> Sketched:
+def _joint(sketch: Sketch, joint: WrittenJoint) -> Sketched:
     _note_name(sketch, joint)
     if joint.label:
         sketch.labels[joint.at] = joint.label
@@ -61,38 +61,38 @@ def _joint(sketch: Sketch, joint: Joint) -> Sketched:
         sketch.first.append(slots[0])
     made = (JointSketch(joint, slots),)
     if joint.kind:
-        end = End("nothing", "a parallelogram")
+        end = SketchEnd("nothing", "a parallelogram")
         return made, end, end
     placeable = joint if BY_LETTER[joint.letter].turning else None
     if not slots:
-        end = End("centre", joint.letter, joint=placeable)
+        end = SketchEnd("centre", joint.letter, joint=placeable)
         return made, end, end
     if count == 2:
         placed = bool(joint.directions)
         kind: ConditionKind = "different" if placed else "perpendicular"
         at = joint.directions[1].at if placed else joint.at
         sketch.require(kind, (slots[0], slots[1]), at, "the two axes of a U", ties=False)
-    first, last = (End("axis", joint.letter, slot, placeable) for slot in (slots[0], slots[-1]))
+    first, last = (SketchEnd("axis", joint.letter, slot, placeable) for slot in (slots[0], slots[-1]))
     return made, first, last
 
 
 def _diamond(sketch: Sketch, diamond: Diamond) -> Sketched:
     """Two elements in series, and their plane by a slot for its normal."""
     made = [_joint(sketch, joint)[0][0] for joint in diamond.members]
-    one, other = (item.slots[0] for item in made if isinstance(item, JointSketch))
+    first, second = (slider.slots[0] for slider in made if isinstance(slider, JointSketch))
     normal = sketch.slot(auxiliary=True)
     why = "a diamond"
-    sketch.require("different", (one, other), diamond.at, why)
-    sketch.require("perpendicular", (one, normal), diamond.at, why)
-    sketch.require("perpendicular", (other, normal), diamond.at, why)
-    end = End("plane", "a diamond", normal)
+    sketch.require("different", (first, second), diamond.at, why)
+    sketch.require("perpendicular", (first, normal), diamond.at, why)
+    sketch.require("perpendicular", (second, normal), diamond.at, why)
+    end = SketchEnd("plane", "a diamond", normal)
     return tuple(made), end, end
 
 
-def _note_name(sketch: Sketch, joint: Joint) -> None:
+def _note_name(sketch: Sketch, joint: WrittenJoint) -> None:
     if not joint.name:
         return
     if joint.name in sketch.names:
-        found = f"the name {joint.name} again"
-        raise sketch.source.error(joint.at, found, "another one: every joint of a chain has its own")
+        offending = f"the name {joint.name} again"
+        raise sketch.source.error(joint.at, offending, "another one: every joint of a chain has its own")
     sketch.names[joint.name] = joint.at

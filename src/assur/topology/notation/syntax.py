@@ -11,7 +11,7 @@ from assur.topology.notation.signs import Relation
 
 
 @dataclass(frozen=True)
-class Placed:
+class WrittenDirection:
     """A direction that was written in brackets, `shown` as it was written, and where."""
 
     vector: Vector
@@ -32,7 +32,7 @@ class Tag:
 
 
 @dataclass(frozen=True)
-class Joint:
+class WrittenJoint:
     """A joint, or a parallelogram if it has a `kind`; `name` and `label` are empty if not written."""
 
     letter: str
@@ -40,7 +40,7 @@ class Joint:
     kind: ParallelogramKind | None = None
     name: str = ""
     tag: Tag | None = None
-    directions: tuple[Placed, ...] = ()
+    directions: tuple[WrittenDirection, ...] = ()
     label: str = ""
 
 
@@ -48,12 +48,12 @@ class Joint:
 class Diamond:
     """Two elements in series, and the plane that they span."""
 
-    members: tuple[Joint, Joint]
+    members: tuple[WrittenJoint, WrittenJoint]
     at: int
 
 
 @dataclass(frozen=True)
-class Loop:
+class WrittenLoop:
     """Branches side by side."""
 
     branches: tuple[Serial, ...]
@@ -61,7 +61,7 @@ class Loop:
 
 
 @dataclass(frozen=True)
-class Sign:
+class WrittenSign:
     """What stands between two elements; no relation where it says nothing."""
 
     relations: tuple[Relation, ...]
@@ -72,12 +72,12 @@ class Sign:
 class Serial:
     """Elements in series, and the signs between neighbours (one fewer)."""
 
-    items: tuple[Joint | Diamond | Loop, ...]
-    signs: tuple[Sign, ...]
+    items: tuple[WrittenJoint | Diamond | WrittenLoop, ...]
+    signs: tuple[WrittenSign, ...]
 
 
 @dataclass(frozen=True)
-class Limb:
+class WrittenLimb:
     """A chain as written. `literature`: it uses signs, a diamond or tags, or stands in SOC{ }."""
 
     source: Source

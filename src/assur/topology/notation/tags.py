@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from assur.topology.notation.errors import Source
-from assur.topology.notation.syntax import Diamond, Joint, Loop, Serial, Sign, Tag
+from assur.topology.notation.syntax import Diamond, Serial, Tag, WrittenJoint, WrittenLoop, WrittenSign
 
 FREEDOMS = 3
 """Freedoms of a plane, and so the number of tagged elements of a loop; its joints are three more."""
@@ -18,45 +18,45 @@ class Tagged:
     """Three neighbours with one tag, a diamond counting as two, and the signs between them."""
 
     tag: Tag
-    items: tuple[Joint | Diamond, ...]
-    signs: tuple[Sign, ...]
+    items: tuple[WrittenJoint | Diamond, ...]
+    signs: tuple[WrittenSign, ...]
 
     @property
-    def members(self) -> tuple[Joint, ...]:
+    def members(self) -> tuple[WrittenJoint, ...]:
         """The tagged joints."""
         return tuple(joint for item in self.items for joint in members(item))
 
 
-Part = Joint | Diamond | Loop | Tagged
+Part = WrittenJoint | Diamond | WrittenLoop | Tagged
 
 
-def members(item: Joint | Diamond) -> tuple[Joint, ...]:
+def members(item: WrittenJoint | Diamond) -> tuple[WrittenJoint, ...]:
     """The joint itself, or the two of a diamond."""
     return item.members if isinstance(item, Diamond) else (item,)
 
 
-def parts(source: Source, serial: Serial) -> tuple[tuple[Part, ...], tuple[Sign, ...]]:
+def parts(source: Source, serial: Serial) -> tuple[tuple[Part, ...], tuple[WrittenSign, ...]]:
     """Elements in series with tagged neighbours put together, and the signs between these parts.
 
     Errors:
         NotationError: a tag that is no planar loop with three freedoms, or not three elements with it.
     """
-    found: list[Part] = []
-    signs: list[Sign] = []
+    gathered: list[Part] = []
+    signs: list[WrittenSign] = []
     index = 0
     while index < len(serial.items):
         if index:
             signs.append(serial.signs[index - 1])
         item = serial.items[index]
-        tag = None if isinstance(item, Loop) else _tag(source, item)
+        tag = None if isinstance(item, WrittenLoop) else _tag(source, item)
         length = _length(source, serial, index, tag) if tag else 1
         if tag:
-            run = tuple(item for item in serial.items[index : index + length] if not isinstance(item, Loop))
-            found.append(Tagged(tag, run, serial.signs[index : index + length - 1]))
+            run = tuple(item for item in serial.items[index : index + length] if not isinstance(item, WrittenLoop))
+            gathered.append(Tagged(tag, run, serial.signs[index : index + length - 1]))
         else:
-            found.append(item)
+            gathered.append(item)
         index += length
-    return tuple(found), tuple(signs)
+    return tuple(gathered), tuple(signs)
 
 
 def _length(source: Source, serial: Serial, start: int, tag: Tag) -> int:
@@ -64,7 +64,7 @@ def _length(source: Source, serial: Serial, start: int, tag: Tag) -> int:
     _check(source, tag)
     count = length = 0
     for item in serial.items[start:]:
-        if count >= FREEDOMS or isinstance(item, Loop) or str(_tag(source, item)) != str(tag):
+        if count >= FREEDOMS or isinstance(item, WrittenLoop) or str(_tag(source, item)) != str(tag):
             break
         count += len(members(item))
         length += 1
@@ -80,11 +80,11 @@ def _check(source: Source, tag: Tag) -> None:
         raise source.error(tag.at, f"the tag {tag}", "that of a planar loop with three freedoms", hint)
 
 
-def _tag(source: Source, item: Joint | Diamond) -> Tag | None:
+def _tag(source: Source, item: WrittenJoint | Diamond) -> Tag | None:
     """The tag of an element; in a diamond both have one or none."""
-    found = [joint.tag for joint in members(item)]
-    if len({str(tag) for tag in found}) > 1:
+    tags = [joint.tag for joint in members(item)]
+    if len({str(tag) for tag in tags}) > 1:
         raise source.error(item.at, "a diamond of two loops", "one tag at both, or none")
-    if isinstance(item, Diamond) and found[0] and any(joint.letter != "P" for joint in item.members):
+    if isinstance(item, Diamond) and tags[0] and any(joint.letter != "P" for joint in item.members):
         raise source.error(item.at, "a tagged diamond with an R", "two P, which span the plane of the loop")
-    return found[0]
+    return tags[0]

@@ -41,7 +41,7 @@ def at_home(chain: Sequence[Elementary]) -> Structure | Refusal:
         lines.setdefault(item.point or f"#{index} alone", line)
     if any(_flat([turn for turn, lines in blocks if label in lines]) for label in points):
         return Refusal("three axes through one point lie in one plane as written")
-    slides = [item for item in chain if isinstance(item, Slide)]
+    slides = [slide for slide in chain if isinstance(slide, Slide)]
     turns = [Block(turn.direction, tuple(lines.values()), net=False) for turn, lines in blocks]
     last = chain[-1] if chain else None
     end = points.get(last.point, GENERAL) if isinstance(last, Turn) else GENERAL

@@ -97,12 +97,12 @@ def structure(chain: Sequence[Elementary]) -> Structure:
     >>> [len(block.lines) for block in structure([Turn(z, "R1"), Turn(z, "R2")]).blocks]
     [2]
     """
-    found = meeting(chain)
+    meets = meeting(chain)
     items: list[Item] = []
     rods: list[Line] = []
     opened: Block | None = None
     after: list[Item] = []
-    left = iter(found.lines)
+    left = iter(meets.lines)
     for item in chain:
         if isinstance(item, Slide):
             after.append(item)
@@ -117,7 +117,7 @@ def structure(chain: Sequence[Elementary]) -> Structure:
             items += [*([opened] if opened else []), *after]
             opened, after = Block(item.direction, (line,)), []
     items += [*([opened] if opened else []), *after]
-    return Structure(tuple(items), tuple(rods), found.end)
+    return Structure(tuple(items), tuple(rods), meets.end)
 
 
 def mirrored(chain: Structure) -> Structure:

@@ -41,9 +41,9 @@ class Bundles:
         5
         """
         large = [bundle for bundle in (*self.points, *self.blocks) if bundle.bit_count() >= 3]
-        one = [3 + self.count - bundle.bit_count() for bundle in large]
-        two = [5 + self.count - (first | second).bit_count() for first, second in combinations(large, 2)]
-        return min(self.count, 6, *one, *two)
+        outside_one = [3 + self.count - bundle.bit_count() for bundle in large]
+        outside_two = [5 + self.count - (first | second).bit_count() for first, second in combinations(large, 2)]
+        return min(self.count, 6, *outside_one, *outside_two)
 
 
 def bundles(structure: Structure) -> Bundles:

@@ -49,7 +49,7 @@ def resisted(limbs: Sequence[Motion], taken: Orientations) -> Resisted | Refusal
         before = limbs[:index]
         couples = total.couples if _same_plane(limb, before, taken) else total.couples.with_span(limb.couples)
         shared = total.forces.meet(limb.forces)
-        through_one_point = have_common_end([item for item in (*before, limb) if item.dim < 6])
+        through_one_point = have_common_end([motion for motion in (*before, limb) if motion.dim < 6])
         related = couples if through_one_point else _with_relations(couples, shared, limb, before)
         located = related != couples
         if located and _common_labels(limb, before) and not _one_centre(limb, before):

@@ -19,7 +19,7 @@ _OPERATORS: dict[Style, dict[Operation, str]] = {
 
 
 @dataclass(frozen=True)
-class Step:
+class DerivationStep:
     """One application of Eq. (1) or Eq. (2).
 
     Attributes:
@@ -42,7 +42,7 @@ class Step:
         """The equation alone.
 
         >>> r = PocSet(0, 1, 1)
-        >>> Step("union", (r, r), ("R1", "R2"), PocSet(0, 2, 2), "linear rule", "").text("ascii")
+        >>> DerivationStep("union", (r, r), ("R1", "R2"), PocSet(0, 2, 2), "linear rule", "").text("ascii")
         '[t^0; r^1] u [t^0; r^1] = [t^0; r^2]'
         """
         operator = _OPERATORS[style][self.operation]
@@ -68,8 +68,8 @@ class Derivation:
     of: str
     origin: str
     parts: tuple[Derivation, ...]
-    whole: Step
-    steps: tuple[Step, ...]
+    whole: DerivationStep
+    steps: tuple[DerivationStep, ...]
     conclusion: str
 
     def text(self, style: Style = "unicode") -> str:

@@ -64,30 +64,30 @@ def elementary(
         elements: the chain's, in order.
         loop: gives the slides and turns that an inner loop is worth, or why it has none.
     """
-    found: list[Elementary] = []
+    parts: list[Elementary] = []
     count: dict[str, int] = {}
     for index, element in enumerate(elements):
         if isinstance(element, InnerLoop):
             solved = loop(element)
             if isinstance(solved, Refusal):
                 return solved
-            found += solved
+            parts += solved
             continue
         letter = "P" if isinstance(element, Parallelogram) else element.type.letter
         count[letter] = count.get(letter, 0) + 1
         name = element.name or f"{letter}{count[letter]}"
         if isinstance(element, Parallelogram):
-            found += _of_parallelogram(element, name, f"#{index}")
+            parts += _of_parallelogram(element, name, f"#{index}")
         else:
-            found += _of_joint(element, name, element.point or f"#{index}")
-    return tuple(found)
+            parts += _of_joint(element, name, element.point or f"#{index}")
+    return tuple(parts)
 
 
-def _of_joint(joint: ChainJoint, name: str, own: str) -> list[Elementary]:
-    """`own` is the point of a joint with several axes: its label, or one that nothing else has."""
+def _of_joint(joint: ChainJoint, name: str, centre: str) -> list[Elementary]:
+    """`centre` is the point of a joint with several axes: its label, or one that nothing else has."""
     if joint.type.ball:
-        return [Turn(None, name, own)] * 3
-    point = own if joint.type.turns > 1 else joint.point
+        return [Turn(None, name, centre)] * 3
+    point = centre if joint.type.turns > 1 else joint.point
     return [
         Slide(along(joint.directions[step.direction]), name)
         if step.kind == "slide"
@@ -96,8 +96,8 @@ def _of_joint(joint: ChainJoint, name: str, own: str) -> list[Elementary]:
     ]
 
 
-def _of_parallelogram(joint: Parallelogram, name: str, own: str) -> list[Elementary]:
+def _of_parallelogram(joint: Parallelogram, name: str, centre: str) -> list[Elementary]:
     if joint.kind == "4R":
         return [Slide(Span((), 1, joint.axis), name)]
-    swing: list[Elementary] = [Slide(ROD, name), Turn(joint.axis, name, own)]
-    return swing if joint.kind == "4U" else [*swing, Turn(None, name, own, finite=False)]
+    swing: list[Elementary] = [Slide(ROD, name), Turn(joint.axis, name, centre)]
+    return swing if joint.kind == "4U" else [*swing, Turn(None, name, centre, finite=False)]

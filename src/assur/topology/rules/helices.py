@@ -30,9 +30,9 @@ def coupled(chain: Sequence[Elementary], moved: Span) -> Refusal | None:
     """
     if moved.dim == 3:
         return None
-    for place, item in enumerate(chain):
-        if isinstance(item, Turn) and item.pitch and not (item.direction and _absorbed(chain, place, item.direction)):
-            return Refusal(f"the pitch of {item.name} couples a rotation and a translation")
+    for place, part in enumerate(chain):
+        if isinstance(part, Turn) and part.pitch and not (part.direction and _absorbed(chain, place, part.direction)):
+            return Refusal(f"the pitch of {part.name} couples a rotation and a translation")
     return None
 
 
@@ -46,8 +46,8 @@ def _absorbed(chain: Sequence[Elementary], place: int, axis: Vector) -> bool:
     return translations(structure(chain[first:last])).contains(axis)
 
 
-def _keeps(item: Elementary, axis: Vector) -> bool:
+def _keeps(part: Elementary, axis: Vector) -> bool:
     """Whether what follows keeps its angle to an axis."""
-    if isinstance(item, Slide) or not item.finite:
+    if isinstance(part, Slide) or not part.finite:
         return True
-    return item.direction is not None and aligned(item.direction, axis)
+    return part.direction is not None and aligned(part.direction, axis)

@@ -45,23 +45,23 @@ def parallel(
     limbs = [motion.limb for motion in motions if motion.limb is not None]
     if len(limbs) < len(motions):
         return Refusal("the pitch of a helical joint couples a rotation and a translation")
-    found = unturned(limbs) if mode == "translation" else as_written(limbs)
-    if isinstance(found, Refusal):
-        return found
-    refusal = why_it_does_not_last(found) if mode == "free" else None
+    assembly = unturned(limbs) if mode == "translation" else as_written(limbs)
+    if isinstance(assembly, Refusal):
+        return assembly
+    refusal = why_it_does_not_last(assembly) if mode == "free" else None
     if refusal is not None:
         return refusal
-    poc = platform_set(found.limbs, found.resisted, at)
+    poc = platform_set(assembly.limbs, assembly.resisted, at)
     if isinstance(poc, Refusal):
         return poc
     return Motion(
-        translations=found.resisted.forces.complement,
-        rotations=found.turned,
-        orientations=found.taken,
+        translations=assembly.resisted.forces.complement,
+        rotations=assembly.turned,
+        orientations=assembly.taken,
         freedoms=poc.dim,
         given=poc,
         conditions=tuple(dict.fromkeys(condition for limb in limbs for condition in limb.conditions)),
-        helical=is_helical(found.limbs, found.resisted),
+        helical=is_helical(assembly.limbs, assembly.resisted),
         derive=lambda: limb_derivation(motions, lambda some: parallel(some, mode, at=at), name, at),
     )
 

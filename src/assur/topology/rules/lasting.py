@@ -9,44 +9,44 @@ from __future__ import annotations
 from itertools import combinations
 
 from assur.topology.rules.motion import Motion, seen_from_end
-from assur.topology.rules.operation_modes import Assembly, assembled
+from assur.topology.rules.operation_modes import HeldLimbs, assembled
 from assur.topology.rules.orientations import Orientations, turn_alike
 from assur.topology.rules.refusals import Refusal
 from assur.topology.rules.vectors import aligned
 
 
-def why_it_does_not_last(found: Assembly) -> Refusal | None:
+def why_it_does_not_last(assembly: HeldLimbs) -> Refusal | None:
     """Why what the platform does as written is not what it goes on to do, where that is so."""
-    if found.turned.dim > found.taken.dim and not found.has_rods:
+    if assembly.turned.dim > assembly.taken.dim and not assembly.has_rods:
         return Refusal("the limbs leave the platform a rotation that does not last as it turns")
-    turning = [limb.structure for limb in found.limbs if limb.structure and limb.translations.turning]
-    if not found.taken.dim or len(turning) < 2:
+    turning = [limb.structure for limb in assembly.limbs if limb.structure and limb.translations.turning]
+    if not assembly.taken.dim or len(turning) < 2:
         return None
     if any(turn_alike(*pair) for pair in combinations(turning, 2)):
         return Refusal("translations of several limbs turn alike with the platform")
-    seen = _from_the_platform(found)
+    seen = _from_the_platform(assembly)
     if isinstance(seen, Refusal):
         return seen
-    mixed = [True for pair in zip(found.limbs, seen.limbs, strict=True) if _is_of_both(*pair, found.taken)]
-    if len(mixed) > 1 or _size(seen) != _size(found):
+    mixed = [True for pair in zip(assembly.limbs, seen.limbs, strict=True) if _is_of_both(*pair, assembly.taken)]
+    if len(mixed) > 1 or _size(seen) != _size(assembly):
         return Refusal("directions fixed in the platform decide together with some fixed in the base")
     return None
 
 
-def _from_the_platform(found: Assembly) -> Assembly | Refusal:
+def _from_the_platform(assembly: HeldLimbs) -> HeldLimbs | Refusal:
     """The limbs as seen by the platform, where other directions stay fixed than in the base."""
-    limbs = [seen_from_end(limb.limb) for limb in found.limbs if limb.limb]
-    return assembled(limbs, Orientations(found.taken.dim, found.taken.axes[::-1]))
+    limbs = [seen_from_end(limb.limb) for limb in assembly.limbs if limb.limb]
+    return assembled(limbs, Orientations(assembly.taken.dim, assembly.taken.axes[::-1]))
 
 
 def _is_of_both(base: Motion, platform: Motion, taken: Orientations) -> bool:
     """Whether a limb translates along a direction fixed in the base and along another one fixed in the platform."""
-    one, other = base.translations, platform.translations
-    if not (one.fixed and one.turning and other.fixed and other.turning):
+    near, far = base.translations, platform.translations
+    if not (near.fixed and near.turning and far.fixed and far.turning):
         return False
-    lasting = taken.axes and all(aligned(axis, one.fixed[0]) for axis in taken.axes)
-    return not (lasting and aligned(one.fixed[0], other.fixed[0]))
+    lasting = taken.axes and all(aligned(axis, near.fixed[0]) for axis in taken.axes)
+    return not (lasting and aligned(near.fixed[0], far.fixed[0]))
 
 
-def _size(found: Assembly) -> tuple[int, int]:
-    return found.resisted.forces.dim, found.resisted.couples.dim
+def _size(assembly: HeldLimbs) -> tuple[int, int]:
+    return assembly.resisted.forces.dim, assembly.resisted.couples.dim

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from assur.topology.poc import PocSet
-from assur.topology.rules.derivation import Derivation, Step, counted, in_words, under
+from assur.topology.rules.derivation import Derivation, DerivationStep, counted, in_words, under
 from assur.topology.rules.motion import Motion
 from assur.topology.rules.refusals import Refusal
 
@@ -23,7 +23,7 @@ def limb_derivation(limbs: Sequence[Motion], carried: Carried, name: str, at: st
             steps.append(_step(before, limbs[index], after, index, at))
     result = motions[-1].poc if isinstance(motions[-1], Motion) else PocSet(0, 0, 0)
     names = tuple(_name(limb, index) for index, limb in enumerate(limbs))
-    whole = Step("intersection", tuple(limb.seen_at(at) for limb in limbs), names, result, "", "")
+    whole = DerivationStep("intersection", tuple(limb.seen_at(at) for limb in limbs), names, result, "", "")
     parts = tuple(limb.derivation for limb in limbs)
     conditions = motions[-1].conditions if isinstance(motions[-1], Motion) else ()
     said = f"so the platform has {in_words(result)}{under(conditions)}"
@@ -35,11 +35,13 @@ def _name(limb: Motion, index: int) -> str:
     return limb.limb.name if limb.limb and limb.limb.name else f"limb {index + 1}"
 
 
-def _step(before: Motion, limb: Motion, after: Motion, index: int, at: str) -> Step:
+def _step(before: Motion, limb: Motion, after: Motion, index: int, at: str) -> DerivationStep:
     """One more limb, and by which rule it was decided what it leaves."""
     names = (f"limbs 1 to {index}" if index > 1 else "limb 1", f"limb {index + 1}")
     rule, reason = _reason(before, limb, after, names)
-    return Step("intersection", (before.seen_at(at), limb.seen_at(at)), names, after.seen_at(at), rule, reason)
+    return DerivationStep(
+        "intersection", (before.seen_at(at), limb.seen_at(at)), names, after.seen_at(at), rule, reason
+    )
 
 
 def _reason(before: Motion, limb: Motion, after: Motion, names: tuple[str, str]) -> tuple[str, str]:

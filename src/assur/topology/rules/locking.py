@@ -50,8 +50,8 @@ def locked(elements: Sequence[Element], names: Collection[str], limb: int = 0) -
     >>> [item.name for item in locked(chain.elements, {"R1", "C1.1"})]
     ['P1', 'R2', 'C1']
     """
-    there = _displaced(elements, names, ANYWHERE + ELSEWHERE * limb)
-    return there if isinstance(there, Refusal) else _left(there, names)
+    displaced = _displaced(elements, names, ANYWHERE + ELSEWHERE * limb)
+    return displaced if isinstance(displaced, Refusal) else _left(displaced, names)
 
 
 def _left(elements: Sequence[Element], names: Collection[str]) -> tuple[Element, ...]:
@@ -73,7 +73,7 @@ def _left(elements: Sequence[Element], names: Collection[str]) -> tuple[Element,
 def _is_touched(element: Element, names: Collection[str]) -> bool:
     """Whether a joint, or some joint of a loop, is locked."""
     if isinstance(element, InnerLoop):
-        return any(_is_touched(item, names) for branch in element.branches for item in branch)
+        return any(_is_touched(inner, names) for branch in element.branches for inner in branch)
     parts = (f"{element.name}.{number}" for number in range(1, element.freedoms + 1))
     return any(name in names for name in (element.name, *parts))
 
@@ -127,7 +127,7 @@ def _displaced(elements: Sequence[Element], names: Collection[str], first: float
     angles = _angles(word, first)
     if isinstance(angles, Refusal):
         return angles
-    found: list[Element] = []
+    displaced: list[Element] = []
     active: list[tuple[Vector, float]] = []
     backwards = _after_ball(word, angles)
     place = 0
@@ -136,17 +136,17 @@ def _displaced(elements: Sequence[Element], names: Collection[str], first: float
         if ball:
             active = backwards
             place += len(some)
-            found.append(element)
+            displaced.append(element)
             continue
         inner = [(axis, angles[place + index]) for index, axis in enumerate(word[place : place + len(some)]) if axis]
         moved = _turned(element, active, [angle for _, angle in inner], names, first)
         if isinstance(moved, Refusal):
             return moved
-        found.append(moved)
+        displaced.append(moved)
         for axis, angle in inner:
             active = _followed(active, axis, angle)
         place += len(some)
-    return tuple(found)
+    return tuple(displaced)
 
 
 def _turns_of(elements: Sequence[Element]) -> list[list[_Turn]] | Refusal:
@@ -233,39 +233,41 @@ def _after_ball(word: Sequence[Vector | None], angles: Sequence[float]) -> list[
 def _turned(
     element: Element,
     active: Sequence[tuple[Vector, float]],
-    own: Sequence[float],
+    angles: Sequence[float],
     names: Collection[str],
     first: float,
 ) -> Element | Refusal:
     """An element behind some rotations; its own angles displace its second axis, or the branches of a loop."""
     if isinstance(element, InnerLoop):
-        locked_turn = any(_is_touched(item, names) and _axes_of(item) for branch in element.branches for item in branch)
+        locked_turn = any(
+            _is_touched(inner, names) and _axes_of(inner) for branch in element.branches for inner in branch
+        )
         branches = []
         for number, branch in enumerate(element.branches):
             start = first + ELSEWHERE * (number + 1) / 2  # between the limbs
-            moved = _turned_branch(branch, own[0] if own else 0.0, start) if locked_turn else tuple(branch)
+            moved = _turned_branch(branch, angles[0] if angles else 0.0, start) if locked_turn else tuple(branch)
             if isinstance(moved, Refusal):
                 return moved
-            branches.append(tuple(_rigidly(item, active) for item in moved))
+            branches.append(tuple(_rigidly(inner, active) for inner in moved))
         return InnerLoop(tuple(branches), element.name)
     if isinstance(element, Parallelogram) or len(element.axes) < 2:
         return _rigidly(element, active)
     near, far = element.axes
-    axes = (_direction(near, active), _direction(far, _followed(active, near, own[0])))
+    axes = (_direction(near, active), _direction(far, _followed(active, near, angles[0])))
     return dataclasses.replace(element, axes=axes)
 
 
 def _turned_branch(branch: Sequence[Element], net: float, first: float) -> tuple[Element, ...] | Refusal:
     """A branch of a planar loop, its axes turned by general angles that add up to the turn of the output link."""
-    axes = [axis for item in branch for axis in _axes_of(item)]
-    if any(not aligned(axes[0], axis) for axis in axes) or any(isinstance(item, InnerLoop) for item in branch):
+    axes = [axis for joint in branch for axis in _axes_of(joint)]
+    if any(not aligned(axes[0], axis) for axis in axes) or any(isinstance(joint, InnerLoop) for joint in branch):
         return Refusal("a joint is locked in an inner loop that is not planar")
     moved: list[Element] = []
     passed = 0
-    for item in branch:
+    for joint in branch:
         angle = 0.0 if not passed else net if passed == len(axes) else first + FURTHER * passed
-        moved.append(_rigidly(item, [(axes[0], angle)] if angle else []))
-        passed += len(_axes_of(item))
+        moved.append(_rigidly(joint, [(axes[0], angle)] if angle else []))
+        passed += len(_axes_of(joint))
     return tuple(moved)
 
 
@@ -289,7 +291,7 @@ def _rigidly(element: Element, active: Sequence[tuple[Vector, float]]) -> Elemen
         return element
     if isinstance(element, InnerLoop):
         return InnerLoop(
-            tuple(tuple(_rigidly(item, active) for item in branch) for branch in element.branches), element.name
+            tuple(tuple(_rigidly(inner, active) for inner in branch) for branch in element.branches), element.name
         )
     if isinstance(element, Parallelogram):
         return dataclasses.replace(element, axis=_direction(element.axis, active))

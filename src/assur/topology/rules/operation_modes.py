@@ -31,7 +31,7 @@ from assur.topology.rules.vectors import aligned
 
 
 @dataclass(frozen=True)
-class Assembly:
+class HeldLimbs:
     """Limbs held to the orientations of the platform that they carry, and what they resist."""
 
     limbs: tuple[Motion, ...]
@@ -54,12 +54,12 @@ class Assembly:
         return self.resisted.dim + sum(limb.passive for limb in self.limbs)
 
 
-def assembled(limbs: Sequence[Limb], taken: Orientations) -> Assembly | Refusal:
+def assembled(limbs: Sequence[Limb], taken: Orientations) -> HeldLimbs | Refusal:
     """Limbs whose platform takes given orientations."""
     return _together([motion_of(limb, taken) for limb in limbs], taken)
 
 
-def _together(motions: Sequence[Motion | Refusal], taken: Orientations) -> Assembly | Refusal:
+def _together(motions: Sequence[Motion | Refusal], taken: Orientations) -> HeldLimbs | Refusal:
     refusal = next((motion for motion in motions if isinstance(motion, Refusal)), None)
     if refusal is not None:
         return refusal
@@ -68,11 +68,11 @@ def _together(motions: Sequence[Motion | Refusal], taken: Orientations) -> Assem
     least = _common(fewer) if fewer else taken
     if isinstance(least, Refusal):
         return least
-    found = resisted(carried, least)
-    return found if isinstance(found, Refusal) else Assembly(carried, least, found)
+    constraint = resisted(carried, least)
+    return constraint if isinstance(constraint, Refusal) else HeldLimbs(carried, least, constraint)
 
 
-def as_written(limbs: Sequence[Limb]) -> Assembly | Refusal:
+def as_written(limbs: Sequence[Limb]) -> HeldLimbs | Refusal:
     """Limbs as they can move from the configuration as written.
 
     The mechanism leaves it in as many directions as it has freedoms there, and moves on in one mode where it keeps
@@ -85,19 +85,19 @@ def as_written(limbs: Sequence[Limb]) -> Assembly | Refusal:
     if isinstance(still, Refusal):
         returning = any(returns(limb.structure) for limb in limbs)
         return still if returning else _narrowed(limbs, _allowed(limbs))
-    for found in _modes(limbs, home, still):
-        if isinstance(found, Refusal) or _goes_on(home, found):
-            return found
+    for mode in _modes(limbs, home, still):
+        if isinstance(mode, Refusal) or _goes_on(home, mode):
+            return mode
     return Refusal("as written, the limbs are in a position from which they can move on in several modes")
 
 
-def _goes_on(home: Assembly, found: Assembly) -> bool:
+def _goes_on(home: HeldLimbs, mode: HeldLimbs) -> bool:
     """Whether a mode starts at home: as many freedoms as there, and a platform that can do no less."""
-    more = found.resisted.dim >= home.resisted.dim and found.turned.dim >= home.turned.dim
-    return more and found.freedoms == home.freedoms
+    more = mode.resisted.dim >= home.resisted.dim and mode.turned.dim >= home.turned.dim
+    return more and mode.freedoms == home.freedoms
 
 
-def _modes(limbs: Sequence[Limb], home: Assembly, still: Assembly) -> Iterator[Assembly | Refusal]:
+def _modes(limbs: Sequence[Limb], home: HeldLimbs, still: HeldLimbs) -> Iterator[HeldLimbs | Refusal]:
     """Ways in which a platform may turn, the least first."""
     common = _allowed(limbs)
     if not still.turned.dim or (common == UNTURNED and still.has_rods):
@@ -105,23 +105,23 @@ def _modes(limbs: Sequence[Limb], home: Assembly, still: Assembly) -> Iterator[A
     for turned in (home.turned, still.turned):
         if turned.dim == 1 and turned.is_fixed:
             about = assembled(limbs, Orientations(1, turned.fixed))
-            if isinstance(about, Assembly) and about.turned.dim == about.taken.dim == 1:
+            if isinstance(about, HeldLimbs) and about.turned.dim == about.taken.dim == 1:
                 yield about
     if common != UNTURNED:
         yield _narrowed(limbs, common)
 
 
-def unturned(limbs: Sequence[Limb]) -> Assembly | Refusal:
+def unturned(limbs: Sequence[Limb]) -> HeldLimbs | Refusal:
     """Limbs whose platform keeps its orientation.
 
     First and last axes of a limb that turn against each other do so only where the platform's translations need it,
     or where the limb moves within itself.
     """
-    found = assembled(limbs, UNTURNED)
-    if isinstance(found, Refusal):
-        return found
-    motions, moved = list(found.limbs), [limb.translations for limb in found.limbs]
-    for index, motion in enumerate(found.limbs):
+    assembly = assembled(limbs, UNTURNED)
+    if isinstance(assembly, Refusal):
+        return assembly
+    motions, moved = list(assembly.limbs), [limb.translations for limb in assembly.limbs]
+    for index, motion in enumerate(assembly.limbs):
         around = axes_around(motion.structure) if motion.structure else None
         if motion.structure is None or around is None:
             continue
@@ -141,22 +141,22 @@ def _common_translations(spans: Sequence[Span]) -> int:
 def _idle(motion: Motion, around: Block, rest: Structure) -> int:
     """Freedoms of a limb that do not move its end link, without the axes around the rest."""
     chain = motion.limb.chain if motion.limb else ()
-    axes = [item.direction for item in chain if isinstance(item, Turn) and item.direction is not None]
+    axes = [part.direction for part in chain if isinstance(part, Turn) and part.direction is not None]
     removed = sum(around.direction is not None and aligned(axis, around.direction) for axis in axes)
     return motion.freedoms - removed - translations(rest).dim - rotations(rest).dim
 
 
-def _narrowed(limbs: Sequence[Limb], taken: Orientations | Refusal) -> Assembly | Refusal:
+def _narrowed(limbs: Sequence[Limb], taken: Orientations | Refusal) -> HeldLimbs | Refusal:
     """Limbs whose platform takes every one of some orientations that they leave it."""
     while not isinstance(taken, Refusal):
-        found = assembled(limbs, taken)
-        if isinstance(found, Refusal) or found.turned.dim >= found.taken.dim == taken.dim:
-            return found
-        if found.taken.dim < taken.dim:
-            taken = found.taken
+        assembly = assembled(limbs, taken)
+        if isinstance(assembly, Refusal) or assembly.turned.dim >= assembly.taken.dim == taken.dim:
+            return assembly
+        if assembly.taken.dim < taken.dim:
+            taken = assembly.taken
             continue
-        fixed = found.turned.dim == 1 and found.turned.is_fixed
-        taken = Orientations(found.turned.dim, found.turned.fixed if fixed else ())
+        fixed = assembly.turned.dim == 1 and assembly.turned.is_fixed
+        taken = Orientations(assembly.turned.dim, assembly.turned.fixed if fixed else ())
     return taken
 
 
@@ -168,8 +168,8 @@ def _allowed(limbs: Sequence[Limb]) -> Orientations | Refusal:
 def _common(sets: Iterable[Orientations]) -> Orientations | Refusal:
     """The orientations in every set."""
     common: Orientations | Refusal = EVERY
-    for one in sets:
+    for taken in sets:
         if isinstance(common, Refusal):
             return common
-        common = common.meet(one)
+        common = common.meet(taken)
     return common

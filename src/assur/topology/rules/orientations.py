@@ -38,12 +38,12 @@ class Orientations:
         >>> Orientations(2, (x, y)).meet(Orientations(2, (x, z)))
         Orientations(dim=1, axes=((1.0, 0.0, 0.0),))
         """
-        small, large = sorted((self, other), key=lambda item: item.dim)
+        small, large = sorted((self, other), key=lambda orientations: orientations.dim)
         if small.dim == 0 or large.dim == 3:
             return small
         if not small.axes or not large.axes:
             return Orientations(max(0, small.dim + large.dim - 3))
-        shared = [axis for axis in small.axes if any(aligned(axis, item) for item in large.axes)]
+        shared = [axis for axis in small.axes if any(aligned(axis, direction) for direction in large.axes)]
         if small.dim == 1:
             return small if shared else UNTURNED
         if len(shared) == 2:
@@ -62,7 +62,7 @@ SEVERAL = "the limbs turn about the same two axes in opposite orders, so there a
 
 def orientations(structure: Structure) -> Orientations:
     """The orientations that the end link of a chain takes."""
-    axes = [item.direction for item in structure.items if isinstance(item, Block)]
+    axes = [block.direction for block in structure.items if isinstance(block, Block)]
     if len(axes) > 2:
         return EVERY
     return Orientations(len(axes), tuple(axis for axis in axes if axis is not None))
@@ -76,12 +76,12 @@ def returns(structure: Structure) -> bool:
 
 def turn_alike(first: Structure, second: Structure) -> bool:
     """Whether links inside two chains with one end link are parallel, because both turn about the same axes."""
-    one, other = _turning_axes(first), _turning_axes(second)
-    return 1 < len(one) == len(other) < 4 and all(map(_parallel, one, other))
+    axes, others = _turning_axes(first), _turning_axes(second)
+    return 1 < len(axes) == len(others) < 4 and all(map(_parallel, axes, others))
 
 
 def _turning_axes(structure: Structure) -> list[Vector | None]:
-    return [item.direction for item in structure.items if isinstance(item, Block) and item.net]
+    return [block.direction for block in structure.items if isinstance(block, Block) and block.net]
 
 
 def _parallel(first: Vector | None, second: Vector | None) -> bool:
@@ -94,7 +94,7 @@ def held(structure: Structure, to: Orientations) -> Structure | Refusal:
     Blocks that leave what follows unturned are marked so. First and last axes of three blocks that were written
     parallel stay parallel where the end link turns about nothing else, and are one block from then on.
     """
-    blocks = [item for item in structure.items if isinstance(item, Block)]
+    blocks = [block for block in structure.items if isinstance(block, Block)]
     if to.dim in (3, len(blocks)) or (to.dim and not to.axes):
         return structure
     last = _last_of_sphere(blocks)

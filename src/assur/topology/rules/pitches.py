@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from assur.topology.directions import Vector
 from assur.topology.poc import Mark, PocSet
 from assur.topology.rules.blocks import structure
-from assur.topology.rules.derivation import Derivation, Step
+from assur.topology.rules.derivation import Derivation, DerivationStep
 from assur.topology.rules.elementary import Elementary, Turn
 from assur.topology.rules.helices import coupled
 from assur.topology.rules.motion import Motion
@@ -24,7 +24,7 @@ def lone_helix(turn: Turn, axis: Vector) -> Motion:
     """A helical joint alone: one translation and one rotation that are one element."""
     mark = Mark("parallel", (turn.name,), (axis,))
     poc = PocSet(1, 1, 1, mark, mark)
-    step = Step("union", (poc,), (turn.name,), poc, "", "")
+    step = DerivationStep("union", (poc,), (turn.name,), poc, "", "")
     said = "so the end link has one translation and one rotation, which its pitch makes one element"
     return Motion(
         translations=Span(),

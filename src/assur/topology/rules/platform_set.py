@@ -12,7 +12,7 @@ from assur.topology.rules.refusals import Refusal
 from assur.topology.rules.spans import Span, perpendicular
 
 
-def platform_set(limbs: Sequence[Motion], found: Resisted, at: str = "") -> PocSet | Refusal:
+def platform_set(limbs: Sequence[Motion], resisted: Resisted, at: str = "") -> PocSet | Refusal:
     """The POC set at a general point O', or at the labelled point in which the limbs end.
 
     t = dim M - 3 + rank of the moments about O' of all that is resisted: what is resisted by a force through O', and
@@ -21,53 +21,53 @@ def platform_set(limbs: Sequence[Motion], found: Resisted, at: str = "") -> PocS
     """
     resisting = [limb for limb in limbs if limb.dim < 6]
     if at:
-        return _at_common_end(resisting, found, at)
+        return _at_common_end(resisting, resisted, at)
     if len(resisting) == 1:
         return resisting[0].restated
     if (
-        found.forces.dim == 3
-        and not found.couples.dim
+        resisted.forces.dim == 3
+        and not resisted.couples.dim
         and share_a_point(resisting)
         and not _through_one_point(resisting)
     ):
         return Refusal("limbs share a point, and whether their forces run through it decides how O' moves")
     chains = [limb.structure for limb in limbs if limb.structure is not None]
-    moved, turned = found.forces.complement, found.couples.complement
-    t = found.dim - 3 + _rank_of_moments(limbs, found)
-    seen = moved if t == moved.dim else _with_rotation(t, turned, found)
+    moved, turned = resisted.forces.complement, resisted.couples.complement
+    t = resisted.dim - 3 + _rank_of_moments(limbs, resisted)
+    seen = moved if t == moved.dim else _with_rotation(t, turned, resisted)
     mark = translation_mark(seen, *chains)
     if mark.relation == "arm":
-        mark = _arm(limbs, (t, turned.dim, found.dim))
-    return PocSet(t, turned.dim, found.dim, mark, rotation_mark(turned, *chains))
+        mark = _arm(limbs, (t, turned.dim, resisted.dim))
+    return PocSet(t, turned.dim, resisted.dim, mark, rotation_mark(turned, *chains))
 
 
-def _at_common_end(resisting: Sequence[Motion], found: Resisted, at: str) -> PocSet | Refusal:
+def _at_common_end(resisting: Sequence[Motion], resisted: Resisted, at: str) -> PocSet | Refusal:
     """The POC set at the point about which all limbs can turn."""
     if any(limb.turns_about != at for limb in resisting):
         return Refusal("O' lies on the last axes of limbs that cannot make all their rotations about it")
     chains = [limb.structure for limb in resisting if limb.structure is not None]
-    moved, turned = found.forces.complement, found.couples.complement
-    return PocSet(moved.dim, turned.dim, found.dim, translation_mark(moved, *chains), rotation_mark(turned, *chains))
+    moved, turned = resisted.forces.complement, resisted.couples.complement
+    return PocSet(moved.dim, turned.dim, resisted.dim, translation_mark(moved, *chains), rotation_mark(turned, *chains))
 
 
 def _arm(limbs: Sequence[Motion], numbers: tuple[int, int, int]) -> Mark:
     """The arm of the limb that has no other motion than the platform; else the platform's centre of rotation moves."""
     sets = [limb.restated for limb in limbs]
-    return next((item.t_mark for item in sets if (item.t, item.r, item.dim) == numbers), MOVING)
+    return next((poc.t_mark for poc in sets if (poc.t, poc.r, poc.dim) == numbers), MOVING)
 
 
-def is_helical(limbs: Sequence[Motion], found: Resisted) -> bool:
+def is_helical(limbs: Sequence[Motion], resisted: Resisted) -> bool:
     """Whether the one rotation advances along its axis, and nothing else translates along it."""
-    turned = found.couples.complement
+    turned = resisted.couples.complement
     if turned.dim != 1 or not turned.is_fixed:
         return False
     axis = turned.fixed[0]
-    return found.forces.contains(axis) and not any(resists_purely(limb, axis) for limb in limbs)
+    return resisted.forces.contains(axis) and not any(resists_purely(limb, axis) for limb in limbs)
 
 
-def _rank_of_moments(limbs: Sequence[Motion], found: Resisted) -> int:
+def _rank_of_moments(limbs: Sequence[Motion], resisted: Resisted) -> int:
     """Couples, and moments of forces on general lines about a general point."""
-    forces, couples = found.forces, found.couples
+    forces, couples = resisted.forces, resisted.couples
     planar = forces.dim == 1 and forces.is_fixed and couples.dim == 2 and couples.contains_plane(forces.fixed[0])
     if planar and any(resists_purely(limb, forces.fixed[0]) for limb in limbs):
         return 2
@@ -82,8 +82,8 @@ def _through_one_point(resisting: Sequence[Motion]) -> bool:
     return all(limb.concurrent and limb.forces.dim == 3 for limb in resisting) or have_common_end(resisting)
 
 
-def _with_rotation(t: int, turned: Span, found: Resisted) -> Span:
+def _with_rotation(t: int, turned: Span, resisted: Resisted) -> Span:
     """Directions in which O' moves, where rotation about a fixed axis adds to pure translations."""
-    if turned.dim == 1 and turned.is_fixed and found.forces.contains(turned.fixed[0]):
+    if turned.dim == 1 and turned.is_fixed and resisted.forces.contains(turned.fixed[0]):
         return perpendicular(turned.fixed[0]) if t == 2 else Span((), t, turned.fixed[0])
     return Span((), t)

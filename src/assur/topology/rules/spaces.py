@@ -54,11 +54,11 @@ def translations(structure: Structure) -> Span:
     >>> translations(structure([Turn(z, "R1"), Turn(z, "R2"), Turn(z, "R3")])).fixed
     ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
     """
-    found = tracked(structure, _pairs(structure))
+    span = tracked(structure, _pairs(structure))
     turned = rotations(structure).dim
-    if found.dim == 3 or len(structure.blocks) + len(structure.rods) <= turned:
-        return found
-    return _with_relations(structure, found, turned)
+    if span.dim == 3 or len(structure.blocks) + len(structure.rods) <= turned:
+        return span
+    return _with_relations(structure, span, turned)
 
 
 def _pairs(structure: Structure) -> Count:
@@ -94,7 +94,7 @@ def _tracked(items: Sequence[Item], count: Count) -> Span:
     return span
 
 
-def _with_relations(structure: Structure, found: Span, turned: int) -> Span:
+def _with_relations(structure: Structure, span: Span, turned: int) -> Span:
     """T with the translations by relations between more rotations than are independent.
 
     They are general, unless all axes belong to one or two bundles: all through a point, none; through a point or
@@ -108,13 +108,13 @@ def _with_relations(structure: Structure, found: Span, turned: int) -> Span:
     if beside is not None:
         return tracked(structure, {beside.index: count})
     if any(first | second == of.everything for first in of.points for second in of.points):
-        found = tracked(structure, {})
+        span = tracked(structure, {})
     else:
         lines = replace(structure, items=_without_slides(structure.items), beyond=_without_slides(structure.beyond))
         count -= tracked(lines, _pairs(structure)).dim
     for _ in range(count):
-        found = found.with_line()
-    return found
+        span = span.with_line()
+    return span
 
 
 def _block_beside_a_point(structure: Structure, of: Bundles) -> Block | None:

@@ -52,21 +52,21 @@ def serial(chain: Chain | Sequence[Element], mode: Mode = "free", name: str = "t
         back = inner_loop(element, seen_from_end) if turns_both else motion
         return back if isinstance(back, Refusal) else as_chain(motion, back.translations, element.name)
 
-    found = elementary(elements, loop)
-    if isinstance(found, Refusal):
-        return found
-    if len(found) == 1 and isinstance(found[0], Turn) and found[0].pitch and found[0].direction:
-        return lone_helix(found[0], found[0].direction)
-    refusal = pitch_refusal(found)
+    pieces = elementary(elements, loop)
+    if isinstance(pieces, Refusal):
+        return pieces
+    if len(pieces) == 1 and isinstance(pieces[0], Turn) and pieces[0].pitch and pieces[0].direction:
+        return lone_helix(pieces[0], pieces[0].direction)
+    refusal = pitch_refusal(pieces)
     if refusal is not None:
         return refusal
     limb = Limb(
-        chain=found,
-        structure=structure(found),
-        freedoms=sum(item.span.dim if isinstance(item, Slide) else 1 for item in found),
-        conditions=(*conditions, *_conditions(found, mode)),
-        centre=_centre(found),
-        labels=frozenset(item.point for item in found if isinstance(item, Turn) and not item.point.startswith("#"))
+        chain=pieces,
+        structure=structure(pieces),
+        freedoms=sum(part.span.dim if isinstance(part, Slide) else 1 for part in pieces),
+        conditions=(*conditions, *_conditions(pieces, mode)),
+        centre=_centre(pieces),
+        labels=frozenset(part.point for part in pieces if isinstance(part, Turn) and not part.point.startswith("#"))
         - {""},
         parts=lambda: tuple(motion.derivation for motion in loops),
         name=name,
@@ -115,13 +115,13 @@ def as_chain(motion: Motion, behind: Span, name: str) -> tuple[Elementary, ...] 
 
 
 def _conditions(chain: Sequence[Elementary], mode: Mode) -> tuple[str, ...]:
-    rods = [item.name for item in chain if isinstance(item, Turn) and not item.finite]
+    rods = [part.name for part in chain if isinstance(part, Turn) and not part.finite]
     kept = ["the orientation is kept"] if mode == "translation" else []
     return (*(f"{name} is a parallelogram" for name in rods), *kept)
 
 
 def _centre(chain: Sequence[Elementary]) -> str:
     """The label that all turns have, where nothing slides."""
-    labels = {item.point if isinstance(item, Turn) else "" for item in chain}
+    labels = {part.point if isinstance(part, Turn) else "" for part in chain}
     label = labels.pop() if len(labels) == 1 else ""
     return "" if label.startswith("#") else label

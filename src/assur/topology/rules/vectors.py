@@ -52,7 +52,7 @@ def plane_basis(axis: Vector) -> tuple[Vector, Vector]:
     >>> plane_basis((0.0, 0.0, 1.0))
     ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
     """
-    near = min(AXES, key=lambda item: abs(dot(item, axis)))
+    near = min(AXES, key=lambda direction: abs(dot(direction, axis)))
     first = unit(tuple(a - dot(near, axis) * b for a, b in zip(near, axis, strict=True)))
     second = unit(cross(axis, first))
     return first, second

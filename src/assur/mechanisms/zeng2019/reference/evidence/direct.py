@@ -57,17 +57,17 @@ def false_root_rows(record):
         reproduced = bool(np.all(np.abs(pose - row) <= allowed))
         length = {need.name: need for need in needs(record, row, inputs)}["B2C2"]
         away = float(np.min(np.linalg.norm(assemblies - row, axis=-1)))
-        found.append((reproduced and abs(length.found - length.wanted) > 1 and away > 1, length, away))
+        found.append((reproduced and abs(length.needed - length.actual) > 1 and away > 1, length, away))
     big_b = inputs[0] - record.values.l3 - inputs[1]
     predicted = float(np.sqrt(record.values.l2**2 + 2 * big_b**2))
     length = found[0][1]
     return Evidence(
-        all(item[0] for item in found) and abs(predicted - length.found) < 1e-2,
+        all(item[0] for item in found) and abs(predicted - length.needed) < 1e-2,
         "The paper's Eqs. (9)-(17) with cos γ = +B/A give rows 1 and 2 to the last printed digit. They "
-        f"need |B2C2| = √(l2² + 2B²) = {predicted:.2f} {record.unit} instead of {length.wanted:g}. No "
+        f"need |B2C2| = √(l2² + 2B²) = {predicted:.2f} {record.unit} instead of {length.actual:g}. No "
         "assembly of the joint graph that random search finds at these inputs is nearer than "
         f"{min(item[2] for item in found):.1f} {record.unit}.",
-        {"predicted": predicted, "needed": [item[1].found for item in found], "away": [item[2] for item in found]},
+        {"predicted": predicted, "needed": [item[1].needed for item in found], "away": [item[2] for item in found]},
     )
 
 
