@@ -37,6 +37,6 @@ def chain(name, start, end, joints, actuated=(), letter="J"):
     links = [start, *(f"{name}{i}" for i in range(1, len(joints))), end]
     columns = [np.stack(item, axis=-1)[None] for item in joints]
     return [
-        Edge(f"{name}{letter}{i + 1}", *links[i : i + 2], twists, (), (0,) if i in actuated else ())
+        Edge(f"{name}{letter}{i + 1}", *links[i : i + 2], twists, (), (0,) if i in actuated else (), len(joints[i]) < 3)
         for i, twists in enumerate(columns)
     ]

@@ -84,13 +84,14 @@ def _one_for_each(skeleton: Skeleton) -> list[Rod]:
 
 
 def _drives(page: Canvas, view: View, skeleton: Skeleton, letters: Letters) -> None:
-    """A double arrow along every driven slider, an arc about every driven revolute."""
-    for mark in skeleton.marks:
-        if not mark.driven:
-            continue
+    """A double arrow along every driven slide, an arc about every driven turn."""
+    marks = {mark.joint.name: mark for mark in skeleton.marks}
+    for item in skeleton.record.inputs:
+        mark, component = marks[item.coordinate.joint], item.coordinate.component
+        steps = {mark.joint.type.components[first]: step for step, first in mark.joint.type.places}
         at = view(mark.shown)
-        along = direction(view, mark.axes[0])
-        if mark.slides:
+        if item.coordinate.kind == "length":
+            along = direction(view, mark.axes[steps[component].direction])
             low = at - np.array([0.0, 10.5])
             page.arrow(low - 12 * along, low + 12 * along, style="<|-|>", head=5, width=0.7, order=9)
             letters.avoid(np.array([low - 12 * along, low + 12 * along]))

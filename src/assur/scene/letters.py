@@ -53,7 +53,7 @@ def lettered(skeleton: Skeleton) -> dict[str, FloatArray]:
     record = skeleton.record
     points = {name: skeleton.points[name] for name in record.points}
     for name, joint in record.joints.items():
-        if not joint.type.turning or _one_of_many(record, name):
+        if not joint.type.turning or joint.type.slides > 1 or _one_of_many(record, name):
             continue
         if all(np.linalg.norm(skeleton.points[name] - at) > 1e-9 for at in points.values()):
             points[name] = skeleton.points[name]

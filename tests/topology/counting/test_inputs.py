@@ -57,7 +57,7 @@ def test_what_is_no_number_of_a_joint(number):
         (["1.0"], "'1.0': limb 1 has joints 1 to 1"),
         (["1.2"], "'1.2': limb 1 has joints 1 to 1"),
         (["2.10"], "'2.10': limb 2 has joints 1 to 9"),
-        (["2.6"], "'2.6' is a spherical joint, which cannot be actuated; an R, P, H, C or U joint can"),
+        (["2.6"], "'2.6' is a spherical joint, which cannot be actuated; any other joint can"),
         (["2.9"], "'2.9' is a parallelogram with 4 freedoms; only a P(4R) can be actuated"),
         (["2.1", "1.1", "2.1"], "names the joint 2.1 twice; each once"),
         (["2.1", "2.01"], "names the joint 2.01 twice; each once"),

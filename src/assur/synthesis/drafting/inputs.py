@@ -54,7 +54,7 @@ def inputs_for(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mod
     if not usable:
         raise UsageError(
             f"no {asked.needed} joints that a draft could drive determine the mechanism",
-            hint="an S is never driven, of a C only its translation, of a U only its first axis",
+            hint="an S is never driven, of a C only its translation, of another joint only its first component",
         )
     chosen = min(usable, key=lambda components: max(Counter(limb_of[name] for name in components).values()))
     return chosen, analyse(place(chains, actuated=chosen), chains, mode=mode)

@@ -111,7 +111,7 @@ def locked_freedoms(edges: Sequence[Edge], inputs: Sequence[int], base: str, pla
 def actuation(edges: Sequence[Edge], base: str, platform: str, limit: int = SETS) -> Actuation:
     """The inputs that the edges name, judged, and every admissible set of components.
 
-    Components of R, P, H, C and U joints and of parallelograms with one freedom may be actuated; those of ball joints
+    Components of joints but ball joints, and of parallelograms with one freedom may be actuated; those of ball joints
     may not, nor those that an internal freedom moves. With too many combinations the first `limit` are tried;
     `in_some` and `in_every` are exact all the same.
 
@@ -158,9 +158,9 @@ def actuation(edges: Sequence[Edge], base: str, platform: str, limit: int = SETS
 
 
 def driven_columns(edges: Sequence[Edge], internal: FloatArray) -> list[int]:
-    """Columns that may be actuated: of edges with at most two freedoms, where internal freedoms (N, c, i) rest."""
+    """Columns that may be actuated: of edges whose freedoms are single, where internal freedoms (N, c, i) rest."""
     rests = np.max(np.abs(internal), axis=(0, 2), initial=0.0) < AT_REST
-    single = np.repeat([edge.freedoms <= 2 for edge in edges], [edge.freedoms for edge in edges])
+    single = np.repeat([edge.single for edge in edges], [edge.freedoms for edge in edges])
     return [int(column) for column in np.flatnonzero(rests & single)]
 
 

@@ -65,5 +65,5 @@ def _named(chains: Sequence[Chain], number: str) -> str:
                 f"'{number}' is a parallelogram with {chosen.freedoms} freedoms; only a P(4R) can be actuated"
             )
     elif chosen.type.ball:
-        raise UsageError(f"'{number}' is a spherical joint, which cannot be actuated; an R, P, H, C or U joint can")
+        raise UsageError(f"'{number}' is a spherical joint, which cannot be actuated; any other joint can")
     return chosen.name

@@ -52,7 +52,7 @@ class Mobility:
         platform: dimension of the platform's motion, dim M of its POC set.
         internal: freedoms that move neither the platform nor an input.
         idle: joints that never move.
-        idle_components: freedoms of other C and U joints that never move, ("C2.1",).
+        idle_components: freedoms of other joints with several, as C and U, that never move, ("C2.1",).
     """
 
     joints: int
@@ -165,7 +165,9 @@ def mobility(edges: Sequence[Edge], base: str, platform: str) -> Mobility:
         platform=rank(space.platform, scale=1.0),
         internal=_named(space.internal, edges),
         idle=tuple(idle),
-        idle_components=tuple(name for name, edge in parts if edge.freedoms == 2 and edge.name not in idle),
+        idle_components=tuple(
+            name for name, edge in parts if edge.freedoms > 1 and edge.single and edge.name not in idle
+        ),
     )
 
 

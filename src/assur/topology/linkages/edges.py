@@ -31,6 +31,7 @@ class Edge:
             linkage's size) at N configurations, moving the child against the parent.
         joints: names of the joints that it stands for.
         inputs: which of its columns are actuated.
+        single: whether each column is a freedom by itself that can be driven or idle, unlike those of a ball joint.
     """
 
     name: str
@@ -39,6 +40,7 @@ class Edge:
     twists: FloatArray
     joints: tuple[str, ...] = ()
     inputs: tuple[int, ...] = ()
+    single: bool = True
 
     @property
     def freedoms(self) -> int:

@@ -194,5 +194,5 @@ def _input(name: str, building: _Building) -> tuple[str, int]:
     if name not in building.joints:
         raise UnknownNameError("joint", name, [*building.joints, *building.groups])
     if building.joints[name].type.ball:
-        raise UsageError(f"the spherical joint '{name}' cannot be actuated; an R, P, H, C or U joint can")
+        raise UsageError(f"the spherical joint '{name}' cannot be actuated; any other joint can")
     return name, 0

@@ -112,7 +112,15 @@ def edges(linkage: Linkage, values: FloatArray, collapsed: bool = True) -> tuple
         inputs[name] = (*inputs.get(name, ()), component)
     slices = linkage.slices
     every = {
-        name: Edge(name, joint.parent, joint.child, twists[..., slices[name]], (name,), inputs.get(name, ()))
+        name: Edge(
+            name,
+            joint.parent,
+            joint.child,
+            twists[..., slices[name]],
+            (name,),
+            inputs.get(name, ()),
+            not joint.type.ball,
+        )
         for name, joint in linkage.joints.items()
     }
     if not collapsed:
@@ -137,7 +145,8 @@ def _generalised(group: Group, inner: Sequence[Edge]) -> Edge:
             f"the parallelogram '{group.name}' has {basis.shape[-1]} freedoms and an input inside",
             hint="only a parallelogram with one freedom can be actuated as one joint; ask for its joints instead",
         )
-    return Edge(group.name, group.parent, group.child, basis, group.joints, (0,) if actuated else ())
+    driven = (0,) if actuated else ()
+    return Edge(group.name, group.parent, group.child, basis, group.joints, driven, basis.shape[-1] == 1)
 
 
 def generic_values(linkage: Linkage, count: int = 4, seed: int = 0, hold: Hold | None = None) -> FloatArray:

@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from assur.joints.catalogue import BY_LETTER
 from assur.topology.notation.signs import WRITTEN
 from assur.topology.notation.sketch import ConditionKind, Sketch
 from assur.topology.notation.syntax import WrittenJoint, WrittenSign
 
+PLACED = ", ".join(letter for letter, joint_type in BY_LETTER.items() if joint_type.turning)
 _MARKS = WRITTEN["unicode"]
 _PLACE = "write - there, and place the axes: R[x]-P(4R)[y], y being the direction of its hinges"
 
@@ -54,7 +56,7 @@ def _share(sketch: Sketch, ends: tuple[SketchEnd, SketchEnd], at: int, mark: str
         sketch.meetings.append((left.joint.at, right.joint.at, at))
     elif not coaxial:
         what = right.what if left.joint else left.what
-        raise sketch.source.error(at, f"'{mark}' beside {what}", "joints with a place: R, H, C, U, S")
+        raise sketch.source.error(at, f"'{mark}' beside {what}", f"joints with a place: {PLACED}")
     if left.kind == right.kind == "axis":
         sketch.require("parallel" if coaxial else "different", (left.slot, right.slot), at, f"'{mark}'")
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import re
 
+from assur.joints.catalogue import BY_LETTER
 from assur.topology.notation import signs
 from assur.topology.notation.cursor import LETTERS, Cursor
 from assur.topology.notation.errors import Source
@@ -161,7 +162,7 @@ class _Reader:
             raise self.cursor.unexpected(shown, "◇(P1, P2) is the plane of two joints")
         self.cursor.take(before)
         joint = self._joint()
-        if joint.letter not in "RPHC" or joint.kind:
+        if not BY_LETTER[joint.letter].axial or joint.kind:
             what = "a parallelogram" if joint.kind else joint.letter
             raise self.cursor.error(joint.at, f"{what} in a diamond", "joints with one axis: R, P, H, C")
         return joint

@@ -88,12 +88,16 @@ def _of_joint(joint: ChainJoint, name: str, centre: str) -> list[Elementary]:
     if joint.type.ball:
         return [Turn(None, name, centre)] * 3
     point = centre if joint.type.turns > 1 else joint.point
-    return [
-        Slide(along(joint.directions[step.direction]), name)
-        if step.kind == "slide"
-        else Turn(joint.directions[step.direction], name, point, pitch=step.kind == "screw")
-        for step in joint.type.steps
-    ]
+    parts: list[Elementary] = []
+    for step in joint.type.steps:
+        direction, last = joint.directions[step.direction], parts[-1] if parts else None
+        if step.kind != "slide":
+            parts.append(Turn(direction, name, point, pitch=step.kind == "screw"))
+        elif isinstance(last, Slide):
+            parts[-1] = Slide(last.span.with_direction(direction), name)
+        else:
+            parts.append(Slide(along(direction), name))
+    return parts
 
 
 def _of_parallelogram(joint: Parallelogram, name: str, centre: str) -> list[Elementary]:
