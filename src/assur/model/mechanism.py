@@ -54,8 +54,8 @@ class Joint:
 
     Attributes:
         at, child_at: (3,) the joint's point in the parent's and in the child's frame.
-        axes: (k, 3) unit vectors. One, in the parent's frame, for R, P, H, C; two for U, the first in the
-            parent's frame and the second in the child's; none for S.
+        axes: (k, 3) unit vectors of its steps, the written ones first, in the parent's frame; what an axis behind
+            another turn is along, as the second of U, is so in the child's. None for S.
         turn: (3, 3) orientation of the child's frame in the parent's at value zero. The identity, unless
             the file gives a `child_axis`.
         pitch: advance of an H joint per turn, in length units, right-handed.

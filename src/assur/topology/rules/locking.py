@@ -38,7 +38,7 @@ def locked(elements: Sequence[Element], names: Collection[str], limb: int = 0) -
 
     Args:
         elements: of a chain whose end link keeps its orientation.
-        names: of joints, "P1", or of one of two freedoms, "C1.1" (of a C the translation, of a U the first axis).
+        names: of joints, "P1", or of one of several freedoms, "C1.1" (of a C the translation, of a U the first axis).
         limb: its number in the mechanism, so that equal limbs are not displaced alike.
 
     Returns:
@@ -50,8 +50,32 @@ def locked(elements: Sequence[Element], names: Collection[str], limb: int = 0) -
     >>> [item.name for item in locked(chain.elements, {"R1", "C1.1"})]
     ['P1', 'R2', 'C1']
     """
-    displaced = _displaced(elements, names, ANYWHERE + ELSEWHERE * limb)
+    displaced = _displaced(_apart(elements, names), names, ANYWHERE + ELSEWHERE * limb)
     return displaced if isinstance(displaced, Refusal) else _left(displaced, names)
+
+
+def _apart(elements: Sequence[Element], names: Collection[str]) -> tuple[Element, ...]:
+    """The elements with joints taken apart that are locked in part and would not keep their directions as they turn."""
+    kept: list[Element] = []
+    for element in elements:
+        if isinstance(element, InnerLoop):
+            kept.append(InnerLoop(tuple(_apart(branch, names) for branch in element.branches), element.name))
+        elif isinstance(element, ChainJoint) and _makes_directions(element) and element.name not in names:
+            kept += _parts(element) if _is_touched(element, names) else [element]
+        else:
+            kept.append(element)
+    return tuple(kept)
+
+
+def _makes_directions(joint: ChainJoint) -> bool:
+    """Whether some of its directions are made of its axes, by a rule that says other ones once these have turned."""
+    return len(joint.directions) > len(joint.axes)
+
+
+def _parts(joint: ChainJoint) -> list[ChainJoint]:
+    """Its steps, each as a joint."""
+    steps = enumerate(joint.type.steps, 1)
+    return [dataclasses.replace(_single(joint, step), name=f"{joint.name}.{number}") for number, step in steps]
 
 
 def _left(elements: Sequence[Element], names: Collection[str]) -> tuple[Element, ...]:
