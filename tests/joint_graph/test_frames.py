@@ -42,6 +42,7 @@ def exponential(joint, values):
         "cylindrical": lambda a, b: [a * slides[0] + b * axes[0]],
         "universal": lambda a, b: [a * axes[0], b * axes[1]],
         "spherical": lambda a, b, c: [np.array([a, b, c, 0, 0, 0])],
+        "planar": lambda a, b, c: [a * slides[1] + b * slides[2], c * axes[0]],
     }[joint.type.name](*values)
     displaced = np.eye(4)
     for twist in twists:

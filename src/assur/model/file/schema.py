@@ -101,6 +101,21 @@ class CylindricalEntry(AxialEntry):
     limits: CylindricalLimits = CylindricalLimits()
 
 
+class PlanarLimits(Entry):
+    """Limits of E."""
+
+    first: Range | None = None
+    second: Range | None = None
+    rotation: Range | None = None
+
+
+class PlanarEntry(AxialEntry):
+    """E: the child slides in the plane across the axis and turns about the axis."""
+
+    type: Literal["planar"]
+    limits: PlanarLimits = PlanarLimits()
+
+
 class UniversalLimits(Entry):
     """Limits of U."""
 
@@ -131,7 +146,7 @@ class SphericalEntry(JointEntry):
 
 
 AnyJoint = Annotated[
-    RevoluteEntry | PrismaticEntry | HelicalEntry | CylindricalEntry | UniversalEntry | SphericalEntry,
+    RevoluteEntry | PrismaticEntry | HelicalEntry | CylindricalEntry | PlanarEntry | UniversalEntry | SphericalEntry,
     Field(discriminator="type"),
 ]
 JOINT_ENTRIES: dict[str, type[JointEntry]] = {
@@ -141,6 +156,7 @@ JOINT_ENTRIES: dict[str, type[JointEntry]] = {
     "cylindrical": CylindricalEntry,
     "universal": UniversalEntry,
     "spherical": SphericalEntry,
+    "planar": PlanarEntry,
 }
 
 
