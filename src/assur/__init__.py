@@ -12,11 +12,13 @@ from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from assur.version import VERSION
+
 if TYPE_CHECKING:
     from assur.errors import AssurError, MechanismFileError, UnknownNameError, UsageError
     from assur.mechanism import Mechanism, load, names
 
-__version__ = "0.1.0"
+__version__ = VERSION
 __all__ = [
     "AssurError",
     "Mechanism",
@@ -49,7 +51,7 @@ class _CallablePackage(ModuleType):
     """The package `assur.topology`, which is also the function: `assur.topology("zeng2019")`."""
 
     def __call__(self, *what: Any, **options: Any) -> Any:
-        return import_module("assur.mechanism").topology(*what, **options)
+        return import_module("assur.derived_topology").topology(*what, **options)
 
 
 import_module("assur.topology").__class__ = _CallablePackage

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import stat
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +18,7 @@ from assur.storage import replace_file
 KINDS = {
     "loops": "formulas as machine code",
     "closed_forms": "closed forms that have passed",
+    "readings": "mechanisms' files as they were read",
     "consent": "Python of mechanisms that may run",
 }
 """Folder of what is kept -> what that is. Nothing else in the cache's folder is ever touched."""
@@ -24,6 +26,7 @@ KINDS = {
 LIMIT = 512
 """Megabytes that are kept at most, unless ASSUR_CACHE_LIMIT says another number."""
 MEGABYTE = 1_000_000
+WRITABLE_BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
 
 
 @dataclass(frozen=True)
@@ -81,6 +84,22 @@ def keep(kind: str, name: str, data: bytes) -> Path:
     replace_file(path, data)
     trim(_stem(path))
     return path
+
+
+def own_content(kind: str, name: str, largest: int) -> bytes | None:
+    """What a kept file says; None where there is none, it is larger, or others than its user could have written it."""
+    path = cache_folder() / kind / name
+    try:
+        status = path.lstat()
+        own = not hasattr(os, "getuid") or status.st_uid == os.getuid()
+        plain = stat.S_ISREG(status.st_mode) and not status.st_mode & WRITABLE_BY_OTHERS
+        if not own or not plain or status.st_size > largest:
+            return None
+        content = path.read_bytes()
+    except OSError:
+        return None
+    mark_used(path)
+    return content
 
 
 def mark_used(path: Path) -> None:

@@ -1,61 +1,43 @@
 """`Mechanism`: a record with its analyses as methods, each one line to the function that does the work.
 
-Analyses that need slow libraries are imported where they are called.
+An analysis is imported where it is called, but for the position problem: a command loads what it prints and no more.
 """
 
 from __future__ import annotations
 
-import dataclasses
-import re
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self, get_args
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from assur.errors import UnknownNameError, UsageError
 from assur.joint_graph.frames import Frame, frames
-from assur.joint_graph.points import point
 from assur.kinematics import closure, position
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.border import Named, checked_joints, joint_array
-from assur.kinematics.contract.check import check_closed_form
+from assur.kinematics.contract.admission import admitted_record, check_closed_form
 from assur.kinematics.home import home_values
-from assur.kinematics.position import Method
-from assur.kinematics.rates import velocity
-from assur.kinematics.rates.instantaneous import Instant, instantaneous
-from assur.kinematics.structure import linkage
+from assur.kinematics.modes import Method
 from assur.model import registry
 from assur.model.mechanism import MechanismRecord
-from assur.singularity.verdict import Verdict, verdict, verdict_at
-from assur.topology.analysis import Mode, analyse
-from assur.topology.chains import Chain
-from assur.topology.counting.inputs import default_inputs, numbered_inputs
-from assur.topology.facts import Topology
-from assur.topology.linkages.configurations import ImmobileError
-from assur.topology.linkages.placing import place
-from assur.topology.linkages.recognition import recognised
-from assur.topology.linkages.twists import ShakyError
-from assur.topology.notation import parse_chains
 
 if TYPE_CHECKING:
     from assur.kinematics.certified.certify import Way as ProofWay
     from assur.kinematics.certified.result import CertifiedSolutions
     from assur.kinematics.paths.path import Path as Way
+    from assur.kinematics.rates.instantaneous import Instant
+    from assur.kinematics.rates.velocity import VelocityMap
     from assur.performance.dexterity import Dexterity
     from assur.performance.indices import Indices
     from assur.performance.scaling import Length
+    from assur.singularity.verdict import Verdict
+    from assur.topology.analysis import Mode
+    from assur.topology.facts import Topology
     from assur.workspace.aspects.aspects import Aspects
     from assur.workspace.region import Workspace
 
 FloatArray = NDArray[np.float64]
-
-PLACINGS = 3
-"""Random dimensions that are tried for chains that do not move, or are shaky."""
-
-SOME_DIMENSIONS = "not all dimensions move: this is said of some that do, and with others it does not move or is shaky"
 
 
 class Mechanism(MechanismRecord):
@@ -66,7 +48,9 @@ class Mechanism(MechanismRecord):
 
     def with_parameters(self, /, **values: float) -> Self:
         """The same mechanism with other dimensions, checked as those of the file are."""
-        changed = registry.with_parameters(self, **values)
+        from assur.model.dimensions import with_parameters  # which reads the file again
+
+        changed = with_parameters(self, **values)
         check_closed_form(changed)
         return changed
 
@@ -82,13 +66,17 @@ class Mechanism(MechanismRecord):
         """All inputs at poses (..., m): see `assur.kinematics.position.inverse`."""
         return position.inverse(self, poses, mode, method, crossed=crossed)
 
-    def velocity_map(self, poses: ArrayLike, mode: str | None = None) -> velocity.VelocityMap:
+    def velocity_map(self, poses: ArrayLike, mode: str | None = None) -> VelocityMap:
         """Jp and Jq at poses (..., m): see `assur.kinematics.rates.velocity.velocity_map`."""
-        return velocity.velocity_map(self, poses, mode)
+        from assur.kinematics.rates.velocity import velocity_map
 
-    def velocity_map_at(self, joint_values: Named) -> velocity.VelocityMap:
+        return velocity_map(self, poses, mode)
+
+    def velocity_map_at(self, joint_values: Named) -> VelocityMap:
         """Jp and Jq from the joint graph at joint values (..., n): see `assur.kinematics.rates.velocity`."""
-        return velocity.velocity_map_at(self, joint_values)
+        from assur.kinematics.rates.velocity import velocity_map_at
+
+        return velocity_map_at(self, joint_values)
 
     def acceleration(
         self,
@@ -98,18 +86,26 @@ class Mechanism(MechanismRecord):
         mode: str | None = None,
     ) -> tuple[FloatArray, FloatArray]:
         """Velocity and acceleration of the pose: see `assur.kinematics.rates.velocity.acceleration`."""
-        return velocity.acceleration(self, poses, input_rates, input_accelerations, mode)
+        from assur.kinematics.rates.velocity import acceleration
+
+        return acceleration(self, poses, input_rates, input_accelerations, mode)
 
     def singularity(self, pose: ArrayLike, mode: str | None = None) -> Verdict:
         """The verdict on one pose (m,): see `assur.singularity.verdict`."""
+        from assur.singularity.verdict import verdict
+
         return verdict(self, pose, mode)
 
     def singularity_at(self, joint_values: Named) -> Verdict:
         """The verdict on one configuration of the joint graph (n,): see `assur.singularity.verdict.verdict_at`."""
+        from assur.singularity.verdict import verdict_at
+
         return verdict_at(self, joint_values)
 
     def instantaneous(self, joint_values: Named) -> Instant:
         """First-order motion at joint values (..., n): see `assur.kinematics.rates.instantaneous.instantaneous`."""
+        from assur.kinematics.rates.instantaneous import instantaneous
+
         return instantaneous(self, joint_values)
 
     def certified_direct(self, inputs: ArrayLike, way: ProofWay = "auto") -> CertifiedSolutions:
@@ -156,10 +152,14 @@ class Mechanism(MechanismRecord):
 
     def topology(self, actuate: Sequence[str] | None = None, mode: Mode | None = None) -> Topology:
         """POC sets, DOF, coupling degree and what follows from them: see `assur.topology`."""
+        from assur.derived_topology import topology
+
         return topology(self, actuate=actuate, mode=mode)
 
     def point(self, name: str, joint_values: Named) -> FloatArray:
         """Position (..., 3) of a lettered point or of a joint: see `assur.joint_graph.points.point`."""
+        from assur.joint_graph.points import point
+
         return point(self, name, joint_array(self, joint_values))
 
     @property
@@ -189,113 +189,9 @@ def load(name: str | Path, /, **parameters: Any) -> Mechanism:
     >>> load("zeng2019", l2=300).parameters["l2"].value
     300.0
     """
-    record = registry.load_record(name, **parameters)
-    check_closed_form(record)
-    return Mechanism(**vars(record))
+    return Mechanism(**vars(admitted_record(name, **parameters)))
 
 
 def names() -> tuple[str, ...]:
     """Names of the built-in mechanisms."""
     return registry.names()
-
-
-def topology(
-    what: str | Path | MechanismRecord | Sequence[str],
-    /,
-    *,
-    actuate: Sequence[str] | str | None = None,
-    mode: Mode | None = None,
-) -> Topology:
-    """The topology of a mechanism, derived by symbolic rules and by the rank of twists.
-
-    Args:
-        what: the name or file of a mechanism or of a topology, a mechanism, one chain, or several chains from base
-            to platform, in the plain form ("P[x] R[x] R[x] R[x]") or the literature's.
-        actuate: actuated joints as "limb.joint" (a list, or a text with commas), counted from 1, the branches of inner
-            loops one after the other. By default those of the mechanism, and for chains the first P, R, H or C of each
-            branch from the base, or an admissible set near it where these do not determine the mechanism.
-        mode: "home" for the motion that is reached from the configuration as written; "translation" where the
-            platform keeps its orientation. By default what a topology's file says, else "home".
-
-    Returns:
-        The facts as attributes; `print` shows the derivation.
-
-    Errors:
-        NotationError: a chain that cannot be read. UnknownNameError, MechanismFileError: as `load`.
-        UsageError: more actuated joints than degrees of freedom, links that nothing connects, an unknown mode.
-        RoutesDisagreeError: the two routes give different answers; the message names the chain.
-        ShakyError: loops that close only where they are singular. ImmobileError: freedoms at home that lead nowhere.
-
-    Example:
-        >>> found = topology("zeng2019")
-        >>> print(found.poc, found.dof, found.xi, found.coupling_degree)
-        t³ r⁰ 3 (3, 5) 1
-        >>> topology("R[x] R[x] R[x] R[y] R[y]").limbs[0].poc.dim
-        5
-    """
-    if isinstance(actuate, str):
-        actuate = actuate.split(",")
-    if mode not in (None, *get_args(Mode)):
-        raise UnknownNameError("mode", str(mode), get_args(Mode))
-    if isinstance(what, MechanismRecord):
-        return _of_record(what, actuate, mode)
-    if not isinstance(what, str | Path | Sequence):
-        raise UsageError(f"a topology is given by a name, a file or chains of joints, not by {what!r}")
-    if isinstance(what, str) and not _is_name(what):
-        what = [what]
-    if isinstance(what, str | Path):
-        if not registry.means_topology(what):
-            return _of_record(load(what), actuate, mode)
-        described = registry.load_topology(what)
-        numbers = actuate or [f"{limb}.{joint}" for limb, joint in described.actuate]
-        found = _of_chains(
-            described.chains, numbers, mode or described.mode, described.name, described.title, described.source
-        )
-        differences = () if actuate or mode else described.declared.differences(found)
-        return dataclasses.replace(found, notes=(*found.notes, *differences))
-    return _of_chains(parse_chains(what), actuate, mode or "home")
-
-
-def _is_name(text: str) -> bool:
-    """Whether a text is a name or a path rather than a chain: chains have capital letters and brackets."""
-    return text.endswith(".toml") or "/" in text.strip("-") or re.fullmatch(r"[a-z0-9][a-z0-9_.-]*", text) is not None
-
-
-def _of_record(record: MechanismRecord, actuate: Sequence[str] | None, mode: Mode | None) -> Topology:
-    built = linkage(record)
-    chains = recognised(built)
-    if actuate:
-        if chains is None:
-            raise UsageError(f"{record.name} has no limbs by which joints could be numbered; name inputs in its file")
-        names = numbered_inputs(chains, actuate)
-        hinges = {name: group.joints[0] for name, group in built.groups.items()}
-        built = dataclasses.replace(built, inputs=tuple((hinges.get(name, name), 0) for name in names))
-    return analyse(built, chains, name=record.name, title=record.title, source=record.source, mode=mode or "home")
-
-
-def _of_chains(
-    chains: Sequence[Chain],
-    actuate: Sequence[str] | None,
-    mode: Mode,
-    name: str = "",
-    title: str = "",
-    source: str = "",
-) -> Topology:
-    names = numbered_inputs(chains, actuate) if actuate else default_inputs(chains)
-    answers = partial(
-        analyse,
-        chains=chains,
-        name=name,
-        title=title,
-        source=source,
-        mode=mode,
-        inputs_by="given" if actuate else "first joints",
-    )
-    for seed in range(PLACINGS - 1):
-        try:
-            found = answers(place(chains, seed=seed, actuated=names))
-        except (ShakyError, ImmobileError):
-            continue
-        return dataclasses.replace(found, notes=(*found.notes, SOME_DIMENSIONS)) if seed else found
-    last = answers(place(chains, seed=PLACINGS - 1, actuated=names))
-    return dataclasses.replace(last, notes=(*last.notes, SOME_DIMENSIONS))

@@ -8,12 +8,12 @@ import pytest
 from assur.audit import parts
 from assur.audit.configurations import configurations, scaled_closure
 from assur.audit.parts import called, link_motion, sampled, square, within
+from assur.derived_topology import topology
 from assur.errors import UnknownNameError, UsageError
 from assur.joint_graph.frames import screws
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import mobility
 from assur.kinematics.home import home_values
-from assur.mechanism import topology
 from assur.model.registry import load_record
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.analysis import sample

@@ -9,7 +9,7 @@ import pytest
 
 import assur
 from assur.cli.main import application
-from assur.mechanism import topology as derive
+from assur.derived_topology import topology as derive
 from assur.model.registry import topology_names
 from assur.topology.answers import answers
 from assur.topology.latex import fragment

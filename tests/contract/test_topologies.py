@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 import assur
-from assur.model.registry import left_out, load_topology, topology_names
+from assur.model.registry import left_out, topology_names
+from assur.model.topologies import load_topology
 from assur.model.topology_description import Declared
 from assur.topology.notation import plain_text
 

@@ -9,11 +9,11 @@ from matplotlib.colors import to_hex, to_rgb
 from matplotlib.patches import Circle, PathPatch, Polygon
 
 import assur
+from assur.derived_topology import topology
 from assur.figures.encode import encoded
 from assur.figures.graph import edges, graph_drawing
 from assur.figures.style import ORANGE, SERIES, styled
 from assur.joints.catalogue import JOINT_TYPES
-from assur.mechanism import topology
 from assur.model.registry import topology_names
 from assur.topology.counting.coupling import AssurChain, Loop
 from assur.topology.linkages.linkage import Group, Linkage, LinkageJoint

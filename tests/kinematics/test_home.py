@@ -7,9 +7,10 @@ import pytest
 
 import assur
 from assur.errors import UsageError
-from assur.kinematics.home import OTHERS_HINT, home_values
+from assur.kinematics.carried_home import OTHERS_HINT
+from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
-from assur.model.registry import with_parameters
+from assur.model.dimensions import with_parameters
 from assur.synthesis.drafting.drafting import drafted
 from assur.topology.notation import parse_chains
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import assur
+from assur.kinematics import parasitic as parasitic_motion
 from assur.kinematics.parasitic import all_coordinates, left_out, moving, parasitic, parasitic_at
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import inverse
@@ -46,6 +47,32 @@ def test_nothing_is_left_out_of_a_whole_pose():
     whole = replace(RECORD, platform=replace(RECORD.platform, pose=("x", "y", "z", "qw", "qx", "qy", "qz")))
     assert left_out(whole) == ()
     assert parasitic_at(whole, whole.home) == {}
+
+
+@pytest.fixture
+def assembled(monkeypatch):
+    """What `moving` closed: assemblies beside home."""
+    calls = []
+    kept = parasitic_motion.assemble
+
+    def noted(*given, **named):
+        calls.append(kept(*given, **named))
+        return calls[-1]
+
+    monkeypatch.setattr(parasitic_motion, "assemble", noted)
+    return calls
+
+
+@pytest.mark.parametrize("name", assur.names())
+def test_what_moves_is_seen_in_few_steps_and_along_every_way(assembled, monkeypatch, name):
+    """As with so many steps, and ones so short, that every way that can be gone is gone."""
+    record = assur.load(name)
+    seen = moving.__wrapped__(record)
+    assert sum(found.steps for found in assembled) <= 12
+    assert not assembled or np.all(assembled[-1].closed)
+    monkeypatch.setattr(parasitic_motion, "CLOSING", 200)
+    monkeypatch.setattr(parasitic_motion, "STEPS", (0.1, 0.05, 0.02, 0.01, 0.005))
+    assert moving.__wrapped__(record) == seen
 
 
 @pytest.mark.parametrize("name", ["three_rps", "planar_3rrr", "zeng2019"])

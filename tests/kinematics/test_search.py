@@ -39,7 +39,7 @@ def test_the_four_poses_of_the_paper_are_among_the_assemblies_of_the_joint_graph
 
 def test_where_a_parallelogram_is_crossed_at_home_none_is_left_out(monkeypatch):
     """The file is then another mechanism, whose platform turns: its own check would say so first."""
-    monkeypatch.setattr("assur.kinematics.position.check", lambda _: None)
+    monkeypatch.setattr("assur.kinematics.assemblies.check", lambda _: None)
     paper = assur.load("zeng2019")
     found = paper.direct(TABLE_1, method="search", crossed=True)
     crossed = next(k for k, label in enumerate(found.labels) if "~" in label)

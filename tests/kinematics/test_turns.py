@@ -25,7 +25,8 @@ from assur.kinematics.turns import (
     unwrapped,
     with_turns_of_home,
 )
-from assur.model.registry import load_record, with_parameters
+from assur.model.dimensions import with_parameters
+from assur.model.registry import load_record
 from assur.numerics import components
 from assur.workspace.region import workspace
 from screw_mechanisms import DIFFERENTIAL, FIVEBAR, JACK, TRIPOD, loaded

@@ -9,7 +9,8 @@ import pytest
 import assur
 from assur.errors import MechanismFileError, UsageError
 from assur.model.closed_form_answers import answer_faults
-from assur.model.registry import examine, load_record, names
+from assur.model.examination import examine
+from assur.model.registry import load_record, names
 
 HOME = Path(assur.__file__).parent / "mechanisms/fivebar"
 FIRST = "return Branch(pose, (crank1, crank2), margins,"

@@ -9,15 +9,9 @@ import pytest
 from assur.errors import MechanismFileError, UnknownNameError, UsageError
 from assur.model.closed_form import Sign
 from assur.model.consent import leave
-from assur.model.registry import (
-    left_out,
-    load_record,
-    load_topology,
-    means_topology,
-    names,
-    topology_names,
-    with_parameters,
-)
+from assur.model.dimensions import with_parameters
+from assur.model.registry import left_out, load_record, names, topology_names
+from assur.model.topologies import load_topology, means_topology
 
 FORM = """
 from assur.model.closed_form import ClosedForm, Sign

@@ -1,7 +1,8 @@
 from __future__ import annotations
 
+from assur.derived_topology import topology
 from assur.errors import UsageError
-from assur.mechanism import load, topology
+from assur.mechanism import load
 from assur.page.facts import errata, facts
 
 
@@ -31,5 +32,5 @@ def test_what_cannot_be_derived_says_why(monkeypatch):
     def refuse(record):
         raise UsageError("the rules refuse")
 
-    monkeypatch.setattr("assur.page.facts.mechanism.topology", refuse)
+    monkeypatch.setattr("assur.page.facts.topology", refuse)
     assert facts(load("fivebar")) == [{"title": "Topology", "text": "not derived: the rules refuse"}]

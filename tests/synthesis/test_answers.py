@@ -5,7 +5,7 @@ import json
 import pytest
 
 import assur
-from assur.model.registry import load_topology
+from assur.model.topologies import load_topology
 from assur.results.json_text import json_text
 from assur.synthesis.answers import answers, skeletons
 

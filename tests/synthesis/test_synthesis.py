@@ -6,7 +6,7 @@ import pytest
 
 import assur
 from assur.errors import UnknownNameError, UsageError
-from assur.model.registry import load_topology
+from assur.model.topologies import load_topology
 from assur.synthesis import limb_motions
 from assur.synthesis.answers import answers
 from assur.synthesis.isomorphism import mechanism_key

@@ -5,7 +5,7 @@ import json
 import pytest
 
 import assur
-from assur.mechanism import topology
+from assur.derived_topology import topology
 from assur.model.registry import topology_names
 from assur.results.json_text import json_text
 from assur.topology.answers import answers, mark_text, refusals

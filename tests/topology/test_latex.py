@@ -5,7 +5,7 @@ import re
 import pytest
 
 import assur
-from assur.mechanism import topology
+from assur.derived_topology import topology
 from assur.model.registry import topology_names
 from assur.topology.latex import equations, fragment, name
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.contract.check import checked_form
+from assur.kinematics.contract.admission import checked_form
 from assur.kinematics.modes import mode_signs, sign_names
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, QUATERNION, has_quaternion, is_angle

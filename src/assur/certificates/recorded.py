@@ -13,10 +13,11 @@ from typing import Any
 from assur.certificates.certificate import file_hashes
 from assur.certificates.formulas import CONSTANT, GROUPS, formulas
 from assur.errors import UsageError
-from assur.kinematics.contract.check import check_closed_form
-from assur.kinematics.contract.held import IN_FULL
+from assur.kinematics.contract.admission import check_closed_form
+from assur.kinematics.contract.extent import IN_FULL
+from assur.model.dimensions import with_parameters
 from assur.model.mechanism import MechanismRecord
-from assur.model.registry import load_record, names, with_parameters
+from assur.model.registry import load_record, names
 
 
 def at_hand(document: Mapping[str, Any], name_or_path: str | Path | None = None) -> MechanismRecord | None:

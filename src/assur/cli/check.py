@@ -42,7 +42,8 @@ def check(
         assur check my.toml --json
     """
     from assur.kinematics.soundness.check import doubts, faults
-    from assur.model.registry import examine, load_record
+    from assur.model.examination import examine
+    from assur.model.registry import load_record
     from assur.report.labels import label_faults
 
     known, problems = examine(mechanism)
@@ -58,8 +59,9 @@ def check(
 
 def _of_closed_form(record: Any, deep: bool) -> tuple[Any, ...]:
     """What a closed form claims and the joint graph denies; at places, one that is built in is held so by the tests."""
-    from assur.kinematics.contract.check import closed_form_problems, exact_problems
-    from assur.kinematics.contract.held import DEEP, IN_FULL
+    from assur.kinematics.contract.admission import closed_form_problems
+    from assur.kinematics.contract.check import exact_problems
+    from assur.kinematics.contract.extent import DEEP, IN_FULL
 
     return closed_form_problems(record, DEEP if deep else IN_FULL, built_in=deep) or exact_problems(record)
 

@@ -45,8 +45,8 @@ def direct(
     from assur.cli.interruption import handing_over
     from assur.cli.positions import outcome
     from assur.kinematics.answers.at_border import inputs_from_border
+    from assur.kinematics.answers.solution_set import SolutionSet
     from assur.kinematics.border import input_names
-    from assur.kinematics.found import Found
 
     values = numbers(inputs, input_names(record), f"inputs of {record.name}")
     given = inputs_from_border(record, values)
@@ -56,5 +56,5 @@ def direct(
 
         way = certified_solutions.way_of(method, mode, crossed=crossed)
         return certified_solutions.outcome(record, certified_direct(record, given, way))
-    with handing_over(Found, lambda found: outcome(record, found)):
+    with handing_over(SolutionSet, lambda found: outcome(record, found)):  # type: ignore[type-abstract]
         return outcome(record, record.direct(given, mode, method, crossed=crossed))

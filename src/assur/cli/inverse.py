@@ -41,7 +41,7 @@ def inverse(
     from assur.cli.interruption import handing_over
     from assur.cli.positions import outcome
     from assur.kinematics.answers.at_border import pose_from_border
-    from assur.kinematics.found import Found
+    from assur.kinematics.answers.solution_set import SolutionSet
 
     values = numbers(pose, record.platform.pose, f"pose of {record.name}")
     given = pose_from_border(record, values)
@@ -51,5 +51,5 @@ def inverse(
 
         way = certified_solutions.way_of(method, mode, crossed=crossed)
         return certified_solutions.outcome(record, certified_inverse(record, given, way))
-    with handing_over(Found, lambda found: outcome(record, found)):
+    with handing_over(SolutionSet, lambda found: outcome(record, found)):  # type: ignore[type-abstract]
         return outcome(record, record.inverse(given, mode, method, crossed=crossed))

@@ -55,7 +55,8 @@ def _mechanisms() -> Rows:
 
 
 def _topologies() -> Rows:
-    from assur.model.registry import load_topology, topology_names
+    from assur.model.registry import topology_names
+    from assur.model.topologies import load_topology
 
     return [
         {

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import sys
 from collections.abc import Callable, Sequence
+from importlib import import_module
 from typing import Any
 
 from cyclopts import App, CycloptsError, Group, Parameter
@@ -31,38 +32,22 @@ For example:
     assur audit zeng2019"""
 
 
-def application() -> App:
-    """The application with every command."""
-    from assur.cli.aspects import aspects
-    from assur.cli.audit import audit
-    from assur.cli.cache import cache
-    from assur.cli.certify import certify
-    from assur.cli.check import check
-    from assur.cli.collisions import collisions
-    from assur.cli.crosscheck import crosscheck
-    from assur.cli.demo import demo
-    from assur.cli.direct import direct
-    from assur.cli.doctor import doctor
-    from assur.cli.export import export
-    from assur.cli.figures import figures
-    from assur.cli.follow import follow
-    from assur.cli.indices import indices
-    from assur.cli.inverse import inverse
-    from assur.cli.list import list_
-    from assur.cli.motion import motion
-    from assur.cli.new import new
-    from assur.cli.page import page
-    from assur.cli.report import report
-    from assur.cli.schema import schema
-    from assur.cli.show import show
-    from assur.cli.singularity import singularity
-    from assur.cli.sweep import sweep
-    from assur.cli.synthesize import synthesize
-    from assur.cli.topology import topology
-    from assur.cli.verify import verify
-    from assur.cli.view import view
-    from assur.cli.workspace import workspace
+GROUPS = {
+    "Mechanisms": ("list", "show", "check", "new", "schema"),
+    "Topology": ("topology", "synthesize"),
+    "Position": ("direct", "inverse", "follow", "sweep"),
+    "Singularity, workspace, quality": ("singularity", "workspace", "aspects", "indices"),
+    "See it move": ("page", "view", "motion"),
+    "Draw, write, build": ("figures", "report", "export", "collisions"),
+    "Prove and check": ("certify", "verify", "crosscheck", "audit", "doctor", "cache", "demo"),
+}
+"""Commands as help lists them."""
+COMMANDS = frozenset(name for names in GROUPS.values() for name in names)
 
+
+def application(words: Sequence[str] = ()) -> App:
+    """The application with every command; with one alone where words begin with it, as each costs its imports."""
+    asked = words[0] if words and words[0] in COMMANDS else None
     app = App(
         name="assur",
         help=HELP,
@@ -71,20 +56,19 @@ def application() -> App:
         console=console(),
         default_parameter=Parameter(negative="", show_default=False),
     )
-    groups: dict[str, tuple[Callable[..., Any], ...]] = {
-        "Mechanisms": (list_, show, check, new, schema),
-        "Topology": (topology, synthesize),
-        "Position": (direct, inverse, follow, sweep),
-        "Singularity, workspace, quality": (singularity, workspace, aspects, indices),
-        "See it move": (page, view, motion),
-        "Draw, write, build": (figures, report, export, collisions),
-        "Prove and check": (certify, verify, crosscheck, audit, doctor, cache, demo),
-    }
-    for title, commands in groups.items():
+    for title, names in GROUPS.items():
         group = Group.create_ordered(title)
-        for command in commands:
-            app.command(command, name=command.__name__.rstrip("_"), group=group)
+        for name in names:
+            if asked in (None, name):
+                app.command(_command(name), name=name, group=group)
     return app
+
+
+def _command(name: str) -> Callable[..., Any]:
+    """The function of a command: that of its name in the module of its name, `list_` where Python has the name."""
+    module = vars(import_module(f"assur.cli.{name}"))
+    command: Callable[..., Any] = module.get(f"{name}_") or module[name]
+    return command
 
 
 def main(words: Sequence[str] | None = None) -> int:
@@ -98,7 +82,7 @@ def main(words: Sequence[str] | None = None) -> int:
             return _run(shielded(words))
     except AssurError as error:
         _traceback(debug)
-        complain(as_typed(error, parsing.options(application(), words)), json=json)
+        complain(as_typed(error, parsing.options(application(words), words)), json=json)
         return error.exit_code
     except BrokenPipeError:
         return BROKEN_PIPE
@@ -113,7 +97,7 @@ def main(words: Sequence[str] | None = None) -> int:
 
 
 def _run(words: Sequence[str]) -> int:
-    app = application()
+    app = application(words)
     try:
         command, bound, _ = app.parse_args(words, exit_on_error=False, print_error=False, verbose=False)
     except CycloptsError as error:

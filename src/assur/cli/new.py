@@ -85,7 +85,7 @@ def new(
 
 
 def _from_catalogue(name: str, path: Path, *, force: bool, with_closed_form: bool) -> Outcome:
-    from assur.model.registry import load_topology
+    from assur.model.topologies import load_topology
     from assur.synthesis.drafting.copying import copied, has_dimensions, in_catalogue
 
     model = in_catalogue(name)

@@ -59,7 +59,7 @@ def topology(
     """
     from assur.cli import topology_answer
     from assur.cli.paths import output_file
-    from assur.mechanism import topology as derive
+    from assur.derived_topology import topology as derive
 
     path = output_file(graph, ENDINGS) if graph is not None else None
     found = derive(_asked(what, chain), actuate=_actuators(actuate), mode=_mode(mode))

@@ -13,7 +13,7 @@ import numpy as np
 from manifold3d import Manifold
 from numpy.typing import NDArray
 
-from assur import mechanism
+from assur import derived_topology
 from assur.errors import UsageError
 from assur.figures.near import near_solid
 from assur.figures.written import minus
@@ -21,9 +21,9 @@ from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
+from assur.model.dimensions import with_parameters
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
-from assur.model.registry import with_parameters
 from assur.performance.dexterity import GlobalIndex, global_condition_index
 from assur.performance.indices import Indices, indices, indices_at
 from assur.results.attempt import REFUSED, attempt
@@ -163,7 +163,7 @@ class Context:
     @cached_property
     def topology(self) -> Topology:
         """Its topology, derived."""
-        return mechanism.topology(self.record)
+        return derived_topology.topology(self.record)
 
     @cached_property
     def workspace(self) -> Workspace:

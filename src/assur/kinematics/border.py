@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from typing import Any
 
@@ -28,7 +29,7 @@ def checked(values: Named, names: tuple[str, ...], what: str) -> FloatArray:
     """An array (..., k) of finite floats, one for each name, given in their order or by name; or a clear refusal."""
     try:
         given = np.asarray(_columns(values, names, what) if isinstance(values, Mapping) else values)
-        numeric = given.dtype.kind in "iuf" and not isinstance(values, np.ma.MaskedArray)
+        numeric = given.dtype.kind in "iuf" and not _is_masked(values)
     except ValueError:  # rows of unequal length
         numeric = False
     if not numeric:
@@ -42,6 +43,12 @@ def checked(values: Named, names: tuple[str, ...], what: str) -> FloatArray:
     if np.any(np.abs(array) > LARGEST):
         raise UsageError(f"{what}: no value may be larger than {LARGEST:g}")
     return array
+
+
+def _is_masked(values: object) -> bool:
+    """Whether values are a masked array; there is none before NumPy has loaded its module of these, a slow one."""
+    masked = sys.modules.get("numpy.ma")
+    return masked is not None and isinstance(values, masked.MaskedArray)
 
 
 def _columns(values: Mapping[str, ArrayLike], names: tuple[str, ...], what: str) -> NDArray[Any]:

@@ -14,6 +14,8 @@ from assur.errors import UnknownNameError, UsageError
 from assur.model.mechanism import MechanismRecord
 
 Problem = Literal["direct", "inverse"]
+Method = Literal["auto", "closed form", "loops", "search"]
+"""By what an answer is sought; see `assur.kinematics.position.direct`."""
 SYMBOLS = {1: "+", -1: "-", 0: "0"}
 
 

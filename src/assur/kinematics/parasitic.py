@@ -20,8 +20,11 @@ from assur.model.pose import ANGLES, LENGTHS, has_quaternion, is_angle
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
-STEP = 0.05
-"""How far home is left to see what moves, in rad and characteristic lengths."""
+STEPS = (0.05, 0.05 / 16)
+"""How far home is left to see what moves, in rad and characteristic lengths; less far where that leads out of reach."""
+
+CLOSING = 6
+"""Steps in which loops are closed so near home: gaps of 0.05 fall by squares to rounding in four or five."""
 
 STILL = 1e-6
 """What changes by less than this, in rad and characteristic lengths, stands still."""
@@ -42,9 +45,9 @@ def left_out(record: MechanismRecord) -> tuple[str, ...]:
 def moving(record: MechanismRecord) -> tuple[str, ...]:
     """Names of those coordinates that the pose leaves out and that change when the platform leaves home.
 
-    Home is left by `STEP` along every coordinate of the pose and along both diagonals of every two, both ways, so that
-    what grows with a product or a square is seen too. A pose of lengths alone, of a platform that may turn, is that of
-    a point: how the link turns is not asked.
+    Home is left along every coordinate of the pose and along both diagonals of every two, both ways, so that what grows
+    with a product or a square is seen too. A pose of lengths alone, of a platform that may turn, is that of a point:
+    how the link turns is not asked.
 
     >>> from assur.model.registry import load_record
     >>> moving(load_record("three_rps")), moving(load_record("planar_3rrr")), moving(load_record("fivebar"))
@@ -59,11 +62,22 @@ def moving(record: MechanismRecord) -> tuple[str, ...]:
     unit = np.eye(len(pose))
     pairs = [unit[i] + sign * unit[j] for i in range(len(pose)) for j in range(i) for sign in (1.0, -1.0)]
     scale = np.array([1.0 if is_angle(name) else length for name in pose])
-    steps = STEP * scale * np.stack([way for one in (*unit, *pairs) for way in (one, -one)])
-    found = assemble(record, np.tile(home, (len(steps), 1)), poses=pose_of(record, home) + steps)
-    here, there = all_coordinates(record, home), all_coordinates(record, found.values[found.closed])
+    ways = scale * np.stack([way for one in (*unit, *pairs) for way in (one, -one)])
+    here, there = all_coordinates(record, home), all_coordinates(record, _beside(record, home, ways))
     still = {name: STILL * (1.0 if is_angle(name) else length) for name in names}
     return tuple(name for name in names if np.any(np.abs(there[name] - here[name]) > still[name]))
+
+
+def _beside(record: MechanismRecord, home: FloatArray, ways: FloatArray) -> FloatArray:
+    """Joint values (N, n) of assemblies a little way from home, along each of the ways (k, m) of the pose."""
+    pose, closed = pose_of(record, home), list[FloatArray]()
+    for step in STEPS:
+        found = assemble(record, np.tile(home, (len(ways), 1)), poses=pose + step * ways, max_steps=CLOSING)
+        closed.append(found.values[found.closed])
+        ways = ways[~found.closed]
+        if not len(ways):
+            break
+    return np.concatenate(closed)
 
 
 def all_coordinates(record: MechanismRecord, joints: ArrayLike) -> dict[str, FloatArray]:

@@ -3,33 +3,23 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from types import SimpleNamespace
-from typing import Literal, get_args
+from typing import get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from assur.errors import Interrupted, UnknownNameError, UsageError
+from assur.errors import UnknownNameError, UsageError
 from assur.kinematics import border
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.closed_form.branches import Branches
-from assur.kinematics.closed_form.roots import roots_of
-from assur.kinematics.closed_form.systems import solutions_of
-from assur.kinematics.found import Found
-from assur.kinematics.home import home_values
-from assur.kinematics.modes import Problem, all_modes, mode_signs, sign_axes, sign_names
-from assur.kinematics.near_home import nearest_first
-from assur.kinematics.ordered.loops import crossed_parallelograms, solve_by_loops
-from assur.kinematics.search import search
-from assur.kinematics.soundness.check import check
+from assur.kinematics.modes import Method, Problem, all_modes, mode_signs, sign_axes, sign_names
 from assur.kinematics.status import branch_kernel, closed_form_of
 from assur.model.closed_form import Eliminant, PolynomialSystem
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
 
 FloatArray = NDArray[np.float64]
-Method = Literal["auto", "closed form", "loops", "search"]
 
 
 def direct(
@@ -128,22 +118,15 @@ def _answer(
         raise UsageError(f"{record.name} has no closed form of the {problem} problem", hint="leave the method out")
     if method == "closed form" and crossed:
         raise UsageError("crossed parallelograms are found on the joint graph", hint="leave the method out")
-    if method in ("loops", "search") or kernel is None or crossed:
-        return _on_joint_graph(record, problem, given, _numbered_mode(record, problem, mode), method, crossed)
-    if isinstance(kernel, Eliminant):
-        return _roots(record, kernel, given, _numbered_mode(record, problem, mode), method)
-    if isinstance(kernel, PolynomialSystem):
-        return solutions_of(record, kernel, given, _numbered_mode(record, problem, mode))
-    return _branches(record, problem, given, mode)
+    if kernel is not None and method not in ("loops", "search") and not crossed:
+        if not isinstance(kernel, Eliminant | PolynomialSystem):
+            return _branches(record, problem, given, mode)
+        from assur.kinematics.closed_form.polynomials import polynomial_solutions  # no branch needs it
 
+        return polynomial_solutions(record, kernel, given, _numbered_mode(record, problem, mode), method)
+    from assur.kinematics.assemblies import assemblies  # loops and searches, which no closed form needs
 
-def _roots(record: MechanismRecord, kernel: Eliminant, given: FloatArray, only: str, method: Method) -> SolutionSet:
-    """The roots of a polynomial; for a single problem that these leave open, the loops in turn where they do not."""
-    if method == "auto" and given.ndim == 1 and not roots_of(record, kernel, given, "").complete:
-        found = _on_joint_graph(record, "direct", given, only, "loops", crossed=False)
-        if found.all_known:
-            return found
-    return roots_of(record, kernel, given, only)
+    return assemblies(record, problem, given, _numbered_mode(record, problem, mode), method, crossed=crossed)
 
 
 def _branches(record: MechanismRecord, problem: Problem, given: FloatArray, mode: str | None) -> Branches:
@@ -164,76 +147,6 @@ def _branches(record: MechanismRecord, problem: Problem, given: FloatArray, mode
     ):  # where a margin degenerates; its status says so
         branch = kernel(Floats(), record.values, components(record, flat), sign)
     return Branches(record, problem, given, np.array(asked, dtype=np.int8), shape, branch)
-
-
-def _on_joint_graph(
-    record: MechanismRecord, problem: Problem, given: FloatArray, only: str, method: Method, crossed: bool
-) -> Found:
-    """What is found on the joint graph, problem by problem: loop by loop where that is complete, else by a search."""
-    check(record)
-    found = []
-    for one in given.reshape(-1, given.shape[-1]):
-        found.append(_assemblies(record, problem, one, method, crossed))
-        if found[-1].interrupted and len(found) < given[..., 0].size:
-            raise KeyboardInterrupt
-    most = max((len(item.joints) for item in found), default=0)
-    joints = np.full((len(found), most, len(record.coordinates)), np.nan)
-    for row, item in zip(joints, found, strict=True):
-        row[: len(item.joints)] = item.joints[nearest_first(record, item.joints)]
-    batch = given.shape[:-1]
-    answer = Found(
-        record,
-        problem,
-        given,
-        joints.reshape(*batch, *joints.shape[1:]),
-        all_known=all(item.complete for item in found),
-        model="reduced" if record.generalised and all(item.uncrossed for item in found) else "joint_graph",
-        reason="; ".join(dict.fromkeys(item.right for item in found)),
-        nearest=np.array([item.nearest for item in found]).reshape(batch),
-        only=only,
-    )
-    if any(item.interrupted for item in found):
-        raise Interrupted(answer)
-    return answer
-
-
-@dataclass(frozen=True, eq=False)
-class _Assemblies:
-    """Joint values (K, coordinates) of one problem; `uncrossed`: crossed parallelograms are left out."""
-
-    joints: FloatArray
-    complete: bool
-    right: str
-    nearest: float
-    uncrossed: bool
-    interrupted: bool = False
-
-
-def _assemblies(
-    record: MechanismRecord, problem: Problem, given: FloatArray, method: Method, crossed: bool
-) -> _Assemblies:
-    if method != "search":
-        asked = {"inputs": given} if problem == "direct" else {"pose": given}
-        turn = solve_by_loops(record, **asked, crossed=crossed)
-        if turn.complete or method == "loops" or (crossed and len(turn.joints)):
-            return _Assemblies(turn.joints, turn.complete, turn.right, np.nan, not crossed)
-    interrupted = False
-    try:
-        found = search(record, problem, given)
-    except Interrupted as stop:
-        found, interrupted = stop.answer, True
-    last = (
-        f"of which number {found.last_new} found the last new one" if len(found.joints) else "none of which found one"
-    )
-    reason = f"not proved: a search from {found.starts} starts, {last}"
-    if crossed or not record.generalised or crossed_parallelograms(record, home_values(record)):
-        return _Assemblies(found.joints, False, reason, found.nearest, False, interrupted)
-    kept = found.joints[[not crossed_parallelograms(record, row) for row in found.joints]]
-    left_out = len(found.joints) - len(kept)
-    if left_out:
-        reason += f"; {left_out} with crossed parallelograms {'was' if left_out == 1 else 'were'} left out"
-    nearest = np.nan if left_out and not len(kept) else found.nearest  # a crossed one closes: no gap is to be told
-    return _Assemblies(kept, False, reason, nearest, True, interrupted)
 
 
 def _numbered_mode(record: MechanismRecord, problem: Problem, mode: str | None) -> str:

@@ -13,7 +13,6 @@ import os
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from importlib.resources import files
 from pathlib import Path
 from typing import Literal
 
@@ -72,7 +71,7 @@ def built_in(path: Path) -> bool:
     >>> built_in(Path("my_mechanism/closed_form.py"))
     False
     """
-    home = Path(str(files("assur"))).resolve() / "mechanisms"
+    home = Path(__file__).resolve().parents[1] / "mechanisms"
     return (path.parent.resolve() / path.name).is_relative_to(home)  # a link in another folder stands among its files
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from assur import mechanism
 from assur.audit.errata import ErrataFile
 from assur.audit.reference import ERRATA, FOLDER, checked
+from assur.derived_topology import topology
 from assur.errors import AssurError
 from assur.model.file.toml_source import read_toml
 from assur.model.mechanism import MechanismRecord
@@ -24,7 +24,7 @@ def facts(record: MechanismRecord) -> list[dict[str, str]]:
     ['t³ r⁰', '3', '1']
     """
     try:
-        found = mechanism.topology(record)
+        found = topology(record)
     except AssurError as error:
         return [{"title": "Topology", "text": f"not derived: {error.message}"}]
     return [{"title": title, "text": text} for title, text in _facts(found) if text]

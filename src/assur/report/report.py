@@ -11,8 +11,8 @@ from typing import Any
 
 import assur
 from assur.errors import Interrupted
-from assur.kinematics.contract.check import check_closed_form
-from assur.kinematics.contract.held import IN_FULL
+from assur.kinematics.contract.admission import check_closed_form
+from assur.kinematics.contract.extent import IN_FULL
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
 from assur.report.render import Page, page_html

@@ -6,7 +6,8 @@ from collections import defaultdict
 from collections.abc import Mapping
 
 from assur.errors import UsageError
-from assur.model.registry import load_topology, topology_names
+from assur.model.registry import topology_names
+from assur.model.topologies import load_topology
 from assur.model.topology_description import TopologyDescription
 from assur.synthesis.isomorphism import Key, limb_key, mechanism_key
 from assur.synthesis.wanted import WantedMotion

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
+from assur.model.dimensions import with_parameters
 from assur.model.mechanism import MechanismRecord
-from assur.model.registry import with_parameters
 from assur.view.snapshot import Snapshot, start, with_values
 
 FloatArray = NDArray[np.float64]

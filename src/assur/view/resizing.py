@@ -23,8 +23,8 @@ from assur.kinematics.paths.locked import RANK, Locked, locked, matrices, units
 from assur.kinematics.paths.stepping import AIM, CLOSE, FLOOR, KEPT
 from assur.kinematics.paths.stopping import LESS
 from assur.kinematics.pose import pose_of
+from assur.model.dimensions import with_parameters
 from assur.model.mechanism import MechanismRecord
-from assur.model.registry import with_parameters
 
 FloatArray = NDArray[np.float64]
 TOLERANCE = 1e-5

@@ -10,7 +10,7 @@ from assur.errors import UsageError
 from assur.kinematics.closed_form.recorded import Row, recording
 from assur.kinematics.closed_form.sweep import inverse_sweep
 from assur.kinematics.modes import all_modes, mode_signs
-from assur.model.registry import with_parameters
+from assur.model.dimensions import with_parameters
 
 
 def test_one_recording_serves_every_mode_and_all_dimensions(zeng):

@@ -13,7 +13,7 @@ from assur.kinematics.closed_form.stored import ALL, stored_sweep
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.kinematics.status import Status
-from assur.model.registry import with_parameters
+from assur.model.dimensions import with_parameters
 
 COUNTS = 40
 RECORDS = [record for record in map(assur.load, assur.names()) if record.closed_form is not None]

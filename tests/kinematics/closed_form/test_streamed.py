@@ -166,7 +166,7 @@ def test_another_question_is_refused(zeng, tmp_path, change, differs):
 
 
 def test_other_dimensions_are_another_question(zeng, tmp_path):
-    from assur.model.registry import with_parameters
+    from assur.model.dimensions import with_parameters
 
     sweep_grid(zeng, COUNTS, tmp_path)
     with pytest.raises(UsageError, match="dimensions"):

@@ -6,7 +6,7 @@ import pytest
 
 import assur
 from assur.kinematics.contract.check import problems
-from assur.kinematics.contract.held import DEEP, IN_FULL
+from assur.kinematics.contract.extent import DEEP, IN_FULL
 from assur.model.registry import load_record
 
 
@@ -31,7 +31,8 @@ def test_every_right_form_passes_every_check(copied, name, extent):
 @pytest.mark.parametrize("name", assur.names())
 @pytest.mark.parametrize("seed", range(20))
 def test_a_right_form_passes_at_other_places(copied, name, seed):
-    from assur.kinematics.contract.held import AT_LOAD, at_other_dimensions, at_places
+    from assur.kinematics.contract.extent import AT_LOAD
+    from assur.kinematics.contract.held import at_other_dimensions, at_places
 
     record = load_record(copied(name))
     assert at_places(record, AT_LOAD, seed) == []

@@ -8,7 +8,8 @@ import pytest
 import assur
 from assur.kinematics.contract.check import problems
 from assur.kinematics.contract.exact import Trial, exactness
-from assur.kinematics.contract.held import AT_LOAD, at_places
+from assur.kinematics.contract.extent import AT_LOAD
+from assur.kinematics.contract.held import at_places
 from assur.model.registry import load_record
 
 BUMP = "5/(1 + ({} - 10)*({} - 10)*1e20)"

@@ -7,7 +7,8 @@ import itertools
 import pytest
 
 from assur.kinematics.contract.check import problems
-from assur.kinematics.contract.held import AT_LOAD, EXTENTS, IN_FULL, at_other_dimensions, at_places
+from assur.kinematics.contract.extent import AT_LOAD, EXTENTS, IN_FULL
+from assur.kinematics.contract.held import at_other_dimensions, at_places
 from assur.model.registry import load_record
 
 WRONG = {

@@ -9,7 +9,7 @@ import pytest
 
 from assur import load
 from assur.errors import MechanismFileError
-from assur.kinematics.contract import check
+from assur.kinematics.contract import admission, check
 from assur.kinematics.contract.kept import FOLDER
 
 
@@ -90,10 +90,10 @@ def test_an_entry_never_lets_a_wrong_form_pass(copied, entry):
     kept = entry().read_bytes()
     path = folder / CLOSED
     path.write_text(path.read_text(encoding="utf-8").replace("arm1 = sign.s1", "arm1 = -sign.s1"), encoding="utf-8")
-    from assur.kinematics.contract.kept import _entry, _path
+    from assur.kinematics.contract.kept import _entry, _name
     from assur.model.registry import load_record
 
-    _path(_entry(load_record(folder), check.AT_LOAD, "any")).write_bytes(kept)
+    entry().with_name(_name(_entry(load_record(folder), admission.AT_LOAD, "any"))).write_bytes(kept)
     with pytest.raises(MechanismFileError, match="mode sign s1"):
         load(folder)
 
@@ -122,7 +122,7 @@ def test_a_file_that_is_changed_between_reading_and_check_has_not_passed(copied,
     text = path.read_text(encoding="utf-8")
     read = load_record(folder)
     path.write_text(text.replace("arm1 = sign.s1", "arm1 = -sign.s1") + "# another file\n", encoding="utf-8")
-    check.check_closed_form(read)
+    admission.check_closed_form(read)
     assert len(counted) == 1
     if file == CLOSED:
         with pytest.raises(MechanismFileError, match="mode sign s1"):
@@ -143,4 +143,4 @@ def test_a_form_that_was_read_is_not_excused_by_the_file_that_stands_there_now(c
     path.write_text(text, encoding="utf-8")
     load(folder)
     with pytest.raises(MechanismFileError, match="mode sign s1"):
-        check.check_closed_form(wrong)
+        admission.check_closed_form(wrong)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from assur.kinematics.contract.check import problems, unproved
-from assur.kinematics.contract.held import AT_LOAD, IN_FULL
+from assur.kinematics.contract.extent import AT_LOAD, IN_FULL
 from assur.model.registry import CLOSED_FORM, load_record
 
 ARM = "arm1 = sign.s1 * ns.sqrt(height1)"

@@ -20,8 +20,9 @@ from assur.kinematics.closure import closure_error
 from assur.kinematics.home import home_values
 from assur.kinematics.soundness.check import check, doubts, faults
 from assur.kinematics.soundness.gaps import loops
+from assur.model.dimensions import with_parameters
 from assur.model.file.reader import read_text
-from assur.model.registry import load_record, names, with_parameters
+from assur.model.registry import load_record, names
 
 TESTS = Path(__file__).parents[2]
 FOUR = """format = 1

@@ -8,8 +8,8 @@ from importlib.resources import files
 import pytest
 
 from assur.errors import UsageError
+from assur.model.dimensions import with_parameters
 from assur.model.mechanism import MechanismRecord
-from assur.model.registry import with_parameters
 
 Read = Callable[[str], MechanismRecord]
 Faults = Callable[[str], list[str]]

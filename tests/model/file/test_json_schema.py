@@ -13,7 +13,8 @@ import pytest
 import assur
 from assur.model.file.json_schema import json_schema, schema_text
 from assur.model.file.schema import FileEntry
-from assur.model.registry import load_topology, topology_names
+from assur.model.registry import topology_names
+from assur.model.topologies import load_topology
 from assur.synthesis.drafting.drafting import drafted
 
 ROOT = Path(__file__).parents[3]

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from assur.errors import MechanismFileError, UnknownNameError, UsageError
+from assur.model.dimensions import with_parameters
 from assur.model.mechanism import MechanismRecord
-from assur.model.registry import with_parameters
 
 Read = Callable[[str], MechanismRecord]
 

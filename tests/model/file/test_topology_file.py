@@ -16,7 +16,8 @@ from assur.model.file.reader import read_text
 from assur.model.file.topology_file import read_topology, read_topology_text
 from assur.model.file.topology_schema import DeclaredEntry, TopologyEntry
 from assur.model.file.topology_text import topology_text
-from assur.model.registry import load_topology, topology_names
+from assur.model.registry import topology_names
+from assur.model.topologies import load_topology
 from assur.model.topology_description import Declared, TopologyDescription
 from assur.topology.chains import ChainJoint
 from assur.topology.notation import parse_chains

@@ -11,7 +11,8 @@ import pytest
 from assur.audit.errata import erratum
 from assur.errors import UsageError
 from assur.model.consent import leave
-from assur.model.registry import load_record, with_parameters
+from assur.model.dimensions import with_parameters
+from assur.model.registry import load_record
 
 IDS = [f"E{k}" for k in range(1, 18)]
 

@@ -17,9 +17,11 @@ from assur.kinematics.home import home_values
 from assur.kinematics.rates.finite_motion import classify_at
 from assur.kinematics.soundness.check import faults
 from assur.kinematics.status import Status
+from assur.model.dimensions import with_parameters
 from assur.model.file.reader import read_text
 from assur.model.mechanism import MechanismRecord
-from assur.model.registry import load_topology, topology_names, with_parameters
+from assur.model.registry import topology_names
+from assur.model.topologies import load_topology
 from assur.synthesis.drafting.drafting import Drafted, drafted
 from assur.synthesis.drafting.facts import facts
 from assur.synthesis.drafting.repeating import repeated

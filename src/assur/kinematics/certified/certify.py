@@ -10,14 +10,15 @@ from typing import Literal, get_args
 from numpy.typing import ArrayLike
 
 from assur.errors import UnknownNameError, UsageError
-from assur.kinematics import border, position
+from assur.kinematics import border
 from assur.kinematics.certified.assemblies import certified_assemblies
 from assur.kinematics.certified.boxes import direct_by_boxes
 from assur.kinematics.certified.result import CertifiedSolutions
 from assur.kinematics.certified.roots import direct_by_roots
 from assur.kinematics.certified.signs import direct_by_signs, inverse_by_signs
 from assur.kinematics.certified.systems import direct_by_system
-from assur.kinematics.contract.check import checked_form
+from assur.kinematics.contract.admission import checked_form
+from assur.kinematics.modes import Method
 from assur.model.closed_form import Eliminant, PolynomialSystem
 from assur.model.mechanism import MechanismRecord
 
@@ -99,7 +100,7 @@ def _check_way(way: str) -> None:
         raise UnknownNameError("way to certify", way, get_args(Way))
 
 
-def _method(record: MechanismRecord) -> position.Method:
+def _method(record: MechanismRecord) -> Method:
     """How assemblies are found in floats: loops in turn where the closed form is not wanted."""
     return "auto" if record.closed_form is None else "loops"
 

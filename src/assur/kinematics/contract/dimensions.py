@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 
 from assur.errors import MechanismFileError, UsageError
@@ -11,21 +9,11 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closure import RANK_GAP
 from assur.kinematics.home import home_values
 from assur.kinematics.rates.motions import motions
+from assur.model.dimensions import with_parameters
 from assur.model.mechanism import MechanismRecord, Parameter
-from assur.model.registry import with_parameters
 
 SHARES = (0.15, 0.03)
 """By how much dimensions are changed at most; by less where nothing closes."""
-
-
-def of_file(record: MechanismRecord) -> MechanismRecord:
-    """The mechanism with the dimensions of its file.
-
-    >>> from assur.model.registry import load_record
-    >>> of_file(load_record("fivebar", l1=130)).values.l1 == load_record("fivebar").values.l1
-    True
-    """
-    return with_parameters(dataclasses.replace(record, overrides={})) if record.overrides else record
 
 
 def changed(record: MechanismRecord, random: np.random.Generator) -> MechanismRecord | None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +14,7 @@ from assur.kinematics.contract.completeness import missing, random_assemblies
 from assur.kinematics.contract.curves import broken_curves, lacking_curves
 from assur.kinematics.contract.determinants import wrong_factors
 from assur.kinematics.contract.dimensions import changed, with_dimensions
+from assur.kinematics.contract.extent import Extent
 from assur.kinematics.contract.kernel import recorded
 from assur.kinematics.contract.mismatch import Mismatch
 from assur.kinematics.contract.places import inputs, poses
@@ -34,37 +34,6 @@ from assur.model.mechanism import MechanismRecord
 FloatArray = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Extent:
-    """How much is looked at.
-
-    Attributes:
-        name: what the check is called.
-        poses: problems of each kind.
-        solutions: so many of them are held against the laws of single solutions.
-        motions: so many of these against motions of the joint graph.
-        assemblies: starts of the joint graph's own assemblies, beside home.
-        problems: so many are given to the joint graph's own solvers.
-        formulas: whether divisors, radicands and zeros of factors are looked at.
-    """
-
-    name: str
-    poses: int
-    solutions: int
-    motions: int
-    assemblies: int = 0
-    problems: int = 0
-    formulas: bool = False
-
-
-AT_LOAD = Extent("load", poses=50, solutions=400, motions=60)
-"""On the first use: a few tenths of a second."""
-IN_FULL = Extent("full", poses=200, solutions=2000, motions=120, assemblies=32, problems=5, formulas=True)
-"""Of `assur check`, and before anything is proved: some seconds."""
-DEEP = Extent("deep", poses=4000, solutions=40_000, motions=1000, assemblies=400, problems=30, formulas=True)
-"""Of `assur check --deep`: some minutes."""
-EXTENTS = (AT_LOAD, IN_FULL, DEEP)
-"""Each looks at all that those before it look at, and more."""
 SIZE = 700
 """Of a mechanism of many joints fewer motions are looked at: its number of joint values, squared, over this many."""
 FEWEST = 16
@@ -78,6 +47,7 @@ def at_places(record: MechanismRecord, extent: Extent, seed: int = 0) -> list[Mi
     """What of a closed form does not hold at so many places; the laws in their order, the first that is broken alone.
 
     >>> from assur.model.registry import load_record
+    >>> from assur.kinematics.contract.extent import AT_LOAD
     >>> at_places(load_record("fivebar"), AT_LOAD)
     []
     """
@@ -114,6 +84,7 @@ def of_formulas(record: MechanismRecord, extent: Extent, seed: int = 0) -> list[
     """Divisors and radicands that nothing declares, and zeros of factors at which nothing is singular.
 
     >>> from assur.model.registry import load_record
+    >>> from assur.kinematics.contract.extent import IN_FULL
     >>> of_formulas(load_record("fivebar"), IN_FULL)
     []
     """
@@ -132,6 +103,7 @@ def at_other_dimensions(record: MechanismRecord, extent: Extent, seed: int = 1) 
     """What does not hold with other dimensions, and whether there are any: else each choice is a question of its own.
 
     >>> from assur.model.registry import load_record
+    >>> from assur.kinematics.contract.extent import AT_LOAD
     >>> at_other_dimensions(load_record("fivebar"), AT_LOAD)
     ([], True)
     """

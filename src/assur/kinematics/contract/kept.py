@@ -9,28 +9,23 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
-import os
-import stat
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from functools import lru_cache
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Literal, get_args
 
-from assur.cache import cache_folder, keep
-from assur.kinematics.contract.held import Extent
+from assur.cache import keep, own_content
+from assur.kinematics.contract.extent import Extent
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import CLOSED_FORM
+from assur.version import VERSION
 
 FOLDER = "closed_forms"
 ENDINGS = (".py", ".toml")
 """What of a folder an answer may depend on."""
 LARGEST = 10_000
 """Bytes of an entry; a larger one is none of ours."""
-WRITABLE_BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
-
-
 Scope = Literal["any", "own"]
 SCOPES: tuple[Scope, ...] = get_args(Scope)
 """Whether an entry is about the dimensions of a record alone, or about any."""
@@ -39,14 +34,18 @@ SCOPES: tuple[Scope, ...] = get_args(Scope)
 def has_passed(record: MechanismRecord, extent: Extent, scope: Scope) -> bool:
     """Whether the cache says that this closed form passed a check of that extent."""
     entry = _entry(record, extent, scope)
-    return bool(_content(_path(entry)) == entry)
+    content = own_content(FOLDER, _name(entry), LARGEST)
+    try:
+        return content is not None and bool(json.loads(content) == entry)
+    except (ValueError, RecursionError):
+        return False
 
 
 def keep_passed(record: MechanismRecord, extent: Extent, scope: Scope) -> None:
     """Note it; a cache that cannot be written is no fault."""
     entry = _entry(record, extent, scope)
     with suppress(OSError):
-        keep(FOLDER, _path(entry).name, (json.dumps(entry, indent=1, sort_keys=True) + "\n").encode())
+        keep(FOLDER, _name(entry), (json.dumps(entry, indent=1, sort_keys=True) + "\n").encode())
 
 
 def _entry(record: MechanismRecord, extent: Extent, scope: Scope) -> dict[str, Any]:
@@ -55,29 +54,15 @@ def _entry(record: MechanismRecord, extent: Extent, scope: Scope) -> dict[str, A
         "mechanism": record.name,
         "extent": dataclasses.asdict(extent),
         "passed": True,
-        "assur": version("assur"),
+        "assur": VERSION,
         "laws": _laws(),
         "dimensions": "any" if scope == "any" else own,
         "files": {**dict(_digests(record.file)), **_of_record(record)},
     }
 
 
-def _path(entry: Mapping[str, Any]) -> Path:
-    name = hashlib.sha256(json.dumps(entry, sort_keys=True).encode()).hexdigest()
-    return cache_folder() / FOLDER / f"{name}.json"
-
-
-def _content(path: Path) -> Any:
-    """What an entry says; nothing where it is damaged, or where others could have written it."""
-    try:
-        status = path.lstat()
-        own = not hasattr(os, "getuid") or status.st_uid == os.getuid()
-        plain = stat.S_ISREG(status.st_mode) and not status.st_mode & WRITABLE_BY_OTHERS
-        if not own or not plain or status.st_size > LARGEST:
-            return None
-        return json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError):
-        return None
+def _name(entry: Mapping[str, Any]) -> str:
+    return hashlib.sha256(json.dumps(entry, sort_keys=True).encode()).hexdigest() + ".json"
 
 
 def _digests(file: Path) -> Iterator[tuple[str, str]]:
@@ -91,7 +76,7 @@ def _digests(file: Path) -> Iterator[tuple[str, str]]:
 def _of_record(record: MechanismRecord) -> dict[str, str]:
     """What the record was made of as it was read then: what stands in these files by now was not checked."""
     description = record.description
-    texts = {record.file.name: description.source.text if description else "", CLOSED_FORM: record.closed_form_text}
+    texts = {record.file.name: description.text if description else "", CLOSED_FORM: record.closed_form_text}
     return {name: hashlib.sha256(text.encode()).hexdigest() for name, text in texts.items()}
 
 

@@ -57,7 +57,7 @@ def built(description: Description, overrides: Mapping[str, float], faults: Faul
     Errors:
         MechanismFileError: the description is too large to be looked at.
     """
-    file, cut = description.entry, description.cut
+    file, cut = description.form.entry, description.form.cut
     _check_size(file, faults)
     _check_required(file, cut, faults)
     tables = expand(description, faults)

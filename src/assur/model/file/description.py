@@ -1,27 +1,93 @@
-"""The description of a mechanism: its file, in form, before any formula is evaluated."""
+"""The description of a mechanism: its file, before any formula is evaluated."""
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from assur.errors import MechanismFileError, Problem
+from assur.model.file.faults import Faults
 from assur.model.file.key_path import KeyPath
-from assur.model.file.schema import FileEntry
-from assur.model.file.toml_source import TomlSource
+from assur.results.reading import file_text
+
+if TYPE_CHECKING:
+    from assur.model.file.schema import FileEntry
+    from assur.model.file.toml_source import TomlSource
 
 
 @dataclass(frozen=True, eq=False)
 class Description:
-    """A file in the form of `schema`.
+    """A file as text, and its document in the form of `schema`, which is worked out where it is asked for.
 
     Attributes:
         path: the file.
-        source: its document, with lines.
-        entry: the part that is in form.
-        cut: paths of what is not and was left out; empty in a file without faults.
+        text: what stands in it.
     """
 
     path: Path
-    source: TomlSource
+    text: str
+
+    @cached_property
+    def source(self) -> TomlSource:
+        """The document, with lines.
+
+        Errors:
+            MechanismFileError: the text is not TOML.
+        """
+        from assur.model.file.toml_source import read_toml  # what was kept is not read again
+
+        return read_toml(self.text, str(self.path))
+
+    @cached_property
+    def form(self) -> Form:
+        """What of the document is in form, and the faults of the rest.
+
+        Errors:
+            MechanismFileError: too little is left to look any further.
+        """
+        from assur.model.file.form import check_form  # schemas take longer to make than all else that a command loads
+
+        faults = Faults(str(self.path), self.source)
+        entry, cut = check_form(self.source.data, faults)
+        if entry is None:
+            faults.raise_any()
+            raise MechanismFileError(
+                [Problem(str(self.path), None, "", "a broken document", "allowed: the form of a file")]
+            )
+        return Form(entry, cut, faults)
+
+
+@dataclass(frozen=True, eq=False)
+class Form:
+    """A document, its form checked.
+
+    Attributes:
+        entry: the part that is in form.
+        cut: paths of what is not and was left out; empty in a file without faults.
+        faults: what was noted of these.
+    """
+
     entry: FileEntry
-    cut: frozenset[KeyPath] = frozenset()
+    cut: frozenset[KeyPath]
+    faults: Faults
+
+
+def with_ending(text: str) -> str:
+    """The hint that a file has the name but for its ending; empty where there is none.
+
+    >>> with_ending("no such file")
+    ''
+    """
+    there = text.strip() and os.path.isfile(f"{text}.toml")  # noqa: PTH113  # which a name that is none does not upset
+    return f"did you mean {text}.toml?" if there else ""
+
+
+def description_text(path: Path) -> str:
+    """The text of a mechanism's or a topology's file.
+
+    Errors: as `assur.results.reading.file_text`.
+    """
+    return file_text(path, hint=with_ending(str(path)))

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from assur.errors import MechanismFileError, Problem, cut
 from assur.model.file.key_path import KeyPath, path_text
-from assur.model.file.toml_source import TomlSource
+
+if TYPE_CHECKING:
+    from assur.model.file.toml_source import TomlSource
 
 _SHOWN = 24
 MOST = 100
@@ -25,6 +28,12 @@ class Faults:
         self.problems: list[Problem] = []
         self.more = 0
         self._places: set[KeyPath] = set()
+
+    def copy(self) -> Faults:
+        """The same problems, to note others with them."""
+        other = Faults(self.file, self.source)
+        other.problems, other.more, other._places = [*self.problems], self.more, {*self._places}
+        return other
 
     def add(self, path: KeyPath, found: str, allowed: str, hint: str = "") -> None:
         """Note what was found at a place and what is allowed there."""
@@ -53,6 +62,7 @@ class Faults:
     def spares(self, *places: KeyPath) -> bool:
         """Whether no fault so far lies at one of these places, in it or above it; `limbs.<limb>` is left out of paths.
 
+        >>> from assur.model.file.toml_source import TomlSource
         >>> faults = Faults("my.toml", TomlSource({}, {}))
         >>> faults.add(("limbs", "leg", "joints", "A"), "a word", "allowed: a table")
         >>> faults.spares(("links",), ("platform", "link")), faults.spares(("joints",))

@@ -75,7 +75,7 @@ class Tables:
 
 def expand(description: Description, faults: Faults) -> Tables:
     """All entries by full name: those outside templates first, then limb by limb in the file's order."""
-    file, cut = description.entry, description.cut
+    file, cut = description.form.entry, description.form.cut
     instances = {name: _instances(name, limb, cut, faults) for name, limb in file.limbs.items()}
     tables = Tables(
         instances=tuple(instance for group in instances.values() for instance in group),
@@ -139,7 +139,7 @@ def _numbered(entry: schema.InputEntry, number: int) -> schema.InputEntry:
 def _broken(description: Description, instances: Mapping[str, tuple[Instance, ...]]) -> dict[str, frozenset[str]]:
     """Full names, aliases among them, of the entries that were cut out."""
     broken: dict[str, set[str]] = {}
-    for path in description.cut:
+    for path in description.form.cut:
         data: Any = description.source.data
         for part in path:
             data = data.get(part) if isinstance(data, dict) else None

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from assur.errors import Problem, cut
-from assur.model.file.description import Description
 from assur.model.file.key_path import KeyPath, path_text
-from assur.model.file.schema import FileEntry
 from assur.model.mechanism import Coordinate, MechanismRecord
+
+if TYPE_CHECKING:
+    from assur.model.file.schema import FileEntry
 
 _LONG = 600
 
 
 def problem(record: MechanismRecord, path: KeyPath, found: str, allowed: str, hint: str = "") -> Problem:
     """A problem with the line at which its path, or the nearest part of it, stands in the record's file."""
-    source = record.description.source if isinstance(record.description, Description) else None
-    line = source.line(path) if source else None
+    line = record.description.source.line(path) if record.description else None
     return Problem(str(record.file), line, path_text(path), cut(found, _LONG), f"allowed: {allowed}", cut(hint, _LONG))
 
 
@@ -68,4 +70,4 @@ def input_place(record: MechanismRecord, coordinate: Coordinate) -> KeyPath:
 
 
 def _file(record: MechanismRecord) -> FileEntry | None:
-    return record.description.entry if isinstance(record.description, Description) else None
+    return record.description.form.entry if record.description else None

@@ -10,11 +10,12 @@ from pydantic_core import ErrorDetails
 
 from assur.errors import UsageError
 from assur.joints.catalogue import BY_LETTER
+from assur.model.file.description import description_text
 from assur.model.file.faults import Faults, listed, nearest
 from assur.model.file.key_path import KeyPath
-from assur.model.file.reader import description_text
+from assur.model.file.kind import is_mechanism
 from assur.model.file.toml_source import read_toml
-from assur.model.file.topology_schema import DeclaredEntry, TopologyEntry, is_mechanism
+from assur.model.file.topology_schema import DeclaredEntry, TopologyEntry
 from assur.model.file.values import shown
 from assur.model.topology_description import Declared, TopologyDescription
 from assur.topology.chains import Chain, ChainJoint, Parallelogram

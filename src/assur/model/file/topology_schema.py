@@ -3,37 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from typing import Annotated, Any, get_args
+from typing import Annotated, get_args
 
 from pydantic import BeforeValidator, Field, PlainValidator
 
+from assur.model.file.kind import KIND
 from assur.model.file.schema import Entry
 from assur.model.file.values import Format, MechanismName, refuse, shown
 from assur.model.topology_description import Counts, Mode
 
-KIND = "topology"
-_OF_MECHANISMS = frozenset(("links", "joints", "limbs", "home"))
 _COUNTS = re.compile(r"t([0-3]) r([0-3])")
 _ACTUATOR = re.compile(r"([1-9]\d*)\.([1-9]\d*)")
-
-
-def is_topology(data: Mapping[str, Any]) -> bool:
-    """Whether a document is meant as a topology file, with faults or without.
-
-    >>> is_topology({"chains": ["R[z] R[z]"]}), is_topology({"chains": {"leg": {"serial": ["A"]}}})
-    (True, False)
-    """
-    return not is_mechanism(data) and ("kind" in data or isinstance(data.get("chains"), list))
-
-
-def is_mechanism(data: Mapping[str, Any]) -> bool:
-    """Whether a document has what only mechanisms with dimensions have.
-
-    >>> is_mechanism({"links": {}}), is_mechanism({})
-    (True, False)
-    """
-    return data.get("kind") != KIND and not _OF_MECHANISMS.isdisjoint(data)
 
 
 def _kind(value: object) -> object:

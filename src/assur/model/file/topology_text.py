@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator
 
-from assur.model.file.topology_schema import KIND
+from assur.model.file.kind import KIND
 from assur.model.topology_description import Counts, Declared, TopologyDescription
 from assur.topology.notation import plain_text
 

@@ -57,6 +57,14 @@ MANY = 64
 LARGEST_ENTRY = 10**6
 """Of a whole number among the numbers that a function of ours is given: a product with a tuple would repeat it."""
 _NUMERICS, _DECLARED = "assur.numerics", "assur.model.closed_form"
+OFFERED: Mapping[str, tuple[str, ...]] = {
+    "types": ("SimpleNamespace",),
+    "itertools": ("combinations", "product"),
+    _DECLARED: DECLARATIONS,
+    _NUMERICS: tuple(ALGEBRA),
+    **{f"{_NUMERICS}.{name}": names for name, names in ALGEBRA.items()},
+}
+"""Modules that a kernel may import from, and what it may take of each."""
 
 
 def imported(module: str, name: str) -> Value:
@@ -68,31 +76,28 @@ def imported(module: str, name: str) -> Value:
     >>> imported("assur.numerics.vectors", "dot").name
     'dot'
     """
-    table = _modules()
-    if module in table and name in table[module]:
-        return table[module][name]
-    if module not in table:
-        offered = ", ".join(table)
+    names = OFFERED.get(module)
+    if names is None:
         hint = "roots are ns.sqrt; no other function of it can be certified" if module in ("math", "numpy") else ""
-        raise FormFault(f"an import of {module[:60]}", f"imports from {offered}", hint)
-    raise FormFault(f"'{name[:60]}' of {module}", f"names of {module} for kernels: {', '.join(table[module])}")
+        raise FormFault(f"an import of {module[:60]}", f"imports from {', '.join(OFFERED)}", hint)
+    if name not in names:
+        raise FormFault(f"'{name[:60]}' of {module}", f"names of {module} for kernels: {', '.join(names)}")
+    return _named(module, name)
 
 
-@lru_cache(maxsize=1)
-def _modules() -> Mapping[str, Mapping[str, Value]]:
-    """Module -> name -> what it stands for."""
-    table: dict[str, dict[str, Value]] = {
-        "types": {"SimpleNamespace": Named("SimpleNamespace", record)},
-        "itertools": {"combinations": Named("combinations", _combinations), "product": Named("product", _product)},
-        _DECLARED: {name: Named(name, declaring(name)) for name in DECLARATIONS},
-        _NUMERICS: {},
-    }
-    for module, names in ALGEBRA.items():
-        path = f"{_NUMERICS}.{module}"
-        own = vars(import_module(path))
-        table[path] = {name: _offered(name, own[name]) for name in names}
-        table[_NUMERICS][module] = Module(path, table[path])
-    return table
+@lru_cache(maxsize=128)
+def _named(module: str, name: str) -> Value:
+    """What a name that is offered stands for; of ours no module is loaded that is not asked for."""
+    if module == "types":
+        return Named(name, record)
+    if module == "itertools":
+        return Named(name, {"combinations": _combinations, "product": _product}[name])
+    if module == _DECLARED:
+        return Named(name, declaring(name))
+    if module == _NUMERICS:
+        path = f"{_NUMERICS}.{name}"
+        return Module(path, {own: _named(path, own) for own in ALGEBRA[name]})
+    return _offered(name, vars(import_module(module))[name])
 
 
 def _offered(name: str, value: Value) -> Value:

@@ -85,11 +85,10 @@ def statement(node: ast.stmt, scope: Scope, depth: int) -> Run:
 
 def _size(node: ast.stmt) -> int:
     """How many nodes are worked out, those of inner statements left out."""
-    inner = {id(part) for part in ast.walk(node) if isinstance(part, ast.stmt) and part is not node}
-    count, stack = 0, [node]
+    count, stack = 0, list[ast.AST]([node])
     while stack:
         count += 1
-        stack += [part for part in ast.iter_child_nodes(stack.pop()) if id(part) not in inner]  # type: ignore[misc]
+        stack += [part for part in ast.iter_child_nodes(stack.pop()) if not isinstance(part, ast.stmt)]
     return count
 
 

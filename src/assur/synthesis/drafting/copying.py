@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from assur.errors import UnknownNameError, UsageError
-from assur.model.file.reader import description_text
+from assur.model.file.description import description_text
 from assur.model.registry import CLOSED_FORM, left_out, load_record, names, topology_names
 
 _NAME = re.compile(r"^name(\s*)=.*?$", re.MULTILINE)

@@ -16,8 +16,8 @@ from assur.audit.tolerance import half_units
 from assur.joint_graph.points import point, quantity
 from assur.kinematics.closure import loop_twists
 from assur.kinematics.position import direct
+from assur.model.dimensions import with_parameters
 from assur.model.formula import parse
-from assur.model.registry import with_parameters
 from assur.numerics.number_types import Symbols
 
 CLOSE = 1e-6

@@ -9,11 +9,11 @@ from assur.audit.configurations import configurations, random_assemblies
 from assur.audit.parts import called, sampled
 from assur.audit.rows import Evidence
 from assur.audit.topology import decomposition_rows
+from assur.derived_topology import topology
 from assur.joint_graph.points import quantity
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import closure_error, mobility
 from assur.kinematics.position import direct
-from assur.mechanism import topology
 from assur.model.formula import parse
 from assur.topology.analysis import sample
 from assur.topology.counting.coupling import coupling_of

@@ -12,8 +12,8 @@ from assur.audit.tables import solve
 from assur.joint_graph.points import quantity
 from assur.kinematics.modes import all_modes
 from assur.kinematics.position import direct
+from assur.model.dimensions import with_parameters
 from assur.model.formula import parse
-from assur.model.registry import with_parameters
 
 CLOSE = 1e-6
 

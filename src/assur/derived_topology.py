@@ -1,0 +1,132 @@
+"""The topology of a mechanism, of a file, or of chains: derived by rules and by twists."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import get_args
+
+from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.contract.admission import admitted_record
+from assur.kinematics.structure import linkage
+from assur.model.mechanism import MechanismRecord
+from assur.model.topologies import load_topology, means_topology
+from assur.topology.analysis import Mode, analyse
+from assur.topology.chains import Chain
+from assur.topology.counting.inputs import default_inputs, numbered_inputs
+from assur.topology.facts import Topology
+from assur.topology.linkages.configurations import ImmobileError
+from assur.topology.linkages.placing import place
+from assur.topology.linkages.recognition import recognised
+from assur.topology.linkages.twists import ShakyError
+from assur.topology.notation import parse_chains
+
+PLACINGS = 3
+"""Random dimensions that are tried for chains that do not move, or are shaky."""
+
+SOME_DIMENSIONS = "not all dimensions move: this is said of some that do, and with others it does not move or is shaky"
+
+
+def topology(
+    what: str | Path | MechanismRecord | Sequence[str],
+    /,
+    *,
+    actuate: Sequence[str] | str | None = None,
+    mode: Mode | None = None,
+) -> Topology:
+    """The topology of a mechanism, derived by symbolic rules and by the rank of twists.
+
+    Args:
+        what: the name or file of a mechanism or of a topology, a mechanism, one chain, or several chains from base
+            to platform, in the plain form ("P[x] R[x] R[x] R[x]") or the literature's.
+        actuate: actuated joints as "limb.joint" (a list, or a text with commas), counted from 1, the branches of inner
+            loops one after the other. By default those of the mechanism, and for chains the first P, R, H or C of each
+            branch from the base, or an admissible set near it where these do not determine the mechanism.
+        mode: "home" for the motion that is reached from the configuration as written; "translation" where the
+            platform keeps its orientation. By default what a topology's file says, else "home".
+
+    Returns:
+        The facts as attributes; `print` shows the derivation.
+
+    Errors:
+        NotationError: a chain that cannot be read. UnknownNameError, MechanismFileError: as `load`.
+        UsageError: more actuated joints than degrees of freedom, links that nothing connects, an unknown mode.
+        RoutesDisagreeError: the two routes give different answers; the message names the chain.
+        ShakyError: loops that close only where they are singular. ImmobileError: freedoms at home that lead nowhere.
+
+    Example:
+        >>> found = topology("zeng2019")
+        >>> print(found.poc, found.dof, found.xi, found.coupling_degree)
+        t³ r⁰ 3 (3, 5) 1
+        >>> topology("R[x] R[x] R[x] R[y] R[y]").limbs[0].poc.dim
+        5
+    """
+    if isinstance(actuate, str):
+        actuate = actuate.split(",")
+    if mode not in (None, *get_args(Mode)):
+        raise UnknownNameError("mode", str(mode), get_args(Mode))
+    if isinstance(what, MechanismRecord):
+        return _of_record(what, actuate, mode)
+    if not isinstance(what, str | Path | Sequence):
+        raise UsageError(f"a topology is given by a name, a file or chains of joints, not by {what!r}")
+    if isinstance(what, str) and not _is_name(what):
+        what = [what]
+    if isinstance(what, str | Path):
+        if not means_topology(what):
+            return _of_record(admitted_record(what), actuate, mode)
+        described = load_topology(what)
+        numbers = actuate or [f"{limb}.{joint}" for limb, joint in described.actuate]
+        found = _of_chains(
+            described.chains, numbers, mode or described.mode, described.name, described.title, described.source
+        )
+        differences = () if actuate or mode else described.declared.differences(found)
+        return dataclasses.replace(found, notes=(*found.notes, *differences))
+    return _of_chains(parse_chains(what), actuate, mode or "home")
+
+
+def _is_name(text: str) -> bool:
+    """Whether a text is a name or a path rather than a chain: chains have capital letters and brackets."""
+    return text.endswith(".toml") or "/" in text.strip("-") or re.fullmatch(r"[a-z0-9][a-z0-9_.-]*", text) is not None
+
+
+def _of_record(record: MechanismRecord, actuate: Sequence[str] | None, mode: Mode | None) -> Topology:
+    built = linkage(record)
+    chains = recognised(built)
+    if actuate:
+        if chains is None:
+            raise UsageError(f"{record.name} has no limbs by which joints could be numbered; name inputs in its file")
+        names = numbered_inputs(chains, actuate)
+        hinges = {name: group.joints[0] for name, group in built.groups.items()}
+        built = dataclasses.replace(built, inputs=tuple((hinges.get(name, name), 0) for name in names))
+    return analyse(built, chains, name=record.name, title=record.title, source=record.source, mode=mode or "home")
+
+
+def _of_chains(
+    chains: Sequence[Chain],
+    actuate: Sequence[str] | None,
+    mode: Mode,
+    name: str = "",
+    title: str = "",
+    source: str = "",
+) -> Topology:
+    names = numbered_inputs(chains, actuate) if actuate else default_inputs(chains)
+    answers = partial(
+        analyse,
+        chains=chains,
+        name=name,
+        title=title,
+        source=source,
+        mode=mode,
+        inputs_by="given" if actuate else "first joints",
+    )
+    for seed in range(PLACINGS - 1):
+        try:
+            found = answers(place(chains, seed=seed, actuated=names))
+        except (ShakyError, ImmobileError):
+            continue
+        return dataclasses.replace(found, notes=(*found.notes, SOME_DIMENSIONS)) if seed else found
+    last = answers(place(chains, seed=PLACINGS - 1, actuated=names))
+    return dataclasses.replace(last, notes=(*last.notes, SOME_DIMENSIONS))

@@ -1,0 +1,69 @@
+"""Home of a mechanism whose dimensions are not its file's: near the file's values, or carried there step by step."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.errors import UsageError
+from assur.joint_graph.points import quantity
+from assur.kinematics.closure import Assembly, assemble
+from assur.kinematics.home import gap_left
+from assur.kinematics.modes import mode_text
+from assur.model.dimensions import of_file, with_parameters
+from assur.model.mechanism import MechanismRecord
+
+FloatArray = NDArray[np.float64]
+STEPS = 24
+OTHERS_HINT = "write these dimensions into a copy of the file, with a [home] near the assembly that is wanted"
+
+
+def carried_home(record: MechanismRecord, near: Assembly) -> Assembly:
+    """The assembly near the file's values where it is of home's mode, else home carried to the changed dimensions.
+
+    Errors:
+        UsageError: that fails too; with the gap that remains or the mode in which the loops close.
+    """
+    if not _fault(record, near):
+        return near
+    found = _followed(record)
+    fault = _fault(record, found)
+    if fault:
+        raise UsageError(f"{record.name}: {fault}", hint=OTHERS_HINT)
+    return found
+
+
+def _followed(record: MechanismRecord) -> Assembly:
+    """Home carried from the file's dimensions to the changed ones, each step starting from the last."""
+    original = of_file(record)
+    found = assemble(original, original.home)
+    for share in np.linspace(0.0, 1.0, STEPS + 1)[1:]:
+        between = {
+            name: _between(original.parameters[name].value, record.parameters[name].value, float(share))
+            for name in record.overrides
+        }
+        found = assemble(with_parameters(original, **between), found.values)
+    return found
+
+
+def _between(start: float, end: float, share: float) -> float:
+    """Geometric where both are positive, so that a change of scale is even; else linear."""
+    if share == 1.0:
+        return end
+    return float(start * (end / start) ** share) if start > 0 and end > 0 else start + share * (end - start)
+
+
+def _fault(record: MechanismRecord, found: Assembly) -> str:
+    """What keeps an assembly from being the home of the file with other dimensions; empty where nothing does."""
+    if not bool(found.closed):
+        return gap_left(record, found)
+    original = of_file(record)
+    before, now = _modes(original, assemble(original, original.home).values), _modes(record, found.values)
+    return "" if now == before else f"from home the loops close in the mode {now}, not in {before} as before"
+
+
+def _modes(record: MechanismRecord, values: FloatArray) -> str:
+    """Working and assembly mode of joint values (n,), by the quantities that the file names."""
+    formulas = (record.modes.working, record.modes.assembly)
+    signs = [[int(np.sign(quantity(record, item, values))) for item in group.values()] for group in formulas]
+    return " ".join(mode_text(row) for row in signs if row)
