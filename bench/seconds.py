@@ -8,6 +8,9 @@ The best of some repeats, in processor time.
 from __future__ import annotations
 
 import argparse
+import resource
+import subprocess
+import sys
 import time
 from collections.abc import Callable
 
@@ -26,6 +29,13 @@ from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.region import certified_workspace
 
 MECHANISM = "zeng2019"
+COMMANDS = (
+    ("--help",),
+    ("list",),
+    ("show", MECHANISM),
+    ("direct", MECHANISM, "162.6907", "-143.3209", "-24.6776"),
+    ("inverse", MECHANISM, "-15.4714", "9.6849", "456.3315"),
+)
 CHAIN = "R[x] R[y] P[z] R[z] R[x] P[y] R[y] R[x]"
 
 
@@ -33,6 +43,15 @@ def seconds(work: Callable[[], object]) -> float:
     start = time.process_time()
     work()
     return time.process_time() - start
+
+
+def command_seconds(*words: str) -> float:
+    """Of a whole process, as it is typed."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    call = [sys.executable, "-c", "from assur.cli.main import main; main()", *words]
+    subprocess.run(call, check=True, stdout=subprocess.DEVNULL)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def works() -> dict[str, Callable[[], object]]:
@@ -59,6 +78,9 @@ def main() -> None:
     rows = Table("work", "s", box=None)
     for name, work in works().items():
         rows.add_row(name, f"{min(seconds(work) for _ in range(repeats)):.4f}")
+    for words in COMMANDS:
+        best = min(command_seconds(*words) for _ in range(repeats + 1))  # the first may still read and compile files
+        rows.add_row(f"assur {' '.join(words)}", f"{best:.4f}")
     Console().print(rows)
 
 

@@ -37,7 +37,7 @@ def list_(*, shared: Plain = PLAIN) -> Outcome:  # noqa: ARG001  # read by main
 
 
 def _mechanisms() -> Rows:
-    from assur.mechanism import load, names
+    from assur.model.registry import CLOSED_FORM, names, record_alone
 
     return [
         {
@@ -48,9 +48,9 @@ def _mechanisms() -> Rows:
             "angle": record.angle,
             "inputs": [item.name for item in record.inputs],
             "coordinates": list(record.platform.pose),
-            "closed_form": record.closed_form is not None,
+            "closed_form": (record.file.parent / CLOSED_FORM).is_file(),
         }
-        for record in map(load, names())
+        for record in map(record_alone, names())
     ]
 
 

@@ -91,9 +91,8 @@ def load_record(name_or_path: str | Path, /, **overrides: Any) -> MechanismRecor
         >>> load_record("zeng2019", l2=300).values.l2
         300.0
     """
-    path = file_of(name_or_path)
-    record = _read(path)
-    beside = path.parent / CLOSED_FORM
+    record = record_alone(name_or_path)
+    beside = record.file.parent / CLOSED_FORM
     text = file_text(beside) if os.path.lexists(beside) else None  # what is there and no file is told
     form = None if text is None else _closed_form(record, beside, text)
     not_run = text is not None and form is None
@@ -105,8 +104,13 @@ def load_record(name_or_path: str | Path, /, **overrides: Any) -> MechanismRecor
     return with_parameters(record, **overrides)
 
 
-def _read(path: Path) -> MechanismRecord:
-    """The record of a mechanism's file, without its closed form, as it was kept, or read and kept."""
+def record_alone(name_or_path: str | Path, /) -> MechanismRecord:
+    """The record of a mechanism's file as `load_record` has it, but for its closed form, which is not looked at.
+
+    >>> record_alone("zeng2019").closed_form is None
+    True
+    """
+    path = file_of(name_or_path)
     text = description_text(path)
     kept = kept_reading(text, path)
     if kept is not None:

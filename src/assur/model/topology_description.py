@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from assur.topology.chains import Chain, Element, InnerLoop, Parallelogram
-from assur.topology.facts import Topology
+
+if TYPE_CHECKING:
+    from assur.topology.facts import Topology
 
 Mode = Literal["home", "translation"]
 Counts = tuple[int, int]

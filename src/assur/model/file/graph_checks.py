@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
-import networkx as nx
 import numpy as np
 
 from assur.model.file.chain_checks import check_chains, is_first
@@ -51,23 +50,35 @@ def _is_known(record: MechanismRecord, tables: Tables, faults: Faults) -> bool:
 
 
 def _check_connected(record: MechanismRecord, tables: Tables, faults: Faults) -> None:
-    graph: nx.MultiGraph[str] = nx.MultiGraph()
-    graph.add_nodes_from(record.links)
-    graph.add_edges_from((joint.parent, joint.child) for joint in record.joints.values())
-    reached = nx.node_connected_component(graph, record.base)
-    for island in nx.connected_components(graph):
-        first, *others = [name for name in tables.links if name in island]
-        if first not in reached:
+    beside: dict[str, list[str]] = {name: [] for name in record.links}
+    for joint in record.joints.values():
+        beside[joint.parent].append(joint.child)
+        beside[joint.child].append(joint.parent)
+    told = reached = _island(beside, record.base)
+    for first in tables.links:
+        if first not in told:
+            island = _island(beside, first)
+            told = told | island
+            others = [name for name in tables.links if name in island and name != first]
             placed = tables.links[first]
             more = f", nor is what hangs on it ({listed(others)})" if others else ""
             hint = "a second base? All links that stand still are one link, the base" if others else ""
             found = f"'{placed.local}' is not connected to the base{more}"
             faults.add(placed.path, found, "allowed: one connected graph", hint)
     for name, placed in tables.links.items():
-        joints = graph.degree(name)
-        if name in reached and joints == 1 and name not in (record.base, record.platform.link):
+        if name in reached and len(beside[name]) == 1 and name not in (record.base, record.platform.link):
             hint = "a body that only rides along belongs to the link that carries it, as a point"
             faults.add(placed.path, f"'{placed.local}' dangles: it has one joint only", "allowed: two or more", hint)
+
+
+def _island(beside: Mapping[str, Sequence[str]], start: str) -> set[str]:
+    """A link and all that joints connect with it."""
+    island, ahead = {start}, [start]
+    while ahead:
+        further = {name for name in beside[ahead.pop()] if name not in island}
+        island |= further
+        ahead += further
+    return island
 
 
 def _check_size(record: MechanismRecord, faults: Faults) -> None:

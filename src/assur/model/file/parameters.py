@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from graphlib import CycleError, TopologicalSorter
 from numbers import Real
-
-import networkx as nx
 
 from assur.errors import UnknownNameError, UsageError
 from assur.model.file.faults import Faults
@@ -132,12 +131,23 @@ def _formula(name: str, entry: ParameterEntry, overrides: Mapping[str, float]) -
 
 def _order(formulas: Mapping[str, Formula], faults: Faults) -> tuple[list[str], set[str]]:
     """Names such that each comes after those in its formula, and the names that go round in a circle."""
+    needs = {name: sorted(other for other in formula.names if other in formulas) for name, formula in formulas.items()}
+    try:
+        return list(TopologicalSorter(needs).static_order()), set()
+    except CycleError:
+        return _order_without_circles(needs, faults)
+
+
+def _order_without_circles(needs: Mapping[str, Sequence[str]], faults: Faults) -> tuple[list[str], set[str]]:
+    """The same where formulas need one another; each such circle is noted."""
+    import networkx as nx  # slow to load, and no file without that fault needs it
+
     graph: nx.DiGraph[str] = nx.DiGraph()
-    graph.add_nodes_from(formulas)
-    for name, formula in formulas.items():
-        graph.add_edges_from((other, name) for other in sorted(formula.names) if other in formulas)
+    graph.add_nodes_from(needs)
+    for name, others in needs.items():
+        graph.add_edges_from((other, name) for other in others)
     cyclic: set[str] = set()
-    place = {name: index for index, name in enumerate(formulas)}
+    place = {name: index for index, name in enumerate(needs)}
     for group in nx.strongly_connected_components(graph):
         first = min(group, key=place.__getitem__)
         if len(group) > 1 or graph.has_edge(first, first):

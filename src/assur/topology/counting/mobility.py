@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.csgraph import connected_components
 
 from assur.errors import UnknownNameError, UsageError
 from assur.topology.linkages.edges import (
@@ -204,7 +203,7 @@ def _named(internal: FloatArray, edges: Sequence[Edge]) -> tuple[InternalFreedom
     projector = np.max(np.abs(internal @ np.swapaxes(internal, -1, -2)), axis=0)
     owner = _owners(edges)
     together = (projector > AT_REST) | (owner[:, None] == owner)
-    _, labels = connected_components(together, directed=False)
+    labels = _components(together)
     share = np.mean(np.sum(internal**2, axis=-1), axis=0)  # (c,), its sum over a part is the part's dimension
     moving = np.diag(projector) > AT_REST
     freedoms = []
@@ -213,3 +212,11 @@ def _named(internal: FloatArray, edges: Sequence[Edge]) -> tuple[InternalFreedom
         joints = tuple(edges[index].name for index in dict.fromkeys(owner[part & moving]))
         freedoms.append(InternalFreedom(joints, round(float(np.sum(share[part])))))
     return tuple(freedoms)
+
+
+def _components(together: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """For each node (c,) the first one that a path leads to, in a graph with a loop at each node (c, c)."""
+    labels = np.arange(len(together))
+    while np.any((least := np.min(np.where(together, labels, len(labels)), axis=1)) < labels):
+        labels = least
+    return labels

@@ -1,0 +1,66 @@
+"""What the commonest commands load: third-party packages by name, modules of assur by number."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+CODE = """
+import sys
+before = set(sys.modules)
+from assur.cli.main import main
+code = main(sys.argv[1:])
+import json
+print(json.dumps(sorted(set(sys.modules) - before)), file=sys.stderr)
+sys.exit(code)
+"""
+LINE = {"attr", "attrs", "cyclopts", "docstring_parser", "rich", "typing_extensions"}
+"""What reads a command line and prints tables."""
+READ = {"annotated_types", "pydantic", "pydantic_core", "typing_inspection"}
+"""What checks the form of a file that is read for the first time."""
+DIRECT = ("direct", "zeng2019", "162.6907", "-143.3209", "-24.6776")
+INVERSE = ("inverse", "zeng2019", "-15.4714", "9.6849", "456.3315")
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory):
+    return tmp_path_factory.mktemp("cache")
+
+
+def loaded(cache, words):
+    """Packages that are not of Python, and modules of assur, that a command loads in a process of its own."""
+    environment = {**os.environ, "ASSUR_CACHE": str(cache)}
+    call = [sys.executable, "-c", CODE, *words]
+    done = subprocess.run(call, capture_output=True, text=True, check=True, timeout=120, env=environment)
+    modules = json.loads(done.stderr.splitlines()[-1])
+    packages = {name.partition(".")[0] for name in modules} - sys.stdlib_module_names
+    return {name for name in packages if not name.startswith("_")}, [name for name in modules if name[:5] == "assur"]
+
+
+@pytest.mark.parametrize(
+    ("words", "packages", "most"),
+    [
+        (("--help",), set(), 50),
+        (("list",), {"numpy"} | READ, 122),
+        (("show", "zeng2019"), {"numpy"}, 120),
+        (DIRECT, {"numpy"}, 130),
+        (INVERSE, {"numpy"}, 130),
+    ],
+)
+def test_a_command_loads_what_it_prints_and_no_more(cache, words, packages, most):
+    """The second time: what was read of files is kept by then."""
+    if words != ("--help",):
+        loaded(cache, words)
+    third_party, own = loaded(cache, words)
+    assert third_party - {"assur"} <= LINE | packages
+    assert len(own) <= most
+
+
+def test_a_file_is_checked_the_first_time(tmp_path):
+    third_party, _ = loaded(tmp_path, DIRECT)
+    assert READ <= third_party
+    assert third_party - {"assur"} <= LINE | READ | {"numpy"}
