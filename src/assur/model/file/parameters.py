@@ -68,7 +68,7 @@ def parameter_formulas(record: MechanismRecord) -> dict[str, Formula]:
     >>> parameter_formulas(load_record("orthoglide"))["L"].text
     'cube / (1/sqrt(6) + 1/sqrt(18))'
     """
-    entries = record.description.entry.parameters if record.description else {}
+    entries = record.description.form.entry.parameters if record.description else {}
     kinds = {name: _kind(item.unit, record.unit) for name, item in record.parameters.items()}
     formulas = {name: _formula(name, entry, record.overrides) for name, entry in entries.items()}
     plain = {name for name, formula in formulas.items() if kind_of(formula.root, kinds) == "plain"}
