@@ -305,7 +305,7 @@ def test_an_axis_that_is_not_quite_parallel_is_named() -> None:
 
 def test_an_axis_that_leaves_the_others_is_named() -> None:
     text = written(FOUR, [('child_at = ["rocker", 0, 0], axis = "z"', 'child_at = ["rocker", 0, 0], axis = "x"')])
-    (problem,) = faults(read_text(text, Path("m.toml")))
+    problem, *_ = faults(read_text(text, Path("m.toml")))
     assert problem.hint.endswith("the axis of C is not parallel to those of A, B, D")
 
 

@@ -13,6 +13,7 @@ from assur.errors import Problem
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import Assembly, assemble, residuals
+from assur.kinematics.limits import limits
 from assur.kinematics.soundness.axes import axes_hint
 from assur.kinematics.turns import unwrapped
 from assur.model.file.place import place, problem, table_place
@@ -134,14 +135,16 @@ def _alone(record: MechanismRecord, loop: Loop) -> tuple[MechanismRecord, list[i
     """The mechanism with the links and joints of one loop only, and the indices of its joint values."""
     kept = [item for item in record.coordinates if item.joint in loop.joints]
     indices = [item.index for item in kept]
+    own = {item.index: dataclasses.replace(item, index=index) for index, item in enumerate(kept)}
+    driven = [item for item in record.inputs if item.coordinate.index in own]
     alone = dataclasses.replace(
         record,
         joints={name: joint for name, joint in record.joints.items() if name in loop.joints},
         links={name: record.links[name] for name in loop.links},
         base=loop.links[-1],
-        coordinates=tuple(dataclasses.replace(item, index=index) for index, item in enumerate(kept)),
+        coordinates=tuple(own.values()),
         home=record.home[indices],
-        inputs=(),
+        inputs=tuple(dataclasses.replace(item, coordinate=own[item.coordinate.index]) for item in driven),
         generalised={},
         chains={},
         closed_form=None,
@@ -180,7 +183,10 @@ def _hint(record: MechanismRecord, coordinates: Sequence[Coordinate], found: Ass
 
 
 def _other_home(record: MechanismRecord) -> FloatArray | int:
-    """Joint values (n,) that close, the nearest that random starts lead to; or how many starts led to none."""
+    """Joint values (n,) that close, the nearest that random starts lead to; or how many starts led to none.
+
+    Within the limits and strokes, if any of them is.
+    """
     size = len(record.home)
     count = int(np.clip(EFFORT // size**2, FEWEST, MOST))
     length = characteristic_length(record)
@@ -191,6 +197,9 @@ def _other_home(record: MechanismRecord) -> FloatArray | int:
     if not found.closed.any():
         return count
     closed = found.values[found.closed]
+    margins = [limit.margin(closed) for limit in limits(record, closed[0])]
+    inside = np.all(np.array(margins).reshape(len(margins), len(closed)) >= 0.0, axis=0)
+    closed = closed[inside] if inside.any() else closed
     away = unwrapped(record, closed - record.home) / scale
     nearest = away[np.argmin(np.linalg.norm(away, axis=-1))]
     return np.asarray(record.home + nearest * scale)
