@@ -32,7 +32,7 @@ def blamed(found: Solutions, row: int) -> list[tuple[Part, str]]:
     negative = _negative(kernel, found, row) if kernel else ""
     if negative:
         return [("margin", negative)]
-    wrong = _wrong_joints(found, row)
+    wrong = _wrong_joint(found, row) or _wrong_joints(found, row)
     if not wrong:
         return branch
     margin = _margin(kernel, wrong) if kernel else ""
@@ -41,6 +41,18 @@ def blamed(found: Solutions, row: int) -> list[tuple[Part, str]]:
     if len(wrong) <= FEW * len(found.record.joints):
         return [("joint", name) for name in sorted(wrong)]
     return branch
+
+
+def _wrong_joint(found: Solutions, row: int) -> set[str]:
+    """The joint that alone has to move for the loops to close; none where none or several do."""
+    record, values = found.record, found.joints[row]
+    poses = found.given[row] if found.problem == "inverse" else None
+    closing = set[str]()
+    for name in record.joints:
+        held = [item.index for item in record.coordinates if item.joint != name]
+        if bool(assemble(record, values, held=held, poses=poses, max_steps=20).closed):
+            closing.add(name)
+    return closing if len(closing) == 1 else set()
 
 
 def _wrong_joints(found: Solutions, row: int) -> set[str]:
