@@ -7,8 +7,7 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.joint_graph.points import quantity
-from assur.kinematics.closure import Assembly, assemble
-from assur.kinematics.home import gap_left
+from assur.kinematics.closure import Assembly, assemble, gap_left
 from assur.kinematics.modes import mode_text
 from assur.model.dimensions import of_file, with_parameters
 from assur.model.mechanism import MechanismRecord

@@ -294,6 +294,11 @@ def assemble(
     return Assembly(values.reshape(start.shape), error, error <= CLOSED * length, steps)
 
 
+def gap_left(record: MechanismRecord, found: Assembly) -> str:
+    """What is said of loops that do not close from home."""
+    return f"the loops do not close from home: a gap of {float(found.residual):.3g} {record.unit} remains"
+
+
 @dataclass(frozen=True, eq=False)
 class Mobility:
     """Freedom of the joint graph at an assembly, by the rank of its closure Jacobian.

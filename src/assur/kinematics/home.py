@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import MechanismFileError, Problem
-from assur.kinematics.closure import Assembly, assemble
+from assur.kinematics.closure import assemble, gap_left
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -39,8 +39,3 @@ def home_values(record: MechanismRecord) -> FloatArray:
         found = carried_home(record, found)
     found.values.flags.writeable = False
     return found.values
-
-
-def gap_left(record: MechanismRecord, found: Assembly) -> str:
-    """What is said of loops that do not close from home."""
-    return f"the loops do not close from home: a gap of {float(found.residual):.3g} {record.unit} remains"

@@ -166,8 +166,10 @@ def turning_matrix(record: MechanismRecord, values: FloatArray) -> FloatArray:
 def turning_of(pose: tuple[str, ...], phi: FloatArray, theta: FloatArray) -> FloatArray:
     """As `turning_matrix`, E (..., k, k) of the coordinates of a pose at angles (...), in rad.
 
-    >>> turning_of(("phi", "theta", "psi"), np.array(0.0), np.array(np.pi / 2)).round(9).tolist()
-    [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, -1.0]]
+    >>> turning_of(("phi", "theta", "psi"), np.array(0.0), np.array(np.pi / 2)).round(9) + 0.0
+    array([[ 0.,  0.,  0.],
+           [ 0.,  1.,  0.],
+           [ 1.,  0., -1.]])
     """
     names = rate_names(pose)
     matrix = np.broadcast_to(np.eye(len(names)), (*np.shape(phi), len(names), len(names))).copy()

@@ -13,7 +13,7 @@ TOP = (
 )
 LINKS = "there is: coupler, crank, ground, rocker"
 JOINTS = "there is: A, B, C, D, R2"
-TYPES = "allowed: cylindrical, helical, prismatic, revolute, spherical, universal"
+TYPES = "allowed: cylindrical, helical, planar, prismatic, revolute, spherical, universal"
 NUMBER = 'allowed: a number, or a formula in quotes: 30, "l2/2", "62 deg"'
 NAME = "a name is a letter, then letters, digits, _ and primes"
 MIXED = "allowed: angles with angles, plain numbers with plain numbers"

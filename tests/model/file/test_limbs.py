@@ -147,7 +147,7 @@ CASES: list[tuple[str, str, list[str]]] = [
      ["20: limbs.leg.links.weight: 'weight' is not connected to the base; allowed: one connected graph"]),
     ('A = { type = "revolute"', 'A = { type = "rotary"',
      ['21: limbs.leg.joints.A.type: "rotary"; '
-      "allowed: cylindrical, helical, prismatic, revolute, spherical, universal"]),
+      "allowed: cylindrical, helical, planar, prismatic, revolute, spherical, universal"]),
     ('E = { link = "arm"', 'A = { link = "arm"',
      ["29: limbs.leg.points.A: a joint has the name 'leg1.A' already; the first one is in line 21; "
       "allowed: another name",
@@ -167,7 +167,7 @@ CASES: list[tuple[str, str, list[str]]] = [
      ["15: limbs.leg.repeat: count and angles; allowed: one of the two", "? count = 3 means every 120 deg"]),
     ("[limbs.leg.links]\narm", "[limbs.leg.joints.X]\n[limbs.leg.links]\narm",
      ["16: limbs.leg.joints.X.type: missing; "
-      "allowed: cylindrical, helical, prismatic, revolute, spherical, universal"]),
+      "allowed: cylindrical, helical, planar, prismatic, revolute, spherical, universal"]),
     (", " + ANGLES, "",
      ["15: limbs.leg.repeat: neither count nor angles; allowed: one of the two", "? count = 3 means every 120 deg"]),
     ('repeat = { about = "z", ' + ANGLES + " }\n", "",
