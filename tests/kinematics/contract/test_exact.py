@@ -29,12 +29,6 @@ WRONG = {
         "branch",
     ),
     "a magnitude": ("zeng2019", HEIGHT, f"far = x - 1e6\n    {HEIGHT} + far + ns.sqrt(far*far)", "branch"),
-    "a magnitude of two roots": (
-        "zeng2019",
-        HEIGHT,
-        f"far = 1e6 - z\n    {HEIGHT} + ns.sqrt(far*p.l2)*ns.sqrt(far/p.l2) - far",
-        "branch",
-    ),
     "a magnitude of three roots": (
         "zeng2019",
         HEIGHT,
