@@ -1,8 +1,9 @@
 """Newton's method on the joint graph as one recorded step, for many starts that are near an assembly.
 
 One step is a straight-line program: frames, gaps, their derivative by twists, and the least change that closes them, by
-normal equations without pivots. There the derivative is exact, also where the loops do not close yet. Redundant
-equations do no harm, and a rod that spins does not spin. What does not close goes to damped least squares.
+normal equations without pivots. The derivative is that of closed loops, exact where they close: near by, steps still
+shrink the gaps by squares. Redundant equations do no harm, and a rod that spins does not spin. What does not close goes
+to damped least squares.
 """
 
 from __future__ import annotations
