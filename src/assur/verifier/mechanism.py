@@ -1,0 +1,200 @@
+"""The joint graph of a mechanism file: its joints with the formulas of their dimensions, limbs written out."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+from assur.verifier.formula import PI, RADIAN, AngleSum, NumberType, value
+
+Triple = tuple[Any, Any, Any]
+SIGNED = {f"{sign}{name}": tuple(sense * (k == i) for k in range(3))
+          for i, name in enumerate("xyz") for sign, sense in (("", 1), ("-", -1))}  # fmt: skip
+COORDINATES = {
+    "revolute": ("rotation",),
+    "prismatic": ("translation",),
+    "helical": ("rotation",),
+    "cylindrical": ("translation", "rotation"),
+    "universal": ("first", "second"),
+    "spherical": ("rx", "ry", "rz"),
+    "planar": ("first", "second", "rotation"),
+}
+"""Joint types, and the coordinates of each in the order in which they move its child."""
+MOST = 200
+
+
+@dataclass(frozen=True)
+class FileLimb:
+    """By what the vectors of a template are turned: an angle, as written, about an axis."""
+
+    about: Triple
+    angle: Any
+
+
+@dataclass(frozen=True)
+class FileJoint:
+    """A joint as it is written: formulas of points, axes and pitch, in the frames of its template."""
+
+    type: str
+    parent: str
+    child: str
+    at: Triple
+    child_at: Triple
+    axes: tuple[Triple, ...]
+    child_axis: Triple | None = None
+    pitch: Any = None
+    limb: FileLimb | None = None
+
+
+@dataclass(frozen=True)
+class FileMechanism:
+    """What a file says of the joint graph.
+
+    Attributes:
+        parameters: name -> its formula, and its unit if that is one of angles.
+        joints: by their full names, in the order of the file, those of limbs last.
+        base, platform: links; `point` is that of the platform, in its frame, and `pose` names what counts of it.
+        inputs: (joint, coordinate) each.
+        degrees: whether plain numbers that are angles are in degrees.
+    """
+
+    parameters: Mapping[str, tuple[Any, str]]
+    joints: Mapping[str, FileJoint]
+    base: str
+    platform: str
+    point: Triple
+    pose: tuple[str, ...]
+    inputs: tuple[tuple[str, str], ...]
+    degrees: bool
+    aliases: Mapping[str, str] = field(default_factory=dict)
+
+    def angle(self, written: Any, names: Mapping[str, Any], numbers: NumberType) -> AngleSum:
+        """An angle of the file; a plain number is in the file's unit."""
+        result = value(written, names, numbers)
+        return result if isinstance(result, AngleSum) else in_unit(result, "deg" if self.degrees else "rad")
+
+    def dimensions(self, numbers: NumberType) -> dict[str, Any]:
+        """The parameters by their formulas: numbers, rationals and angles."""
+        result: dict[str, Any] = {}
+        waiting = dict(self.parameters)
+        while waiting:
+            before = len(waiting)
+            for name, (written, unit) in list(waiting.items()):
+                try:
+                    own = value(written, result, numbers)
+                except KeyError:  # of what is not yet known
+                    continue
+                result[name] = in_unit(own, unit) if unit and not isinstance(own, AngleSum) else own
+                del waiting[name]
+            if len(waiting) == before:
+                raise ValueError(f"parameters that have no value: {', '.join(waiting)[:80]}")
+        return result
+
+
+def in_unit(number: Any, unit: str) -> AngleSum:
+    """A plain number of degrees or radians as an angle."""
+    return AngleSum({PI: number / 180} if unit == "deg" else {RADIAN: number})
+
+
+def mechanism(text: str, changed: Mapping[str, float] | None = None) -> FileMechanism:
+    """Read a mechanism file; some parameters may have other values, in their own units.
+
+    Errors:
+        ValueError, KeyError, TypeError: it says nothing, or not in this form; other faults are not looked for.
+
+    >>> mechanism('base = "b"').base
+    Traceback (most recent call last):
+    KeyError: 'platform'
+    """
+    data = tomllib.loads(text, parse_float=Fraction)
+    new = {name: _decimal(float(number)) for name, number in (changed or {}).items()}
+    units = {name: entry.get("unit", "") for name, entry in data.get("parameters", {}).items()}
+    written = {name: new.get(name, entry["value"]) for name, entry in data.get("parameters", {}).items()}
+    parts: dict[str, FileJoint] = {}
+    inputs: list[tuple[str, str]] = []
+    aliases: dict[str, str] = {}
+    known = set(data.get("links", {}))
+    for prefix, limb, tables in _parts(data):
+        own = {*tables.get("links", {}), *tables.get("joints", {})}
+        full = {name: f"{prefix}{name}" for name in own}
+        known.update(full.values())
+        for name, entry in tables.get("joints", {}).items():
+            parts[f"{prefix}{name}"] = _joint(entry, full, limb)
+            if "alias" in entry:
+                aliases[f"{prefix}{entry['alias']}"] = f"{prefix}{name}"
+        inputs += [(prefix, name) for name in tables.get("inputs", {}) if name != "order"]
+    if len(parts) > MOST or not all({joint.parent, joint.child} <= known for joint in parts.values()):
+        raise ValueError("joints of links that are not there, or too many")
+    base, platform = data["base"], data["platform"]
+    order = data.get("inputs", {}).get("order")
+    named = [("", name) for name in order] if order else inputs
+    return FileMechanism(
+        {name: (written[name], unit if unit in ("deg", "rad") else "") for name, unit in units.items()},
+        parts,
+        base,
+        platform["link"],
+        tuple(platform.get("point", (0, 0, 0))),
+        tuple(platform["pose"]),
+        tuple(_coordinate(f"{prefix}{name}", parts, aliases) for prefix, name in named),
+        data["angle"] == "deg",
+        aliases,
+    )
+
+
+def _parts(data: Mapping[str, Any]) -> list[tuple[str, FileLimb | None, Mapping[str, Any]]]:
+    """The prefix of names, the turn and the tables of what stands outside limbs, and of each limb."""
+    result: list[tuple[str, FileLimb | None, Mapping[str, Any]]] = [("", None, data)]
+    for name, tables in data.get("limbs", {}).items():
+        repeat = tables["repeat"]
+        count = repeat.get("count", 0)
+        angles = repeat.get("angles") or [f"2*pi*{k}/{count}" for k in range(count)]
+        limbs = [FileLimb(_axis(repeat["about"]), angle) for angle in angles]
+        result += [(f"{name}{k}.", limb, tables) for k, limb in enumerate(limbs, 1)]
+    return result
+
+
+def _joint(entry: Mapping[str, Any], full: Mapping[str, str], limb: FileLimb | None) -> FileJoint:
+    kind, own = entry["type"], entry.get("axes", [entry["axis"]] if "axis" in entry else [])
+    if len(own) != {"spherical": 0, "universal": 2}.get(kind, 1) or kind not in COORDINATES:
+        raise ValueError(f"a joint of type {str(kind)[:40]!r} with {len(own)} axes")
+    return FileJoint(
+        kind,
+        full.get(entry["parent"], entry["parent"]),
+        full.get(entry["child"], entry["child"]),
+        _triple(entry.get("at", [0, 0, 0])),
+        _triple(entry.get("child_at", [0, 0, 0])),
+        tuple(map(_axis, own)),
+        _axis(entry["child_axis"]) if "child_axis" in entry else None,
+        entry["pitch"] if kind == "helical" else None,
+        limb,
+    )
+
+
+def _coordinate(name: str, joints: Mapping[str, FileJoint], aliases: Mapping[str, str]) -> tuple[str, str]:
+    """A joint of one coordinate by its name, or one coordinate of a joint as `joint.coordinate`."""
+    own = aliases.get(name, name)
+    if own in joints:
+        (component,) = COORDINATES[joints[own].type]
+        return own, component
+    joint, _, component = name.rpartition(".")
+    own = aliases.get(joint, joint)
+    if component not in COORDINATES[joints[own].type]:
+        raise ValueError(f"{name[:40]!r} is no coordinate of a joint")
+    return own, component
+
+
+def _axis(written: Any) -> Triple:
+    return SIGNED[written] if isinstance(written, str) else _triple(written)  # type: ignore[return-value]
+
+
+def _triple(written: Any) -> Triple:
+    x, y, z = written
+    return x, y, z
+
+
+def _decimal(number: float) -> Fraction:
+    """A float as the decimal that it is written by."""
+    return Fraction(repr(number))
