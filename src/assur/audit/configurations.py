@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.joint_graph.frames import frames
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.kinematics.border import in_range
 from assur.kinematics.closure import assemble, loop_twists
 from assur.kinematics.home import home_values
@@ -83,12 +83,6 @@ def random_poses(record: MechanismRecord, count: int, rng: np.random.Generator) 
         else:
             columns.append(rng.uniform(-np.pi, np.pi, count))
     return in_range(record, np.stack(columns, axis=-1))
-
-
-def joint_scales(record: MechanismRecord) -> FloatArray:
-    """Per joint coordinate (n,): 1 rad, or the characteristic length."""
-    length = characteristic_length(record)
-    return np.array([length if coordinate.kind == "length" else 1.0 for coordinate in record.coordinates])
 
 
 @lru_cache(maxsize=8)

@@ -19,7 +19,7 @@ from assur.crosscheck.engine import Engine
 from assur.crosscheck.samples import Configuration, configurations
 from assur.errors import Interrupted
 from assur.joint_graph.frames import Frame, frames
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.kinematics.closure import mobility
 from assur.kinematics.rates.velocity import velocity_map, velocity_map_at
 from assur.kinematics.status import Status
@@ -217,7 +217,7 @@ def _jacobians(record: MechanismRecord, item: Configuration) -> dict[str, FloatA
     """Our rates (k, n) of the pose per input rate, lengths in units of the characteristic length, by each route."""
     length = characteristic_length(record)
     rows = np.array([length if name in LENGTHS else 1.0 for name in rate_names(record.platform.pose)])
-    columns = np.array([length if one.coordinate.kind == "length" else 1.0 for one in record.inputs])
+    columns = joint_scales(record)[list(record.input_indices)]
     found = {"Jacobian, joint graph": velocity_map_at(record, item.joints).matrix}
     if record.closed_form is not None and re.fullmatch(r"[+-]*", item.working_mode):
         found["Jacobian, closed form"] = velocity_map(record, item.pose, item.working_mode).matrix

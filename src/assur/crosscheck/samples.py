@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import joint_scales
 from assur.kinematics import border
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.closure import assemble
@@ -80,8 +80,7 @@ def _poses(record: MechanismRecord, samples: int, rng: np.random.Generator) -> F
     if record.closed_form is not None and all(name in record.box for name in pose):
         low, high = np.array([record.box[name] for name in pose]).T
         return border.checked_poses(record, rng.uniform(low, high, size=(samples, len(pose))))
-    length = characteristic_length(record)
-    units = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
+    units = joint_scales(record)
     near = assemble(record, home_values(record) + SPREAD * units * rng.uniform(-1, 1, size=(samples, len(units))))
     return pose_of(record, near.values[near.closed])
 

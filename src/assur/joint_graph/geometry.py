@@ -110,6 +110,22 @@ def characteristic_length(record: MechanismRecord) -> float:
     return float(max(spans)) or 1.0
 
 
+@lru_cache(maxsize=256)
+def joint_scales(record: MechanismRecord) -> FloatArray:
+    """What a change of one is of each joint value (n,), so that lengths mix fairly with angles.
+
+    It is the characteristic length of a length, and a rad of an angle.
+
+    >>> from assur.model.registry import load_record
+    >>> joint_scales(load_record("orthoglide"))[:2] == [characteristic_length(load_record("orthoglide")), 1.0]
+    array([ True,  True])
+    """
+    length = characteristic_length(record)
+    scales = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
+    scales.flags.writeable = False
+    return scales
+
+
 def joint_geometry(joint: Joint) -> JointGeometry:
     """The floats of one joint."""
     a, b, c = map(_unit, joint.turn)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -24,6 +25,7 @@ from assur.numerics.recording.tape import Recorded, Recorder, Tape, without_unus
 from assur.numerics.sparse_vectors import Matrix
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.intp]
 Outputs = Mapping[str, Any]
 Wanted = Callable[..., Outputs]
 """What a configuration, and other numbers that are given, are asked for."""
@@ -64,26 +66,30 @@ class GraphProgram:
 
     def matrix(self, kind: str, numbers: FloatArray, shape: tuple[int, int]) -> FloatArray:
         """Matrices (N, rows, columns) of the outputs "kind row,column" among all (m, N); others are zero."""
-        outputs, places = self._entries(kind, shape[1])
         filled = np.zeros((numbers.shape[1], shape[0] * shape[1]))
-        filled[:, places] = numbers[outputs].T
+        if kind in self._entries:
+            row, column = self._entries[kind]
+            filled[:, row * shape[1] + column] = numbers[self.rows(kind)].T
         return filled.reshape(numbers.shape[1], *shape)
 
-    @lru_cache(maxsize=8)  # noqa: B019  # programs are kept anyway
     def rows(self, kind: str) -> slice:
         """Where the outputs of a kind stand, which follow each other."""
-        places = [k for k, name in enumerate(self.names) if name.partition(" ")[0] == kind]
-        return slice(places[0], places[-1] + 1) if places else slice(0, 0)
+        return self._rows_of.get(kind, slice(0, 0))
 
-    @lru_cache(maxsize=8)  # noqa: B019  # programs are kept anyway
-    def _entries(self, kind: str, columns: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        outputs, places = list[int](), list[int]()
-        for k, name in enumerate(self.names):
-            if name.partition(" ")[0] == kind:
-                row, column = name.partition(" ")[2].split(",")
-                outputs.append(k)
-                places.append(int(row) * columns + int(column))
-        return np.array(outputs, dtype=np.intp), np.array(places, dtype=np.intp)
+    @cached_property
+    def _rows_of(self) -> dict[str, slice]:
+        kinds = groupby(range(len(self.names)), lambda k: self.names[k].partition(" ")[0])
+        runs = [(kind, list(places)) for kind, places in kinds]
+        return {kind: slice(places[0], places[-1] + 1) for kind, places in runs}
+
+    @cached_property
+    def _entries(self) -> dict[str, IntArray]:
+        """Rows and columns (2, m) of all outputs of a kind that is a matrix."""
+        kinds = {name.partition(" ")[0]: self.rows(name.partition(" ")[0]) for name in self.names if "," in name}
+        return {
+            kind: np.array([name.partition(" ")[2].split(",") for name in self.names[rows]], dtype=np.intp).T
+            for kind, rows in kinds.items()
+        }
 
     @cached_property
     def straight_line(self) -> StraightLine:

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.joint_graph.configuration import Configuration
 from assur.joint_graph.frames import flat, screws
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.joint_graph.programs import Outputs, program
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.newton import ENOUGH, Newton, NewtonStep
@@ -264,8 +264,7 @@ def assemble(
         closest, gaps, steps = Newton(record, step)(values, wanted)
         values[gaps <= ENOUGH] = closest[gaps <= ENOUGH]
         left = np.flatnonzero(~(gaps <= ENOUGH))
-    # a length counts in units of the characteristic length, so that a step mixes it fairly with angles
-    scale = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])[free]
+    scale = joint_scales(record)[free]
 
     def system(block: NDArray[np.intp], unknowns: FloatArray, rows: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
         rows = block[rows]
@@ -321,8 +320,7 @@ def mobility(record: MechanismRecord, values: FloatArray, *, threshold: float = 
     length = characteristic_length(record)
     matrix = _about_cut_joints(record, values)
     rows = np.tile([1.0, 1.0, 1.0, 1 / length, 1 / length, 1 / length], matrix.shape[-2] // 6)
-    columns = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
-    singular = np.linalg.svd(matrix * rows[:, None] * columns, compute_uv=False)
+    singular = np.linalg.svd(matrix * rows[:, None] * joint_scales(record), compute_uv=False)
     kept = singular > threshold * singular[..., :1]
     rank = np.sum(kept, axis=-1)
     smallest = np.min(np.where(kept, singular, np.inf), axis=-1)

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.configuration import Configuration
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import joint_scales
 from assur.joint_graph.programs import GraphProgram, Outputs, program
 from assur.joint_graph.tree import joint_graph
 from assur.model.mechanism import MechanismRecord
@@ -225,10 +225,9 @@ def moved(record: MechanismRecord, values: FloatArray, columns: Sequence[int], c
     >>> moved(load_record("fivebar"), np.zeros((1, 5)), [1], np.array([[0.5]]))
     array([[0. , 0.5, 0. , 0. , 0. ]])
     """
-    length = characteristic_length(record)
-    whole = np.zeros_like(values)
+    scales, whole = joint_scales(record), np.zeros_like(values)
     for column, change in zip(columns, changes, strict=True):
-        whole[:, column] = change * (length if record.coordinates[column].kind == "length" else 1.0)
+        whole[:, column] = change * scales[column]
     slices = joint_graph(record).slices
     for name, joint in record.joints.items():
         for step, first in joint.type.places:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from assur.errors import Interrupted
 from assur.joint_graph.frames import frames
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.kinematics.border import held_inputs, inputs_of
 from assur.kinematics.closure import Assembly, assemble
 from assur.kinematics.home import home_values
@@ -143,9 +143,8 @@ def places(record: MechanismRecord, joints: FloatArray) -> FloatArray:
     rotation, origin = placed[record.platform.link]
     columns += [(rotation @ record.platform.point + origin) / length, rotation.reshape(len(joints), 9)]
     for item, same in zip(record.inputs, periodic_inputs(record), strict=True):
-        value = joints[:, item.coordinate.index]
-        unit = length if item.coordinate.kind == "length" else 1.0
-        columns += [np.cos(value)[:, None], np.sin(value)[:, None]] if same else [value[:, None] / unit]
+        value = joints[:, [item.coordinate.index]]
+        columns += [np.cos(value), np.sin(value)] if same else [value / joint_scales(record)[item.coordinate.index]]
     columns.append(joints[:, counted(record)])
     return np.concatenate(columns, axis=-1)
 

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import MechanismFileError, UsageError
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.joint_graph.tree import joint_graph
 from assur.joint_graph.turns import screws_among, turn_relations
 from assur.kinematics.closure import assemble
@@ -229,7 +229,7 @@ def joint_units(record: MechanismRecord) -> FloatArray:
     [1.0, 1.0, 1.0, 1.0, 1.0]
     """
     length = characteristic_length(record)
-    units = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
+    units = joint_scales(record).copy()
     pitches = np.array([abs(record.joints[item.joint].pitch) for item in record.coordinates])
     for row in lasting_relations(record) != 0:
         pitches[row] = np.maximum(pitches[row], np.max(pitches[row]))

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.frames import Frame, frames, screws
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.joint_graph.tree import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS
@@ -128,8 +128,7 @@ def transmitted(record: MechanismRecord, values: FloatArray) -> Transmitted:
 def _scaled(record: MechanismRecord, twists: FloatArray, point: FloatArray) -> FloatArray:
     """Unit twists (N, 6, n) of the joints at a point (N, 3), lengths in characteristic lengths."""
     length = characteristic_length(record)
-    scale = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
-    found = twists * scale
+    found = twists * joint_scales(record)
     found[..., 3:, :] += np.cross(found[..., :3, :], point[..., :, None], axis=-2)
     found[..., 3:, :] /= length
     return np.asarray(found)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import joint_scales
 from assur.kinematics.border import checked_poses
 from assur.kinematics.closure import assemble
 from assur.kinematics.home import home_values
@@ -83,8 +83,7 @@ def _of_box(record: MechanismRecord, count: int, mode: str | None, rng: np.rando
 
 
 def _near_home(record: MechanismRecord, count: int, rng: np.random.Generator) -> FloatArray:
-    length = characteristic_length(record)
-    units = np.array([length if coordinate.kind == "length" else 1.0 for coordinate in record.coordinates])
+    units = joint_scales(record)
     starts = home_values(record) + SPREAD * units * rng.uniform(-1, 1, size=(count, len(units)))
     near = assemble(record, starts)
     return np.asarray(near.values[near.closed])

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.linalg import null_space
 
 from assur.joint_graph.frames import frames
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.joints.prismatic import PRISMATIC
 from assur.kinematics.closure import CLOSED, RANK_GAP, assemble, closing_system
 from assur.model.mechanism import Coordinate, Joint, Link, MechanismRecord
@@ -200,7 +200,7 @@ def _stretched(record: MechanismRecord, start: FloatArray, pose: FloatArray) -> 
     """
     pushed, whole_pose = _on_feet(record), _whole(record, start, pose)
     size = characteristic_length(record)
-    scale = np.array([size if coordinate.kind == "length" else 1.0 for coordinate in pushed.coordinates])
+    scale = joint_scales(pushed)
     feet, legs, damping, harder = np.arange(len(start), len(scale)), _legs(pushed), DAMPING, 2.0
     first = assemble(pushed, np.concatenate([start, np.zeros(len(feet))]), poses=whole_pose)
     if not bool(first.closed):

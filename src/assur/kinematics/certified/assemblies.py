@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.configuration import Placed
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import joint_scales
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics import position
 from assur.kinematics.answers.solution_set import SolutionSet
@@ -84,8 +84,7 @@ class _Assemblies:
 
     def scale(self) -> FloatArray:
         """Size (n,) of each unknown."""
-        length = characteristic_length(self.record)
-        return np.array([length if self.record.coordinates[k].kind == "length" else 1.0 for k in self.unknown])
+        return joint_scales(self.record)[self.unknown]
 
     def evaluated(self, numbers: Sequence[Any]) -> tuple[list[Any], list[Any], Placed]:
         """Equations, what must be positive, and the platform's frame at O', at unknowns (K,) of any number type."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import joint_scales
 from assur.kinematics.closure import assemble
 from assur.kinematics.contract.borders import named_by_signs
 from assur.kinematics.contract.kernel import Kernel, recorded
@@ -66,7 +66,7 @@ def _wrong_joints(found: Solutions, row: int) -> set[str]:
         right = assemble(record, values)
     if not bool(right.closed):
         return set()
-    scale = np.array([characteristic_length(record) if item.kind == "length" else 1.0 for item in record.coordinates])
+    scale = joint_scales(record)
     change = right.values - values
     angular = np.array([item.kind == "angle" for item in record.coordinates])
     change = np.where(angular, (change + np.pi) % (2 * np.pi) - np.pi, change)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.frames import frames
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.joint_graph.points import quantities
 from assur.kinematics import border
 from assur.kinematics.closure import assemble
@@ -64,7 +64,7 @@ def random_assemblies(record: MechanismRecord, count: int, random: np.random.Gen
     home = home_values(record)
     if not count:
         return home[None]
-    scale = np.array([characteristic_length(record) if item.kind == "length" else 1.0 for item in record.coordinates])
+    scale = joint_scales(record)
     spread = np.where(np.arange(count) % 2, 0.5, 2.0)[:, None]
     starts = home + spread * scale * random.normal(size=(count, len(home)))
     reached = assemble(record, starts, max_steps=40)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import joint_scales
 from assur.kinematics import border
 from assur.kinematics.closure import RANK_GAP, assemble
 from assur.kinematics.contract.completeness import missing
@@ -55,7 +55,7 @@ def _answers(
     turn = solve_by_loops(record, **given, crossed=False)
     if turn.complete:
         return list(turn.joints)
-    scale = np.array([characteristic_length(record) if item.kind == "length" else 1.0 for item in record.coordinates])
+    scale = joint_scales(record)
     starts = joints + 2.0 * scale * random.normal(size=(STARTS, len(joints)))
     if problem == "direct":
         starts[:, list(record.input_indices)] = joints[list(record.input_indices)]

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.kinematics.closed_form.existence import allows
 from assur.kinematics.contract.algebra import Algebra
 from assur.kinematics.contract.kernel import Kernel, line_where
@@ -115,7 +115,7 @@ def zeros(kernel: Kernel, found: Solutions, k: int, given: FloatArray, signs: ND
 def _units(found: Solutions) -> FloatArray:
     record, length = found.record, characteristic_length(found.record)
     if found.problem == "direct":
-        return np.array([length if item.coordinate.kind == "length" else 1.0 for item in record.inputs])
+        return joint_scales(record)[list(record.input_indices)]
     return np.array([length if name in LENGTHS else 1.0 for name in record.platform.pose])
 
 

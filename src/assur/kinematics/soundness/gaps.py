@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import Problem
-from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import Assembly, assemble, residuals
 from assur.kinematics.limits import limits
@@ -189,8 +189,7 @@ def _other_home(record: MechanismRecord) -> FloatArray | int:
     """
     size = len(record.home)
     count = int(np.clip(EFFORT // size**2, FEWEST, MOST))
-    length = characteristic_length(record)
-    scale = np.array([length if item.kind == "length" else 1.0 for item in record.coordinates])
+    scale = joint_scales(record)
     random = np.random.default_rng(0)
     spread = np.where(np.arange(count) % 2, 0.5, 2.0)[:, None]
     found = assemble(record, record.home + spread * scale * random.normal(size=(count, size)))

@@ -12,13 +12,13 @@ import sympy
 from assur.audit.configurations import (
     configurations,
     freedoms_with_inputs_locked,
-    joint_scales,
     null_space,
     random_poses,
     scaled_closure,
 )
 from assur.audit.equations import rates_of
 from assur.audit.rows import Evidence
+from assur.joint_graph.geometry import joint_scales
 from assur.joint_graph.points import quantity
 from assur.kinematics.closure import mobility
 from assur.kinematics.modes import all_modes
