@@ -21,7 +21,7 @@ MODULES = sorted(path for path in SOURCE.rglob("*.py") if "mechanisms" not in pa
 FOLDERS = sorted(path for path in (SOURCE / "mechanisms").iterdir() if path.is_dir() and any(path.glob("*.toml")))
 MECHANISMS = [folder for folder in FOLDERS if (folder / "mechanism.toml").is_file()]
 NOT_MIRRORS = {"contract", "papers", "derivations", "examples"}
-CITED_HOSTS = {"www.apache.org", "www.w3.org", "arxiv.org", "doi.org"}
+CITED_HOSTS = {"www.apache.org", "www.w3.org", "arxiv.org", "doi.org", "json-schema.org"}
 CLOCKS = {"perf_counter", "perf_counter_ns", "process_time", "process_time_ns", "thread_time", "thread_time_ns"}
 NOBODY = re.compile(r"localhost|127\.[\d.]+|0\.0\.0\.0|192\.0\.2\.\d+|(?:[\w-]+\.)*example(?:\.\w+)?")
 """This machine itself, every address of it, and names and addresses that are reserved for documentation."""

@@ -1,7 +1,11 @@
-"""A command line run inside this process, which is fast, or as the installed command."""
+"""A command line run inside this process, which is fast, or as the installed command.
+
+Whatever a command prints with --json is held against the schema of its answers.
+"""
 
 from __future__ import annotations
 
+import functools
 import json
 import subprocess
 import sys
@@ -9,9 +13,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import jsonschema
 import pytest
 
+from assur.cli.answers import ANSWERS
 from assur.cli.main import main
+from assur.results.answers.schema import schema_of
 
 COMMAND = Path(sys.executable).with_name("assur")
 
@@ -31,6 +38,21 @@ class Run:
         return found
 
 
+@functools.cache
+def _validator(command: str) -> jsonschema.Draft202012Validator:
+    schema = schema_of({command: ANSWERS.get(command, ())})
+    jsonschema.Draft202012Validator.check_schema(schema)
+    return jsonschema.Draft202012Validator(schema)
+
+
+def held_to_schema(words, run: Run) -> Run:
+    """The same run; its answer, where it is one in JSON, is as the schema says."""
+    if "--json" in words and run.out and words[0] in ANSWERS:
+        error = jsonschema.exceptions.best_match(_validator(words[0]).iter_errors(run.json))
+        assert error is None, f"{' '.join(words)}: {error.json_path}: {error.message}"
+    return run
+
+
 def _refuse(text: str) -> None:
     raise AssertionError(f"{text} is not JSON")
 
@@ -43,7 +65,7 @@ def assur_cli(capsys, monkeypatch):
     def run(*words: str) -> Run:
         code = main(list(words))
         captured = capsys.readouterr()
-        return Run(code, captured.out, captured.err)
+        return held_to_schema(words, Run(code, captured.out, captured.err))
 
     return run
 
@@ -54,6 +76,6 @@ def assur_process():
 
     def run(*words: str, **options: Any) -> Run:
         done = subprocess.run([COMMAND, *words], capture_output=True, text=True, timeout=600, check=False, **options)
-        return Run(done.returncode, done.stdout, done.stderr)
+        return held_to_schema(words, Run(done.returncode, done.stdout, done.stderr))
 
     return run

@@ -48,9 +48,9 @@ def loaded(cache, words):
     [
         (("--help",), set(), 50),
         (("list",), NUMPY | READ, 122),
-        (("show", "zeng2019"), NUMPY, 120),
-        (DIRECT, NUMPY, 130),
-        (INVERSE, NUMPY, 130),
+        (("show", "zeng2019"), NUMPY, 122),
+        (DIRECT, NUMPY, 132),
+        (INVERSE, NUMPY, 132),
     ],
 )
 def test_a_command_loads_what_it_prints_and_no_more(cache, words, packages, most):

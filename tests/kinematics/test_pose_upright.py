@@ -83,7 +83,7 @@ def test_every_bound_of_a_certificate_is_a_number(tmp_path, pose, inputs):
     record = assur.load(spherical(tmp_path, pose))
     found = certified_direct(record, np.radians(inputs))
     floats = record.direct(np.radians(inputs))
-    assert "null" not in json_text({"poses": [item["pose"] for item in answer(found)["solutions"]]})
+    assert "null" not in json_text({"poses": [item.pose for item in answer(found).solutions]})
     for item in found:
         own = next(one.pose for one in floats if one.mode == item.mode)
         turns = 2 * np.pi * np.round((item.pose.middle - own) / (2 * np.pi))  # angles but for whole turns

@@ -55,7 +55,7 @@ class Asked:
 
 
 @dataclass(frozen=True, eq=False)
-class Answer:
+class Explored:
     """The aspects of each mode, and of one mode the path or the place asked for."""
 
     modes: tuple[Aspects, ...]
@@ -87,7 +87,7 @@ def _target(asked: Asked) -> Path | None:
     return path
 
 
-def _answer(record: Mechanism, asked: Asked, shared: Shared) -> Answer:
+def _answer(record: Mechanism, asked: Asked, shared: Shared) -> Explored:
     from assur.kinematics.modes import all_modes
     from assur.workspace.aspects.aspects import aspects
     from assur.workspace.aspects.checking import check_path
@@ -101,16 +101,16 @@ def _answer(record: Mechanism, asked: Asked, shared: Shared) -> Answer:
         with progress(f"aspects {name}".strip(), shared) as step:
             found.append(aspects(record, name, words.box, words.strokes, words.held, finest, step))
         if pressed():
-            return Answer(tuple(found))
+            return Explored(tuple(found))
     if asked.start is None:
-        return Answer(tuple(found))
+        return Explored(tuple(found))
     first = found[0]
     start = pose(record, asked.start, "--from", first.box.names)
     if asked.end is None:
-        return Answer(tuple(found), place=first.of(start))
+        return Explored(tuple(found), place=first.of(start))
     path = first.path(start, pose(record, asked.end, "--to", first.box.names))
     check = check_path(record, first, path) if path.status == "connected" else None
-    return Answer(tuple(found), path, check)
+    return Explored(tuple(found), path, check)
 
 
 def pose(record: Mechanism, text: str, option: str, names: Sequence[str]) -> list[float]:
@@ -126,7 +126,7 @@ def pose(record: Mechanism, text: str, option: str, names: Sequence[str]) -> lis
     return [value * _factor(record, name) for name, value in zip(names, values, strict=True)]
 
 
-def _exit_code(answer: Answer) -> int:
+def _exit_code(answer: Explored) -> int:
     if answer.place is not None:
         return exit_codes.of_answers([ANSWERS.get(answer.place.status, "no")])
     if answer.path is None:
@@ -136,7 +136,7 @@ def _exit_code(answer: Answer) -> int:
     return exit_codes.of_answers([ANSWERS.get(answer.path.status, "no")])
 
 
-def _data(record: Mechanism, answer: Answer) -> dict[str, Any]:
+def _data(record: Mechanism, answer: Explored) -> dict[str, Any]:
     if len(answer.modes) > 1:
         return {"mechanism": record.name, "modes": [_outside(record, item.to_json()) for item in answer.modes]}
     data = _outside(record, answer.modes[0].to_json())
@@ -181,7 +181,7 @@ def _factor(record: Mechanism, name: str) -> float:
     return math.pi / 180 if record.angle == "deg" and not is_length(name) else 1.0
 
 
-def _write(path: Path, record: Mechanism, answer: Answer, data: Mapping[str, Any]) -> None:
+def _write(path: Path, record: Mechanism, answer: Explored, data: Mapping[str, Any]) -> None:
     from assur.results.files import write_whole
     from assur.results.json_text import json_text
 
@@ -201,7 +201,7 @@ def _write(path: Path, record: Mechanism, answer: Answer, data: Mapping[str, Any
 
 
 def _shown(
-    record: Mechanism, answer: Answer, data: Mapping[str, Any], written: Path | None
+    record: Mechanism, answer: Explored, data: Mapping[str, Any], written: Path | None
 ) -> Iterable[RenderableType]:
     if len(answer.modes) > 1:
         yield from _modes(record, answer.modes)

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from assur.cli import exit_codes
 from assur.cli.options import MethodName, Outcome
 from assur.cli.output import heading, table
-from assur.cli.positions import exceeded, limits_cell
-from assur.cli.quantities import QUATERNION, Style, pose_text, short, style_of
+from assur.cli.positions import columns_of, exceeded, given_words, limits_cell, texts_of
+from assur.cli.quantities import QUATERNION, Style, short, style_of
 from assur.errors import UsageError
+from assur.results.answers.certified import CertifiedDirect, ProvedPose
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
     from assur.kinematics.certified.certify import Way
     from assur.kinematics.certified.result import CertifiedSolutions
     from assur.mechanism import Mechanism
+    from assur.results.answers.certified import CertifiedInverse
+
+    CertifiedPositions = CertifiedDirect | CertifiedInverse
 
 WAYS: dict[str, Way] = {"auto": "auto", "closed form": "closed form", "loops": "joint graph", "search": "boxes"}
 
@@ -48,111 +52,94 @@ def outcome(record: Mechanism, found: CertifiedSolutions) -> Outcome:
     return Outcome(data, lambda: _shown(record, data, found.headline), code)
 
 
-def _shown(record: Mechanism, data: dict[str, Any], headline: str) -> Iterable[RenderableType]:
+def _shown(record: Mechanism, data: CertifiedPositions, headline: str) -> Iterable[RenderableType]:
     style = style_of(record)
-    problem = "direct" if "inputs" in data else "inverse"
-    yield heading(f"{data['mechanism']}, {problem}: {headline}")
-    yield _given(record, data, style)
+    yield heading(f"{data.mechanism}, {data.problem}: {headline}")
+    yield given_words(record, style, data)
     yield ""
-    if data["solutions"]:
+    if data.solutions:
         yield _solutions(record, data, style)
         yield from exceeded(data)
         yield from _undetermined(style, data)
-    if data["undecided"]:
+    if data.undecided:
         yield _undecided(data, style)
     yield from _right(record, data)
-    if data["solutions"]:
-        stated = "Limits are judged in floating point." if data["limits_stated"] else "No limits are stated."
+    if data.solutions:
+        stated = "Limits are judged in floating point." if data.limits_stated else "No limits are stated."
         yield stated
 
 
-def _given(record: Mechanism, data: dict[str, Any], style: Style) -> str:
-    if "pose" in data:
-        return f"at {pose_text(style, data['coordinates'], data['pose'])}"
-    kinds = [item.coordinate.kind for item in record.inputs]
-    given = zip(data["input_names"], kinds, data["inputs"], strict=True)
-    return (
-        f"at {', '.join(f'{name} = {style.kind(kind, value)} {style.kind_unit(kind)}' for name, kind, value in given)}"
-    )
-
-
-def _solutions(record: Mechanism, data: dict[str, Any], style: Style) -> RenderableType:
+def _solutions(record: Mechanism, data: CertifiedPositions, style: Style) -> RenderableType:
     """Middles of the bounds, rounded, and the largest width of the bounds, rounded up."""
     from assur.kinematics.certified.result import at_most
 
-    direct = "inputs" in data
-    if direct:
-        titles = [style.coordinate_title(name) for name in data["coordinates"]]
-    else:
-        kinds = [item.coordinate.kind for item in record.inputs]
-        titles = [f"{name} [{style.kind_unit(kind)}]" for name, kind in zip(data["input_names"], kinds, strict=True)]
-    other = "working_mode" if direct else "assembly_mode"
-    told = data["limits_stated"]
-    rows, hows = [], list(dict.fromkeys(item["how"] for item in data["solutions"]))
-    for item in data["solutions"]:
-        bounds = item["pose" if direct else "inputs"]
-        pairs = list(zip(bounds["low"], bounds["high"], strict=True))
-        middles = [0.5 * (low + high) for low, high in pairs]
-        if direct:
-            values = [
-                _range(style, name, pair) if name in item["undetermined"] else style.coordinate(name, middle)
-                for name, pair, middle in zip(data["coordinates"], pairs, middles, strict=True)
-            ]
-            told = [name not in item["undetermined"] for name in data["coordinates"]]
-        else:
-            values = [style.kind(*pair) for pair in zip(kinds, middles, strict=True)]
-            told = [True] * len(pairs)
-        width = max((high - low for (low, high), known in zip(pairs, told, strict=True) if known), default=0.0)
-        row = (item["mode"], *values, at_most(width), item[other], str(hows.index(item["how"]) + 1))
-        rows.append((*row, *([limits_cell(item)] if told else [])))
-    columns = ("mode", *titles, "width", other.partition("_")[0], "proof", *(["limits"] if told else []))
-    return table(columns, rows, left=("limits",))
+    direct, hows = isinstance(data, CertifiedDirect), _hows(data)
+    rows = []
+    for item in data.solutions:
+        free = item.undetermined if isinstance(item, ProvedPose) else ()
+        pairs = list(zip(item.bounds.low, item.bounds.high, strict=True))
+        values = texts_of(record, style, [0.5 * (low + high) for low, high in pairs], direct=direct)
+        names = data.coordinates if direct else data.input_names
+        values = [
+            _range(style, name, pair) if name in free else text
+            for name, pair, text in zip(names, pairs, values, strict=True)
+        ]
+        widths = [high - low for name, (low, high) in zip(names, pairs, strict=True) if name not in free]
+        row = (item.mode, *values, at_most(max(widths, default=0.0)), item.other_mode, str(hows.index(item.how) + 1))
+        rows.append((*row, *([limits_cell(item)] if data.limits_stated else [])))
+    last = ("working" if direct else "assembly", "proof", *(["limits"] if data.limits_stated else []))
+    return table(("mode", *columns_of(record, style, direct=direct), "width", *last), rows, left=("limits",))
+
+
+def _hows(data: CertifiedPositions) -> list[str]:
+    """By what solutions are proved, each way once."""
+    return list(dict.fromkeys(item.how for item in data.solutions))
 
 
 def _range(style: Style, name: str, pair: tuple[float, float]) -> str:
     return " .. ".join(dict.fromkeys(style.coordinate(name, end) for end in pair))
 
 
-def _undetermined(style: Style, data: dict[str, Any]) -> Iterable[str]:
+def _undetermined(style: Style, data: CertifiedPositions) -> Iterable[str]:
     """Why some coordinates are no numbers though the pose is proved."""
-    names = {name for item in data["solutions"] for name in item.get("undetermined", ())}
-    angles = [name for name in data["coordinates"] if name in names and name not in QUATERNION]
+    proved = data.solutions if isinstance(data, CertifiedDirect) else ()
+    names = {name for item in proved for name in item.undetermined}
+    angles = [name for name in data.coordinates if name in names and name not in QUATERNION]
     if angles:
-        right = style.degrees(90.0 if data["angle"] == "deg" else math.pi / 2)
+        right = style.degrees(90.0 if data.angle == "deg" else math.pi / 2)
         yield (
-            f"{' and '.join(angles)}: any, where theta may be {right} {data['angle']} or its negative: both turn about"
+            f"{' and '.join(angles)}: any, where theta may be {right} {data.angle} or its negative: both turn about"
             " one axis there, and only the two together say how the platform stands"
         )
     if names & set(QUATERNION):
         yield "qx, qy, qz: of either sign where qw may be 0, since q and -q are one orientation"
 
 
-def _undecided(data: dict[str, Any], style: Style) -> RenderableType:
+def _undecided(data: CertifiedPositions, style: Style) -> RenderableType:
     rows = []
-    for item in data["undecided"]:
-        if item["name"] == "pose":
-            names = data["coordinates"]
+    for item in data.undecided:
+        if item.name == "pose":
+            names = data.coordinates
             low, high = (
                 "\n".join(f"{name} {style.coordinate(name, value)}" for name, value in zip(names, ends, strict=True))
-                for ends in (item["low"], item["high"])
+                for ends in (item.low, item.high)
             )
         else:
-            low, high = (short(item[end][0]) for end in ("low", "high"))
-        rows.append((item["name"], low, high, item["unit"], item["meaning"], str(item["branches"])))
+            low, high = (short(ends[0]) for ends in (item.low, item.high))
+        rows.append((item.name, low, high, item.unit, item.meaning, str(item.branches)))
     return table(
         ("undecided", "from", "to", "unit", "which is", "branches"), rows, left=("undecided", "unit", "which is")
     )
 
 
-def _right(record: Mechanism, data: dict[str, Any]) -> Iterable[str]:
-    hows = list(dict.fromkeys(item["how"] for item in data["solutions"]))
-    yield from (f"proof {k}: {how}" for k, how in enumerate(hows, 1))
+def _right(record: Mechanism, data: CertifiedPositions) -> Iterable[str]:
+    yield from (f"proof {k}: {how}" for k, how in enumerate(_hows(data), 1))
     form = record.closed_form
     because = f" ({form.reduced_because})" if form is not None and form.reduced_because else ""
-    model = f"the reduced model{because}" if data["complete_for"] == "reduced" else "the joint graph"
-    if data["proved"]:
-        yield f"Complete for {model}, by {data['right']}."
-    elif data["complete"]:
-        yield f"Complete for {model} but for what is undecided, by {data['right']}."
+    model = f"the reduced model{because}" if data.complete_for == "reduced" else "the joint graph"
+    if data.proved:
+        yield f"Complete for {model}, by {data.right}."
+    elif data.complete:
+        yield f"Complete for {model} but for what is undecided, by {data.right}."
     else:
-        yield f"Whether these are all is not proved: {data['right']}."
+        yield f"Whether these are all is not proved: {data.right}."

@@ -6,7 +6,7 @@ import sys
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from assur.cli.options import Outcome, Plain, Shared
@@ -50,7 +50,5 @@ def asked(code: NotRun) -> bool:
 
 
 def told(outcome: Outcome, not_run: Sequence[NotRun]) -> Outcome:
-    """An outcome whose JSON object says as `code_not_run` what was not run."""
-    if not not_run:
-        return outcome
-    return replace(outcome, data={**outcome.data, "code_not_run": [asdict(code) for code in not_run]})
+    """An outcome that says what was not run."""
+    return replace(outcome, not_run=tuple(not_run))

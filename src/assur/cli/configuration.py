@@ -35,7 +35,7 @@ def verdict_data(record: Mechanism, pose: NDArray[Any], mode: str) -> dict[str, 
     # of home's mode without a closed form `home_by` says what stops the paths
     of_home = record.closed_form is None and (not mode or mode == record.modes.default_working)
     lost = not of_home and verdict.kind in ("unreachable", "undecided")
-    why_not = answer(record.inverse(pose, mode))["failures"] if lost else []
+    why_not = answer(record.inverse(pose, mode)).failures if lost else []
     return {
         "mechanism": record.name,
         "unit": record.unit,

@@ -57,7 +57,7 @@ def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) ->
     of_home = record.closed_form is None and (not mode or mode == record.modes.default_working)
     home = home_mode_at(record, pose) if record.closed_form is None else None
     solved = None if of_home else record.inverse(pose, mode)
-    lost = [] if solved is None else answer(solved)["failures"]
+    lost = [] if solved is None else answer(solved).failures
     there = not lost and (home is None or not of_home or home.reached)
     found = indices(record, pose, mode, length if there or length != "isotropic" else None)
     data = {

@@ -93,7 +93,7 @@ def ended(command: Callable[[], Outcome]) -> Outcome:
     else:
         if not _KEY.pressed:
             return outcome
-    return replace(outcome, data={**outcome.data, "interrupted": True}, exit_code=INTERRUPTED)
+    return replace(outcome, interrupted=True, exit_code=INTERRUPTED)
 
 
 def _noted(number: int, frame: FrameType | None) -> None:

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from assur.mechanism import Mechanism
+    from assur.model.consent import NotRun
+    from assur.results.answers.answer import Answer
 
 SHARED = Group("Shared options", sort_key=9)
 
@@ -128,8 +130,10 @@ DRAWN_DEFAULTS = Drawn()
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a command found: plain data for `--json`, what a person sees, and the exit code."""
+    """What a command found: an answer for `--json`, what a person sees, the exit code, and how it came about."""
 
-    data: dict[str, Any]
+    data: Answer | dict[str, Any]
     shown: Callable[[], Iterable[RenderableType]]
     exit_code: int = 0
+    interrupted: bool = False
+    not_run: tuple[NotRun, ...] = ()

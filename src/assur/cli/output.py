@@ -7,8 +7,7 @@ import os
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from assur.cli.exit_codes import INTERRUPTED
 from assur.errors import AssurError, FileError, OutputError, visible
@@ -19,6 +18,7 @@ if TYPE_CHECKING:
     from rich.text import Text
 
     from assur.cli.options import Outcome
+    from assur.results.answers.answer import Answer, Circumstances
 
 
 def console(*, error: bool = False) -> Console:
@@ -37,13 +37,27 @@ def console(*, error: bool = False) -> Console:
 def emit(outcome: Outcome, *, json: bool) -> None:
     """Print an outcome, and make sure that it has been written."""
     if json:
+        from assur.results.answers.answer import entries
         from assur.results.json_text import json_text
 
-        text = json_text(outcome.data) + "\n"
+        text = json_text({**_entries(outcome.data), **entries(_circumstances(outcome))}) + "\n"
         with written():
             sys.stdout.write(text)
     else:
         show(outcome.shown())
+
+
+def _entries(data: Answer | dict[str, Any]) -> dict[str, Any]:
+    from assur.results.answers.answer import entries
+
+    return data if isinstance(data, dict) else entries(data)
+
+
+def _circumstances(outcome: Outcome) -> Circumstances:
+    from assur.results.answers.answer import ABSENT, Circumstances, CodeNotRun
+
+    codes = tuple(CodeNotRun(code.file, code.line, code.reason, code.instead) for code in outcome.not_run)
+    return Circumstances(True if outcome.interrupted else ABSENT, codes or ABSENT)
 
 
 class Verbatim(str):
@@ -108,12 +122,13 @@ def complain(error: AssurError, *, json: bool = False) -> None:
     text = visible(str(error))  # what was typed stands in it
     sys.stderr.write(f"{text}\n" if isinstance(error, InterruptedByUserError) else f"error: {text}\n")
     if json:
+        from assur.results.answers.answer import NoAnswer, NoAnswerReason
         from assur.results.json_text import json_text
 
-        problems = [asdict(item) for item in error.problems] if isinstance(error, FileError) else []
-        said = {"message": error.message, "hint": error.hint, "exit_code": error.exit_code, "problems": problems}
+        problems = tuple(error.problems) if isinstance(error, FileError) else ()
+        reason = NoAnswerReason(error.message, error.hint, error.exit_code, problems)
         with contextlib.suppress(OSError):  # the error is that nothing can be written there
-            sys.stdout.write(json_text({"error": said}) + "\n")
+            sys.stdout.write(json_text(NoAnswer(reason)) + "\n")
             sys.stdout.flush()
 
 

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from assur.mechanism import Mechanism
+    from assur.results.answers.position import InputsSolution, PoseSolution
     from assur.workspace.region import Workspace
 
 
@@ -42,16 +43,16 @@ def shown_largest(record: Mechanism, data: Mapping[str, Any]) -> Iterable[Render
     yield table(("coordinate", "value", "at"), rows, left=("coordinate", "at"))
 
 
-def shown_solutions(record: Mechanism, solutions: Iterable[Mapping[str, Any]]) -> Iterable[RenderableType]:
+def shown_solutions(record: Mechanism, solutions: Iterable[PoseSolution | InputsSolution]) -> Iterable[RenderableType]:
     """Of every solution the platform's coordinates that the pose leaves out; nothing where none of them moves."""
-    listed = [item for item in solutions if item["parasitic"]]
+    listed = [item for item in solutions if item.parasitic]
     if not listed:
         return
-    names = tuple(listed[0]["parasitic"])
+    names = tuple(listed[0].parasitic)
     yield "the platform's coordinates that the pose leaves out:"
     yield table(
         ("mode", *(f"{name} [{_unit(record, name)}]" for name in names)),
-        [(item["mode"], *(short(item["parasitic"][name]) for name in names)) for item in listed],
+        [(item.mode, *(short(item.parasitic[name]) for name in names)) for item in listed],
     )
 
 

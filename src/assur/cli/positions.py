@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from assur.cli import exit_codes, parasitic
 from assur.cli.options import Outcome
@@ -16,6 +16,18 @@ if TYPE_CHECKING:
 
     from assur.kinematics.answers.solution_set import SolutionSet
     from assur.mechanism import Mechanism
+    from assur.results.answers.certified import BoundedSolution, CertifiedDirect, CertifiedInverse
+    from assur.results.answers.position import (
+        DirectAnswer,
+        InputsSolution,
+        InverseAnswer,
+        ListedSolution,
+        NegativeQuantity,
+        PoseSolution,
+    )
+
+    Positions = DirectAnswer | InverseAnswer
+    CertifiedPositions = CertifiedDirect | CertifiedInverse
 
 
 def outcome(record: Mechanism, found: SolutionSet) -> Outcome:
@@ -26,7 +38,7 @@ def outcome(record: Mechanism, found: SolutionSet) -> Outcome:
     from assur.kinematics.answers.answer import answer
 
     data = answer(found)
-    return Outcome(data, lambda: _shown(record, data, found.candidates), exit_codes.of_status(data["status"]))
+    return Outcome(data, lambda: _shown(record, data, found.candidates), exit_codes.of_status(data.status))
 
 
 def lines(record: Mechanism, found: SolutionSet) -> Iterable[RenderableType]:
@@ -36,99 +48,112 @@ def lines(record: Mechanism, found: SolutionSet) -> Iterable[RenderableType]:
     return _shown(record, answer(found), found.candidates)
 
 
-def _shown(record: Mechanism, data: dict[str, Any], branches: int) -> Iterable[RenderableType]:
+def _shown(record: Mechanism, data: Positions, branches: int) -> Iterable[RenderableType]:
     style = style_of(record)
-    problem = "direct" if "inputs" in data else "inverse"
-    yield heading(f"{data['mechanism']}, {problem}: {_headline(record, data, branches)}")
-    yield _given(record, data, style)
+    yield heading(f"{data.mechanism}, {data.problem}: {_headline(record, data, branches)}")
+    yield given_words(record, style, data)
     yield ""
-    if data["solutions"]:
+    if data.solutions:
         yield _solutions(record, data, style)
         yield from exceeded(data)
         yield from _open_loops(data)
         yield from _remarks(data)
-        yield from parasitic.shown_solutions(record, data["solutions"])
-    if data["curves"]:
+        yield from parasitic.shown_solutions(record, data.solutions)
+    if data.curves:
         yield from _curves(data, style)
-    if data["failures"]:
-        yield failures(data["failures"])
+    if data.failures:
+        yield failures(data.failures)
     yield _completeness(record, data)
-    if data["solutions"] and not data["limits_stated"]:
+    if data.solutions and not data.limits_stated:
         yield "No limits are stated."
     yield from _modes(record, data)
 
 
-def _headline(record: Mechanism, data: dict[str, Any], branches: int) -> str:
+def _headline(record: Mechanism, data: Positions, branches: int) -> str:
     """What the rows that answer say, that of home or of the file's own mode first."""
     among = f"among {count(branches, 'branch')}" if branches > 1 else "in this mode"
-    found = count(len(data["solutions"]), "solution")
-    if data["right"].startswith("not proved") and not data["solutions"] and not data["curves"]:
+    found = count(len(data.solutions), "solution")
+    if data.right.startswith("not proved") and not data.solutions and not data.curves:
         return "nothing was found, not proved"
-    if data["status"] == "unreachable":
+    if data.status == "unreachable":
         return f"unreachable, no solution {among}"
-    if data["curves"]:
-        return f"self_motion, {count(len(data['curves']), 'curve')} of poses {among}"
-    if data["status"] == "not_closed" and all(item["status"] == "not_closed" for item in data["solutions"]):
-        return f"not_closed, {count(len(data['solutions']), 'row')}, none of them a solution"
-    status, listed = data["status"], Counter(item["status"] for item in data["solutions"])
+    if data.curves:
+        return f"self_motion, {count(len(data.curves), 'curve')} of poses {among}"
+    if data.status == "not_closed" and all(item.status == "not_closed" for item in data.solutions):
+        return f"not_closed, {count(len(data.solutions), 'row')}, none of them a solution"
+    status, listed = data.status, Counter(item.status for item in data.solutions)
     if len(listed) == 1 or not listed:
         return f"{status}, {found} {among}"
     each = ", ".join(f"{number} {name}" for name, number in listed.most_common())
     own = _own_row(record, data)
-    first = f"{own['status']} in mode {own['mode']}, " if own and own["status"] != status else ""
+    first = f"{own.status} in mode {own.mode}, " if own and own.status != status else ""
     return f"{first}{status} at worst, {found} ({each}) {among}"
 
 
-def _own_row(record: Mechanism, data: dict[str, Any]) -> dict[str, Any] | None:
+def _own_row(record: Mechanism, data: Positions) -> PoseSolution | InputsSolution | None:
     """The solution that is home, else that of the file's own mode; None where there is neither."""
     modes = record.modes
-    default = modes.default_assembly if "inputs" in data else modes.default_working
-    home = [item for item in data["solutions"] if item["home"]]
-    of_file = [item for item in data["solutions"] if item["mode"] == default]
-    return next(iter(home + of_file), None)
+    default = modes.default_assembly if data.problem == "direct" else modes.default_working
+    listed: Sequence[PoseSolution | InputsSolution] = data.solutions
+    home = [item for item in listed if item.home]
+    return next(iter(home + [item for item in listed if item.mode == default]), None)
 
 
-def _given(record: Mechanism, data: dict[str, Any], style: Style) -> str:
-    if "inputs" in data:
-        kinds = [item.coordinate.kind for item in record.inputs]
-        given = zip(data["input_names"], kinds, data["inputs"], strict=True)
-        parts = [f"{name} = {style.kind(kind, value)} {style.kind_unit(kind)}" for name, kind, value in given]
-    else:
-        parts = [pose_text(style, data["coordinates"], data["pose"])]
+def given_words(record: Mechanism, style: Style, data: Positions | CertifiedPositions) -> str:
+    """What a problem is given, in words."""
+    if data.problem == "inverse":
+        return f"at {pose_text(style, data.coordinates, data.given)}"
+    given = zip(data.input_names, input_kinds(record), data.given, strict=True)
+    parts = (f"{name} = {style.kind(kind, value)} {style.kind_unit(kind)}" for name, kind, value in given)
     return f"at {', '.join(parts)}"
 
 
-def _solutions(record: Mechanism, data: dict[str, Any], style: Style) -> RenderableType:
-    kinds = [item.coordinate.kind for item in record.inputs]
-    if "inputs" in data:
-        titles = [style.coordinate_title(name) for name in data["coordinates"]]
-        other = "working_mode"
-    else:
-        names = zip(data["input_names"], kinds, strict=True)
-        titles = [f"{name} [{style.kind_unit(kind)}]" for name, kind in names]
-        other = "assembly_mode"
+def input_kinds(record: Mechanism) -> list[str]:
+    """Of every input whether it is an "angle" or a "length"."""
+    return [item.coordinate.kind for item in record.inputs]
 
-    def values(item: dict[str, Any]) -> list[str]:
-        if "pose" in item:
-            return [style.coordinate(*pair) for pair in zip(data["coordinates"], item["pose"], strict=True)]
-        return [style.kind(*pair) for pair in zip(kinds, item["inputs"], strict=True)]
 
+def columns_of(record: Mechanism, style: Style, *, direct: bool) -> list[str]:
+    """What stands over the numbers of solutions: coordinates of poses, or inputs."""
+    if direct:
+        return [style.coordinate_title(name) for name in record.platform.pose]
+    return [f"{item.name} [{style.kind_unit(item.coordinate.kind)}]" for item in record.inputs]
+
+
+def texts_of(record: Mechanism, style: Style, numbers: Sequence[float], *, direct: bool) -> list[str]:
+    """The numbers of one solution."""
+    if direct:
+        return [style.coordinate(*pair) for pair in zip(record.platform.pose, numbers, strict=True)]
+    return [style.kind(*pair) for pair in zip(input_kinds(record), numbers, strict=True)]
+
+
+def _solutions(record: Mechanism, data: Positions, style: Style) -> RenderableType:
+    direct = data.problem == "direct"
     rows = [
         (
-            item["mode"],
-            *values(item),
-            item[other],
-            "yes" if item["home"] else "",
-            item["status"],
-            tiny(item["residual"]),
+            item.mode,
+            *texts_of(record, style, item.numbers, direct=direct),
+            item.other_mode,
+            "yes" if item.home else "",
+            item.status,
+            tiny(item.residual),
             limits_cell(item),
         )
-        for item in data["solutions"]
+        for item in data.solutions
     ]
-    usual = [item["status"] == "regular" and not item["limits"]["outside"] for item in data["solutions"]]
-    columns = ("mode", *titles, other.partition("_")[0], "home", "status", f"gap [{style.unit}]", "limits")
+    usual = [item.status == "regular" and not item.limits.outside for item in data.solutions]
+    other = "working" if direct else "assembly"
+    columns = (
+        "mode",
+        *columns_of(record, style, direct=direct),
+        other,
+        "home",
+        "status",
+        f"gap [{style.unit}]",
+        "limits",
+    )
     told = [any(row[k] for row in rows) for k in range(len(columns))]
-    told[-1] = data["limits_stated"]
+    told[-1] = data.limits_stated
     kept = [k for k in range(len(columns)) if told[k] or columns[k] not in ("working", "assembly", "home", "limits")]
     return table(
         [columns[k] for k in kept],
@@ -138,124 +163,124 @@ def _solutions(record: Mechanism, data: dict[str, Any], style: Style) -> Rendera
     )
 
 
-def limits_cell(item: dict[str, Any]) -> str:
+def limits_cell(item: ListedSolution | BoundedSolution) -> str:
     """The first limit that a solution exceeds, by how much, and how many more."""
-    outside = item["limits"]["outside"]
-    if item["limits"]["within"] is None:
+    outside = item.limits.outside
+    if item.limits.within is None:
         return ""
     if not outside:
         return "within"
-    first = f"{outside[0]['joint']} {short(outside[0]['by'])} {outside[0]['unit']}"
+    first = f"{outside[0].joint} {short(outside[0].by)} {outside[0].unit}"
     return f"{first} +{len(outside) - 1}" if len(outside) > 1 else first
 
 
-def exceeded(data: dict[str, Any]) -> Iterable[str | RenderableType]:
+def exceeded(data: Positions | CertifiedPositions) -> Iterable[str | RenderableType]:
     """Which limits the solutions exceed, and by how much; once for all that do so alike."""
     modes: dict[tuple[str, ...], list[str]] = {}
-    for item in data["solutions"]:
-        for each in item["limits"]["outside"]:
-            allowed = f"{short(each['low'])} .. {short(each['high'])}"
-            by = f"{short(each['by'])} {each['unit']}"
-            modes.setdefault((each["limit"], short(each["value"]), allowed, by), []).append(item["mode"])
+    for item in data.solutions:
+        for each in item.limits.outside:
+            allowed = f"{short(each.low)} .. {short(each.high)}"
+            by = f"{short(each.by)} {each.unit}"
+            modes.setdefault((each.limit, short(each.value), allowed, by), []).append(item.mode)
     if modes:
         yield "Outside the limits of the file, which the equations do not know:"
         rows = [(*row, _listed(names, data)) for row, names in modes.items()]
         yield table(("limit", "value", "allowed", "outside by", "modes"), rows, left=("limit", "modes"))
 
 
-def _open_loops(data: dict[str, Any]) -> Iterable[str]:
+def _open_loops(data: Positions) -> Iterable[str]:
     """Which loop solutions leave open, and by how much; once for all that do so alike."""
     modes: dict[str, list[str]] = {}
-    for item in data["solutions"]:
-        if item["status"] == "not_closed":
-            loop = item["open_loop"]
-            where = f"{loop['loop']} stays open at {loop['joint']}" if loop else "they answer another question"
-            gap = loop["gap"] if loop else item["residual"]
-            modes.setdefault(f"{where}, by {short(gap)} {data['unit']}", []).append(item["mode"])
+    for item in data.solutions:
+        if item.status == "not_closed":
+            loop = item.open_loop
+            where = f"{loop.loop} stays open at {loop.joint}" if loop else "they answer another question"
+            gap = loop.gap if loop else item.residual
+            modes.setdefault(f"{where}, by {short(gap)} {data.unit}", []).append(item.mode)
     for text, names in modes.items():
         yield f"Not closed, so no solutions: {_listed(names, data)}: {text}"
 
 
-def _remarks(data: dict[str, Any]) -> Iterable[str]:
+def _remarks(data: Positions) -> Iterable[str]:
     """Rows that are one double solution, and angles of which only a sum or a difference counts."""
-    for pair in data["doubles"]:
-        first, second = pair["modes"]
-        yield f"double: {first} and {second} are {tiny(pair['apart'])} apart, one solution or two too near to tell"
-    texts = list(dict.fromkeys(item["angles"] for item in data["solutions"] if item["angles"]))
+    for pair in data.doubles:
+        first, second = pair.modes
+        yield f"double: {first} and {second} are {tiny(pair.apart)} apart, one solution or two too near to tell"
+    texts = list(dict.fromkeys(item.angles for item in data.solutions if item.angles))
     for text in texts:
-        modes = [item["mode"] for item in data["solutions"] if item["angles"] == text]
+        modes = [item.mode for item in data.solutions if item.angles == text]
         yield f"{_listed(modes, data)}: {text}; phi and psi are one choice of many"
 
 
-def _listed(modes: list[str], data: dict[str, Any]) -> str:
-    return "all" if len(modes) == len(data["solutions"]) else ", ".join(modes)
+def _listed(modes: list[str], data: Positions | CertifiedPositions) -> str:
+    return "all" if len(modes) == len(data.solutions) else ", ".join(modes)
 
 
-def _curves(data: dict[str, Any], style: Style) -> Iterable[RenderableType]:
+def _curves(data: Positions, style: Style) -> Iterable[RenderableType]:
     yield "The platform moves while every input stands still, on"
     rows = []
-    for curve in data["curves"]:
-        low, high = curve["interval"]
-        poses = curve["poses"]
+    for curve in data.curves:
+        low, high = curve.interval
+        poses = curve.poses
         picked = (poses[0], poses[len(poses) // 2], poses[-1])
-        points = "\n".join(point_text(style, data["coordinates"], pose) for pose in picked)
-        arc = f"{curve['parameter']} = {style.degrees(low)}\n.. {style.degrees(high)}"
-        rows.append((curve["mode"], arc, points))
+        points = "\n".join(point_text(style, data.coordinates, pose) for pose in picked)
+        arc = f"{curve.parameter} = {style.degrees(low)}\n.. {style.degrees(high)}"
+        rows.append((curve.mode, arc, points))
     yield table(
-        ("mode", f"arc [{style.angle}]", f"start, middle, end {point_title(style, data['coordinates'])}"),
+        ("mode", f"arc [{style.angle}]", f"start, middle, end {point_title(style, data.coordinates)}"),
         rows,
         left=("mode",),
     )
 
 
-def failures(items: list[dict[str, Any]]) -> RenderableType:
+def failures(items: Sequence[NegativeQuantity]) -> RenderableType:
     """Why no solution exists: which quantity is negative and by how much, where it comes nearest to zero."""
     rows = [
         (
-            f"{item['quantity']} < 0",
-            f"{short(item['value'])} {item['unit']}".strip(),
-            item["meaning"],
-            str(item["branches"]),
+            f"{item.quantity} < 0",
+            f"{short(item.value)} {item.unit}".strip(),
+            item.meaning,
+            str(item.branches),
         )
         for item in items
     ]
     return table(("negative", "at best", "which is", "branches"), rows, left=("negative", "which is"))
 
 
-def _completeness(record: Mechanism, data: dict[str, Any]) -> str:
+def _completeness(record: Mechanism, data: Positions) -> str:
     form = record.closed_form
     because = f" ({form.reduced_because})" if form is not None and form.reduced_because else ""
-    reduced = data["complete_for"] == "reduced"
+    reduced = data.complete_for == "reduced"
     model = f"the reduced model{because}" if reduced else "the joint graph"
-    if data["status"] == "not_closed":
+    if data.status == "not_closed":
         return f"The formulas of {model} are wrong here: they give what the loops of the file do not allow."
-    if data["status"] == "undecided" and form is not None and data["right"].startswith("closed form"):
+    if data.status == "undecided" and form is not None and data.right.startswith("closed form"):
         return f"Undecided: the closed form of {model} degenerates here, and no curve of poses is known to it."
-    right = data["right"]
+    right = data.right
     how = f": {right}" if right.startswith("all ") else f", by {right}"
-    if data["complete"]:
+    if data.complete:
         return f"Complete for {model}{how}."
     if right.startswith("not proved"):
         return f"Whether these are all is {right}."
     return f"Only this mode was asked for, of {model}{how}."
 
 
-def _modes(record: Mechanism, data: dict[str, Any]) -> Iterable[str]:
+def _modes(record: Mechanism, data: Positions) -> Iterable[str]:
     """How the modes read: their signs, their numbers, their crossed parallelograms."""
     signs = _signs(record, data)
-    texts = [item["mode"] for item in data["solutions"]]
+    texts = [item.mode for item in data.solutions]
     parts = [f"the signs of {signs}"] if signs else []
     if any("~" in text for text in texts):
         parts.append("after ~ a crossed parallelogram")
     if any("/" in text for text in texts) or not signs:
         parts.append("a number among those that share the rest" if parts else "a number")
     yield f"mode: {', '.join(parts)}"
-    if data["home_by"]:
-        yield data["home_by"]
+    if data.home_by:
+        yield data.home_by
 
 
-def _signs(record: Mechanism, data: dict[str, Any]) -> str:
+def _signs(record: Mechanism, data: Positions) -> str:
     form = record.closed_form
-    if data["curves"] and form is not None and form.self_motion is not None:
+    if data.curves and form is not None and form.self_motion is not None:
         return ", ".join(form.self_motion.signs)
-    return ", ".join(record.modes.assembly if "inputs" in data else record.modes.working)
+    return ", ".join(record.modes.assembly if data.problem == "direct" else record.modes.working)

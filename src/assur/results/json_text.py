@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import fields, is_dataclass
+from dataclasses import is_dataclass
 from enum import Enum
 from pathlib import Path
 from typing import Any
@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from assur.errors import hidden
+from assur.results.answers.answer import entries
 
 
 def plain(value: Any) -> Any:
@@ -35,7 +36,7 @@ def plain(value: Any) -> Any:
     if isinstance(value, Mapping):
         return {str(key): plain(entry) for key, entry in value.items()}
     if is_dataclass(value) and not isinstance(value, type):
-        return {attribute.name: plain(getattr(value, attribute.name)) for attribute in fields(value)}
+        return {name: plain(part) for name, part in entries(value).items()}
     if isinstance(value, Path):
         return str(value)
     return [plain(entry) for entry in value]

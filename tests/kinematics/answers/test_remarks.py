@@ -18,12 +18,12 @@ def test_solutions_that_nearly_merge_are_called_double(excess, double):
     """Cranks stretched outwards put the elbows 340 mm apart: rods of 170 mm and a little meet just above and below."""
     record = assur.load("fivebar", l2=170.0 + excess)
     data = answer(record.direct(np.radians([180.0, 0.0])))
-    assert len(data["solutions"]) == 2
+    assert len(data.solutions) == 2
     height = np.sqrt((170.0 + excess) ** 2 - 170.0**2)
-    assert data["solutions"][0]["pose"][1] == pytest.approx(height, rel=1e-2)
-    assert [item["modes"] for item in data["doubles"]] == ([["+", "-"]] if double else [])
-    for item in data["doubles"]:
-        assert item["apart"] < 1e-4
+    assert data.solutions[0].pose[1] == pytest.approx(height, rel=1e-2)
+    assert [item.modes for item in data.doubles] == ([("+", "-")] if double else [])
+    for item in data.doubles:
+        assert item.apart < 1e-4
 
 
 @pytest.mark.parametrize(("theta", "sign"), [(90.0, -1), (-90.0, 1)])

@@ -85,10 +85,10 @@ def test_self_motion_is_a_curve_and_never_a_sample(paper):
     assert np.all(np.isnan(found.poses))
     assert {curve.parameter for curve in found.curves} == {"gamma"}
     data = answer(found)
-    assert data["status"] == "self_motion"
-    assert data["solutions"] == []
-    assert data["complete"] is True
-    assert len(data["curves"]) == len(found.curves) > 0
+    assert data.status == "self_motion"
+    assert data.solutions == ()
+    assert data.complete is True
+    assert len(data.curves) == len(found.curves) > 0
     for curve in found.curves:
         y = curve.poses(33)[:, 1]
         gamma = np.linspace(*curve.interval, 33)

@@ -17,10 +17,10 @@ def test_bounds_are_in_the_unit_of_the_file():
     record = assur.load("fivebar")
     found = certified_direct(record, np.radians([127.0, 53.0]))
     data = answer(found)
-    assert np.allclose(data["inputs"], [127.0, 53.0])
+    assert np.allclose(data.inputs, [127.0, 53.0])
     back = certified_inverse(record, found.solutions[0].pose.middle)
-    bounds = [item["inputs"] for item in answer(back)["solutions"]]
-    assert any(np.allclose(item["low"], [127.0, 53.0]) and np.allclose(item["high"], [127.0, 53.0]) for item in bounds)
+    bounds = [item.inputs for item in answer(back).solutions]
+    assert any(np.allclose(item.low, [127.0, 53.0]) and np.allclose(item.high, [127.0, 53.0]) for item in bounds)
 
 
 def test_the_headline_says_what_is_proved():
@@ -45,10 +45,10 @@ def test_bounds_in_degrees_hold_those_in_rad():
     record = assur.load("fivebar")
     found = certified_inverse(record, certified_direct(record, np.radians([127.0, 53.0])).solutions[0].pose.middle)
     with mpmath.workdps(40):
-        for item, data in zip(found, answer(found)["solutions"], strict=True):
+        for item, data in zip(found, answer(found).solutions, strict=True):
             for k in range(2):
-                assert data["inputs"]["low"][k] < mpmath.degrees(mpmath.mpf(float(item.inputs.low[k])))
-                assert mpmath.degrees(mpmath.mpf(float(item.inputs.high[k]))) < data["inputs"]["high"][k]
+                assert data.inputs.low[k] < mpmath.degrees(mpmath.mpf(float(item.inputs.low[k])))
+                assert mpmath.degrees(mpmath.mpf(float(item.inputs.high[k]))) < data.inputs.high[k]
 
 
 @given(st.floats(min_value=1e-300, max_value=1e300))

@@ -77,7 +77,7 @@ def test_another_mode_alone_is_not_home():
     assert home_solution(found).marks == (False,)
     assert home_solution(found).words == "home: none of these, by their signs"
     data = answer(direct(load("zeng2019"), [162.6907, -143.3209, -24.6776]))
-    assert [item["home"] for item in data["solutions"]] == [True, False, False, False]
+    assert [item.home for item in data.solutions] == [True, False, False, False]
     nothing = home_solution(direct(load("zeng2019"), [900.0, -143.3209, -24.6776]))
     assert (nothing.marks, nothing.words) == ((), "")
 

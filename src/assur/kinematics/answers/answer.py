@@ -1,4 +1,4 @@
-"""Answers of the position problem as plain data: the shapes that `--json` prints and that others rely on."""
+"""Answers of the position problem: the shapes that `--json` prints and that others rely on."""
 
 from __future__ import annotations
 
@@ -9,99 +9,109 @@ import numpy as np
 from assur.kinematics import border
 from assur.kinematics.answers.at_border import (
     angle_at_border,
+    coordinates_at_border,
     inputs_at_border,
     limits_at_border,
     pose_at_border,
     power,
 )
 from assur.kinematics.answers.remarks import angles_remark, doubles
-from assur.kinematics.answers.solution import Solution
+from assur.kinematics.answers.solution import Failure, Solution
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.limits import limits_stated
 from assur.kinematics.parasitic import all_coordinates, moving
 from assur.kinematics.paths.home_solution import home_solution
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import is_angle
-from assur.results.json_text import plain
+from assur.results.answers.position import (
+    DirectAnswer,
+    DoubleSolution,
+    InputsSolution,
+    InverseAnswer,
+    NegativeQuantity,
+    PoseCurve,
+    PoseSolution,
+    WidestGap,
+)
 
 
-def answer(found: SolutionSet) -> dict[str, Any]:
+def answer(found: SolutionSet) -> DirectAnswer | InverseAnswer:
     """The answer to one direct or inverse problem; angles in the mechanism's angle unit.
 
     >>> from assur.kinematics.position import direct
     >>> from assur.model.registry import load_record
-    >>> data = answer(direct(load_record("zeng2019"), [162.6907, -143.3209, -24.6776]))
-    >>> data["status"], data["complete"], data["solutions"][0]["mode"]
+    >>> said = answer(direct(load_record("zeng2019"), [162.6907, -143.3209, -24.6776]))
+    >>> said.status, said.complete, said.solutions[0].mode
     ('regular', True, '+++')
     """
     record = found.record
     listed, home = list(found), home_solution(found)
-    pairs = doubles(record, found.joints[found.exists])
-    asked = "inputs" if found.problem == "direct" else "pose"
-    to_border = inputs_at_border if found.problem == "direct" else pose_at_border
-    return {
+    shared: dict[str, Any] = {
         "mechanism": record.name,
         "unit": record.unit,
         "angle": record.angle,
-        "coordinates": list(record.platform.pose),
-        "input_names": list(border.input_names(record)),
-        asked: plain(to_border(record, found.given)),
+        "coordinates": record.platform.pose,
+        "input_names": border.input_names(record),
         "status": Status(int(found.overall_status)).name,
         "complete": found.complete,
         "complete_for": found.complete_for,
         "right": found.right,
         "limits_stated": limits_stated(record),
-        "solutions": [
-            {**_solution(record, found, item), "home": mark} for item, mark in zip(listed, home.marks, strict=True)
-        ],
-        "doubles": [{"modes": [listed[a].mode, listed[b].mode], "apart": apart} for a, b, apart in pairs],
+        "doubles": tuple(
+            DoubleSolution((listed[a].mode, listed[b].mode), apart)
+            for a, b, apart in doubles(record, found.joints[found.exists])
+        ),
         "home_by": home.words,
-        "curves": [
-            {
-                "parameter": curve.parameter,
-                "interval": plain(angle_at_border(record, np.array(curve.interval))),
-                "mode": curve.mode,
-                "poses": plain(pose_at_border(record, curve.poses(9))),
-            }
+        "curves": tuple(
+            PoseCurve(
+                curve.parameter,
+                angle_at_border(record, np.array(curve.interval)).tolist(),
+                curve.mode,
+                pose_at_border(record, curve.poses(9)).tolist(),
+            )
             for curve in found.curves
-        ],
-        "failures": [
-            {
-                "quantity": failure.quantity,
-                "value": plain(failure.value),
-                "unit": power(record.unit, failure.unit),
-                "meaning": failure.meaning,
-                "branches": failure.branches,
-            }
-            for failure in found.failures
-        ],
+        ),
+        "failures": missing(record, found.failures),
     }
-
-
-def _solution(record: MechanismRecord, found: SolutionSet, item: Solution) -> dict[str, Any]:
+    marked = [(item, _said(record, item, mark)) for item, mark in zip(listed, home.marks, strict=True)]
     if found.problem == "direct":
-        own = {"pose": plain(pose_at_border(record, item.pose))}
-        other = {"working_mode": item.working_mode}
-    else:
-        own = {"inputs": plain(inputs_at_border(record, item.inputs))}
-        other = {"assembly_mode": item.assembly_mode}
+        poses = (
+            PoseSolution(**said, pose=pose_at_border(record, item.pose).tolist(), working_mode=item.working_mode)
+            for item, said in marked
+        )
+        return DirectAnswer(**shared, inputs=inputs_at_border(record, found.given).tolist(), solutions=tuple(poses))
+    inputs = (
+        InputsSolution(**said, inputs=inputs_at_border(record, item.inputs).tolist(), assembly_mode=item.assembly_mode)
+        for item, said in marked
+    )
+    return InverseAnswer(**shared, pose=pose_at_border(record, found.given).tolist(), solutions=tuple(inputs))
+
+
+def missing(record: MechanismRecord, failures: tuple[Failure, ...]) -> tuple[NegativeQuantity, ...]:
+    """Why there is no solution, with units."""
+    return tuple(
+        NegativeQuantity(item.quantity, item.value, power(record.unit, item.unit), item.meaning, item.branches)
+        for item in failures
+    )
+
+
+def _said(record: MechanismRecord, item: Solution, home: bool | None) -> dict[str, Any]:
+    loop = item.open_loop
     return {
-        **own,
         "mode": item.mode,
-        **other,
-        "residual": plain(item.residual),
+        "residual": item.residual,
         "status": item.status.name,
-        "open_loop": None if item.open_loop is None else plain(item.open_loop),
+        "open_loop": None if loop is None else WidestGap(loop.loop, loop.joint, loop.gap),
         "limits": limits_at_border(record, item),
         "angles": angles_remark(record, item.pose),
         "parasitic": _parasitic(record, item),
+        "home": home,
     }
 
 
-def _parasitic(record: MechanismRecord, item: Solution) -> dict[str, Any]:
+def _parasitic(record: MechanismRecord, item: Solution) -> dict[str, float]:
     """Those of the platform's coordinates that the pose leaves out and that move."""
     if not (names := moving(record)):
         return {}
-    found = all_coordinates(record, np.array(list(item.joints.values())))
-    return {name: plain(angle_at_border(record, found[name]) if is_angle(name) else found[name]) for name in names}
+    every = all_coordinates(record, np.array(list(item.joints.values())))
+    return coordinates_at_border(record, {name: float(every[name]) for name in names})

@@ -1,7 +1,8 @@
-"""Numbers at the border: lengths as they are, angles in the unit of the mechanism's file, limits as plain data."""
+"""Numbers at the border: lengths as they are, angles in the unit of the mechanism's file."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -11,24 +12,27 @@ from assur.errors import UsageError
 from assur.kinematics.answers.solution import Solution
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
-from assur.results.json_text import plain
+from assur.results.answers.position import ExceededLimit, KeptLimits
 
 FloatArray = NDArray[np.float64]
 
 
-def limits_at_border(record: MechanismRecord, item: Solution) -> dict[str, Any]:
-    """Whether a solution keeps the limits of the file (None where it states none), and each that it does not keep."""
+def limits_at_border(record: MechanismRecord, item: Solution) -> KeptLimits:
+    """Whether a solution keeps the limits of the file, and each that it does not keep."""
     outside = []
     for each in item.excesses:
         value, low, high, by = (
-            plain(angle_at_border(record, number) if each.angular else number)
+            float(angle_at_border(record, number) if each.angular else number)
             for number in (each.value, each.low, each.high, each.by)
         )
         unit = record.angle if each.angular else record.unit
-        outside.append(
-            {"limit": each.limit, "joint": each.joint, "value": value, "low": low, "high": high, "by": by, "unit": unit}
-        )
-    return {"within": item.within_limits, "outside": outside}
+        outside.append(ExceededLimit(each.limit, each.joint, value, low, high, by, unit))
+    return KeptLimits(item.within_limits, tuple(outside))
+
+
+def coordinates_at_border(record: MechanismRecord, values: Mapping[str, float]) -> dict[str, float]:
+    """Coordinates of poses by name, with angles in the mechanism's angle unit."""
+    return {name: float(angle_at_border(record, value) if is_angle(name) else value) for name, value in values.items()}
 
 
 def angle_at_border(record: MechanismRecord, angle: Any) -> Any:

@@ -19,7 +19,15 @@ from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, QUATERNION, is_angle
 from assur.numerics.intervals.functions import TURN
 from assur.numerics.intervals.interval import Interval
-from assur.results.json_text import plain
+from assur.results.answers.certified import (
+    Bounds,
+    CertifiedDirect,
+    CertifiedInverse,
+    ProvedInputs,
+    ProvedPose,
+    UndecidedPlace,
+)
+from assur.results.answers.position import KeptLimits
 
 FloatArray = NDArray[np.float64]
 THERE = 1e-6
@@ -154,48 +162,47 @@ def at_most(size: float) -> str:
     return f"{1.05 * size:.1e}"
 
 
-def answer(found: CertifiedSolutions) -> dict[str, Any]:
-    """A certificate as plain data, angles in the mechanism's angle unit.
+def answer(found: CertifiedSolutions) -> CertifiedDirect | CertifiedInverse:
+    """A certificate at the border, angles in the mechanism's angle unit.
 
     Bounds in degrees are rounded outwards.
 
     >>> from assur.kinematics.certified.certify import certified_direct
     >>> from assur.model.registry import load_record
-    >>> data = answer(certified_direct(load_record("zeng2019"), [162.6907, -143.3209, -24.6776]))
-    >>> data["proved"], len(data["solutions"]), data["solutions"][0]["mode"]
+    >>> said = answer(certified_direct(load_record("zeng2019"), [162.6907, -143.3209, -24.6776]))
+    >>> said.proved, len(said.solutions), said.solutions[0].mode
     (True, 4, '+++')
     """
     record = found.record
-    direct = found.problem == "direct"
-    given = inputs_at_border(record, found.given) if direct else pose_at_border(record, found.given)
-    kept = _limits(found)
-    return {
+    shared: dict[str, Any] = {
         "mechanism": record.name,
         "unit": record.unit,
         "angle": record.angle,
-        "coordinates": list(record.platform.pose),
-        "input_names": list(border.input_names(record)),
-        ("inputs" if direct else "pose"): plain(given),
+        "coordinates": record.platform.pose,
+        "input_names": border.input_names(record),
         "proved": found.proved,
         "complete": found.complete,
         "complete_for": found.complete_for,
         "right": found.right,
         "limits_stated": limits_stated(record),
-        "solutions": [
-            {**_solution(found, item), "limits": limits} for item, limits in zip(found.solutions, kept, strict=True)
-        ],
-        "undecided": [_doubt(record, item) for item in found.undecided],
-        "excluded": dict(found.excluded),
+        "undecided": tuple(_doubt(record, item) for item in found.undecided),
+        "excluded": found.excluded,
     }
+    kept = zip(found.solutions, _limits(found), strict=True)
+    if found.problem == "direct":
+        poses = tuple(_proved_pose(record, item, limits) for item, limits in kept)
+        return CertifiedDirect(**shared, inputs=inputs_at_border(record, found.given).tolist(), solutions=poses)
+    inputs = tuple(_proved_inputs(record, item, limits) for item, limits in kept)
+    return CertifiedInverse(**shared, pose=pose_at_border(record, found.given).tolist(), solutions=inputs)
 
 
-def _limits(found: CertifiedSolutions) -> list[dict[str, Any]]:
+def _limits(found: CertifiedSolutions) -> list[KeptLimits]:
     """Which limits of the file each solution exceeds, of the solution in floating point that lies at it.
 
     That is no proof; `within` is None where the file states no limits, and where no such solution was found.
     """
     record, direct = found.record, found.problem == "direct"
-    none: dict[str, Any] = {"within": None, "outside": []}
+    none = KeptLimits(None, ())
     if not limits_stated(record) or not found.solutions:
         return [none] * len(found.solutions)
     floats = list((position.direct if direct else position.inverse)(record, found.given))
@@ -214,45 +221,32 @@ def _limits(found: CertifiedSolutions) -> list[dict[str, Any]]:
     return kept
 
 
-def _solution(found: CertifiedSolutions, item: ProvedSolution) -> dict[str, Any]:
-    record = found.record
-    if found.problem == "direct":
-        bounds = {
-            "pose": _pose_bounds(record, item.pose.low, item.pose.high),
-            "undetermined": list(undetermined(record, item.pose)),
-        }
-        other = {"working_mode": item.working_mode}
-    else:
-        low, high = (inputs_at_border(record, end) for end in (item.inputs.low, item.inputs.high))
-        angular = [one.coordinate.kind == "angle" for one in record.inputs]
-        bounds = {"inputs": _bounds(*_outward(record, low, high, angular))}
-        other = {"assembly_mode": item.assembly_mode}
-    return {**bounds, "mode": item.mode, **other, "how": item.how, "left": item.left}
+def _proved_pose(record: MechanismRecord, item: ProvedSolution, limits: KeptLimits) -> ProvedPose:
+    bounds, free = _pose_bounds(record, item.pose.low, item.pose.high), undetermined(record, item.pose)
+    return ProvedPose(item.mode, item.how, item.left, limits, bounds, free, item.working_mode)
 
 
-def _doubt(record: MechanismRecord, item: Doubt) -> dict[str, Any]:
-    pose = item.name == "pose"
-    return {
-        "name": item.name,
-        **(_pose_bounds(record, item.low, item.high) if pose else _bounds(item.low, item.high)),
-        "unit": power(record.unit, item.unit),
-        "meaning": item.meaning,
-        "branches": item.branches,
-    }
+def _proved_inputs(record: MechanismRecord, item: ProvedSolution, limits: KeptLimits) -> ProvedInputs:
+    low, high = (inputs_at_border(record, end) for end in (item.inputs.low, item.inputs.high))
+    angular = [one.coordinate.kind == "angle" for one in record.inputs]
+    bounds = _outward(record, low, high, angular)
+    return ProvedInputs(item.mode, item.how, item.left, limits, bounds, item.assembly_mode)
 
 
-def _pose_bounds(record: MechanismRecord, low: FloatArray, high: FloatArray) -> dict[str, Any]:
+def _doubt(record: MechanismRecord, item: Doubt) -> UndecidedPlace:
+    bounds = Bounds(item.low.tolist(), item.high.tolist())
+    if item.name == "pose":
+        bounds = _pose_bounds(record, item.low, item.high)
+    unit = power(record.unit, item.unit)
+    return UndecidedPlace(bounds.low, bounds.high, item.name, unit, item.meaning, item.branches)
+
+
+def _pose_bounds(record: MechanismRecord, low: FloatArray, high: FloatArray) -> Bounds:
     angular = [is_angle(name) for name in record.platform.pose]
-    return _bounds(*_outward(record, pose_at_border(record, low), pose_at_border(record, high), angular))
+    return _outward(record, pose_at_border(record, low), pose_at_border(record, high), angular)
 
 
-def _outward(
-    record: MechanismRecord, low: FloatArray, high: FloatArray, angular: list[bool]
-) -> tuple[FloatArray, FloatArray]:
+def _outward(record: MechanismRecord, low: FloatArray, high: FloatArray, angular: list[bool]) -> Bounds:
     """Bounds at the border, wider where an angle was converted to degrees: by more than the rounding of that."""
     more = np.where(np.array(angular) & (record.angle == "deg"), 2.0**-51, 0.0)
-    return low - more * np.abs(low), high + more * np.abs(high)
-
-
-def _bounds(low: FloatArray, high: FloatArray) -> dict[str, Any]:
-    return {"low": plain(low), "high": plain(high)}
+    return Bounds((low - more * np.abs(low)).tolist(), (high + more * np.abs(high)).tolist())

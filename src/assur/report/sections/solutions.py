@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any
 
 from assur.kinematics.answers.answer import answer
 from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border
@@ -17,6 +16,7 @@ from assur.model.pose import is_angle
 from assur.report.findings import Findings
 from assur.report.numbers import Style, input_angles, pose_angles, short
 from assur.report.sections.proved import right
+from assur.results.answers.position import DirectAnswer, ExceededLimit, InputsSolution, InverseAnswer, PoseSolution
 from assur.results.kinds import Result, Table
 
 
@@ -26,27 +26,27 @@ def solutions(findings: Findings, problem: Problem) -> list[Result]:
     """
     listed = findings.direct if problem == "direct" else findings.inverse
     data = answer(listed)
-    return [_listed(findings, problem, listed, data), *_left_out(findings, problem, data["solutions"])]
+    return [_listed(findings, problem, listed, data), *_left_out(findings, problem, data.solutions)]
 
 
-def _listed(findings: Findings, problem: Problem, listed: SolutionSet, data: dict[str, Any]) -> Table:
+def _listed(findings: Findings, problem: Problem, listed: SolutionSet, data: DirectAnswer | InverseAnswer) -> Table:
     record, style = findings.record, findings.style
     direct = problem == "direct"
     names = record.platform.pose if direct else tuple(actuated.name for actuated in record.inputs)
     angles = pose_angles(record) if direct else input_angles(record)
     other = "working mode" if direct else "assembly mode"
-    limited = data["limits_stated"]
+    limited = data.limits_stated
     rows = tuple(
         (
             solution.mode,
             *_values(record, style, solution, angles, direct=direct),
             solution.working_mode if direct else solution.assembly_mode,
-            "yes" if answer["home"] else "",
+            "yes" if answer.home else "",
             solution.status.name.replace("_", " "),
             short(solution.residual, 2),
-            *([_limits(answer["limits"]["outside"])] if limited else []),
+            *([_limits(answer.limits.outside)] if limited else []),
         )
-        for solution, answer in zip(listed, data["solutions"], strict=True)
+        for solution, answer in zip(listed, data.solutions, strict=True)
     )
     titles = tuple(style.title(name, angle=angle) for name, angle in zip(names, angles, strict=True))
     after = ("home", "status", style.title("gap", angle=False), *(["limits"] if limited else []))
@@ -64,14 +64,14 @@ def _values(
     return tuple(style.written(float(value), angle=angle) for value, angle in zip(values, angles, strict=True))
 
 
-def _limits(outside: Sequence[dict[str, Any]]) -> str:
+def _limits(outside: Sequence[ExceededLimit]) -> str:
     """Each limit that a solution exceeds, and by how much."""
-    return "; ".join(f"{limit['limit']}: by {short(limit['by'])} {limit['unit']}" for limit in outside) or "within"
+    return "; ".join(f"{limit.limit}: by {short(limit.by)} {limit.unit}" for limit in outside) or "within"
 
 
-def _caption(listed: SolutionSet, data: dict[str, Any]) -> Iterator[str]:
+def _caption(listed: SolutionSet, data: DirectAnswer | InverseAnswer) -> Iterator[str]:
     yield "All real solutions." if listed.complete else "What was found; it is not proved to be all."
-    if not data["limits_stated"]:
+    if not data.limits_stated:
         yield f"{NO_LIMITS[0].upper()}{NO_LIMITS[1:]}."
     yield (
         "The gap is the largest that remains over the cut joints of the whole joint graph, or to what was "
@@ -79,24 +79,24 @@ def _caption(listed: SolutionSet, data: dict[str, Any]) -> Iterator[str]:
     )
     if any("/" in solution.mode for solution in listed):
         yield "A number tells solutions of the same signs apart."
-    if data["home_by"]:
-        yield f"{data['home_by'][0].upper()}{data['home_by'][1:]}."
-    for pair in data["doubles"]:
-        yield f"{' and '.join(pair['modes'])} are a double: one solution, or two too near to tell."
-    for text in dict.fromkeys(entry["angles"] for entry in data["solutions"] if entry["angles"]):
-        modes = ", ".join(entry["mode"] for entry in data["solutions"] if entry["angles"] == text)
+    if data.home_by:
+        yield f"{data.home_by[0].upper()}{data.home_by[1:]}."
+    for pair in data.doubles:
+        yield f"{' and '.join(pair.modes)} are a double: one solution, or two too near to tell."
+    for text in dict.fromkeys(entry.angles for entry in data.solutions if entry.angles):
+        modes = ", ".join(entry.mode for entry in data.solutions if entry.angles == text)
         yield f"{modes}: {text}; phi and psi are one choice of many."
 
 
-def _left_out(findings: Findings, problem: Problem, listed: Sequence[dict[str, Any]]) -> list[Table]:
+def _left_out(findings: Findings, problem: Problem, listed: Sequence[PoseSolution | InputsSolution]) -> list[Table]:
     """Without these, solutions that differ in nothing else look the same."""
-    if not any(answer["parasitic"] for answer in listed):
+    if not any(answer.parasitic for answer in listed):
         return []
-    style, names = findings.style, tuple(next(answer["parasitic"] for answer in listed if answer["parasitic"]))
+    style, names = findings.style, tuple(next(answer.parasitic for answer in listed if answer.parasitic))
     rows = tuple(
-        (answer["mode"], *(style.written(answer["parasitic"][name], angle=is_angle(name)) for name in names))
+        (answer.mode, *(style.written(answer.parasitic[name], angle=is_angle(name)) for name in names))
         for answer in listed
-        if answer["parasitic"]
+        if answer.parasitic
     )
     columns = ("mode", *(style.title(name, angle=is_angle(name)) for name in names))
     caption = "The platform's coordinates that the pose leaves out, of each solution."

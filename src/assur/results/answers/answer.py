@@ -1,0 +1,86 @@
+"""What every answer shares: fields that may be absent, entries that stand among them, and how an answer came about."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields
+from enum import Enum
+from typing import Any, Literal
+
+from assur.errors import Problem
+
+SPREAD = "spread"
+
+
+class Absent(Enum):
+    """Of a field that is left out where it says nothing."""
+
+    ABSENT = "absent"
+
+
+ABSENT = Absent.ABSENT
+
+
+def spread() -> Any:
+    """A field with a mapping whose entries stand among the other fields in JSON, as `z` of a section at z."""
+    return field(metadata={SPREAD: True})
+
+
+def entries(value: Any) -> dict[str, Any]:
+    """The fields of a dataclass as JSON has them: none that is absent, and those of a mapping that is spread.
+
+    >>> from collections.abc import Mapping
+    >>> @dataclass(frozen=True)
+    ... class Cut:
+    ...     at: Mapping[str, float] = spread()
+    ...     note: str | Absent = ABSENT
+    >>> entries(Cut({"z": 450.0}))
+    {'z': 450.0}
+    """
+    said: dict[str, Any] = {}
+    for attribute in fields(value):
+        part = getattr(value, attribute.name)
+        if attribute.metadata.get(SPREAD):
+            said.update(part)
+        elif part is not ABSENT:
+            said[attribute.name] = part
+    return said
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a command says; each kind of answer is a class."""
+
+
+@dataclass(frozen=True)
+class CodeNotRun:
+    """Python beside a mechanism's file that was not run: where, why it would have had to, what answers instead."""
+
+    file: str
+    line: int | None
+    reason: str
+    instead: str
+
+
+@dataclass(frozen=True)
+class Circumstances:
+    """What may stand in every answer of how it came about."""
+
+    interrupted: Literal[True] | Absent = ABSENT
+    code_not_run: tuple[CodeNotRun, ...] | Absent = ABSENT
+
+
+@dataclass(frozen=True)
+class NoAnswerReason:
+    """Why there is no answer."""
+
+    message: str
+    hint: str
+    exit_code: int
+    problems: tuple[Problem, ...]
+
+
+@dataclass(frozen=True)
+class NoAnswer:
+    """In place of an answer, where a command was refused or ended."""
+
+    error: NoAnswerReason
