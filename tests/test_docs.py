@@ -4,46 +4,21 @@ from __future__ import annotations
 
 import doctest
 import re
-import shlex
 from pathlib import Path
 
 import pytest
 
+from shown import OUTPUT, printed, rounded
+
 DOCS = Path(__file__).parents[1] / "docs"
 PAGES = sorted(DOCS.rglob("*.md"))
 NAMES = [path.relative_to(DOCS).as_posix() for path in PAGES]
-OUTPUT = re.compile(r"<!-- output: (assur .*?) -->\n```text\n(.*?)```", re.DOTALL)
 STEP = re.compile(r"<!-- edit: (\S+) -> (\S+): (.*?) -->|" + OUTPUT.pattern, re.DOTALL)
 """What a page does, in its order: a file that is copied with words replaced, and a command with what it prints."""
 
 
 def text_of(path):
     return path.read_text(encoding="utf-8")
-
-
-def chosen(lines, part):
-    """What `head -n COUNT` or `sed -n FIRST,LASTp` lets through."""
-    if not part:
-        return lines
-    if counted := re.fullmatch(r"head -n (\d+)", part):
-        return lines[: int(counted[1])]
-    first, last = re.fullmatch(r"sed -n (\d+),(\d+)p", part).groups()
-    return lines[int(first) - 1 : int(last)]
-
-
-def printed(command, capsys):
-    from assur.cli.main import main
-
-    command, _, part = command.partition(" | ") if " | head" in command or " | sed" in command else (command, "", "")
-    main(shlex.split(command)[1:])
-    caught = capsys.readouterr()
-    lines = chosen((caught.out or caught.err).splitlines(), part)
-    return "\n".join(line.rstrip() for line in lines).strip("\n") + "\n"
-
-
-def rounded(text):
-    """Gaps of rounding size are not the same on every processor."""
-    return re.sub(r"\d\.\de-1\d", "rounding", text)
 
 
 def edit(source, target, changes):
@@ -71,8 +46,8 @@ def test_what_it_shows_is_what_comes_out(path, capsys, tmp_path, monkeypatch):
 
 
 def test_those_that_show_something_are_found():
-    wanted = {"index", "first-steps", "theory", "adding-an-analysis", "indices", "kinematics"}
-    assert wanted <= {path.stem for path in SAYING}
+    saying = {"index", "first-steps", "theory", "adding-an-analysis", "indices", "kinematics", "certificates"}
+    assert saying <= {path.stem for path in SAYING}
     assert len(OUTPUT.findall(text_of(DOCS / "theory.md"))) == text_of(DOCS / "theory.md").count("<!-- output:") > 5
 
 

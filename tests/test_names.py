@@ -1,13 +1,12 @@
-"""Laws about names and imports: a class name means one thing, a name says what it holds, no import comes back."""
+"""Laws about names: a class name means one thing, and a name says what it holds."""
 
 from __future__ import annotations
 
 import ast
 from collections import defaultdict
-from collections.abc import Container, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
-import networkx as nx
 import pytest
 
 SOURCE = Path(__file__).parents[1] / "src" / "assur"
@@ -56,22 +55,6 @@ def declared(tree: ast.AST) -> Iterator[tuple[str, int]]:
                     yield member.name, member.lineno
 
 
-def imported(tree: ast.AST, modules: Container[str]) -> Iterator[str]:
-    """Which of some modules one imports, wherever in it."""
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names if alias.name in modules)
-        elif isinstance(node, ast.ImportFrom):
-            names = [f"{node.module}.{alias.name}" for alias in node.names]
-            yield from (name if name in modules else str(node.module) for name in names)
-
-
-def circles(imports: dict[str, set[str]]) -> list[list[str]]:
-    """Modules that import one another, at once or through others; by module what it imports."""
-    graph = nx.DiGraph([(module, name) for module, names in imports.items() for name in names])
-    return sorted(sorted(modules) for modules in nx.strongly_connected_components(graph) if len(modules) > 1)
-
-
 def test_a_public_class_name_is_unique():
     assert {name for name, modules in public_classes().items() if len(modules) > 1} == SHARED_CLASS_NAMES
 
@@ -97,12 +80,3 @@ def test_nothing_is_declared_as_found():
 )
 def test_a_declaration_is_seen(text):
     assert [name for name, _ in declared(ast.parse(text)) if name == "found"] == ["found"]
-
-
-def test_no_import_comes_back():
-    """Also not within a function, nor for types alone."""
-    names = {".".join(("assur", *path.with_suffix("").parts)).removesuffix(".__init__"): path for path in TREES}
-    imports = {name: set(imported(TREES[path], names)) for name, path in names.items()}
-    assert circles(imports) == []
-    assert sum(map(len, imports.values())) > len(imports)
-    assert circles({"a": {"b"}, "b": {"c"}, "c": {"b"}}) == [["b", "c"]]

@@ -191,10 +191,10 @@ def test_every_mechanism_has_reference_data(folder):
 
 
 @pytest.mark.parametrize("folder", FOLDERS, ids=[folder.name for folder in FOLDERS])
-def test_every_mechanism_has_dimensions_or_a_topology_and_stands_in_the_readme(folder):
+def test_every_mechanism_has_dimensions_or_a_topology_and_stands_in_the_catalogue(folder):
     assert folder in MECHANISMS or (folder / "topology.toml").is_file()
     assert folder.name.isidentifier()  # so that its closed form can be imported
-    assert f"`{folder.name}`" in read("README.md")
+    assert f"`{folder.name}`" in read("docs/catalogue.md")
 
 
 # ---- continuous integration --------------------------------------------------------------------------------

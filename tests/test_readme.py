@@ -4,27 +4,12 @@ from __future__ import annotations
 
 import doctest
 import re
-import shlex
 from pathlib import Path
 
 from audits import audited
+from shown import OUTPUT, printed, rounded
 
 README = Path(__file__).parents[1] / "README.md"
-OUTPUT = re.compile(r"<!-- output: (assur .*?) -->\n```text\n(.*?)```", re.S)
-
-
-def printed(command, capsys):
-    from assur.cli.main import main
-
-    command, _, count = command.partition(" | head -n ")
-    main(shlex.split(command)[1:])
-    lines = capsys.readouterr().out.splitlines()[: int(count) if count else None]
-    return "\n".join(line.rstrip() for line in lines).strip("\n") + "\n"
-
-
-def rounded(text):
-    """Gaps of rounding size are not the same on every processor."""
-    return re.sub(r"\d\.\de-1\d", "rounding", text)
 
 
 def test_the_python_of_the_readme_runs():
@@ -40,15 +25,24 @@ def test_output_shown_is_the_real_one(capsys, tmp_path, monkeypatch):
         assert rounded(printed(command, capsys)) == rounded(shown), command
 
 
-def test_there_is_output():
-    assert len(OUTPUT.findall(README.read_text(encoding="utf-8"))) >= 2
+def test_there_is_output_and_its_command_can_be_read():
+    """The comment with the command is not seen by a reader: it stands in the text, too."""
+    text = README.read_text(encoding="utf-8")
+    shown = [command.partition(" | head")[0].partition(" | sed")[0] for command, _ in OUTPUT.findall(text)]
+    assert len(shown) >= 6
+    seen = re.sub(r"<!--.*?-->", "", text)
+    assert [command for command in shown if command.removesuffix(" --certify") not in seen] == []
+
+
+def test_it_is_read_in_five_minutes():
+    assert len(README.read_text(encoding="utf-8").splitlines()) < 200
 
 
 def test_counts_are_those_of_the_audit():
-    found = audited("zeng2019")
+    audit = audited("zeng2019")
     text = " ".join(README.read_text(encoding="utf-8").split())
-    assert f"of the {len(found.rows)} printed numbers, equations and statements" in text
-    assert f"{found.wrong + found.missing} are wrong or missing" in text
+    assert f"of the {len(audit.rows)} printed numbers, equations and statements" in text
+    assert f"{audit.wrong + audit.missing} are wrong or missing" in text
 
 
 def test_pictures_and_links_exist():

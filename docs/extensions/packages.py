@@ -32,8 +32,13 @@ def idea(path: Path) -> str:
     return line.replace("|", "\\|").replace("*", "\\*").replace("<", "&lt;")
 
 
-def layers(root: Path) -> str:
-    """The order of imports, the highest first, as pyproject.toml has it."""
+def order(root: Path) -> list[str]:
+    """Folders and modules of the package in the order of imports, the highest first, as pyproject.toml has it."""
     table = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))
-    names = next(item["layers"] for item in table["tool"]["importlinter"]["contracts"] if item["type"] == "layers")
-    return "\n".join(["```text", *names, "```"])
+    contracts = table["tool"]["importlinter"]["contracts"]
+    return list(next(contract["layers"] for contract in contracts if contract["type"] == "layers"))
+
+
+def layers(root: Path) -> str:
+    """The order of imports, the highest first, one on a line."""
+    return "\n".join(["```text", *order(root), "```"])

@@ -1,4 +1,4 @@
-"""Laws of a mechanism's folder: it is complete, and the README says what it claims."""
+"""Laws of a mechanism's folder: it is complete, and the page of the catalogue says what it claims."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from assur.kinematics.soundness.check import doubts, faults
 from assur.model.closed_form import Eliminant
 
 ROOT = Path(__file__).parents[2]
-README = (ROOT / "README.md").read_text(encoding="utf-8")
+CATALOGUE = (ROOT / "docs" / "catalogue.md").read_text(encoding="utf-8")
 FOLDERS = ROOT / "src" / "assur" / "mechanisms"
 
 
@@ -40,14 +40,14 @@ def test_what_a_reduced_model_leaves_out_is_said(mechanism):
 
 
 def rows():
-    """The table of mechanisms in the README: name -> its other cells."""
-    lines = [line.strip().strip("|") for line in README.splitlines() if line.startswith("| `")]
+    """The table of mechanisms: name -> its other cells."""
+    lines = [line.strip().strip("|") for line in CATALOGUE.splitlines() if line.startswith("| `")]
     cells = [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)] for line in lines]
     return {row[0].strip("`"): row[1:] for row in cells if len(row) == 5}
 
 
 def direct_problem(mechanism):
-    """How the direct problem is solved, in the words of the README."""
+    """How the direct problem is solved, in the words of the catalogue."""
     kernel = mechanism.closed_form.direct
     if kernel is None:
         return "loops in turn" if at_home(mechanism).complete else "a search on the joint graph"
@@ -62,14 +62,14 @@ def at_home(mechanism):
     return mechanism.direct(inputs_of(mechanism, home_values(mechanism)))
 
 
-def test_the_readme_says_what_the_closed_form_claims(mechanism):
+def test_the_catalogue_says_what_the_closed_form_claims(mechanism):
     form = mechanism.closed_form
     model = form.complete_for if form.direct else at_home(mechanism).complete_for
     model = model.replace("_", " ")
     assert rows()[mechanism.name][:3] == [mechanism.title, direct_problem(mechanism), model]
 
 
-def test_the_readme_has_no_other_mechanism():
+def test_the_catalogue_has_no_other_mechanism():
     assert rows().keys() == set(assur.names())
 
 

@@ -15,7 +15,7 @@ from assur.model.topologies import load_topology
 from assur.model.topology_description import Declared
 from assur.topology.notation import plain_text
 
-README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+CATALOGUE = (Path(__file__).parents[2] / "docs" / "catalogue.md").read_text(encoding="utf-8")
 
 COMPUTED = {
     "poc": lambda facts: (facts.poc.t, facts.poc.r),
@@ -140,21 +140,21 @@ def computed_of_joint_graph(name):
 
 
 def rows():
-    """The catalogue table of the README: name -> its other cells."""
-    lines = [line.strip().strip("|") for line in README.splitlines() if line.startswith("| `")]
+    """The table of topologies: name -> its other cells."""
+    lines = [line.strip().strip("|") for line in CATALOGUE.splitlines() if line.startswith("| `")]
     cells = [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)] for line in lines]
     return {row[0].strip("`"): row[1:] for row in cells if len(row) == 6}
 
 
 @pytest.mark.parametrize("name", topology_names())
-def test_the_readme_gives_the_computed_numbers(name):
+def test_the_catalogue_gives_the_computed_numbers(name):
     facts, entry = computed(name), load_topology(name)
     shown = [entry.limb_types.replace("|", "\\|"), str(facts.dof), f"t{facts.poc.t} r{facts.poc.r}"]
     assert rows()[name][:4] == [*shown, str(facts.coupling_degree)]
 
 
-def test_the_readme_has_no_other_rows_and_says_what_is_left_out():
+def test_the_catalogue_has_no_other_rows_and_says_what_is_left_out():
     assert rows().keys() == set(topology_names())
-    text = " ".join(README.split())
-    for item in left_out():
-        assert re.search(rf"{item.title}.*{item.reason}", text)
+    text = " ".join(CATALOGUE.split())
+    for topology in left_out():
+        assert re.search(rf"{topology.title}.*{topology.reason}", text)

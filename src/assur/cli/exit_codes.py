@@ -2,23 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 FINE = 0
 FAILS = 1
-"""A claim of ours fails; of `collisions`: links meet."""
+"""Of `collisions`: links meet."""
+USAGE = 2
 BAD_FILE = 3
 NO = 4
-"""The answer to what was asked is no, and that is proved: no solution, a box that is not all reached, no path."""
 UNDECIDED = 5
-"""Neither yes nor no is proved."""
 STOPPED = 6
-"""A path stops before its end."""
 BUG = 70
 INTERRUPTED = 130
 """What a shell says of a program that Ctrl-C ended."""
 BROKEN_PIPE = 141
 """What a shell says of a program whose reader went away."""
+
+MEANINGS: Mapping[int, str] = {
+    FINE: "fine",
+    FAILS: "a claim of ours fails",
+    USAGE: "usage",
+    BAD_FILE: "bad file",
+    NO: "proved: no (no solution, a box not all reached, no path)",
+    UNDECIDED: "undecided",
+    STOPPED: "a path that stopped short",
+    BUG: "a bug of ours",
+    INTERRUPTED: "ended by Ctrl-C, with what was found so far",
+}
+"""What `assur --help` says of each; CONVENTIONS.md says it at length."""
 
 
 def of_status(status: str) -> int:
@@ -38,7 +49,7 @@ def of_answers(answers: Iterable[str]) -> int:
     >>> of_answers(["yes", "yes"]), of_answers(["open", "no"]), of_answers(["yes", "open"])
     (0, 4, 5)
     """
-    found = set(answers)
-    if "no" in found:
+    different = set(answers)
+    if "no" in different:
         return NO
-    return FINE if found <= {"yes"} else UNDECIDED
+    return FINE if different <= {"yes"} else UNDECIDED

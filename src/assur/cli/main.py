@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import sys
+import textwrap
 from collections.abc import Callable, Sequence
 from importlib import import_module
 from typing import Any
@@ -13,19 +14,18 @@ from cyclopts import App, CycloptsError, Group, Parameter
 import assur
 from assur.cli import interruption, parsing
 from assur.cli.code import leave_by, told
-from assur.cli.exit_codes import BROKEN_PIPE, BUG, INTERRUPTED
+from assur.cli.exit_codes import BROKEN_PIPE, BUG, INTERRUPTED, MEANINGS
 from assur.cli.numbers import shielded
 from assur.cli.output import InterruptedByUserError, complain, console, emit, written
 from assur.cli.spelling import as_typed
 from assur.errors import AssurError
 
-HELP = """From the topology of a parallel mechanism to its numbers, each with its proof.
+_NOTE = f"""Negative numbers need no tricks. Angles are in the unit that the mechanism's file states. Exit codes:
+{", ".join(f"{code} {meaning}" for code, meaning in MEANINGS.items())}."""
 
-Negative numbers need no tricks. Angles are in the unit that the mechanism's
-file states. Exit codes: 0 fine, 1 a claim of ours fails, 2 usage, 3 bad file,
-4 proved: no (no solution, a box not all reached, no path), 5 undecided,
-6 a path that stopped short, 70 a bug of ours, 130 ended by Ctrl-C, with what
-was found so far.
+HELP = f"""From the topology of a parallel mechanism to its numbers, each with its proof.
+
+{textwrap.fill(_NOTE, 78)}
 
 For example:
     assur direct zeng2019 162.6907 -143.3209 -24.6776

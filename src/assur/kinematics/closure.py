@@ -3,7 +3,8 @@
 At every cut joint the child's frame is reached twice: through the joint from its parent, and along the
 spanning tree. The residual of a loop is the gap between the two frames: three lengths, and the rotation
 vector from one to the other times the mechanism's characteristic length. A rotation vector vanishes at
-the identity only, so an axis that is turned round is never taken for an assembly.
+the identity only, so an axis that is turned round is never taken for an assembly. The gap itself is
+`assur.joint_graph.configuration.Configuration.gap`.
 """
 
 from __future__ import annotations

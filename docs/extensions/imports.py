@@ -1,0 +1,32 @@
+"""Who imports whom: read from the source, nothing is executed."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Container, Iterator, Mapping
+from pathlib import Path
+
+
+def module_files(source: Path) -> dict[str, Path]:
+    """Files of the package by the names of their modules; a package has the name of its folder."""
+    paths = sorted(source.rglob("*.py"))
+    return {
+        ".".join((source.name, *path.relative_to(source).with_suffix("").parts)).removesuffix(".__init__"): path
+        for path in paths
+    }
+
+
+def imported(tree: ast.AST, names: Container[str]) -> Iterator[str]:
+    """Which of some modules a text imports, wherever in it."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name in names)
+        elif isinstance(node, ast.ImportFrom):
+            modules = [f"{node.module}.{alias.name}" for alias in node.names]
+            yield from (name if name in names else str(node.module) for name in modules)
+
+
+def imports(files: Mapping[str, Path]) -> dict[str, set[str]]:
+    """Of every module what it imports, also within a function or for types alone."""
+    trees = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in files.items()}
+    return {name: set(imported(tree, files)) & files.keys() for name, tree in trees.items()}
