@@ -78,7 +78,7 @@ def test_no_random_assembly_is_missing(name: str) -> None:
     rng = np.random.default_rng(5)
     length = characteristic_length(mechanism)
     spread = np.array([np.pi if item.kind == "angle" else length for item in mechanism.coordinates])
-    start = mechanism.home_values + spread * rng.uniform(-1, 1, size=(60, len(spread)))
+    start = mechanism.home_values + spread * rng.uniform(-1, 1, size=(150, len(spread)))
     random = assemble(mechanism, start)
     closed = random.values[random.closed]
     kept = [row for row in closed if not crossed_parallelograms(mechanism, row) and _determined(mechanism, row)][:8]
@@ -289,8 +289,12 @@ def test_drafts_have_the_assemblies_that_a_search_finds(name: str, tmp_path: Pat
     assert f"({count})" in found.right
     searched = search(mechanism, "direct", inputs).joints
     gaps = np.max(np.abs(places(mechanism, found.joints)[:, None] - places(mechanism, searched)), axis=2)
-    assert gaps.shape[0] == gaps.shape[1]
     assert np.max(np.min(gaps, axis=0)) < 1e-5
+    # Drawn starts spread over a characteristic length: what lies dozens of them away (13 m of a drive's 0.1 m) they
+    # may miss, and only the loops in turn know of it.
+    far = np.max(np.abs(found.joints - mechanism.home_values), axis=1) > 30 * characteristic_length(mechanism)
+    assert np.max(np.min(gaps, axis=1), where=~far, initial=0.0) < 1e-5
+    assert np.count_nonzero(~far) >= 2
 
 
 @pytest.mark.parametrize(("name", "count"), [("three_rps", 8), ("three_p2us", 2), ("three_rrrp4r", 4)])
