@@ -70,7 +70,7 @@ def test_ok_rows_agree_within_their_tolerance(found):
 
 
 def test_data_has_the_shape_that_others_rely_on(found):
-    data = json.loads(json_text(found.data()))
+    data = json.loads(json_text(found))
     assert data["mechanism"] == found.mechanism
     assert (data["ok"], data["wrong"], data["missing"]) == (found.ok, found.wrong, found.missing)
     assert all(list(row) == KEYS for row in data["rows"])

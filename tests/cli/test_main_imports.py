@@ -48,7 +48,7 @@ def loaded(cache, words):
     [
         (("--help",), set(), 50),
         (("list",), NUMPY | READ, 122),
-        (("show", "zeng2019"), NUMPY, 122),
+        (("show", "zeng2019"), NUMPY, 123),
         (DIRECT, NUMPY, 132),
         (INVERSE, NUMPY, 132),
     ],

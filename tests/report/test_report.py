@@ -147,9 +147,9 @@ def test_the_volume_is_that_of_the_workspace(findings, html, page):
     low, high = (float(text) for text in workspace_bounds_shown(html))
     assert low <= findings.bounds.volume[0] < findings.bounds.volume[1] <= high
     assert low < 22_814_586.4 < high < 1.0002 * low  # 500 mm times the area by quadrature of the two circles
-    (told,) = [item for item in numbers_of(page) if item["name"] == "workspace volume"]
-    assert (told["low"], told["high"]) == findings.bounds.volume
-    assert told["known_by"] == "proved by interval arithmetic"
+    (told,) = [item for item in numbers_of(page) if item.name == "workspace volume"]
+    assert (told.low, told.high) == findings.bounds.volume
+    assert told.known_by == "proved by interval arithmetic"
 
 
 def workspace_bounds_shown(html):
@@ -174,20 +174,17 @@ def test_the_solutions_are_proved_and_that_there_is_no_other(findings, page, doc
     text = " ".join(document.words["p"].split())
     assert "Proved: 4 solutions and no other" in text
     assert "Proved: 8 solutions and no other" in text
-    told = {item["name"]: item for item in numbers_of(page)}
+    told = {item.name: item for item in numbers_of(page)}
     for problem, count in (("direct", 4), ("inverse", 8)):
         item = told[f"real {problem} solutions"]
-        assert item["value"] == item["low"] == item["high"] == count == len(findings.proved[problem])
+        assert item.value == item.low == item.high == count == len(findings.proved[problem])
 
 
 def test_the_largest_cube_is_reached_and_regular(findings, page):
-    (told,) = [item for item in numbers_of(page) if item["name"].startswith("edge of the largest")]
-    assert 0 < told["low"] <= told["high"] <= 1.02 * told["low"]
+    (told,) = [item for item in numbers_of(page) if item.name.startswith("edge of the largest")]
+    assert 0 < told.low <= told.high <= 1.02 * told.low
     centre = findings.solution.pose
-    box = {
-        name: (value - 0.49 * told["low"], value + 0.49 * told["low"])
-        for name, value in zip("xyz", centre, strict=True)
-    }
+    box = {name: (value - 0.49 * told.low, value + 0.49 * told.low) for name, value in zip("xyz", centre, strict=True)}
     assert prove_box(findings.record, box, mode=findings.solution.working_mode).status == "proved"
 
 

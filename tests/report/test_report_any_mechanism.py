@@ -38,11 +38,11 @@ def test_without_closed_form_it_says_what_is_not_proved(fivebar_graph, without_r
     html = page_html(page)
     assert "No bounds are proved: fivebar has no closed form." in html
     assert "No region free of singularities is proved: fivebar has no closed form." in html
-    told = {item["name"]: item for item in numbers_of(page)}
-    assert told["workspace area"]["known_by"] == "estimate: difference of two resolutions"
+    told = {item.name: item for item in numbers_of(page)}
+    assert told["workspace area"].known_by == "estimate: difference of two resolutions"
     count = told["real direct solutions"]
-    assert (count["value"], count["low"], count["high"]) == (2, 2, None)
-    assert "one by one" in count["known_by"]
+    assert (count.value, count.low, count.high) == (2, 2, None)
+    assert "one by one" in count.known_by
 
 
 def test_a_quaternion_has_no_cube_and_the_report_says_so():

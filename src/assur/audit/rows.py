@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
-from assur.results.json_text import plain
+from assur.results.answers.answer import Answer
 
 Verdict = Literal["ok", "wrong", "missing"]
 
@@ -83,7 +83,7 @@ class Erratum:
 
 
 @dataclass(frozen=True)
-class Audit:
+class Audit(Answer):
     """The audit of one mechanism.
 
     Attributes:
@@ -95,6 +95,7 @@ class Audit:
     origin: Literal["printed", "derived"]
     rows: tuple[Row, ...]
     errata: tuple[Erratum, ...]
+    derived: ClassVar[tuple[str, ...]] = ("ok", "wrong", "missing", "claims_hold")
 
     @property
     def ok(self) -> int:
@@ -116,20 +117,6 @@ class Audit:
         """Whether all that we claim holds: every erratum by its evidence, and every row of derived data."""
         holds = all(erratum.evidence.holds is not False for erratum in self.errata)
         return holds and (self.origin == "printed" or len(self.rows) == self.ok)
-
-    def data(self) -> dict[str, Any]:
-        """Plain data, as `--json` prints it."""
-        return {
-            "mechanism": self.mechanism,
-            "source": self.source,
-            "origin": self.origin,
-            "rows": plain(self.rows),
-            "ok": self.ok,
-            "wrong": self.wrong,
-            "missing": self.missing,
-            "claims_hold": self.claims_hold,
-            "errata": plain(self.errata),
-        }
 
     def _count(self, verdict: Verdict) -> int:
         return sum(row.verdict == verdict for row in self.rows)

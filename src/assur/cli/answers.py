@@ -2,10 +2,37 @@
 
 from __future__ import annotations
 
+from assur.audit.rows import Audit
+from assur.results.answers.catalogue import CatalogueAnswer, MechanismAnswer
 from assur.results.answers.certified import CertifiedDirect, CertifiedInverse
+from assur.results.answers.comparison import CrossCheckAnswer
+from assur.results.answers.files import (
+    EndedView,
+    WrittenExport,
+    WrittenFigures,
+    WrittenMechanism,
+    WrittenMotion,
+    WrittenPage,
+    WrittenReport,
+)
+from assur.results.answers.installation import CacheAnswer, DemonstrationAnswer, InstallationAnswer
 from assur.results.answers.position import DirectAnswer, InverseAnswer
 
 ANSWERS: dict[str, tuple[type, ...]] = {
+    "audit": (Audit,),
+    "cache": (CacheAnswer,),
+    "crosscheck": (CrossCheckAnswer,),
+    "demo": (DemonstrationAnswer,),
     "direct": (DirectAnswer, CertifiedDirect),
+    "doctor": (InstallationAnswer,),
+    "export": (WrittenExport,),
+    "figures": (WrittenFigures,),
     "inverse": (InverseAnswer, CertifiedInverse),
+    "list": (CatalogueAnswer,),
+    "motion": (WrittenMotion,),
+    "new": (WrittenMechanism,),
+    "page": (WrittenPage,),
+    "report": (WrittenReport,),
+    "show": (MechanismAnswer,),
+    "view": (EndedView,),
 }

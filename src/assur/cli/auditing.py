@@ -36,7 +36,7 @@ def outcome(record: Mechanism, folder: Path | None, shared: Shared) -> Outcome:
     if folder is not None:
         made(folder)
         written = [write_whole(folder / name, text) for name, text in documents(found).items()]
-    return Outcome(found.data(), lambda: _shown(found, written), 0 if found.claims_hold else CLAIM_FAILS)
+    return Outcome(found, lambda: _shown(found, written), 0 if found.claims_hold else CLAIM_FAILS)
 
 
 def _shown(found: Audit, written: Sequence[Path]) -> Iterable[RenderableType]:

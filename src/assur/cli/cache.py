@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from assur.cache import Kept
+    from assur.results.answers.installation import CacheAnswer, KeptKind, KeptSize
 
 
 def cache(
@@ -32,33 +33,39 @@ def cache(
         assur cache --clear
     """
     from assur import cache as store
+    from assur.results.answers.installation import CacheAnswer
 
     gone = store.clear() if clear else store.trim()
     rest = store.kept()
-    data = {
-        "folder": str(store.cache_folder()),
-        "limit": store.limit(),
-        "bytes": _size(rest),
-        "kinds": [
-            {"name": kind, "what": what, "entries": len(some), "bytes": _size(some)}
-            for kind, what in store.KINDS.items()
-            for some in [[one for one in rest if one.kind == kind]]
-        ],
-        "removed": {"entries": len(gone), "bytes": _size(gone)},
-    }
-    return Outcome(data, lambda: _shown(data))
+    answer = CacheAnswer(
+        folder=str(store.cache_folder()),
+        limit=store.limit(),
+        bytes=_size(rest).bytes,
+        kinds=tuple(_kind(kind, what, rest) for kind, what in store.KINDS.items()),
+        removed=_size(gone),
+    )
+    return Outcome(answer, lambda: _shown(answer))
 
 
-def _size(some: Sequence[Kept]) -> int:
-    return sum(one.size for one in some)
+def _size(some: Sequence[Kept]) -> KeptSize:
+    from assur.results.answers.installation import KeptSize
+
+    return KeptSize(len(some), sum(entry.size for entry in some))
 
 
-def _shown(data: dict[str, Any]) -> Iterable[RenderableType]:
-    yield heading(f"kept: {_megabytes(data['bytes'])} of at most {_megabytes(data['limit'])}")
-    yield f"in {data['folder']}"
-    if data["removed"]["entries"]:
-        yield f"removed: {data['removed']['entries']} of them, {_megabytes(data['removed']['bytes'])}"
-    rows = [(kind["name"], str(kind["entries"]), _megabytes(kind["bytes"]), kind["what"]) for kind in data["kinds"]]
+def _kind(name: str, what: str, rest: Sequence[Kept]) -> KeptKind:
+    from assur.results.answers.installation import KeptKind
+
+    size = _size([entry for entry in rest if entry.kind == name])
+    return KeptKind(size.entries, size.bytes, name, what)
+
+
+def _shown(data: CacheAnswer) -> Iterable[RenderableType]:
+    yield heading(f"kept: {_megabytes(data.bytes)} of at most {_megabytes(data.limit)}")
+    yield f"in {data.folder}"
+    if data.removed.entries:
+        yield f"removed: {data.removed.entries} of them, {_megabytes(data.removed.bytes)}"
+    rows = [(kind.name, str(kind.entries), _megabytes(kind.bytes), kind.what) for kind in data.kinds]
     yield ""
     yield table(("folder", "entries", "size", "what it is"), rows, left=("folder", "what it is"))
 

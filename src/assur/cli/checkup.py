@@ -6,35 +6,25 @@ import platform
 import sys
 import tempfile
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from assur.cli.options import Outcome, Plain
 from assur.cli.output import heading, table
 from assur.cli.progress import progress
 from assur.cli.quantities import count
+from assur.results.answers.installation import Check, InstallationAnswer
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from assur.mechanism import Mechanism
 
-Answer = Literal["ok", "note", "fault"]
 PYTHON = (3, 11)
 PINS = "constraints.txt"
 AGREE = 1e-9
 """Share of the characteristic length (or rad) within which two configurations are the same."""
-
-
-@dataclass(frozen=True)
-class Check:
-    """One thing that was looked at; a "note" is worth knowing, a "fault" makes the doctor fail."""
-
-    what: str
-    answer: Answer
-    found: str
 
 
 def outcome(folder: str, shared: Plain) -> Outcome:
@@ -42,25 +32,20 @@ def outcome(folder: str, shared: Plain) -> Outcome:
     with progress("self-check", shared):
         checks = [*_installation(), _writable(folder), *_numbers()]
     faults = sum(check.answer == "fault" for check in checks)
-    data = {
-        "python": platform.python_version(),
-        "platform": platform.platform(),
-        "checks": [vars(check) for check in checks],
-        "faults": faults,
-    }
-    return Outcome(data, lambda: _shown(checks, faults), 1 if faults else 0)
+    answer = InstallationAnswer(platform.python_version(), platform.platform(), tuple(checks), faults)
+    return Outcome(answer, lambda: _shown(answer), 1 if faults else 0)
 
 
-def _shown(checks: list[Check], faults: int) -> Iterable[RenderableType]:
-    yield heading(f"assur on Python {platform.python_version()}, {platform.platform()}")
+def _shown(data: InstallationAnswer) -> Iterable[RenderableType]:
+    yield heading(f"assur on Python {data.python}, {data.platform}")
     colour = {"ok": "", "note": "yellow", "fault": "red"}
     yield table(
         ("", "check", "found"),
-        [(check.answer, check.what, check.found) for check in checks],
+        [(check.answer, check.what, check.outcome) for check in data.checks],
         left=("", "check", "found"),
-        styles=[colour[check.answer] for check in checks],
+        styles=[colour[check.answer] for check in data.checks],
     )
-    yield "everything that is needed works" if not faults else f"{count(faults, 'fault')}"
+    yield "everything that is needed works" if not data.faults else count(data.faults, "fault")
 
 
 def _installation() -> Iterator[Check]:
@@ -154,11 +139,11 @@ def _agreement(record: Mechanism) -> Check:
     import numpy as np
 
     from assur.joint_graph.geometry import characteristic_length
+    from assur.kinematics.border import inputs_of
     from assur.kinematics.search import places
 
     home, length = record.home_values, characteristic_length(record)
-    inputs = [item.sign * home[item.coordinate.index] + item.offset for item in record.inputs]
-    found = record.direct(inputs)
+    found = record.direct(inputs_of(record, home))
     what = f"{record.name} closed form"
     if not np.any(found.exists):
         return Check(what, "fault", "finds no solution at home's inputs")

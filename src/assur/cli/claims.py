@@ -8,22 +8,13 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from assur.cli.output import heading, show
+from assur.results.answers.installation import Claim
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
 MARKS = {True: ("\N{CHECK MARK}", "ok"), False: ("\N{BALLOT X}", "FAILS")}
 COLOURS = {True: "green", False: "bold red"}
-
-
-@dataclass(frozen=True)
-class Claim:
-    """A statement, whether it holds, and what was found when it was checked."""
-
-    section: str
-    claim: str
-    holds: bool
-    found: str
 
 
 @dataclass
@@ -61,7 +52,7 @@ def _line(claim: Claim) -> RenderableType:
     from rich.text import Text
 
     row = Table.grid(padding=(0, 1))
-    row.add_row(Text(_mark(claim.holds), style=COLOURS[claim.holds]), Text(f"{claim.claim}: {claim.found}"))
+    row.add_row(Text(_mark(claim.holds), style=COLOURS[claim.holds]), Text(f"{claim.claim}: {claim.outcome}"))
     return row
 
 

@@ -55,7 +55,7 @@ def crosscheck(
 
 
 def _outcome(found: CrossCheck) -> Outcome:
-    return Outcome(found.to_json(), lambda: _shown(found), 0 if found.holds else CLAIM_FAILS)
+    return Outcome(found.answer(), lambda: _shown(found), 0 if found.holds else CLAIM_FAILS)
 
 
 def _shown(found: CrossCheck) -> Iterable[RenderableType]:

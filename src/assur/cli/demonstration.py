@@ -12,6 +12,7 @@ from assur.cli.claims import Ledger
 from assur.cli.options import Outcome, Plain
 from assur.cli.output import heading
 from assur.cli.quantities import count
+from assur.results.answers.installation import DemonstrationAnswer
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -38,14 +39,9 @@ def outcome(folder: Path, shared: Plain) -> Outcome:
     demo_position.inverse(ledger, record)
     files = [] if ledger.failed else _analysed(ledger, record, folder, shared)
     seconds = time.monotonic() - begin
-    data = {
-        "mechanism": record.name,
-        "claims": [vars(claim) for claim in ledger.claims],
-        "failed": ledger.failed,
-        "files": [str(path) for path in files],
-        "seconds": round(seconds, 1),
-    }
-    return Outcome(data, lambda: _shown(ledger, folder, files, seconds), CLAIM_FAILS if ledger.failed else 0)
+    written = tuple(str(path) for path in files)
+    answer = DemonstrationAnswer(record.name, tuple(ledger.claims), ledger.failed, written, round(seconds, 1))
+    return Outcome(answer, lambda: _shown(ledger, folder, files, seconds), CLAIM_FAILS if ledger.failed else 0)
 
 
 def _analysed(ledger: Ledger, record: Mechanism, folder: Path, shared: Plain) -> list[Path]:
@@ -75,7 +71,7 @@ def _shown(ledger: Ledger, folder: Path, files: list[Path], seconds: float) -> I
         yield "no files: what stands on the solutions was left out"
     for claim in ledger.claims:
         if not claim.holds:
-            yield f"fails: {claim.section}: {claim.claim}: {claim.found}"
+            yield f"fails: {claim.section}: {claim.claim}: {claim.outcome}"
     yield ""
     yield "Next, a mechanism of your own:"
     yield f"  {called()} new my.toml --from {BEGIN_WITH}"

@@ -13,6 +13,7 @@ from assur.cli.paths import made, planned_folder
 from assur.cli.progress import progress, stages
 from assur.cli.quantities import count
 from assur.errors import UnknownNameError
+from assur.results.answers.files import WrittenFigure, WrittenFigures
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -41,14 +42,13 @@ def outcome(record: Mechanism, output: str, only: Sequence[str], formats: Sequen
 def _outcome(
     record: Mechanism, asked: Sequence[str], paths: Sequence[Path], folder: Path, missing: dict[str, str]
 ) -> Outcome:
-    wanted = [name for name in asked if any(path.stem == name for path in paths)]
-    data = {
-        "mechanism": record.name,
-        "folder": str(folder),
-        "figures": [{"name": name, "files": [str(path) for path in paths if path.stem == name]} for name in wanted],
-        "left_out": missing,
-    }
-    return Outcome(data, lambda: _shown(record, wanted, paths, folder, missing))
+    figures = [
+        WrittenFigure(name, tuple(str(path) for path in paths if path.stem == name))
+        for name in asked
+        if any(path.stem == name for path in paths)
+    ]
+    answer = WrittenFigures(record.name, str(folder), tuple(figures), missing)
+    return Outcome(answer, lambda: _shown(answer))
 
 
 def _check_formats(formats: Sequence[str]) -> None:
@@ -59,14 +59,12 @@ def _check_formats(formats: Sequence[str]) -> None:
             raise UnknownNameError("figure format", name, FORMATS)
 
 
-def _shown(
-    record: Mechanism, wanted: Sequence[str], paths: Sequence[Path], folder: Path, missing: dict[str, str]
-) -> Iterable[RenderableType]:
-    yield heading(f"{record.name}, {count(len(wanted), 'figure')} in {folder}")
+def _shown(answer: WrittenFigures) -> Iterable[RenderableType]:
+    yield heading(f"{answer.mechanism}, {count(len(answer.figures), 'figure')} in {answer.folder}")
     yield table(
         ("figure", "files"),
-        [(name, "\n".join(path.name for path in paths if path.stem == name)) for name in wanted],
+        [(figure.name, "\n".join(Path(file).name for file in figure.files)) for figure in answer.figures],
         left=("figure", "files"),
     )
-    for name, why in missing.items():
+    for name, why in answer.left_out.items():
         yield f"no {name}: {why}"

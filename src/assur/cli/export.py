@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
 from assur.cli.options import DRAWN_DEFAULTS, Drawn, MechanismName, Outcome
+from assur.results.answers.answer import ABSENT
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from rich.console import RenderableType
 
-    from assur.export.cad.bill import Row
     from assur.export.files import Format
     from assur.mechanism import Mechanism
+    from assur.results.answers.files import WrittenExport
 
 SIMULATED = ("mjcf", "sdf", "urdf")
 
@@ -77,6 +79,7 @@ def export(
     from assur.errors import UsageError
     from assur.export.cad.bill import bill
     from assur.export.files import export
+    from assur.results.answers.files import WrittenExport
 
     if servos and format_ != "mjcf":
         raise UsageError(f"--servos: {format_} has no actuators", hint="it is for mjcf")
@@ -88,18 +91,16 @@ def export(
     with progress("export", shared):
         written = [str(item) for item in export(record, format_, path, servos=servos)]
         rows = () if format_ in (*SIMULATED, "glb") else bill(record)
-    data: dict[str, Any] = {"mechanism": record.name, "format": format_, "files": written}
+    answer = WrittenExport(record.name, format_, tuple(written))
     if format_ in SIMULATED:
         from assur.export.bodies import MASS
 
-        data["nominal_mass_kg"] = MASS
-    if rows:
-        data["bill"] = [row.to_json() for row in rows]
-    if format_ not in SIMULATED:
+        answer = replace(answer, nominal_mass_kg=MASS)
+    else:
         from assur.scene.sizes import thickness
 
-        data["thickness"] = thickness(record)
-    return Outcome(data, lambda: _shown(record, data, rows))
+        answer = replace(answer, bill=rows or ABSENT, thickness=thickness(record))
+    return Outcome(answer, lambda: _shown(record, answer))
 
 
 def _path(record: Mechanism, form: Format, output: str | None) -> Path:
@@ -117,26 +118,27 @@ def _path(record: Mechanism, form: Format, output: str | None) -> Path:
     return output_file(output or f"{record.name}{'.bom' if form == 'bom' else ''}{endings[0]}", endings)
 
 
-def _shown(record: Mechanism, data: dict[str, Any], rows: tuple[Row, ...]) -> Iterable[RenderableType]:
+def _shown(record: Mechanism, data: WrittenExport) -> Iterable[RenderableType]:
     from assur.cli.output import heading, table
 
-    yield heading(f"{record.name}, {data['format']}")
-    files = data["files"]
+    yield heading(f"{record.name}, {data.format}")
+    files = data.files
     yield (
         f"written: {len(files)} files in {files[0].rpartition('/')[0] or '.'}"
         if len(files) > 3
         else "\n".join(f"written: {name}" for name in files)
     )
-    if "nominal_mass_kg" in data:
-        yield f"masses are nominal: {data['nominal_mass_kg']:g} kg for each link"
+    if data.nominal_mass_kg is not ABSENT:
+        yield f"masses are nominal: {data.nominal_mass_kg:g} kg for each link"
+    rows = () if data.bill is ABSENT else data.bill
     for kind, title in (("make", "to make, sizes in mm"), ("buy", "to buy")):
         chosen = [(str(row.count), row.what, " ".join(row.names)) for row in rows if row.kind == kind]
         if chosen:
             yield ""
             columns = ("count", "what", "links" if kind == "make" else "joints")
             yield table(columns, chosen, title=title, left=columns[1:], wrap=columns[1:])
-    if "thickness" in data:
+    if data.thickness is not ABSENT:
         yield (
-            f"as drawn, a beginning and not a design: flat bars are {data['thickness']:.3g} {record.unit} thick, and"
+            f"as drawn, a beginning and not a design: flat bars are {data.thickness:.3g} {record.unit} thick, and"
             " widths, pins, balls and rails go with them; --thickness says otherwise"
         )

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 
 from assur.cli.options import PLAIN, Outcome, Plain
 from assur.cli.output import table
@@ -11,7 +11,7 @@ from assur.cli.output import table
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-Rows = list[dict[str, Any]]
+    from assur.results.answers.catalogue import CatalogueAnswer, ListedMechanism, ListedTopology
 
 
 def list_(*, shared: Plain = PLAIN) -> Outcome:  # noqa: ARG001  # read by main
@@ -24,64 +24,47 @@ def list_(*, shared: Plain = PLAIN) -> Outcome:  # noqa: ARG001  # read by main
         assur list --json
     """
     from assur.model.registry import left_out
+    from assur.results.answers.catalogue import CatalogueAnswer, LeftOutMechanism
 
-    found = {
-        "mechanisms": _mechanisms(),
-        "topologies": _topologies(),
-        "left_out": [
-            {"name": item.name, "title": item.title, "source": item.source, "reason": item.reason}
-            for item in left_out()
-        ],
-    }
-    return Outcome(found, lambda: _shown(found))
+    missing = (LeftOutMechanism(each.name, each.title, each.source, each.reason) for each in left_out())
+    answer = CatalogueAnswer(tuple(_mechanisms()), tuple(_topologies()), tuple(missing))
+    return Outcome(answer, lambda: _shown(answer))
 
 
-def _mechanisms() -> Rows:
+def _mechanisms() -> Iterator[ListedMechanism]:
     from assur.model.registry import CLOSED_FORM, names, record_alone
+    from assur.results.answers.catalogue import ListedMechanism
 
-    return [
-        {
-            "name": record.name,
-            "title": record.title,
-            "source": record.source,
-            "unit": record.unit,
-            "angle": record.angle,
-            "inputs": [item.name for item in record.inputs],
-            "coordinates": list(record.platform.pose),
-            "closed_form": (record.file.parent / CLOSED_FORM).is_file(),
-        }
-        for record in map(record_alone, names())
-    ]
+    for record in map(record_alone, names()):
+        yield ListedMechanism(
+            *(record.name, record.title, record.source, record.unit, record.angle),
+            inputs=tuple(each.name for each in record.inputs),
+            coordinates=record.platform.pose,
+            closed_form=(record.file.parent / CLOSED_FORM).is_file(),
+        )
 
 
-def _topologies() -> Rows:
+def _topologies() -> Iterator[ListedTopology]:
     from assur.model.registry import topology_names
     from assur.model.topologies import load_topology
+    from assur.results.answers.catalogue import ListedTopology
 
-    return [
-        {
-            "name": item.name,
-            "title": item.title,
-            "source": item.source,
-            "limbs": item.limb_types,
-            "chains": [chain.text for chain in item.chains],
-            "mode": item.mode,
-        }
-        for item in map(load_topology, topology_names())
-    ]
+    for each in map(load_topology, topology_names()):
+        chains = tuple(chain.text for chain in each.chains)
+        yield ListedTopology(each.name, each.title, each.source, each.limb_types, chains, each.mode)
 
 
-def _shown(found: dict[str, Rows]) -> Iterable[RenderableType]:
+def _shown(answer: CatalogueAnswer) -> Iterable[RenderableType]:
     yield table(
         ("name", "inputs", "pose", "what it is"),
         [
             (
-                item["name"],
-                " ".join(item["inputs"]),
-                " ".join(item["coordinates"]),
-                item["title"],
+                item.name,
+                " ".join(item.inputs),
+                " ".join(item.coordinates),
+                item.title,
             )
-            for item in found["mechanisms"]
+            for item in answer.mechanisms
         ],
         left=("name", "inputs", "pose", "what it is"),
     )
@@ -89,8 +72,8 @@ def _shown(found: dict[str, Rows]) -> Iterable[RenderableType]:
     yield "topology alone, without dimensions:"
     yield table(
         ("name", "limbs", "what it is"),
-        [(item["name"], item["limbs"], item["title"]) for item in found["topologies"]],
+        [(item.name, item.limbs, item.title) for item in answer.topologies],
         left=("name", "limbs", "what it is"),
     )
-    for item in found["left_out"]:
-        yield f"Not there: {item['title']}; {item['reason']}."
+    for item in answer.left_out:
+        yield f"Not there: {item.title}; {item.reason}."

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
@@ -19,6 +19,7 @@ from assur.errors import OutputError, UnknownNameError, UsageError
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
+    from assur.results.answers.files import WrittenMechanism
     from assur.synthesis.drafting.copying import Copied
     from assur.topology.analysis import Mode
     from assur.topology.chains import Chain
@@ -202,13 +203,15 @@ def _refuse_others(path: Path) -> None:
 
 
 def _outcome(path: Path, files: Sequence[str], said: Sequence[str]) -> Outcome:
-    data: dict[str, Any] = {"mechanism": path.stem, "files": list(files), "notes": list(said)}
+    from assur.results.answers.files import WrittenMechanism
+
+    data = WrittenMechanism(path.stem, tuple(files), tuple(said))
     return Outcome(data, lambda: _shown(path, data))
 
 
-def _shown(path: Path, data: dict[str, Any]) -> Iterable[RenderableType]:
+def _shown(path: Path, data: WrittenMechanism) -> Iterable[RenderableType]:
     from rich.text import Text
 
-    yield heading(f"wrote {' and '.join(data['files'])}")
-    yield from map(Text, data["notes"])
+    yield heading(f"wrote {' and '.join(data.files)}")
+    yield from map(Text, data.notes)
     yield Text(f"next: {called()} check {path}")

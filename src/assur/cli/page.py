@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import Annotated, Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
 from assur.cli.options import DRAWN_DEFAULTS, Drawn, MechanismName, Outcome
+
+if TYPE_CHECKING:
+    from assur.results.answers.files import PageContent
 
 ENDINGS = (".html", ".htm")
 
@@ -42,6 +46,7 @@ def page(
     from assur.cli.paths import output_file
     from assur.cli.progress import progress
     from assur.page import page_html, scene
+    from assur.results.answers.files import WrittenPage
     from assur.results.files import write_whole
 
     path = output_file(output, ENDINGS)
@@ -51,7 +56,7 @@ def page(
     size = path.stat().st_size
     inside = _inside(found)
     return Outcome(
-        {"mechanism": record.name, "file": str(path), "bytes": size, "inside": inside},
+        WrittenPage(record.name, str(path), size, inside),
         lambda: [
             heading(f"{record.name}, page"),
             *_lines(inside),
@@ -60,36 +65,38 @@ def page(
     )
 
 
-def _inside(scene: dict[str, Any]) -> dict[str, Any]:
-    """What is in the file, counted."""
+def _inside(scene: Mapping[str, Any]) -> PageContent:
+    """What is in the file, counted; the scene is what the page reads as JSON."""
+    from assur.results.answers.files import PageContent, PageLayers
+
     kinds = Counter(item["kind"] for item in scene["layers"])
-    return {
-        "links": len(scene["graph"]["links"]),
-        "joints": len(scene["graph"]["joints"]),
-        "loops": len(scene["graph"]["cut"]),
-        "inputs": [item["name"] for item in scene["inputs"]],
-        "pose": scene["platform"]["pose"],
-        "assembly_modes": len(scene["branches"]["assembly"]),
-        "working_modes": len(scene["branches"]["working"]),
-        "layers_note": scene["layersNote"],
-        "layers": {kind: kinds[kind] for kind in ("workspace", "singular", "section")},
-        "factors": len(scene["factors"]),
-        "facts": len(scene["facts"]),
-        "errata": len(scene["errata"]),
-    }
+    return PageContent(
+        links=len(scene["graph"]["links"]),
+        joints=len(scene["graph"]["joints"]),
+        loops=len(scene["graph"]["cut"]),
+        inputs=tuple(item["name"] for item in scene["inputs"]),
+        pose=tuple(scene["platform"]["pose"]),
+        assembly_modes=len(scene["branches"]["assembly"]),
+        working_modes=len(scene["branches"]["working"]),
+        layers_note=scene["layersNote"],
+        layers=PageLayers(kinds["workspace"], kinds["singular"], kinds["section"]),
+        factors=len(scene["factors"]),
+        facts=len(scene["facts"]),
+        errata=len(scene["errata"]),
+    )
 
 
-def _lines(inside: dict[str, Any]) -> list[str]:
+def _lines(inside: PageContent) -> list[str]:
     from assur.cli.quantities import count
 
-    layers, sections = inside["layers"], count(inside["layers"]["section"], "section")
-    modes = [count(inside[f"{kind}_modes"], f"{kind} mode") for kind in ("assembly", "working")]
-    errata = "1 erratum" if inside["errata"] == 1 else f"{inside['errata']} errata"
+    layers, sections = inside.layers, count(inside.layers.section, "section")
+    modes = [count(inside.assembly_modes, "assembly mode"), count(inside.working_modes, "working mode")]
+    errata = "1 erratum" if inside.errata == 1 else f"{inside.errata} errata"
     return [
-        f"{count(inside['links'], 'link')}, {count(inside['joints'], 'joint')}, {count(inside['loops'], 'loop')}",
-        f"sliders: {', '.join(inside['inputs'])}; {', '.join(inside['pose'])}",
+        f"{count(inside.links, 'link')}, {count(inside.joints, 'joint')}, {count(inside.loops, 'loop')}",
+        f"sliders: {', '.join(inside.inputs)}; {', '.join(inside.pose)}",
         f"ghosts: {', '.join(modes)} at home",
-        f"layers: {layers['workspace']} workspace, {layers['singular']} singular, {sections}",
-        *([inside["layers_note"]] if inside["layers_note"] else []),
-        f"{count(inside['facts'], 'fact')} of the topology, {errata} of the source",
+        f"layers: {layers.workspace} workspace, {layers.singular} singular, {sections}",
+        *([inside.layers_note] if inside.layers_note else []),
+        f"{count(inside.facts, 'fact')} of the topology, {errata} of the source",
     ]

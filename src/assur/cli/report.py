@@ -39,16 +39,17 @@ def report(
     from assur.cli.progress import progress, stages
     from assur.report import numbers_of, write_report
     from assur.report.render import Page
+    from assur.results.answers.files import WrittenReport
 
     path = output_file(output, ENDINGS)
 
     def stopped(page: Page) -> Outcome:
-        data = {"mechanism": record.name, "file": None, "numbers": numbers_of(page)}
+        answer = WrittenReport(record.name, None, numbers_of(page))
         titles = ", ".join(section.title for section in page.sections) or "none"
-        return Outcome(data, lambda: [heading(f"{record.name}, report: not written"), f"sections done: {titles}"])
+        return Outcome(answer, lambda: [heading(f"{record.name}, report: not written"), f"sections done: {titles}"])
 
     with handing_over(Page, stopped), progress("report", shared) as step:
         page = write_report(record, path, stages(step))
     size = path.stat().st_size
-    data = {"mechanism": record.name, "file": str(path), "bytes": size, "numbers": numbers_of(page)}
-    return Outcome(data, lambda: [heading(f"{record.name}, report"), f"written: {path} ({size / 1e6:.1f} MB)"])
+    answer = WrittenReport(record.name, str(path), numbers_of(page), size)
+    return Outcome(answer, lambda: [heading(f"{record.name}, report"), f"written: {path} ({size / 1e6:.1f} MB)"])

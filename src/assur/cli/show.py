@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from assur.mechanism import Mechanism
+    from assur.results.answers.catalogue import MechanismAnswer, ShownClosedForm, ShownJoint, ShownModes
 
 
 def show(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> Outcome:
@@ -30,11 +31,22 @@ def show(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> Ou
     return Outcome(data, lambda: _shown(data, style_of(record)))
 
 
-def description(record: Mechanism) -> dict[str, Any]:
-    """The mechanism as plain data; angles in its angle unit."""
+def description(record: Mechanism) -> MechanismAnswer:
+    """The mechanism, with angles in its angle unit."""
     from assur.kinematics.answers.at_border import angle_at_border
     from assur.kinematics.closure import closure_error
     from assur.model.pose import is_angle
+    from assur.results.answers.catalogue import (
+        MechanismAnswer,
+        ShownClosedForm,
+        ShownHome,
+        ShownInput,
+        ShownJoint,
+        ShownLink,
+        ShownMobility,
+        ShownModes,
+        ShownParameter,
+    )
 
     home = record.home_values
     free = record.mobility(home)
@@ -45,62 +57,43 @@ def description(record: Mechanism) -> dict[str, Any]:
         for item in record.coordinates
     ]
     low_high = {name: angle_at_border(record, pair) if is_angle(name) else pair for name, pair in record.box.items()}
-    return {
-        "mechanism": record.name,
-        "title": record.title,
-        "source": record.source,
-        "file": str(record.file),
-        "unit": record.unit,
-        "angle": record.angle,
-        "coordinates": list(record.platform.pose),
-        "orientation": record.platform.orientation,
-        "platform": record.platform.link,
-        "base": record.base,
-        "parameters": [
-            {"name": item.name, "value": item.value, "unit": item.unit, "meaning": item.meaning, "sign": item.sign}
+    return MechanismAnswer(
+        mechanism=record.name,
+        title=record.title,
+        source=record.source,
+        file=str(record.file),
+        unit=record.unit,
+        angle=record.angle,
+        coordinates=record.platform.pose,
+        orientation=record.platform.orientation,
+        platform=record.platform.link,
+        base=record.base,
+        parameters=tuple(
+            ShownParameter(item.name, item.value, item.unit, item.meaning, item.sign)
             for item in record.parameters.values()
-        ],
-        "links": [{"name": item.name, "meaning": item.meaning} for item in record.links.values()],
-        "joints": [
-            {
-                "name": item.name,
-                "alias": item.alias,
-                "type": item.type.name,
-                "kinds": list(item.type.kinds),
-                "parent": item.parent,
-                "child": item.child,
-            }
+        ),
+        links=tuple(ShownLink(item.name, item.meaning) for item in record.links.values()),
+        joints=tuple(
+            ShownJoint(item.name, item.alias, item.type.name, item.type.kinds, item.parent, item.child)
             for item in record.joints.values()
-        ],
-        "inputs": [
-            {"name": item.name, "joint": item.coordinate.joint, "kind": item.coordinate.kind} for item in record.inputs
-        ],
-        "modes": {
-            "working": {name: formula.text for name, formula in record.modes.working.items()},
-            "assembly": {name: formula.text for name, formula in record.modes.assembly.items()},
-            "default_working": record.modes.default_working,
-            "default_assembly": record.modes.default_assembly,
-        },
-        "box": {name: list(map(float, pair)) for name, pair in low_high.items()},
-        "home": {
-            "joints": {
-                joint.name: [at_home[item.index] for item in record.joint_coordinates(joint.name)]
-                for joint in record.joints.values()
-            },
-            "platform_point": _platform_point(record, home),
-            "residual": float(closure_error(record, home)),
-        },
-        "mobility": {
-            "freedoms": int(free.freedoms) - internal,
-            "internal": internal,
-            "rank": int(free.rank),
-            "redundant": int(free.redundant),
-        },
-        "closed_form_not_run": record.closed_form_not_run,
-        "closed_form": None
-        if form is None
-        else {"complete_for": form.complete_for, "reduced_because": form.reduced_because},
-    }
+        ),
+        inputs=tuple(ShownInput(item.name, item.coordinate.joint, item.coordinate.kind) for item in record.inputs),
+        modes=ShownModes(
+            {name: formula.text for name, formula in record.modes.working.items()},
+            {name: formula.text for name, formula in record.modes.assembly.items()},
+            record.modes.default_working,
+            record.modes.default_assembly,
+        ),
+        box={name: list(map(float, pair)) for name, pair in low_high.items()},
+        home=ShownHome(
+            {name: [at_home[item.index] for item in record.joint_coordinates(name)] for name in record.joints},
+            _platform_point(record, home),
+            float(closure_error(record, home)),
+        ),
+        mobility=ShownMobility(int(free.freedoms) - internal, internal, int(free.rank), int(free.redundant)),
+        closed_form_not_run=record.closed_form_not_run,
+        closed_form=None if form is None else ShownClosedForm(form.complete_for, form.reduced_because),
+    )
 
 
 def _spins(internal: int) -> str:
@@ -113,59 +106,62 @@ def _platform_point(record: Mechanism, home: Any) -> list[float]:
     return [float(value) for value in rotation @ record.platform.point + origin]
 
 
-def _shown(data: dict[str, Any], style: Style) -> Iterable[RenderableType]:
-    free, form, home = data["mobility"], data["closed_form"], data["home"]
-    yield heading(f"{data['mechanism']}: {data['title']}")
-    yield f"source   {data['source'] or 'not stated'}"
-    yield f"file     {data['file']}"
-    yield f"units    {data['unit']}, {data['angle']}"
-    yield f"pose     {', '.join(data['coordinates'])} of link '{data['platform']}', orientation {data['orientation']}"
-    yield f"inputs   {', '.join(item['name'] + ' (' + item['joint'] + ')' for item in data['inputs'])}"
+def _shown(data: MechanismAnswer, style: Style) -> Iterable[RenderableType]:
+    free, form, home = data.mobility, data.closed_form, data.home
+    yield heading(f"{data.mechanism}: {data.title}")
+    yield f"source   {data.source or 'not stated'}"
+    yield f"file     {data.file}"
+    yield f"units    {data.unit}, {data.angle}"
+    yield f"pose     {', '.join(data.coordinates)} of link '{data.platform}', orientation {data.orientation}"
+    yield f"inputs   {', '.join(item.name + ' (' + item.joint + ')' for item in data.inputs)}"
     yield (
-        f"mobility F = {free['freedoms']}{_spins(free['internal'])}: "
-        f"{count(len(data['joints']), 'joint')}, {count(len(data['links']), 'link')}, "
-        f"rank {free['rank']} of the closure of the whole joint graph, "
-        f"{count(free['redundant'], 'redundant constraint')}"
+        f"mobility F = {free.freedoms}{_spins(free.internal)}: "
+        f"{count(len(data.joints), 'joint')}, {count(len(data.links), 'link')}, "
+        f"rank {free.rank} of the closure of the whole joint graph, "
+        f"{count(free.redundant, 'redundant constraint')}"
     )
-    yield _form_line(form, bool(data["closed_form_not_run"]))
+    yield _form_line(form, data.closed_form_not_run)
     yield ""
     yield table(
         ("dimension", "value", "unit", "meaning"),
-        [(item["name"], f"{item['value']:.10g}", item["unit"], item["meaning"]) for item in data["parameters"]],
+        [(item.name, f"{item.value:.10g}", item.unit, item.meaning) for item in data.parameters],
         left=("dimension", "unit", "meaning"),
     )
     yield ""
     yield table(
         ("joint", "type", "from", "to", f"at home [{style.unit}, {style.angle}]"),
-        [_joint_row(item, home["joints"], style) for item in data["joints"]],
+        [_joint_row(item, home.joints, style) for item in data.joints],
         left=("joint", "type", "from", "to"),
     )
-    point = ", ".join(style.length(value) for value in home["platform_point"])
-    yield f"home: platform point at ({point}) {style.unit}, loops closed to {tiny(home['residual'])} {style.unit}"
+    point = ", ".join(style.length(value) for value in home.platform_point)
+    yield f"home: platform point at ({point}) {style.unit}, loops closed to {tiny(home.residual)} {style.unit}"
     yield ""
-    yield from _modes(data["modes"])
-    for name, (low, high) in data["box"].items():
+    yield from _modes(data.modes)
+    for name, (low, high) in data.box.items():
         yield f"box: {name} from {low:g} to {high:g} {style.coordinate_unit(name)}"
 
 
 NOT_RUN = "what stands beside the file is Python beyond formulas, and was not run"
 
 
-def _form_line(form: dict[str, Any] | None, not_run: bool) -> str:
+def _form_line(form: ShownClosedForm | None, not_run: bool) -> str:
     if form is None:
         return f"closed   {'not read: ' + NOT_RUN if not_run else 'no closed form: none beside the file'}"
-    because = f" ({form['reduced_because']})" if form["reduced_because"] else ""
-    return f"closed   closed form, complete for the {form['complete_for'].replace('_', ' ')} model{because}"
+    because = f" ({form.reduced_because})" if form.reduced_because else ""
+    return f"closed   closed form, complete for the {form.complete_for.replace('_', ' ')} model{because}"
 
 
-def _joint_row(item: dict[str, Any], home: dict[str, list[float]], style: Style) -> tuple[str, ...]:
-    alias = f"{item['name']} ({item['alias']})" if item["alias"] else item["name"]
-    values = [style.kind(kind, value) for kind, value in zip(item["kinds"], home[item["name"]], strict=True)]
-    return alias, item["type"], item["parent"], item["child"], " ".join(values)
+def _joint_row(item: ShownJoint, home: Mapping[str, Sequence[float]], style: Style) -> tuple[str, ...]:
+    alias = f"{item.name} ({item.alias})" if item.alias else item.name
+    values = [style.kind(kind, value) for kind, value in zip(item.kinds, home[item.name], strict=True)]
+    return alias, item.type, item.parent, item.child, " ".join(values)
 
 
-def _modes(modes: dict[str, Any]) -> Iterable[RenderableType]:
-    for problem in ("working", "assembly"):
-        signs = ", ".join(f"{name} = sign of {text}" for name, text in modes[problem].items())
+def _modes(modes: ShownModes) -> Iterable[RenderableType]:
+    for problem, named, default in (
+        ("working", modes.working, modes.default_working),
+        ("assembly", modes.assembly, modes.default_assembly),
+    ):
+        signs = ", ".join(f"{name} = sign of {text}" for name, text in named.items())
         if signs:
-            yield f"{problem} mode: {signs}; default {modes['default_' + problem]}"
+            yield f"{problem} mode: {signs}; default {default}"

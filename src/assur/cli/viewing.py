@@ -11,6 +11,7 @@ from assur.cli import interruption
 from assur.cli.options import Outcome
 from assur.errors import UsageError
 from assur.model.mechanism import MechanismRecord
+from assur.results.answers.files import EndedView
 from assur.view.guard import Guard, is_loopback
 from assur.view.link import restored
 from assur.view.opening import leading_to
@@ -51,7 +52,7 @@ def outcome(record: MechanismRecord, *, host: str, port: int, allow_network: boo
                 webbrowser.open(ends.enter_context(leading_to(served.url)).as_uri())
             wait()
         interruption.was_the_end()
-    return Outcome({"mechanism": record.name, "url": served.url}, lambda: [f"the view of {record.name} has ended"])
+    return Outcome(EndedView(record.name, served.url), lambda: [f"the view of {record.name} has ended"])
 
 
 def wait() -> None:

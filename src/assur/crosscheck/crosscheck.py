@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,7 @@ from assur.kinematics.status import Status
 from assur.kinematics.turns import periodic_inputs
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
+from assur.results.answers.comparison import ComparedKind, CrossCheckAnswer
 
 FloatArray = NDArray[np.float64]
 EngineName = Literal["mujoco"]
@@ -96,20 +97,13 @@ class CrossCheck:
         """Whether something was compared, and every difference is within its tolerance."""
         return bool(self.differences) and all(item.holds for item in self.differences)
 
-    def to_json(self) -> dict[str, Any]:
-        """Plain data."""
-        return {
-            "mechanism": self.record.name,
-            "engine": self.engine,
-            "version": self.version,
-            "samples": self.samples,
-            "seed": self.seed,
-            "holds": self.holds,
-            "modes": self.modes,
-            "differences": [
-                {**vars(item), "meaning": MEANINGS[item.kind], "holds": item.holds} for item in self.differences
-            ],
-        }
+    def answer(self) -> CrossCheckAnswer:
+        """The same without the mechanism, each difference with what it means."""
+        compared = (
+            ComparedKind(**vars(each), meaning=MEANINGS[each.kind], holds=each.holds) for each in self.differences
+        )
+        about = (self.record.name, self.engine, self.version, self.samples, self.seed)
+        return CrossCheckAnswer(*about, self.holds, self.modes, tuple(compared))
 
 
 def crosscheck(

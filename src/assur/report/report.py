@@ -7,7 +7,6 @@ import itertools
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import assur
 from assur.errors import Interrupted
@@ -28,9 +27,9 @@ from assur.report.sections.singularities import singularities
 from assur.report.sections.summary import summary
 from assur.report.sections.topology import topology
 from assur.report.sections.velocity import velocity
+from assur.results.answers.files import ReportNumber
 from assur.results.attempt import REFUSED, reason
 from assur.results.files import write_whole
-from assur.results.json_text import plain
 from assur.results.kinds import Facts, Picture, Result, Scalar, Section
 from assur.workspace.region import default_resolution
 
@@ -135,20 +134,20 @@ def write_report(
     return page
 
 
-def numbers_of(page: Page) -> list[dict[str, Any]]:
-    """Every single number of a report as plain data: where it stands, its bounds, and by what right it is known.
+def numbers_of(page: Page) -> tuple[ReportNumber, ...]:
+    """Every single number of a report: where it stands, its bounds, and by what right it is known.
 
     >>> from assur.results.kinds import Scalar
     >>> page = Page("", "", "", (Section("S", results=[Scalar("links", 4.0, "", "exact: counted")]),))
-    >>> [(item["section"], item["name"], item["known_by"]) for item in numbers_of(page)]
+    >>> [(item.section, item.name, item.known_by) for item in numbers_of(page)]
     [('S', 'links', 'exact: counted')]
     """
-    return [
-        {"section": title, **plain(result)}
+    return tuple(
+        ReportNumber(**vars(result), section=title)
         for title, results in _sections(page.sections)
         for result in results
         if isinstance(result, Scalar)
-    ]
+    )
 
 
 def _sections(sections: Iterable[Section]) -> Iterator[tuple[str, list[Result]]]:

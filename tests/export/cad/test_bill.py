@@ -8,7 +8,8 @@ import io
 import pytest
 
 import assur
-from assur.export.cad.bill import Row, bill, bill_csv
+from assur.export.cad.bill import bill, bill_csv
+from assur.results.answers.files import BillRow
 from assur.scene.bodies import bodies, fused
 from catalogue import each
 
@@ -56,4 +57,4 @@ def test_the_table_reads_back():
     read = list(csv.reader(io.StringIO(bill_csv(rows))))
     assert read[0][:2] == ["kind", "count"]
     assert [row[3].split() for row in read[1:]] == [list(row.names) for row in rows]
-    assert bill_csv([Row("buy", 'a "b", c', 1, ("A",))]).splitlines()[1] == 'buy,1,"a ""b"", c",A,'
+    assert bill_csv([BillRow("buy", 'a "b", c', 1, ("A",))]).splitlines()[1] == 'buy,1,"a ""b"", c",A,'

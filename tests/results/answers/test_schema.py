@@ -8,7 +8,7 @@ from typing import Literal
 import jsonschema
 import pytest
 
-from assur.results.answers.answer import ABSENT, Absent, Answer, spread
+from assur.results.answers.answer import ABSENT, Absent, Answer, named, spread
 from assur.results.answers.schema import schema_of
 from assur.results.json_text import json_text
 
@@ -19,6 +19,7 @@ class Cut:
 
     kind: Literal["plane", "line"]
     area: float | None
+    by: str = named("found")
     at: Mapping[str, float] = spread()
 
 
@@ -41,7 +42,7 @@ def faults(said):
 
 def said(**changes):
     """An answer as JSON has it, with changes."""
-    answer = Whole((0.0, 1.0), (Cut("plane", float("nan"), {"z": 450.0}),))
+    answer = Whole((0.0, 1.0), (Cut("plane", float("nan"), "rays", {"z": 450.0}),))
     return {**json.loads(json_text(answer)), **changes}
 
 
@@ -50,7 +51,7 @@ def test_the_schema_is_one():
 
 
 def test_an_answer_is_its_fields_without_those_that_are_absent():
-    assert said() == {"ends": [0.0, 1.0], "cuts": [{"z": 450.0, "kind": "plane", "area": None}]}
+    assert said() == {"ends": [0.0, 1.0], "cuts": [{"z": 450.0, "kind": "plane", "area": None, "found": "rays"}]}
     assert faults(said()) == []
     assert faults(said(file="cut.json", interrupted=True)) == []
 
@@ -60,9 +61,9 @@ def test_an_answer_is_its_fields_without_those_that_are_absent():
     [
         {"ends": [0.0]},
         {"ends": [0.0, None]},
-        {"cuts": [{"z": "450", "kind": "plane", "area": None}]},
-        {"cuts": [{"z": 450.0, "kind": "ball", "area": None}]},
-        {"cuts": [{"z": 450.0, "kind": "plane"}]},
+        {"cuts": [{"z": "450", "kind": "plane", "area": None, "found": "rays"}]},
+        {"cuts": [{"z": 450.0, "kind": "ball", "area": None, "found": "rays"}]},
+        {"cuts": [{"z": 450.0, "kind": "plane", "found": "rays"}]},
         {"file": None},
         {"interrupted": False},
         {"other": 1},

@@ -9,14 +9,13 @@ import csv
 import io
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass
-from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.soundness.check import METRES
 from assur.model.mechanism import Input, Joint, MechanismRecord
+from assur.results.answers.files import BillRow
 from assur.scene.bodies import Body, bodies, corners, fused
 from assur.scene.part import Part
 from assur.scene.shapes import Ball, Bar, Box, Cylinder, Shape, Slab
@@ -24,30 +23,7 @@ from assur.scene.shapes import Ball, Bar, Box, Cylinder, Shape, Slab
 FloatArray = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Row:
-    """One line of the bill.
-
-    Attributes:
-        kind: "make" or "buy".
-        what: what it is, in words; of a link its parts with their sizes in mm.
-        count: how many.
-        names: the links, or the joints that it is for.
-        volume: of one, in mm^3; None for what is bought.
-    """
-
-    kind: Literal["make", "buy"]
-    what: str
-    count: int
-    names: tuple[str, ...]
-    volume: float | None = None
-
-    def to_json(self) -> dict[str, Any]:
-        """Plain data."""
-        return asdict(self)
-
-
-def bill(record: MechanismRecord) -> tuple[Row, ...]:
+def bill(record: MechanismRecord) -> tuple[BillRow, ...]:
     """The bill of materials: links first, alike ones (or mirrored ones) in one row, then what is bought.
 
     >>> from assur.model.registry import load_record
@@ -64,7 +40,7 @@ def bill(record: MechanismRecord) -> tuple[Row, ...]:
         else:
             group.append(body)
     rows = [
-        Row(
+        BillRow(
             "make",
             ", ".join(_counted(_words(item, millimetre) for item in group[0].fused)),
             len(group),
@@ -79,14 +55,14 @@ def bill(record: MechanismRecord) -> tuple[Row, ...]:
         driven = next((item for item in record.inputs if item.coordinate.joint == joint.name), None)
         for text in _to_buy(record, joint, own, driven, millimetre):
             bought.setdefault(text, []).append(joint.name)
-    rows += [Row("buy", text, len(names), tuple(names)) for text, names in bought.items()]
+    rows += [BillRow("buy", text, len(names), tuple(names)) for text, names in bought.items()]
     return tuple(rows)
 
 
-def bill_csv(rows: Iterable[Row]) -> str:
+def bill_csv(rows: Iterable[BillRow]) -> str:
     """The bill as a table with commas, one row per line under a line of names.
 
-    >>> bill_csv([Row("buy", "ball joint, ball d 8", 2, ("A", "B"))]).splitlines()[1]
+    >>> bill_csv([BillRow("buy", "ball joint, ball d 8", 2, ("A", "B"))]).splitlines()[1]
     'buy,2,"ball joint, ball d 8",A B,'
     """
     stream = io.StringIO()

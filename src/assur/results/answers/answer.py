@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from assur.errors import Problem
 
-SPREAD = "spread"
+SPREAD, NAME = "spread", "name"
 
 
 class Absent(Enum):
@@ -23,6 +23,11 @@ ABSENT = Absent.ABSENT
 def spread() -> Any:
     """A field with a mapping whose entries stand among the other fields in JSON, as `z` of a section at z."""
     return field(metadata={SPREAD: True})
+
+
+def named(name: str) -> Any:
+    """A field that has another name in JSON."""
+    return field(metadata={NAME: name})
 
 
 def entries(value: Any) -> dict[str, Any]:
@@ -42,8 +47,13 @@ def entries(value: Any) -> dict[str, Any]:
         if attribute.metadata.get(SPREAD):
             said.update(part)
         elif part is not ABSENT:
-            said[attribute.name] = part
-    return said
+            said[attribute.metadata.get(NAME, attribute.name)] = part
+    return said | {name: getattr(value, name) for name in derived_of(type(value))}
+
+
+def derived_of(kind: type) -> tuple[str, ...]:
+    """Properties of a class that stand in JSON too, those that its `derived` names."""
+    return getattr(kind, "derived", ())
 
 
 @dataclass(frozen=True)

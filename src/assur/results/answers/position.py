@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 from assur.results.answers.answer import Answer
 
-Numbers = tuple[float, ...]
+Numbers = Sequence[float]
 
 
 @dataclass(frozen=True)

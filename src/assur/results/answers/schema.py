@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import types
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
-from assur.results.answers.answer import SPREAD, Absent, Answer, Circumstances, NoAnswer
+from assur.results.answers.answer import NAME, SPREAD, Absent, Answer, Circumstances, NoAnswer, derived_of
 
 Schema = dict[str, Any]
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -45,9 +45,9 @@ def _shape(kind: Any, classes: dict[str, Schema]) -> Schema:
     if origin is tuple and inside[-1] is not Ellipsis:
         return {"type": "array", "prefixItems": [_shape(part, classes) for part in inside], "items": False,
                 "minItems": len(inside)}  # fmt: skip
-    if origin in (tuple, list):
+    if origin in (tuple, Sequence):
         return {"type": "array", "items": _shape(inside[0], classes)}
-    if origin in (dict, Mapping):
+    if origin is Mapping:
         return {"type": "object", "additionalProperties": _shape(inside[1], classes)}
     if is_dataclass(kind):
         name = kind.__name__  # type: ignore[union-attr]  # a class
@@ -82,9 +82,13 @@ def _object(kind: Any, classes: dict[str, Schema]) -> Schema:
         if attribute.metadata.get(SPREAD):
             others = _shape(get_args(hint)[1], classes)
             continue
-        properties[attribute.name] = _shape(hint, classes)
+        name = attribute.metadata.get(NAME, attribute.name)
+        properties[name] = _shape(hint, classes)
         if Absent not in get_args(hint):
-            required.append(attribute.name)
+            required.append(name)
+    for name in derived_of(kind):
+        properties[name] = _shape(get_type_hints(getattr(kind, name).fget)["return"], classes)
+        required.append(name)
     if issubclass(kind, Answer):
         properties |= _object(Circumstances, classes)["properties"]
     said = (kind.__doc__ or "").strip().partition("\n\n")[0]
