@@ -1,9 +1,9 @@
 """Prime fields F_p whose quadratic extension F_p(i) holds roots of all residues, and the usual roots of unity.
 
-The prime is drawn, 2^30 < p < 2^31, so that no number of a formula can be written to vanish modulo it; p + 1 is a
-multiple of `ORDER`. So -1 has no root in F_p, every residue has one in F_p(i), and the unit circle
-a^2 + b^2 = 1 of F_p holds the cosines and sines of all multiples of a turn over `ORDER`. Roots of rationals are made of
-these (Gauss sums), as over real numbers: the root of 3 is twice the cosine of 30 deg.
+The prime is drawn, so that no number of a formula can be written to vanish modulo it; p + 1 is a multiple of `ORDER`.
+So -1 has no root in F_p, every residue has one in F_p(i), and the unit circle a^2 + b^2 = 1 of F_p holds the cosines
+and sines of all multiples of a turn over `ORDER`. Roots of rationals are made of these (Gauss sums), as over real
+numbers: the root of 3 is twice the cosine of 30 deg.
 """
 
 from __future__ import annotations
@@ -14,13 +14,17 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 
 import numpy as np
+from flint import fmpz
 
 ORDER = 50_400
 """2^5 3^2 5^2 7: shares of a turn with which tenths and quarters of degrees, and regular polygons, are written."""
-SMALLEST = 2**30
-"""Of the primes; below twice that the sum of two products of residues is an integer of 64 bits."""
-WITNESSES = (2, 3, 5, 7)
-"""Bases of Miller and Rabin that tell every prime below 3 215 031 751."""
+UNITS = 11_520
+"""Of the integers below `ORDER` so many have no factor in common with it: the degree of the field of its roots."""
+SMALL, LARGE = 2**30, 2**160
+"""Least primes that are drawn. Below twice the first the sum of two products of residues is an integer of 64 bits. Of
+the large ones there are so many that hardly any is a divisor of a given number, however long that is."""
+TRIES = 20_000
+"""Numbers that are looked at for a prime; one in some sixteen is one of a large field, one in four of a small one."""
 SIMPLE = 2.0**-51
 """Share of a float within which it may be another number, rounded once or twice, as 0.1 + 0.2 is."""
 TRIED = 1000
@@ -63,19 +67,18 @@ class PrimeField:
     turn: tuple[int, int]
 
     @staticmethod
-    def drawn(random: np.random.Generator) -> PrimeField:
-        """One of the some four thousand primes.
+    def drawn(random: np.random.Generator, least: int = SMALL) -> PrimeField:
+        """One of the primes between a bound and twice it; some four thousand between `SMALL` and twice that.
 
         >>> field = PrimeField.drawn(np.random.default_rng(0))
         >>> (field.p + 1) % ORDER, field.cosine_and_sine(Fraction(1, 4))
         (0, (0, 1))
         """
+        first, last = least // ORDER + 1, 2 * least // ORDER
+        numbers = (ORDER * below(random, first, last) - 1 for _ in range(TRIES))
+        p = next(number for number in numbers if fmpz(number).is_prime())
         while True:
-            p = ORDER * int(random.integers(SMALLEST // ORDER + 1, 2 * SMALLEST // ORDER)) - 1
-            if _is_prime(p):
-                break
-        while True:
-            a, b = (int(part) for part in random.integers(1, p, size=2))
+            a, b = below(random, 1, p), below(random, 1, p)
             size = pow(a * a + b * b, -1, p)
             on_circle = (a * a - b * b) * size % p, 2 * a * b * size % p  # z / conjugate of z
             turn = _power(on_circle, (p + 1) // ORDER, p)
@@ -89,6 +92,19 @@ class PrimeField:
         if share.denominator != 1:
             raise NoResidueError(f"an angle of {turns} turns")
         return _power(self.turn, share.numerator % ORDER, self.p)
+
+    def missed(self, bits: float) -> float:
+        """How likely a large prime that is drawn divides a number of the field that is not zero, modulo a prime of it.
+
+        The number is an algebraic integer whose conjugates have magnitudes below 2 to the power of `bits`: of a norm
+        below 2^(bits degree) fewer than bits degree / log2(p) primes are divisors. Each of `TRIES` candidates is one
+        of them with that share of all candidates, however many of these are primes.
+
+        >>> PrimeField.drawn(np.random.default_rng(0), LARGE).missed(1e9) < 1e-20
+        True
+        """
+        degree = UNITS * 2.0 ** len(self._roots)
+        return min(1.0, TRIES * (bits * degree / math.log2(self.p) + 1) * 2 * ORDER / self.p)
 
     def residue(self, number: Fraction) -> int:
         """The residue of a rational."""
@@ -152,15 +168,7 @@ def _power(base: tuple[int, int], exponent: int, p: int) -> tuple[int, int]:
     return result
 
 
-def _is_prime(number: int) -> bool:
-    """Miller and Rabin's test, which is a proof for numbers of this size."""
-    odd, twos = number - 1, 0
-    while odd % 2 == 0:
-        odd, twos = odd // 2, twos + 1
-    for witness in WITNESSES:
-        value = pow(witness, odd, number)
-        if value in (1, number - 1):
-            continue
-        if not any((value := value * value % number) == number - 1 for _ in range(twos - 1)):
-            return False
-    return True
+def below(random: np.random.Generator, low: int, high: int) -> int:
+    """An integer of any size, low <= it < high, every one but for 2^-64 as likely as another."""
+    size = (high - low).bit_length() + 64
+    return low + int.from_bytes(random.bytes(-(-size // 8))) % (high - low)

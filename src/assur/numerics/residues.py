@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 
 from assur.numerics.drawn_angles import DrawnAngles
 from assur.numerics.powers import whole_power
-from assur.numerics.prime_field import ORDER, PrimeField, simplest
+from assur.numerics.prime_field import ORDER, PrimeField, below, simplest
 
 IntArray = NDArray[np.int64]
+"""Of residues modulo a large prime, Python's integers."""
 BoolArray = NDArray[np.bool_]
 
 
@@ -59,8 +60,8 @@ class Residues:
             return draws.number(1 / self.exact)
         draws.give_up(self.zero())
         if self.im is None:
-            return Residues(draws, raised(self.re, p - 2, p))
-        size = raised((self.re * self.re + self.im * self.im) % p, p - 2, p)
+            return Residues(draws, inverted(self.re, p))
+        size = inverted((self.re * self.re + self.im * self.im) % p, p)
         return Residues(draws, self.re * size % p, -self.im * size % p)
 
     def __pos__(self) -> Residues:
@@ -160,7 +161,8 @@ class Draws(DrawnAngles):
         sound: draws (N,) at which everything that was asked for exists.
         tied: how many roots are tied to others, or to none: their radicands are squares of formulas.
         guarded: whether a number was left out that only keeps a divisor from being zero.
-        roots: what each call of `sqrt` gave: a root of its own, or one again, or none but of a rational.
+        roots: what each call of `sqrt` gave: a root of its own, or one again, or None for a formula without one; and
+            the rational by whose root it was multiplied.
         positive: numbers that are never negative; the root of the square of their product is the product.
 
     >>> draws = Draws(PrimeField.drawn(np.random.default_rng(0)), 8, np.random.default_rng(1))
@@ -175,18 +177,18 @@ class Draws(DrawnAngles):
         self.tied = 0
         self.guarded = False
         self.positive: list[Residues] = []
-        self.roots: list[object] = []
+        self.roots: list[tuple[object, Fraction]] = []
         self._known: list[tuple[Residues, Residues]] = []
         self._characters: list[BoolArray] = []
 
     def number(self, value: Any) -> Residues:
         """A rational, a float as the simplest one that it may stand for, or the text of a decimal."""
         exact = simplest(float(value)) if isinstance(value, (float, np.floating)) else Fraction(value)
-        return Residues(self, np.array([self.field.residue(exact)], dtype=np.int64), None, exact)
+        return Residues(self, self._array(self.field.residue(exact)), None, exact)
 
     def uniform(self) -> Residues:
         """A number of F_p at each draw."""
-        return Residues(self, self.random.integers(0, self.field.p, size=self.count))
+        return Residues(self, self._array(*(below(self.random, 0, self.field.p) for _ in range(self.count))))
 
     def circle(self) -> tuple[Residues, Residues]:
         """Cosine and sine of an angle at each draw."""
@@ -204,7 +206,9 @@ class Draws(DrawnAngles):
 
     def signs(self) -> Residues:
         """1 or -1 at each draw."""
-        return Residues(self, np.where(self.random.random(self.count) < 0.5, 1, self.field.p - 1))
+        return Residues(
+            self, np.where(self.random.random(self.count) < 0.5, self._array(1), self._array(self.field.p - 1))
+        )
 
     def give_up(self, where: BoolArray) -> None:
         """Leave draws out."""
@@ -212,29 +216,30 @@ class Draws(DrawnAngles):
 
     def sqrt(self, radicand: Any, /) -> Residues:
         """A root; the same one wherever the radicand is the same, or a rational times it."""
-        root, name = self._root_and_name(radicand if isinstance(radicand, Residues) else self.number(radicand))
-        self.roots.append(name)
+        root, name, share = self._known_root(radicand if isinstance(radicand, Residues) else self.number(radicand))
+        self.roots.append((name, share))
         return root
 
-    def _root_and_name(self, value: Residues) -> tuple[Residues, object]:
+    def _known_root(self, value: Residues) -> tuple[Residues, object, Fraction]:
         if value.exact is not None:
-            return self._of_rational(value.exact), None
+            return self._of_rational(value.exact), None, Fraction(1)
         for inverse, known in self._known:
             share = self._rational(value, inverse)
             if share is not None:
-                return self._of_rational(share) * known, known
+                return self._of_rational(share) * known, known, share
         tied = self.tied
         root = self._root(value) * self.signs()
         product = self._product_under(value) if self.tied > tied else None
         if product is not None:
             self.tied, root = tied, product
         self._known.append((value.inverse(), root))
-        return root, root if product is None else None
+        return root, root if product is None else None, Fraction(1)
 
     def _of_rational(self, value: Fraction) -> Residues:
         re, im = self.field.root(value)
         root = Fraction(math.isqrt(max(value.numerator, 0)), math.isqrt(value.denominator))
-        return Residues(self, np.array([re]), np.array([im]) if im else None, root if root * root == value else None)
+        exact = root if root * root == value else None
+        return Residues(self, self._array(re), self._array(im) if im else None, exact)
 
     def vanishes(self, number: Any, /) -> bool:
         """Whether a number is zero at every draw."""
@@ -257,12 +262,15 @@ class Draws(DrawnAngles):
                         return positive
         return None
 
+    def _array(self, *residues: int) -> IntArray:
+        return np.array(residues, dtype=np.int64 if self.field.p < 2**31 else object)
+
     def _same(self, residue: int) -> Residues:
         """One residue at every draw; small ones stand for themselves."""
         p = self.field.p
         exact = {0: Fraction(0), 1: Fraction(1), p - 1: Fraction(-1), (p + 1) // 2: Fraction(1, 2)}.get(residue)
         exact = Fraction(-1, 2) if residue == (p - 1) // 2 else exact
-        return Residues(self, np.array([residue], dtype=np.int64), None, exact)
+        return Residues(self, self._array(residue), None, exact)
 
     def _rational(self, value: Residues, inverse: Residues) -> Fraction | None:
         """A positive rational of few digits that one number is of another, given by its reciprocal, at every draw."""
@@ -293,7 +301,7 @@ class Draws(DrawnAngles):
         first = raised(above, (p + 1) // 4, p)
         along = np.where(first * first % p == above, first, raised(below, (p + 1) // 4, p))
         self.give_up(along == 0)
-        return Residues(self, along, im * raised(2 * along % p, p - 2, p) % p)
+        return Residues(self, along, im * inverted(2 * along % p, p) % p)
 
     def _weigh(self, square: BoolArray, constant: bool) -> None:
         """Whether a radicand in F_p is tied to others: a product of them has a root in F_p always or never."""
@@ -329,9 +337,18 @@ def _few_digits(residue: int, p: int) -> Fraction | None:
 
 def raised(base: IntArray, exponent: int, p: int) -> IntArray:
     """Powers modulo p."""
+    if base.dtype == object:
+        return np.frompyfunc(lambda number: pow(number, exponent, p), 1, 1)(base)  # type: ignore[no-any-return]
     result = np.ones_like(base)
     for digit in bin(exponent)[2:]:
         result = result * result % p
         if digit == "1":
             result = result * base % p
     return result
+
+
+def inverted(base: IntArray, p: int) -> IntArray:
+    """Reciprocals modulo p, and 0 of 0."""
+    if base.dtype == object:  # by Euclid's algorithm
+        return np.frompyfunc(lambda number: pow(number, -1, p) if number else 0, 1, 1)(base)  # type: ignore[no-any-return]
+    return raised(base, p - 2, p)

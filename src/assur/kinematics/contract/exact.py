@@ -23,15 +23,16 @@ from assur.kinematics.modes import Problem
 from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.degrees import Degree, Degrees
-from assur.numerics.prime_field import SMALLEST, PrimeField
-from assur.numerics.residues import Draws, Residues, raised
+from assur.numerics.prime_field import LARGE, PrimeField
+from assur.numerics.residues import Draws, Residues, inverted
 
 IntArray = NDArray[np.int64]
-DRAWS = 2048
-"""At once: roots of roots exist at half of them."""
-LEAST = 8
-"""So many of them are looked at for motions, which take longest, or as many as bring the error below `ENOUGH`."""
+DRAWS = 256
+"""At once: roots of roots exist at half of them, and dozens show which radicands are tied."""
+AGAIN = 16
+"""So often at most, until all roots exist at some of them."""
 ENOUGH = 1e-24
+"""As many draws as bring the error below this are looked at for motions, which take longest."""
 TIED = "the root of a formula's square has either sign: write the formula itself, where its sign is known"
 SURE = 1e-15
 """An error with a probability below this is none."""
@@ -81,8 +82,7 @@ def _exactness(record: MechanismRecord, general: bool) -> Exactness:
     error, guarded = 0.0, False
     for problem in problems_by_formulas(record):
         try:
-            trial = Trial(record, problem, general, random)
-            broken = trial.mismatch()
+            trial, broken = _tried(record, problem, general, random)
         except (ArithmeticError, TypeError, ValueError, AttributeError, MechanismFileError) as reason:
             # dimensions that are drawn may divide by zero, and Python that was let run may know floats alone
             return Exactness(undecided=f"{type(reason).__name__}: {reason}", general=general)
@@ -91,6 +91,18 @@ def _exactness(record: MechanismRecord, general: bool) -> Exactness:
         error, guarded = error + trial.error, guarded or trial.draws.guarded
     unsure = f"the degrees of its formulas leave an error of {error:.0e}" if error >= SURE else ""
     return Exactness((), error, general, guarded, unsure)
+
+
+def _tried(
+    record: MechanismRecord, problem: Problem, general: bool, random: np.random.Generator
+) -> tuple[Trial, Mismatch | None]:
+    """Draws at some of which all roots exist, and what is broken."""
+    for _ in range(AGAIN):
+        trial = Trial(record, problem, general, random)
+        broken = trial.mismatch()
+        if broken or trial.sound:
+            break
+    return trial, broken
 
 
 def problems_by_formulas(record: MechanismRecord) -> tuple[Problem, ...]:
@@ -108,10 +120,10 @@ class Trial:
 
     def __init__(self, record: MechanismRecord, problem: Problem, general: bool, random: np.random.Generator) -> None:
         self.record, self.problem, self.general = record, problem, general
-        self.draws = Draws(PrimeField.drawn(random), DRAWS, random)
+        self.draws = Draws(PrimeField.drawn(random, LARGE), DRAWS, random)
         self.question = DrawnProblem(record, problem, self.draws, general)
         self.degrees = DrawnProblem(record, problem, Degrees(self.draws.roots), general)
-        self.error = 0.0
+        self.error = self.degree = 0.0
 
     def mismatch(self) -> Mismatch | None:
         """The first claim that is broken; the error is known afterwards."""
@@ -128,23 +140,29 @@ class Trial:
                 wrong |= self._wrong(number)
             wrong &= self.draws.sound
             if np.any(wrong):
-                text = f"{claim.text} {self._where(wrong, self._sound)}"
+                text = f"{claim.text} {self._where(wrong, self.sound)}"
                 name = claim.name or self._label(wrong, claim.part)
                 return Mismatch(claim.part, name, self.problem, text, claim.allowed, self._hint)
-            self._missed(max(map(_bound, own.numbers), default=0.0), self._sound)
+            for number in own.numbers:
+                if isinstance(number, Degree):
+                    self._missed(number, self.sound)
         return None
 
     @property
-    def _sound(self) -> int:
+    def sound(self) -> int:
+        """At how many draws all roots exist."""
         return int(np.sum(self.draws.sound))
 
-    def _missed(self, degree: float, draws: int) -> None:
-        """Note how likely a claim that is broken was not seen."""
-        self.error += self._unlike(degree * DRAWS / max(self._sound, 1)) ** draws  # given that all roots exist
+    def _missed(self, number: Degree, draws: int) -> None:
+        """Note how likely a number that is not zero was not seen: it is zero modulo p, or at all draws."""
+        unseen = self._unlike(number.bound * DRAWS / max(self.sound, 1)) ** draws  # given that all roots exist
+        self.error += self.draws.field.missed(number.bits) + unseen
+        self.degree = max(self.degree, number.bound)
 
     def _unlike(self, degree: float) -> float:
         """At what share of draws a polynomial, not zero for some signs of tied roots, may vanish."""
-        return 1 - 2.0**-self.draws.tied * (1 - min(1.0, degree / SMALLEST))
+        some = 2.0**-self.draws.tied
+        return 1 - some + some * min(1.0, degree / LARGE)
 
     def _wrong(self, number: Any) -> NDArray[np.bool_]:
         if isinstance(number, Residues):
@@ -171,32 +189,27 @@ class Trial:
 
     def _wrong_rates(self) -> Mismatch | None:
         rates, degrees = self.question.rates(), self.degrees.rates()
-        rows = sorted((_row(row) for row in (*degrees.closure, *degrees.relation)), key=lambda row: -row[0])
-        rows = rows[: len(degrees.relation[0]) + 1]  # of a minor
-        roots = len(frozenset().union(*(own for _, own in rows)))
-        degree = sum(own for own, _ in rows) * 2.0**roots
-        needed = math.log(ENOUGH) / math.log(max(self._unlike(degree), 1e-9)) if self._unlike(degree) < 1 else DRAWS
-        kept = np.flatnonzero(self.draws.sound)[: max(LEAST, math.ceil(needed))]
+        minor = _minor([*degrees.closure, *degrees.relation], len(degrees.relation[0]) + 1)
+        unlike = self._unlike(minor.bound)
+        needed = math.log(ENOUGH) / math.log(max(unlike, 1e-300)) if unlike < 1 else DRAWS
+        kept = np.flatnonzero(self.draws.sound)[: max(1, math.ceil(needed))]
         for line, wrong in enumerate(unexplained(self.draws, rates, kept), 1):
             if np.any(wrong):
                 text = f"row {line} of Jp v = Jq qdot is wrong for a motion of the joint graph "
                 text += self._where(wrong, len(kept))
                 allowed = "every motion of the joint graph must obey it"
                 return Mismatch("Jp and Jq", f"row {line}", self.problem, text, allowed, self._hint)
-        self._missed(degree, len(kept))
+        self._missed(minor, len(kept))
         return None
 
 
-def _bound(number: Any) -> float:
-    return number.bound if isinstance(number, Degree) else 0.0
-
-
-def _row(numbers: Sequence[Any]) -> tuple[float, frozenset[object]]:
-    """Degree of the numerators of a row over a common denominator, and its roots."""
-    total: Any = 0
-    for number in numbers:
-        total = number + total if isinstance(number, Degree) else total
-    return (total.over, total.roots) if isinstance(total, Degree) else (0.0, frozenset())
+def _minor(rows: Sequence[Sequence[Any]], size: int) -> Degree:
+    """The largest minor of so many rows: a sum of products of entries, as many as there are permutations."""
+    wholes = [sum((number for number in row if isinstance(number, Degree)), start=Degree()) for row in rows]
+    largest = sorted(wholes, key=lambda whole: -whole.over)[:size]
+    highest = sorted((whole.height for whole in wholes), reverse=True)[:size]
+    roots = frozenset[object]().union(*(whole.roots for whole in largest))
+    return Degree(sum(whole.over for whole in largest), {}, roots, sum(highest) + math.log2(math.factorial(size)))
 
 
 def unexplained(draws: Draws, rates: Rates, kept: NDArray[np.intp]) -> list[NDArray[np.bool_]]:
@@ -218,7 +231,7 @@ def unexplained(draws: Draws, rates: Rates, kept: NDArray[np.intp]) -> list[NDAr
         a, b = re[pivot, column], im[pivot, column]
         size = (a * a + b * b) % p  # zero for zero alone
         sound &= size != 0
-        over = raised(size, p - 2, p)
+        over = inverted(size, p)
         inverse = a * over % p, -b * over % p
         line = _times((re[pivot], im[pivot]), inverse, p)
         others = [*free, *range(count, len(rows))]
@@ -233,7 +246,7 @@ def unexplained(draws: Draws, rates: Rates, kept: NDArray[np.intp]) -> list[NDAr
 
 def _numbers(draws: Draws, row: Sequence[Any], kept: NDArray[np.intp]) -> tuple[IntArray, IntArray]:
     """A row's residues (columns, draws), real and imaginary parts."""
-    re, im = np.zeros((2, len(row), len(kept)), dtype=np.int64)
+    re, im = np.zeros((2, len(row), len(kept)), dtype=object)
     for k, number in enumerate(row):
         own = number if isinstance(number, Residues) else draws.number(number)
         re[k] = own.re[kept] if len(own.re) > 1 else own.re
