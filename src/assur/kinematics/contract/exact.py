@@ -27,12 +27,12 @@ from assur.numerics.prime_field import LARGE, PrimeField
 from assur.numerics.residues import Draws, Residues, inverted
 
 IntArray = NDArray[np.int64]
-DRAWS = 256
+DRAWS = 128
 """At once: roots of roots exist at half of them, and dozens show which radicands are tied."""
-AGAIN = 16
-"""So often at most, until all roots exist at some of them."""
+AGAIN = 32
+"""So often at most they are drawn, with another prime each time, until the error is small enough."""
 ENOUGH = 1e-24
-"""As many draws as bring the error below this are looked at for motions, which take longest."""
+"""An error that is small enough; as many draws as bring it about are looked at for motions, which take longest."""
 TIED = "the root of a formula's square has either sign: write the formula itself, where its sign is known"
 SURE = 1e-15
 """An error with a probability below this is none."""
@@ -48,6 +48,9 @@ class Exactness:
         general: whether it holds with any dimensions.
         guarded: whether numbers like 1e-30 that keep divisors from being zero were left out.
         undecided: why nothing is said, if so.
+        primes: modulo which it was looked at, one for each problem and repetition.
+        places: at how many draws in all.
+        degree: the largest of a polynomial that must vanish.
     """
 
     mismatches: tuple[Mismatch, ...] = ()
@@ -55,6 +58,9 @@ class Exactness:
     general: bool = True
     guarded: bool = False
     undecided: str = ""
+    primes: tuple[int, ...] = ()
+    places: int = 0
+    degree: float = 0.0
 
     @property
     def proved(self) -> bool:
@@ -79,30 +85,30 @@ def exactness(record: MechanismRecord) -> Exactness:
 
 def _exactness(record: MechanismRecord, general: bool) -> Exactness:
     random = np.random.default_rng(secrets.randbits(64))
-    error, guarded = 0.0, False
+    error, trials = 0.0, list[Trial]()
     for problem in problems_by_formulas(record):
-        try:
-            trial, broken = _tried(record, problem, general, random)
-        except (ArithmeticError, TypeError, ValueError, AttributeError, MechanismFileError) as reason:
-            # dimensions that are drawn may divide by zero, and Python that was let run may know floats alone
-            return Exactness(undecided=f"{type(reason).__name__}: {reason}", general=general)
-        if broken:
-            return Exactness((broken,), general=general)
-        error, guarded = error + trial.error, guarded or trial.draws.guarded
-    unsure = f"the degrees of its formulas leave an error of {error:.0e}" if error >= SURE else ""
-    return Exactness((), error, general, guarded, unsure)
-
-
-def _tried(
-    record: MechanismRecord, problem: Problem, general: bool, random: np.random.Generator
-) -> tuple[Trial, Mismatch | None]:
-    """Draws at some of which all roots exist, and what is broken."""
-    for _ in range(AGAIN):
-        trial = Trial(record, problem, general, random)
-        broken = trial.mismatch()
-        if broken or trial.sound:
-            break
-    return trial, broken
+        missed = 1.0
+        while missed > ENOUGH and len(trials) < AGAIN:
+            try:
+                trial = Trial(record, problem, general, random)
+                broken = trial.mismatch()
+            except (ArithmeticError, TypeError, ValueError, AttributeError, MechanismFileError) as reason:
+                # dimensions that are drawn may divide by zero, and Python that was let run may know floats alone
+                return Exactness(undecided=f"{type(reason).__name__}: {reason}", general=general)
+            if broken:
+                return Exactness((broken,), general=general)
+            missed *= min(1.0, trial.error)
+            trials.append(trial)
+        error += missed
+    return Exactness(
+        error=error,
+        general=general,
+        guarded=any(trial.draws.guarded for trial in trials),
+        undecided=f"the degrees of its formulas leave an error of {error:.0e}" if error >= SURE else "",
+        primes=tuple(trial.draws.field.p for trial in trials),
+        places=sum(trial.sound for trial in trials),
+        degree=max(trial.degree for trial in trials),
+    )
 
 
 def problems_by_formulas(record: MechanismRecord) -> tuple[Problem, ...]:
