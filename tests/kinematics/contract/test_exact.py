@@ -70,6 +70,10 @@ def test_a_right_form_is_exact_with_any_dimensions(copied, name):
     found = exactness(load_record(copied(name)))
     assert (found.mismatches, found.undecided, found.general) == ((), "", True)
     assert found.error < 1e-15
+    assert len(set(found.primes)) == len(found.primes) > 0
+    assert min(found.primes) > 2**160
+    assert found.places > 0
+    assert found.degree > 0
 
 
 @pytest.mark.parametrize("what", WRONG)
@@ -101,4 +105,4 @@ def test_other_primes_say_the_same(name, seed):
     for problem in ("inverse", "direct") if name in ("fivebar", "zeng2019", "orthoglide") else ("inverse",):
         trial = Trial(load_record(name), problem, True, np.random.default_rng(seed))
         assert trial.mismatch() is None
-        assert trial.error < 1e-15
+        assert trial.error < 1e-15 or trial.draws.tied or trial.sound < 8  # then others are drawn
