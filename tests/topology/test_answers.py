@@ -1,13 +1,11 @@
 from __future__ import annotations
 
-import json
-
 import pytest
 
 import assur
 from assur.derived_topology import topology
 from assur.model.registry import topology_names
-from assur.results.json_text import json_text
+from assur.results.json_text import plain
 from assur.topology.answers import answers, mark_text, refusals
 from assur.topology.poc import Mark, PocSet
 
@@ -23,7 +21,7 @@ CONTRACT = {
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_contract_of_keys_and_kinds(name):
-    found = json.loads(json_text(answers(topology(name))))
+    found = plain(answers(topology(name)))
     for key, inner in CONTRACT.items():
         for item in found[key] if isinstance(found[key], list) else [found[key]]:
             assert inner <= item.keys(), key
@@ -40,7 +38,7 @@ def test_the_contract_of_keys_and_kinds(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_sums_of_the_theory(name):
-    found = answers(topology(name))
+    found = plain(answers(topology(name)))
     loops = found["loops"]
     assert sorted(index for chain in found["assur_chains"] for index in chain["loops"]) == list(range(len(loops)))
     for chain in found["assur_chains"]:
@@ -59,7 +57,7 @@ def test_refusals_name_what_the_rules_do_not_decide():
         found = topology(name)
         said = refusals(found)
         assert bool(said) == (found.routes_agree is None)
-        assert all(item["reason"] for item in said)
+        assert all(item.reason for item in said)
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from assur.audit.rows import Audit
 from assur.results.answers.catalogue import CatalogueAnswer, MechanismAnswer
 from assur.results.answers.certified import CertifiedDirect, CertifiedInverse
+from assur.results.answers.check import CheckAnswer
 from assur.results.answers.comparison import CrossCheckAnswer
 from assur.results.answers.files import (
     EndedView,
@@ -17,10 +18,12 @@ from assur.results.answers.files import (
 )
 from assur.results.answers.installation import CacheAnswer, DemonstrationAnswer, InstallationAnswer
 from assur.results.answers.position import DirectAnswer, InverseAnswer
+from assur.results.answers.topology import SynthesisAnswer, TopologyAnswer
 
 ANSWERS: dict[str, tuple[type, ...]] = {
     "audit": (Audit,),
     "cache": (CacheAnswer,),
+    "check": (CheckAnswer,),
     "crosscheck": (CrossCheckAnswer,),
     "demo": (DemonstrationAnswer,),
     "direct": (DirectAnswer, CertifiedDirect),
@@ -34,5 +37,7 @@ ANSWERS: dict[str, tuple[type, ...]] = {
     "page": (WrittenPage,),
     "report": (WrittenReport,),
     "show": (MechanismAnswer,),
+    "synthesize": (SynthesisAnswer,),
+    "topology": (TopologyAnswer,),
     "view": (EndedView,),
 }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
@@ -15,6 +15,10 @@ from assur.cli.quantities import count
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
+
+    from assur.errors import Problem
+    from assur.model.mechanism import MechanismRecord
+    from assur.results.answers.check import CheckAnswer, ExactAnswer, SoundFacts
 
 
 def check(
@@ -57,7 +61,7 @@ def check(
     return _outcome(record.name, found, () if found else doubts(record), facts, _next(mechanism))
 
 
-def _of_closed_form(record: Any, deep: bool) -> tuple[Any, ...]:
+def _of_closed_form(record: MechanismRecord, deep: bool) -> tuple[Problem, ...]:
     """What a closed form claims and the joint graph denies; at places, one that is built in is held so by the tests."""
     from assur.kinematics.contract.admission import closed_form_problems
     from assur.kinematics.contract.check import exact_problems
@@ -66,47 +70,39 @@ def _of_closed_form(record: Any, deep: bool) -> tuple[Any, ...]:
     return closed_form_problems(record, DEEP if deep else IN_FULL, built_in=deep) or exact_problems(record)
 
 
-def _unproved(record: Any) -> list[str]:
-    """What a closed form of one's own leaves to be believed."""
-    from assur.kinematics.contract.check import unproved
-    from assur.model.registry import is_built_in
-
-    own = record.closed_form is not None and not is_built_in(record)
-    return list(unproved(record)) if own else []
-
-
-def _exact(record: Any) -> dict[str, Any] | None:
+def _exact(record: MechanismRecord) -> ExactAnswer | None:
     """What exact arithmetic says of the formulas of a closed form."""
     from assur.kinematics.contract.exact import exactness
+    from assur.results.answers.check import ExactAnswer
 
     if record.closed_form is None:
         return None
     exact = exactness(record)
-    return {
-        "proved": exact.proved,
-        "any_dimensions": exact.general if exact.proved else None,
-        "error": exact.error if exact.proved else None,
-        "guards_left_out": exact.guarded,
-        "because": exact.undecided,
-    }
+    proved = exact.proved
+    return ExactAnswer(
+        proved, exact.general if proved else None, exact.error if proved else None, exact.guarded, exact.undecided
+    )
 
 
-def _summary(record: Any) -> dict[str, Any]:
+def _summary(record: MechanismRecord) -> SoundFacts:
+    from assur.kinematics.contract.check import unproved
     from assur.kinematics.rates.motions import general
     from assur.model.registry import is_built_in
+    from assur.results.answers.check import SoundFacts
 
     usual = general(record)
-    return {
-        "links": len(record.links),
-        "joints": len(record.joints),
-        "freedoms": int(usual.freedoms - usual.internal),
-        "internal_freedoms": int(usual.internal),
-        "closed_form": record.closed_form is not None,
-        "closed_form_checked": record.closed_form is not None and not is_built_in(record),
-        "closed_form_not_run": record.closed_form_not_run,
-        "exact": _exact(record),
-        "unproved": _unproved(record),
-    }
+    own = record.closed_form is not None and not is_built_in(record)
+    return SoundFacts(
+        links=len(record.links),
+        joints=len(record.joints),
+        freedoms=int(usual.freedoms - usual.internal),
+        internal_freedoms=int(usual.internal),
+        closed_form=record.closed_form is not None,
+        closed_form_checked=own,
+        closed_form_not_run=record.closed_form_not_run,
+        exact=_exact(record),
+        unproved=tuple(unproved(record)) if own else (),
+    )
 
 
 def _next(mechanism: str) -> str:
@@ -115,55 +111,52 @@ def _next(mechanism: str) -> str:
 
 
 def _outcome(
-    name: str, problems: Iterable[Any], notes: Iterable[Any], facts: dict[str, Any] | None, then: str = ""
+    name: str,
+    problems: Iterable[Problem],
+    notes: Iterable[Problem],
+    facts: SoundFacts | None,
+    then: str = "",
 ) -> Outcome:
-    problems, notes = list(problems), list(notes)
-    data = {
-        "mechanism": name,
-        "sound": not problems,
-        "faults": [vars(problem) for problem in problems],
-        "notes": [vars(note) for note in notes],
-        "facts": facts,
-    }
-    return Outcome(
-        data, lambda: _shown(data, problems, notes, then), exit_codes.BAD_FILE if problems else exit_codes.FINE
-    )
+    from assur.results.answers.check import CheckAnswer
+
+    faults = tuple(problems)
+    answer = CheckAnswer(name, not faults, faults, tuple(notes), facts)
+    return Outcome(answer, lambda: _shown(answer, then), exit_codes.BAD_FILE if faults else exit_codes.FINE)
 
 
-def _shown(data: dict[str, Any], problems: list[Any], notes: list[Any], then: str) -> Iterable[RenderableType]:
-    if problems:
-        yield heading(f"{data['mechanism']}: {count(len(problems), 'fault')}")
-        yield from (Verbatim(problem) for problem in problems)
+def _shown(data: CheckAnswer, then: str) -> Iterable[RenderableType]:
+    if (facts := data.facts) is None:
+        yield heading(f"{data.mechanism}: {count(len(data.faults), 'fault')}")
+        yield from (Verbatim(problem) for problem in data.faults)
         return
-    facts = data["facts"]
-    yield heading(f"{data['mechanism']}: sound")
-    internal = facts["internal_freedoms"]
+    yield heading(f"{data.mechanism}: sound")
+    internal = facts.internal_freedoms
     spins = f" and {count(internal, 'internal freedom')}" if internal else ""
-    bodies = f"{count(facts['links'], 'link')}, {count(facts['joints'], 'joint')}"
-    yield f"{bodies}; {count(facts['freedoms'], 'freedom')}{spins}"
-    if facts["closed_form_not_run"]:
+    bodies = f"{count(facts.links, 'link')}, {count(facts.joints, 'joint')}"
+    yield f"{bodies}; {count(facts.freedoms, 'freedom')}{spins}"
+    if facts.closed_form_not_run:
         yield "its closed form is Python that assur cannot read as formulas, and was not run: the joint graph answers"
-    elif facts["closed_form_checked"]:
+    elif facts.closed_form_checked:
         yield "a closed form stands beside it, and agrees with the joint graph"
-    elif facts["closed_form"]:
+    elif facts.closed_form:
         yield "a closed form stands beside it"
     else:
         yield "no closed form: it is solved on its joint graph"
-    if facts["exact"]:
-        yield Verbatim(_exact_text(facts["exact"]))
-    if facts["unproved"]:
+    if facts.exact:
+        yield Verbatim(_exact_text(facts.exact))
+    if facts.unproved:
         yield Verbatim(
-            f"note: by the way it is made it is not known of {count(len(facts['unproved']), 'divisor or radicand')} "
-            f"that it means something everywhere; no place was found where it does not: {facts['unproved'][0]}"
+            f"note: by the way it is made it is not known of {count(len(facts.unproved), 'divisor or radicand')} "
+            f"that it means something everywhere; no place was found where it does not: {facts.unproved[0]}"
         )
-    yield from (Verbatim(f"note: {note}") for note in notes)
+    yield from (Verbatim(f"note: {note}") for note in data.notes)
     if then:
         yield Verbatim(then)
 
 
-def _exact_text(exact: dict[str, Any]) -> str:
-    if not exact["proved"]:
-        return f"note: its formulas were held at places only, not in exact arithmetic: {exact['because']}"
-    special = "" if exact["any_dimensions"] else "with these dimensions "
-    guards = " but where numbers below 1e-25 that are added to others count" if exact["guards_left_out"] else ""
+def _exact_text(exact: ExactAnswer) -> str:
+    if not exact.proved:
+        return f"note: its formulas were held at places only, not in exact arithmetic: {exact.because}"
+    special = "" if exact.any_dimensions else "with these dimensions "
+    guards = " but where numbers below 1e-25 that are added to others count" if exact.guards_left_out else ""
     return f"{special}the formulas close the joint graph: exact{guards}, error < 1e-15"

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
@@ -14,10 +15,12 @@ from assur.cli.options import PLAIN, Outcome, Plain
 from assur.cli.output import heading, table
 from assur.cli.progress import progress
 from assur.errors import UnknownNameError, UsageError
+from assur.results.answers.answer import ABSENT
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
+    from assur.results.answers.topology import SynthesisAnswer
     from assur.synthesis.designs import Design
     from assur.synthesis.limbs import Actuators
     from assur.synthesis.synthesis import Synthesis
@@ -135,20 +138,20 @@ def _outcome(found: Synthesis, top: int | None, folder: Path | None) -> Outcome:
 
     data = answers(found, top)
     if folder is not None:
-        data["written"] = _write(found, folder, top or SHOWN)
+        data = replace(data, written=_write(found, folder, top or SHOWN))
     return Outcome(data, lambda: _shown(found, data, top or SHOWN, folder))
 
 
-def _write(found: Synthesis, folder: Path, top: int) -> list[str]:
+def _write(found: Synthesis, folder: Path, top: int) -> tuple[str, ...]:
     from assur.cli.paths import made
     from assur.results.files import write_whole
     from assur.synthesis.answers import skeletons
 
     made(folder)
-    return [str(write_whole(folder / name, text)) for name, text in skeletons(found, top).items()]
+    return tuple(str(write_whole(folder / name, text)) for name, text in skeletons(found, top).items())
 
 
-def _shown(found: Synthesis, data: dict[str, Any], top: int, folder: Path | None) -> Iterable[RenderableType]:
+def _shown(found: Synthesis, data: SynthesisAnswer, top: int, folder: Path | None) -> Iterable[RenderableType]:
     numbered = list(enumerate(found.designs, 1))
     yield heading(f"{found.asked.motion.name}: {len(numbered)} mechanisms of {found.asked.limbs} limbs")
     yield from _counts(found, data)
@@ -162,17 +165,17 @@ def _shown(found: Synthesis, data: dict[str, Any], top: int, folder: Path | None
         yield ""
         yield heading("known mechanisms with these limbs")
         yield _known(known)
-    if folder is not None:
+    if data.written is not ABSENT:
         yield ""
-        yield f"written: {len(data['written'])} files in {folder}"
+        yield f"written: {len(data.written)} files in {folder}"
 
 
-def _counts(found: Synthesis, data: dict[str, Any]) -> Iterator[str]:
+def _counts(found: Synthesis, data: SynthesisAnswer) -> Iterator[str]:
     """How large the search was."""
-    types, tally = data["limb_types"], found.tally
-    kinds = ", ".join(f"{count} with {poc}" for poc, count in types["by_poc"].items())
-    yield f"positions    {data['positions']}"
-    yield f"limb types   {types['with_motion']} with the motion: {kinds or 'none'}"
+    types, tally = data.limb_types, found.tally
+    kinds = ", ".join(f"{count} with {poc}" for poc, count in types.by_poc.items())
+    yield f"positions    {data.positions}"
+    yield f"limb types   {types.with_motion} with the motion: {kinds or 'none'}"
     yield f"combinations {tally.combinations}, {tally.with_motion} of them with the motion by the rules"
     degrees = ", ".join(f"{count} with κ = {degree}" for degree, count in sorted(tally.coupling_degrees.items()))
     unknown = tally.with_motion - sum(tally.coupling_degrees.values())
@@ -180,7 +183,7 @@ def _counts(found: Synthesis, data: dict[str, Any]) -> Iterator[str]:
     yield f"coupling     {degrees or 'none'}{rest}"
     yield f"one by one   {tally.tried} by twists; the actuators of {tally.unfixed} do not fix the platform"
     if any(not design.symmetric for design in found.designs):
-        listed = data["combinations"]["listed_of_each_class_of_different_limbs"]
+        listed = data.combinations.listed_of_each_class_of_different_limbs
         yield f"Of different limbs the {listed} simplest are listed for each combination of limb motions."
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -50,12 +51,12 @@ def outcome(found: Topology, graph: Path | None, *, latex: bool, ascii_only: boo
     wrong = 1 if any(note.startswith("declared ") for note in found.notes) else 0  # a claim of the file fails
     if graph is not None:
         _draw(found, graph)
-        data["graph"] = str(graph)
+        data = replace(data, graph=str(graph))
     if latex:
         from assur.topology.latex import fragment
 
-        data["latex"] = fragment(found)
-        return Outcome(data, lambda: [Verbatim(data["latex"])], wrong)
+        text = fragment(found)
+        return Outcome(replace(data, latex=text), lambda: [Verbatim(text)], wrong)
     return Outcome(data, lambda: _shown(found, graph, ascii_only=ascii_only), wrong)
 
 

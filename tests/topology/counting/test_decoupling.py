@@ -286,5 +286,5 @@ def test_a_disagreement_on_decoupling_leaves_everything_else(monkeypatch):
     assert (str(found.poc), found.dof, found.xi, found.coupling_degree) == ("t³ r⁰", 3, (3, 5), 1)
     assert found.decoupling is None
     assert "the rules say that x does not depend on P2, the twists say that it does" in found.decoupling_refusal
-    assert answers(found)["decoupling"] is None
-    assert answers(found)["decoupling_refusal"] == found.decoupling_refusal
+    assert answers(found).decoupling is None
+    assert answers(found).decoupling_refusal == found.decoupling_refusal

@@ -45,7 +45,7 @@ def test_an_admissible_set_takes_the_place_of_first_joints_that_do_not_determine
     if inputs is not None:
         assert (found.inputs, found.coupling_degree) == (inputs, degree)
     data = answers(found)
-    assert (data["inputs_by"], data["inputs"]) == (found.inputs_by, list(found.inputs))
+    assert (data.inputs_by, data.inputs) == (found.inputs_by, found.inputs)
     if found.inputs_by == "admissible set":
         assert found.notes[0].startswith("actuated: ")
         assert all(name.split(".")[0] in found.notes[0] for name in found.inputs)

@@ -208,7 +208,7 @@ def test_a_joint_beyond_the_loops_that_nothing_drives_leaves_no_coupling_degree(
     texts = ["{P[x] R[y] R[y] | P[x] R[y] R[y]} R[x]"]
     loose = assur.topology(texts, actuate=["1.1", "1.2", "1.4"])
     assert (loose.delta, loose.coupling_degree, loose.plan.free) == ((0,), None, 1)
-    assert answers(loose)["coupling_refusal"] == "with all inputs locked the mechanism has 1 freedom left"
+    assert answers(loose).coupling_refusal == "with all inputs locked the mechanism has 1 freedom left"
     driven = assur.topology(texts, actuate=["1.1", "1.2", "1.4", "1.7"])
     assert (driven.delta, driven.coupling_degree, driven.coupling_refusal) == ((0,), 0, "")
 

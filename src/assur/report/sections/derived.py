@@ -90,7 +90,7 @@ def _limbs(topology: Topology) -> Table:
     )
     columns = ("limb", "plain form", "as the literature writes it", "POC set", "dim", "dependent", "known by")
     reasons = " ".join(
-        f"{rounded(refusal['of'])}: the rules refuse, because {refusal['reason']}." for refusal in refusals(topology)
+        f"{rounded(refusal.of)}: the rules refuse, because {refusal.reason}." for refusal in refusals(topology)
     )
     return Table("Limbs", columns, rows, reasons)
 

@@ -1,0 +1,294 @@
+"""The answers of `assur topology` and `assur synthesize`.
+
+The keys are a contract: `poc`, `limbs`, `dof`, `loops`, `assur_chains`, `coupling_degree`, `redundant_constraints`,
+`decoupling` and `routes_agree` keep their meaning; others may be added.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from assur.results.answers.answer import ABSENT, Absent, Answer, named
+
+Names = tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class PocNumbers:
+    """A POC set: elements t and r, how many are independent and how many dependent."""
+
+    t: int
+    r: int
+    dim: int
+    dependent: int
+
+
+@dataclass(frozen=True)
+class WrittenPoc(PocNumbers):
+    """A POC set as it is written."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class PocDirection:
+    """What is said of the directions of "t" or "r"."""
+
+    part: str
+    mark: str
+    axes: tuple[tuple[float, ...], ...]
+
+
+@dataclass(frozen=True)
+class PlatformPoc(WrittenPoc):
+    """The platform's POC set, by which route it is known, and why the rules gave no answer where they gave none."""
+
+    directions: tuple[PocDirection, ...]
+    route: str
+    refusal: str
+
+
+@dataclass(frozen=True)
+class LimbAnswer(PocNumbers):
+    """A limb: its text in the plain form and in the literature's, and its POC set."""
+
+    text: str
+    symbolic: str
+    freedoms: int
+    poc_text: str
+    directions: tuple[PocDirection, ...]
+    route: str
+    refusal: str
+
+
+@dataclass(frozen=True)
+class LoopAnswer:
+    """A loop in the order that attains the coupling degree: ξ, Δ, the joints that it adds, their freedoms."""
+
+    xi: int
+    delta: int
+    joints: Names
+    freedoms: int
+    inputs: int
+    internal: int
+
+
+@dataclass(frozen=True)
+class AssurChainAnswer:
+    """An Assur chain: indices of its loops."""
+
+    loops: tuple[int, ...]
+    coupling_degree: int
+
+
+@dataclass(frozen=True)
+class RedundantAnswer:
+    """Redundant constraints with parallelograms as one joint, and of all joints."""
+
+    collapsed: int
+    joint_graph: int
+
+
+@dataclass(frozen=True)
+class ActuationAnswer:
+    """Which joints may be actuated: in some admissible set, in every, and the sets themselves."""
+
+    verdict: str
+    needed: int
+    hint: str
+    admissible: Names
+    indispensable: Names
+    sets: tuple[Names, ...]
+    complete: bool
+
+
+@dataclass(frozen=True)
+class ReplacementAnswer:
+    """A joint in the place of another: what that removes, and the internal freedoms that it adds."""
+
+    joint: str
+    old: str
+    new: str
+    removed: int
+    internal: int
+
+
+@dataclass(frozen=True)
+class RelaxationAnswer:
+    """Replacements of joints that remove redundant constraints, each by itself, and one after the other."""
+
+    redundant: int
+    left: int
+    single: tuple[ReplacementAnswer, ...]
+    together: tuple[ReplacementAnswer, ...]
+
+
+@dataclass(frozen=True)
+class PlanStepAnswer:
+    """One loop of a plan: the virtual variables that are assumed, the equations that it gives, what is left."""
+
+    loop: int
+    delta: int
+    virtual: int
+    equations: int
+    left: int
+
+
+@dataclass(frozen=True)
+class AssurPlanAnswer:
+    """The plan of one Assur chain."""
+
+    coupling_degree: int
+    search: int
+    reason: str
+    steps: tuple[PlanStepAnswer, ...]
+
+
+@dataclass(frozen=True)
+class PlanAnswer:
+    """In which order the direct problem is solved; `search` is null where the inputs leave freedoms."""
+
+    search: int | None
+    words: Names
+    assur_chains: tuple[AssurPlanAnswer, ...]
+
+
+@dataclass(frozen=True)
+class RulesRefusal:
+    """Of what the rules gave no answer, and why."""
+
+    of: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class OperationModeAnswer:
+    """A motion that starts at home."""
+
+    dof: int
+    t: int
+    r: int
+    dim: int
+    real: bool
+    poc: str
+
+
+@dataclass(frozen=True)
+class TopologyAnswer(Answer):
+    """The facts of a topology; what does not exist is null.
+
+    `decoupling[i][j]` says whether output i of `outputs` depends on input j of `inputs`. `graph` is the drawing that
+    was written, `latex` a fragment for a paper.
+    """
+
+    name: str
+    title: str
+    source: str
+    mode: str
+    poc: PlatformPoc
+    limbs: tuple[LimbAnswer, ...]
+    dof: int
+    internal_freedoms: int
+    internal_joints: tuple[Names, ...]
+    idle_joints: Names
+    loops: tuple[LoopAnswer, ...]
+    assur_chains: tuple[AssurChainAnswer, ...]
+    coupling_degree: int | None
+    coupling_refusal: str
+    redundant_constraints: RedundantAnswer
+    redundant_by_loop: Mapping[str, int]
+    inputs: Names
+    inputs_by: str
+    outputs: Names
+    decoupling: tuple[tuple[bool, ...], ...] | None
+    decoupling_refusal: str
+    actuation: ActuationAnswer
+    relaxation: RelaxationAnswer
+    plan: PlanAnswer
+    routes_agree: bool | None
+    refusals: tuple[RulesRefusal, ...]
+    derivation: Names
+    operation_modes: tuple[OperationModeAnswer, ...]
+    notes: Names
+    graph: str | Absent = ABSENT
+    latex: str | Absent = ABSENT
+
+
+@dataclass(frozen=True)
+class AskedSynthesis:
+    """What was asked of a synthesis; `coupling` is null where any degree would do."""
+
+    motion: str
+    limbs: int
+    max_joints: int
+    coupling: tuple[int, int] | None
+    symmetric: bool
+    actuators: str
+
+
+@dataclass(frozen=True)
+class LimbTypeCounts:
+    """Limb types with the motion, by the numbers of their POC sets, and why others were left out."""
+
+    with_motion: int
+    by_poc: Mapping[str, int]
+    left_out: Mapping[str, int]
+
+
+@dataclass(frozen=True)
+class CombinationCounts:
+    """How large the search was."""
+
+    all: int
+    with_motion: int
+    by_coupling_degree: Mapping[str, int]
+    tried_one_by_one: int
+    not_fixed_by_actuators: int
+    listed_of_each_class_of_different_limbs: int
+
+
+@dataclass(frozen=True)
+class DesignLimb:
+    """A limb of a mechanism that was found."""
+
+    text: str
+    symbolic: str
+    poc: WrittenPoc
+    freedoms: int
+    route: str
+
+
+@dataclass(frozen=True)
+class DesignAnswer:
+    """A mechanism with the motion."""
+
+    rank: int
+    names: Names
+    chains: Names
+    actuate: Names
+    mode: str
+    limbs: tuple[DesignLimb, ...]
+    symmetric: bool
+    poc: WrittenPoc
+    dof: int
+    xi: tuple[int, ...]
+    delta: tuple[int, ...]
+    coupling_degree: int
+    redundant_constraints: RedundantAnswer
+    joints: int
+    route: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class SynthesisAnswer(Answer):
+    """The mechanisms with a motion, the best first; `written` are their files."""
+
+    asked: AskedSynthesis
+    positions: str
+    limb_types: LimbTypeCounts
+    combinations: CombinationCounts
+    count: int = named("found")
+    mechanisms: tuple[DesignAnswer, ...] = ()
+    written: Names | Absent = ABSENT
