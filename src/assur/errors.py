@@ -123,21 +123,21 @@ class Interrupted(KeyboardInterrupt):
 
 @dataclass(frozen=True)
 class Problem:
-    """One fault in a file: where it is, what was found, what is allowed."""
+    """One fault in a file: where it is, what is given, what is allowed."""
 
     file: str
     line: int | None
     path: str
-    found: str
+    given: str
     allowed: str
     hint: str = ""
 
     def __str__(self) -> str:
         place = f"{self.file}:{self.line}" if self.line else self.file
         text = (
-            f"{place}: {self.path}: {self.found}; {self.allowed}"
+            f"{place}: {self.path}: {self.given}; {self.allowed}"
             if self.path
-            else f"{place}: {self.found}; {self.allowed}"
+            else f"{place}: {self.given}; {self.allowed}"
         )
         return f"{text}\n    hint: {self.hint}" if self.hint else text
 

@@ -175,7 +175,7 @@ class Mechanism(MechanismRecord):
         """Largest gap (...) over the cut joints, in length units."""
         return closure.closure_error(self, joint_array(self, joint_values))
 
-    def mobility(self, joint_values: Named) -> closure.Mobility:
+    def mobility(self, joint_values: Named) -> closure.AssemblyMobility:
         """Rank, freedoms and redundant constraints of the joint graph at joint values (..., n)."""
         return closure.mobility(self, joint_array(self, joint_values))
 

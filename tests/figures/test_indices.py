@@ -73,7 +73,7 @@ def test_shares_lie_between_0_and_1_and_say_what_they_are_divided_by(context):
     for name, index in INDICES.items():
         values, divisor = there.shares(name)
         known = np.isfinite(values)
-        np.testing.assert_allclose(values[known] * divisor, there.found[name][known], rtol=1e-12)
+        np.testing.assert_allclose(values[known] * divisor, there.indices[name][known], rtol=1e-12)
         if index.power == 0:
             assert divisor == 1.0
             assert np.all((values[known] >= 0) & (values[known] <= 1))
@@ -85,7 +85,7 @@ def test_the_thick_line_is_where_transmission_becomes_good(context):
     figure = drawn(context, TRANSMISSION).figure
     maps = figure.axes[:3]
     for axes, name in zip(maps, module.TRANSMISSION_MAPS, strict=True):
-        values = field(context).found[name]
+        values = field(context).indices[name]
         known = values[np.isfinite(values)]
         lines = [
             item

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial import KDTree
 
-from assur.figures.near import Distance
+from assur.figures.near import TriangleDistance
 from assur.workspace.nearness import divided, triangles_of
 from assur.workspace.solids import mesh
 
@@ -24,7 +24,7 @@ def test_the_distance_is_that_from_a_dense_cloud_of_the_surfaces(context, surfac
     cloud = divided(surfaces, near / 5).reshape(-1, 3)
     low, high = np.array(context.workspace.box.intervals).T
     points = np.random.default_rng(2).uniform(low, high, size=(1000, 3))
-    found = Distance(surfaces, 2 * near)(points)
+    found = TriangleDistance(surfaces, 2 * near)(points)
     wanted, _ = KDTree(cloud).query(points)
     close = wanted < near
     assert close.sum() > 30
@@ -35,7 +35,7 @@ def test_the_distance_is_that_from_a_dense_cloud_of_the_surfaces(context, surfac
 @SURFACES_INSIDE
 def test_its_border_is_at_that_distance_or_on_that_of_the_workspace(context, surfaces):
     vertices, _ = mesh(context.near)
-    distance = Distance(surfaces, 2 * context.workspace.near)(vertices)
+    distance = TriangleDistance(surfaces, 2 * context.workspace.near)(vertices)
     assert distance.max() < 1.05 * context.workspace.near
 
 

@@ -112,7 +112,7 @@ def test_a_syntax_error_says_where_and_what(text: str, position: int, found: str
     with pytest.raises(FormulaError) as caught:
         parse(text)
     error = caught.value
-    assert (error.position, error.found, error.expected, error.hint) == (position, found, expected, hint)
+    assert (error.position, error.given, error.expected, error.hint) == (position, found, expected, hint)
     assert isinstance(error, UsageError)
     shown, caret = error.message.splitlines()[1:3]
     assert shown == f"  {text}"

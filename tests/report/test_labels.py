@@ -54,7 +54,7 @@ def test_a_bad_label_is_a_fault_with_its_line(assur_check, fourbar, latex):
     path = fourbar(r'latex = "\\theta"', f'latex = "{latex}"')
     (problem,) = assur_check(path)
     assert (problem.file, problem.line, problem.path) == (str(path), 28, "inputs.A.latex")
-    assert latex.replace("\\\\", "\\") in problem.found
+    assert latex.replace("\\\\", "\\") in problem.given
 
 
 @pytest.fixture

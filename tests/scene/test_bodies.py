@@ -11,7 +11,7 @@ from assur.joints.prismatic import PRISMATIC
 from assur.joints.universal import UNIVERSAL
 from assur.scene.bodies import PLAY, bodies, fused, grown, solid
 from assur.scene.parts import parts, unit
-from assur.scene.shapes import Ball, Bar, Box, Cylinder
+from assur.scene.shapes import Ball, Bar, Cuboid, Cylinder
 from assur.scene.yokes import ASIDE, PIN, THIN
 
 MOVING_PIECES = 1
@@ -75,7 +75,7 @@ def test_a_slider_runs_on_its_rail(every):
 
 
 @pytest.mark.parametrize(
-    "shape", [Ball(np.ones(3), 2.0), Cylinder(np.zeros(3), np.array([0.0, 0, 4]), 1.0), Box(np.zeros(3), np.eye(3))]
+    "shape", [Ball(np.ones(3), 2.0), Cylinder(np.zeros(3), np.array([0.0, 0, 4]), 1.0), Cuboid(np.zeros(3), np.eye(3))]
 )
 def test_what_is_grown_holds_the_shape_with_play_on_every_side(shape):
     low, high = (np.array(solid(item).bounding_box()).reshape(2, 3) for item in (shape, grown(shape, 0.25)))

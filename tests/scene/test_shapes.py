@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from assur.numerics import rotations
-from assur.scene.shapes import Ball, Bar, Box, Cylinder, Slab
+from assur.scene.shapes import Ball, Bar, Cuboid, Cylinder, Slab
 
 SHAPES = (
     Cylinder(np.array([0.0, 1, 2]), np.array([3.0, 1, 0]), 0.4),
     Ball(np.array([1.0, 2, 3]), 0.7),
-    Box(np.array([1.0, 0, 0]), np.diag([1.0, 2.0, 3.0])),
+    Cuboid(np.array([1.0, 0, 0]), np.diag([1.0, 2.0, 3.0])),
     Bar(np.zeros(3), np.array([2.0, 0, 0]), np.array([0.0, 0, 1]), 0.3, 0.1),
     Slab(np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([0.0, 0, 0.5])),
 )

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from assur.crosscheck import engine as engines
 from assur.crosscheck.engine import Engine
-from assur.crosscheck.samples import Configuration, configurations
+from assur.crosscheck.samples import SolvedConfiguration, configurations
 from assur.errors import Interrupted
 from assur.joint_graph.frames import Frame, frames
 from assur.joint_graph.geometry import characteristic_length, joint_scales
@@ -154,36 +154,36 @@ def crosscheck(
     return answer
 
 
-def _compared(engine: Engine, item: Configuration, rng: np.random.Generator) -> dict[str, float]:
+def _compared(engine: Engine, sample: SolvedConfiguration, rng: np.random.Generator) -> dict[str, float]:
     """Every difference at one configuration, by kind."""
     record = engine.record
-    engines.put(engine, item.joints)
-    ours, theirs = frames(record, item.joints), engines.link_frames(engine)
+    engines.put(engine, sample.joints)
+    ours, theirs = frames(record, sample.joints), engines.link_frames(engine)
     residual, _ = engines.constraints(engine)
     found = {
         "frames of links": max(_apart(engine, ours[link], theirs[link]) for link in record.links),
         "loops": float(np.max(np.abs(residual), initial=0.0)),
-        "inputs": _inputs_apart(engine, item),
+        "inputs": _inputs_apart(engine, sample),
     }
-    if item.status == Status.self_motion:
+    if sample.status == Status.self_motion:
         _, _, open_ = engines.platform_jacobian(engine)
         return found | {"self-motions": float(open_ < LEAST_MOTION)}
-    if item.status != Status.regular:
+    if sample.status != Status.regular:
         return found
-    found["freedoms"] = float(abs(engines.freedoms(engine) - int(mobility(record, item.joints).freedoms)))
+    found["freedoms"] = float(abs(engines.freedoms(engine) - int(mobility(record, sample.joints).freedoms)))
     jacobian, missed, open_ = engines.platform_jacobian(engine)
-    for kind, ours_ in _jacobians(record, item).items():
+    for kind, ours_ in _jacobians(record, sample).items():
         scale = max(1.0, float(np.max(np.abs(ours_))))
         found[kind] = max(missed, open_, float(np.max(np.abs(jacobian - ours_)))) / scale
-    found["assembly by the engine"] = _settled(engine, item, ours[record.platform.link], rng)
+    found["assembly by the engine"] = _settled(engine, sample, ours[record.platform.link], rng)
     return found
 
 
-def _settled(engine: Engine, item: Configuration, ours: Frame, rng: np.random.Generator) -> float:
+def _settled(engine: Engine, sample: SolvedConfiguration, ours: Frame, rng: np.random.Generator) -> float:
     """How far the platform is from ours where the engine's Newton ends, from the farthest start that comes back."""
     apart = np.inf
     for push in PUSHES:
-        engines.put(engine, item.joints)
+        engines.put(engine, sample.joints)
         if engines.settle(engine, push * rng.uniform(-1, 1, size=engine.model.nv)):
             apart = min(apart, _apart(engine, ours, engines.link_frames(engine)[engine.record.platform.link]))
         if apart <= TOLERANCES["assembly by the engine"]:
@@ -198,21 +198,21 @@ def _apart(engine: Engine, ours: Frame, theirs: Frame) -> float:
     return float(max(away, np.max(np.abs(ours[0] - theirs[0]))))
 
 
-def _inputs_apart(engine: Engine, item: Configuration) -> float:
+def _inputs_apart(engine: Engine, sample: SolvedConfiguration) -> float:
     """Largest difference of the printed inputs; angles whose turns do not count are the same after whole ones."""
     metre, size = engine.bodies.metre, engine.bodies.size
     angular = np.array([one.coordinate.kind == "angle" for one in engine.record.inputs])
-    gap = engines.printed_inputs(engine) - np.where(angular, 1.0, metre) * item.inputs
+    gap = engines.printed_inputs(engine) - np.where(angular, 1.0, metre) * sample.inputs
     gap = np.where(periodic_inputs(engine.record), (gap + np.pi) % (2 * np.pi) - np.pi, gap)
     return float(np.max(np.abs(np.where(angular, gap, gap / size)), initial=0.0))
 
 
-def _jacobians(record: MechanismRecord, item: Configuration) -> dict[str, FloatArray]:
+def _jacobians(record: MechanismRecord, sample: SolvedConfiguration) -> dict[str, FloatArray]:
     """Our rates (k, n) of the pose per input rate, lengths in units of the characteristic length, by each route."""
     length = characteristic_length(record)
     rows = np.array([length if name in LENGTHS else 1.0 for name in rate_names(record.platform.pose)])
     columns = joint_scales(record)[list(record.input_indices)]
-    found = {"Jacobian, joint graph": velocity_map_at(record, item.joints).matrix}
-    if record.closed_form is not None and re.fullmatch(r"[+-]*", item.working_mode):
-        found["Jacobian, closed form"] = velocity_map(record, item.pose, item.working_mode).matrix
+    found = {"Jacobian, joint graph": velocity_map_at(record, sample.joints).matrix}
+    if record.closed_form is not None and re.fullmatch(r"[+-]*", sample.working_mode):
+        found["Jacobian, closed form"] = velocity_map(record, sample.pose, sample.working_mode).matrix
     return {kind: matrix * columns / rows[:, None] for kind, matrix in found.items()}

@@ -26,7 +26,7 @@ ROUNDS = 20
 
 
 @dataclass(frozen=True, eq=False)
-class Configuration:
+class SolvedConfiguration:
     """One solution: the problem that it answers, its mode there, and the working mode.
 
     `pose` (m,), `inputs` (n,) and `joints` (coordinates,) are in lengths and rad.
@@ -41,7 +41,7 @@ class Configuration:
     status: Status
 
 
-def configurations(record: MechanismRecord, samples: int, rng: np.random.Generator) -> list[Configuration]:
+def configurations(record: MechanismRecord, samples: int, rng: np.random.Generator) -> list[SolvedConfiguration]:
     """Every solution at random poses (inverse), and at the inputs of one solution at each of them (direct).
 
     Poses are drawn until `samples` of them are reached, or `ROUNDS` times as many have been drawn.
@@ -51,7 +51,7 @@ def configurations(record: MechanismRecord, samples: int, rng: np.random.Generat
     >>> sorted({(item.problem, item.mode) for item in found if item.problem == "direct"})
     [('direct', '+'), ('direct', '-')]
     """
-    reached: list[list[Configuration]] = []
+    reached: list[list[SolvedConfiguration]] = []
     for _ in range(ROUNDS):
         poses = _poses(record, samples, rng)
         if len(poses):
@@ -65,7 +65,7 @@ def configurations(record: MechanismRecord, samples: int, rng: np.random.Generat
     return [item for items in (*reached, *_listed(direct(record, inputs))) for item in items]
 
 
-def _one_of(items: list[Configuration], rng: np.random.Generator) -> Configuration:
+def _one_of(items: list[SolvedConfiguration], rng: np.random.Generator) -> SolvedConfiguration:
     """Any of the regular ones, where there are some: from a self-motion the direct problem has curves, not poses."""
     regular = [item for item in items if item.status == Status.regular] or items
     return regular[int(rng.integers(len(regular)))]
@@ -85,20 +85,20 @@ def _poses(record: MechanismRecord, samples: int, rng: np.random.Generator) -> F
     return pose_of(record, near.values[near.closed])
 
 
-def _listed(found: SolutionSet) -> list[list[Configuration]]:
+def _listed(solutions: SolutionSet) -> list[list[SolvedConfiguration]]:
     """The solutions of each problem of a batch (N,)."""
-    rows: list[list[Configuration]] = [[] for _ in found.given]
-    for row, column in zip(*np.nonzero(found.exists), strict=True):
-        mode, other = str(found.labels[row, column]), str(found.other_labels[row, column])
+    rows: list[list[SolvedConfiguration]] = [[] for _ in solutions.given]
+    for row, column in zip(*np.nonzero(solutions.exists), strict=True):
+        mode, other = str(solutions.labels[row, column]), str(solutions.other_labels[row, column])
         rows[row].append(
-            Configuration(
-                found.problem,
+            SolvedConfiguration(
+                solutions.problem,
                 mode,
-                other if found.problem == "direct" else mode,
-                found.poses[row, column],
-                found.inputs[row, column],
-                found.joints[row, column],
-                Status(int(found.status[row, column])),
+                other if solutions.problem == "direct" else mode,
+                solutions.poses[row, column],
+                solutions.inputs[row, column],
+                solutions.joints[row, column],
+                Status(int(solutions.status[row, column])),
             )
         )
     return rows

@@ -1,7 +1,7 @@
 """A mechanism as bodies: what every simulation file says, in SI units, at home, before any of them says it.
 
 The spanning tree of the joint graph carries the bodies; every joint is taken apart into hinges, slides and balls.
-At home every elementary joint of a format without a reference value is at zero; `Step.home` says what ours is there.
+At home each elementary joint of a format without reference values is at zero; `ElementaryJoint.home` says what ours is.
 A cut joint gets a *carrier*: a nominal body that hangs on the parent by all of the joint but its last hinge (or
 ball), which is left to a constraint between carrier and child. A revolute or spherical joint needs no such body.
 """
@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.export.names import Names
-from assur.export.steps import Step, joint_steps
+from assur.export.steps import ElementaryJoint, joint_steps
 from assur.joint_graph.frames import Frame, child_frame, frames
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
@@ -63,7 +63,7 @@ class Body:
     parent: str
     orientation: FloatArray
     position: FloatArray
-    steps: tuple[Step, ...]
+    steps: tuple[ElementaryJoint, ...]
     centres: FloatArray
     mass: float
     centre: FloatArray
@@ -107,7 +107,7 @@ class Bodies:
     size: float
 
     @property
-    def steps(self) -> dict[str, Step]:
+    def steps(self) -> dict[str, ElementaryJoint]:
         """Every elementary joint by name."""
         return {step.name: step for body in self.bodies.values() for step in body.steps}
 
@@ -163,7 +163,11 @@ def singly_jointed(model: Bodies) -> Bodies:
 
 
 def carrier(
-    name: str, place: tuple[str, FloatArray, FloatArray], steps: tuple[Step, ...], at: FloatArray, size: float
+    name: str,
+    place: tuple[str, FloatArray, FloatArray],
+    steps: tuple[ElementaryJoint, ...],
+    at: FloatArray,
+    size: float,
 ) -> Body:
     """A nominal body with its mass at one point (3,), in m; `place`: its parent, orientation and position there."""
     return Body(name, *place, steps, at[None], CARRIER_MASS, at, CARRIER_INERTIA * size**2)
@@ -205,7 +209,13 @@ def _at_its_joint(body: Body) -> bool:
 
 
 def _body(
-    record: MechanismRecord, name: str, parent: str, near: Frame, far: Frame, steps: tuple[Step, ...], size: float
+    record: MechanismRecord,
+    name: str,
+    parent: str,
+    near: Frame,
+    far: Frame,
+    steps: tuple[ElementaryJoint, ...],
+    size: float,
 ) -> Body:
     metre = METRES[record.unit]
     orientation, position = _relative(near, far)

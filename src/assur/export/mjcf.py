@@ -21,7 +21,7 @@ import numpy as np
 from assur.export.bodies import Bodies, Body, Closure, bodies, singly_jointed
 from assur.export.names import Names, link_name
 from assur.export.shapes import arms, radius
-from assur.export.steps import Step
+from assur.export.steps import ElementaryJoint
 from assur.export.xml_text import Element, child, comment, document, number, numbers, quaternion
 from assur.model.mechanism import MechanismRecord
 
@@ -83,7 +83,7 @@ def printed(record: MechanismRecord, model: Bodies) -> Bodies:
     """
     driven = {record.coordinate_label(one.coordinate): one for one in record.inputs}
 
-    def told(step: Step) -> Step:
+    def told(step: ElementaryJoint) -> ElementaryJoint:
         one = driven.get(step.name)
         if one is None:
             return step
@@ -183,12 +183,12 @@ def _home(record: MechanismRecord, model: Bodies, root: Element, *, servos: bool
     child(child(root, "keyframe"), "key", name="home", qpos=numbers(np.concatenate(places)), ctrl=numbers(controls))
 
 
-def _ordered(model: Bodies) -> list[Step]:
+def _ordered(model: Bodies) -> list[ElementaryJoint]:
     """Elementary joints in the order of MuJoCo's qpos: that of the bodies, depth first."""
     below: dict[str, list[Body]] = {}
     for body in model.bodies.values():
         below.setdefault(body.parent, []).append(body)
-    found: list[Step] = []
+    found: list[ElementaryJoint] = []
     waiting = list(below[""])
     while waiting:
         body = waiting.pop(0)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from assur.export.bodies import CARRIER_INERTIA, CARRIER_MASS, Bodies, Body, bodies
 from assur.export.names import Names
 from assur.export.shapes import arms, radius
-from assur.export.steps import Step, joint_steps
+from assur.export.steps import ElementaryJoint, joint_steps
 from assur.export.xml_text import Element, child, comment, document, number, numbers
 from assur.joint_graph.frames import frames
 from assur.model.mechanism import Joint, MechanismRecord
@@ -132,7 +132,7 @@ def _joint(
         _element(top, name, kind, parent, own, steps)
 
 
-def _element(top: Element, name: str, kind: str, parent: str, own: str, steps: Iterable[Step]) -> Element:
+def _element(top: Element, name: str, kind: str, parent: str, own: str, steps: Iterable[ElementaryJoint]) -> Element:
     """A joint, its frame at the joint's point with the axes of the child."""
     made = child(top, "joint", name=name, type=kind)
     steps = list(steps)

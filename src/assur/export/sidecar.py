@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from assur.export.bodies import Bodies, bodies
 from assur.export.names import link_name
-from assur.export.steps import Step, joint_steps
+from assur.export.steps import ElementaryJoint, joint_steps
 from assur.export.urdf import anchor, single_steps, tree_links
 from assur.joint_graph.frames import child_frame, frames
 from assur.joint_graph.tree import joint_graph
@@ -74,7 +74,7 @@ def sidecar(record: MechanismRecord, urdf_name: str) -> dict[str, Any]:
     return result
 
 
-def _joint(step: Step, single: Step) -> dict[str, Any]:
+def _joint(step: ElementaryJoint, single: ElementaryJoint) -> dict[str, Any]:
     if step.kind == "ball":
         return {"joint": step.joint, "part": single.name.rpartition(".")[2]}
     return {"joint": step.joint, "home": step.home}

@@ -16,7 +16,7 @@ FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Step:
+class ElementaryJoint:
     """One elementary joint.
 
     Attributes:
@@ -60,7 +60,7 @@ class Step:
 
 def joint_steps(
     record: MechanismRecord, joint: Joint, home: FloatArray, *, forward: bool, metre: float
-) -> tuple[Step, ...]:
+) -> tuple[ElementaryJoint, ...]:
     """A joint taken apart; `forward`: it carries its child, else its parent.
 
     >>> from assur.kinematics.home import home_values
@@ -76,7 +76,9 @@ def joint_steps(
         vector = rotations.from_vector(home[columns])
         turn = ((vector @ joint.turn).T, joint.turn) if forward else (vector, np.eye(3))
         return (
-            Step(joint.name, "ball", np.zeros(3), at, joint.name, columns.start, 1.0, 0.0, None, turn, not forward),
+            ElementaryJoint(
+                joint.name, "ball", np.zeros(3), at, joint.name, columns.start, 1.0, 0.0, None, turn, not forward
+            ),
         )
     steps = [
         _step(record, joint, step.direction, columns.start + first, home, at, metre)
@@ -87,7 +89,7 @@ def joint_steps(
     if not forward:
         steps = steps[::-1]
     basis = joint.turn.T if forward else -np.eye(3)
-    found: list[Step] = []
+    found: list[ElementaryJoint] = []
     later = np.eye(3)  # what the steps after this one turn at home, in the carried body's frame
     shift = np.zeros(3)  # and how far they move the body, in its frame
     for step in reversed(steps):
@@ -104,13 +106,13 @@ def joint_steps(
 
 def _step(
     record: MechanismRecord, joint: Joint, direction: int, index: int, home: FloatArray, at: FloatArray, metre: float
-) -> Step:
+) -> ElementaryJoint:
     """The step of one component, its axis in the parent's frame."""
     coordinate = record.coordinates[index]
     component = index - joint_graph(record).slices[joint.name].start
     ratio = metre if coordinate.kind == "length" else 1.0
     limits = joint.limits[component] if joint.limits else None
-    return Step(
+    return ElementaryJoint(
         record.coordinate_label(coordinate),
         "slide" if coordinate.kind == "length" else "hinge",
         joint.axes[direction],
@@ -123,9 +125,9 @@ def _step(
     )
 
 
-def _advance(joint: Joint, index: int, home: FloatArray, at: FloatArray, metre: float) -> Step:
+def _advance(joint: Joint, index: int, home: FloatArray, at: FloatArray, metre: float) -> ElementaryJoint:
     """The slide of a screw, which its hinge drives."""
     ratio = metre * joint.pitch / (2 * np.pi)
-    return Step(
+    return ElementaryJoint(
         f"{joint.name}.advance", "slide", joint.axes[0], at, joint.name, index, ratio, float(ratio * home[index])
     )

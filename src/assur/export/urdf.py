@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from assur.export.bodies import CARRIER_INERTIA, CARRIER_MASS, Bodies, Body, bodies
 from assur.export.names import Names, link_name
 from assur.export.shapes import arms, radius
-from assur.export.steps import Step
+from assur.export.steps import ElementaryJoint
 from assur.export.xml_text import Element, child, comment, document, number, numbers
 from assur.joint_graph.tree import joint_graph
 from assur.model.mechanism import MechanismRecord
@@ -64,7 +64,7 @@ def anchor(body: Body) -> FloatArray:
     return body.steps[0].at if body.steps else np.zeros(3)
 
 
-def single_steps(step: Step) -> list[Step]:
+def single_steps(step: ElementaryJoint) -> list[ElementaryJoint]:
     """A hinge or slide as it is, a ball as hinges about x, y, z."""
     if step.kind != "ball":
         return [step]
@@ -107,7 +107,7 @@ def _joints(root: Element, body: Body, model: Bodies) -> None:
             _mass(child(root, "link", name=far), CARRIER_MASS, np.zeros(3), CARRIER_INERTIA * model.size**2)
 
 
-def _kind(step: Step) -> str:
+def _kind(step: ElementaryJoint) -> str:
     if step.kind == "slide":
         return "prismatic"
     return "continuous" if step.limits is None else "revolute"

@@ -19,7 +19,7 @@ from assur.figures.context import Context
 from assur.figures.coordinates import angle_ticks, axis_title, symbol, value_words
 from assur.figures.plots import limits_words, no_workspace
 from assur.figures.singular import symbol_of
-from assur.figures.spec import Drawing, Entry
+from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import INK, PALE, PAPER, SERIES, SMALL, TEXT, new_figure
 from assur.figures.written import at_least, minus, units
 from assur.model.pose import is_angle
@@ -49,7 +49,7 @@ LEFT, BOTTOM, TITLE, TOP, GAP, PANEL = 14.0, 11.0, 8.0, 12.0, 6.0, 70.0
 """Margins, the room for a title below a panel, that between panels and the width of one, in mm."""
 
 
-def drawn(context: Context, found: Aspects, path: AspectPath | None = None) -> Drawing:
+def drawn(context: Context, aspects: Aspects, path: AspectPath | None = None) -> Drawing:
     """The figure of the aspects, with a path between two poses where one is given and the aspects lie in a plane.
 
     Errors:
@@ -63,58 +63,58 @@ def drawn(context: Context, found: Aspects, path: AspectPath | None = None) -> D
     ...     drawn(Context(record), aspects(record)).data["aspects"][0]["label"]
     '+'
     """
-    if len(found.names) < 2:
-        raise UsageError(f"only {found.names[0]} matters for these aspects; a picture needs two coordinates")
-    across, upward = found.names[:2]
-    cuts = _cuts(context, found)
-    room = float(np.prod([np.ptp(found.box.intervals[found.box.axis(name)]) for name in (across, upward)]))
+    if len(aspects.names) < 2:
+        raise UsageError(f"only {aspects.names[0]} matters for these aspects; a picture needs two coordinates")
+    across, upward = aspects.names[:2]
+    cuts = _cuts(context, aspects)
+    room = float(np.prod([np.ptp(aspects.box.intervals[aspects.box.axis(name)]) for name in (across, upward)]))
     columns, rows = min(2, len(cuts)), -(-len(cuts) // 2)
-    tall = PANEL * _aspect(found, across, upward)
+    tall = PANEL * _aspect(aspects, across, upward)
     width = LEFT + columns * PANEL + (columns - 1) * (GAP + LEFT) + 4.0
-    below = BOTTOM + (TITLE if len(found.names) > 2 else 0.0)
-    height = TOP + 3.5 * ((min(len(found.aspects), NAMED) + 5) // 4) + rows * (tall + below)
+    below = BOTTOM + (TITLE if len(aspects.names) > 2 else 0.0)
+    height = TOP + 3.5 * ((min(len(aspects.aspects), NAMED) + 5) // 4) + rows * (tall + below)
     figure = new_figure(width, height)
     for k, value in enumerate(cuts):
         start = LEFT + (k % columns) * (PANEL + GAP + LEFT)
         low = (rows - 1 - k // columns) * (tall + below) + below
         axes = figure.add_axes((start / width, low / height, PANEL / width, tall / height))
-        _panel(axes, found, value, PATCH * room)
+        _panel(axes, aspects, value, PATCH * room)
         if path is not None and value is None:
             _way(axes, path)
-        _dress(context, axes, found, (across, upward))
+        _dress(context, axes, aspects, (across, upward))
         if value is not None:
-            title = f"({chr(97 + k)}) {symbol(found.names[2])} = {value_words(context, found.names[2], value)}"
+            title = f"({chr(97 + k)}) {symbol(aspects.names[2])} = {value_words(context, aspects.names[2], value)}"
             figure.text((start + PANEL / 2) / width, (low - 14.0) / height, title, ha="center", fontsize=TEXT)
-    signs = f"signs of {_factors(context, found)}" if found.naming else None
+    signs = f"signs of {_factors(context, aspects)}" if aspects.naming else None
     figure.legend(
-        handles=_legend(found, path if cuts == [None] else None),
+        handles=_legend(aspects, path if cuts == [None] else None),
         loc="upper center",
         ncols=4,
         title=signs,
         title_fontsize=SMALL,
     )
-    return Drawing(figure, _data(found, cuts, path))
+    return Drawing(figure, _data(aspects, cuts, path))
 
 
-def caption(context: Context, found: Aspects) -> str:
+def caption(context: Context, aspects: Aspects) -> str:
     """What the figure shows, in words."""
-    signs = _factors(context, found) or "no factor"
-    of_mode = f" of the working mode {minus(found.mode)}" if found.mode else ""
+    signs = _factors(context, aspects) or "no factor"
+    of_mode = f" of the working mode {minus(aspects.mode)}" if aspects.mode else ""
     held = ", ".join(
-        f"{symbol(name)} = {value_words(context, name, value)}" for name, value in found.slice.held.items()
+        f"{symbol(name)} = {value_words(context, name, value)}" for name, value in aspects.slice.held.items()
     )
     return (
         f"Aspects{of_mode}{f' with {held}' if held else ''} inside the box of the mechanism's file: parts without a"
-        f" parallel or serial singularity, named by the signs of {signs}.{limits_words(context)} {_parts(found)}"
+        f" parallel or serial singularity, named by the signs of {signs}.{limits_words(context)} {_parts(aspects)}"
     )
 
 
-def _parts(found: Aspects) -> str:
+def _parts(aspects: Aspects) -> str:
     """How much of the workspace is proved, at least, and what may be undecided, at most."""
-    if not found.aspects:
+    if not aspects.aspects:
         return "No part is proved; what there may be of the workspace lies in the grey."
-    size = f"{at_least(math.fsum(item.volume[0] for item in found.aspects))} {units(found.unit)}"
-    open_ = shown(100 * found.undecided_share)
+    size = f"{at_least(math.fsum(item.volume[0] for item in aspects.aspects))} {units(aspects.unit)}"
+    open_ = shown(100 * aspects.undecided_share)
     least = f"{100 - float(open_):.4g}"
     return (
         f"In each colour every pose is proved: together at least {size} or {least} % of the workspace;"
@@ -122,11 +122,11 @@ def _parts(found: Aspects) -> str:
     )
 
 
-def _factors(context: Context, found: Aspects) -> str:
+def _factors(context: Context, aspects: Aspects) -> str:
     """The factors that name the aspects, as mathematics."""
     form = context.record.closed_form
     known = {item.name: symbol_of(item) for item in form.factor_list} if form else {}
-    return ", ".join(known.get(name, name) for name in found.naming)
+    return ", ".join(known.get(name, name) for name in aspects.naming)
 
 
 def shown(share: float) -> str:
@@ -150,36 +150,36 @@ def no_aspects(context: Context) -> str:
     return "" if sum(criteria(context.record, factors=KINDS).used) > 1 else "its aspects depend on one coordinate only"
 
 
-def _cuts(context: Context, found: Aspects) -> list[float | None]:
+def _cuts(context: Context, aspects: Aspects) -> list[float | None]:
     """Where the third coordinate is cut; None in a plane."""
-    if len(found.names) == 2:
+    if len(aspects.names) == 2:
         return [None]
-    last = found.names[2]
-    k = found.box.axis(last)
-    low, high = found.box.low[k], found.box.high[k]
-    if found.aspects:  # elsewhere there is nothing to see
-        low = min(float(np.min(item.boxes.low[2])) for item in found.aspects)
-        high = max(float(np.max(item.boxes.high[2])) for item in found.aspects)
+    last = aspects.names[2]
+    k = aspects.box.axis(last)
+    low, high = aspects.box.low[k], aspects.box.high[k]
+    if aspects.aspects:  # elsewhere there is nothing to see
+        low = min(float(np.min(item.boxes.low[2])) for item in aspects.aspects)
+        high = max(float(np.max(item.boxes.high[2])) for item in aspects.aspects)
     own = context.record.sections if last == context.record.platform.pose[-1] else ()
     inside = [float(value) for value in own if low < value < high]
     return [*inside] or [float(value) for value in np.linspace(low, high, CUTS + 2)[1:-1]]
 
 
-def _aspect(found: Aspects, across: str, upward: str) -> float:
+def _aspect(aspects: Aspects, across: str, upward: str) -> float:
     """Height of a panel over its width: true to scale where both are lengths."""
-    low, high = found.box.low, found.box.high
-    spans = [high[found.box.axis(name)] - low[found.box.axis(name)] for name in (across, upward)]
+    low, high = aspects.box.low, aspects.box.high
+    spans = [high[aspects.box.axis(name)] - low[aspects.box.axis(name)] for name in (across, upward)]
     return float(np.clip(spans[1] / spans[0], 0.3, 1.6)) if is_angle(across) == is_angle(upward) else 1.0
 
 
-def _panel(axes: Axes, found: Aspects, value: float | None, least: float) -> None:
+def _panel(axes: Axes, aspects: Aspects, value: float | None, least: float) -> None:
     """One cut, with the labels of those aspects that have at least so large an area there."""
     for rectangles, style in [
-        (_rectangles(found.search.undecided, value), {"facecolor": PALE, "edgecolor": PALE}),
-        *((_rectangles(item.boxes, value), _style(k)) for k, item in enumerate(found.aspects)),
+        (_rectangles(aspects.search.undecided, value), {"facecolor": PALE, "edgecolor": PALE}),
+        *((_rectangles(item.boxes, value), _style(k)) for k, item in enumerate(aspects.aspects)),
     ]:
         axes.add_collection(PolyCollection(list(rectangles), linewidth=0.15, **style))
-    for item in found.aspects:
+    for item in aspects.aspects:
         _letter(axes, item, _rectangles(item.boxes, value), least)
 
 
@@ -197,7 +197,7 @@ def _rectangles(boxes: Boxes, value: float | None) -> FloatArray:
     return np.stack([np.stack(pair, axis=-1) for pair in ((left, low), (right, low), (right, high), (left, high))], 1)
 
 
-def _letter(axes: Axes, item: Aspect, rectangles: FloatArray, least: float) -> None:
+def _letter(axes: Axes, aspect: Aspect, rectangles: FloatArray, least: float) -> None:
     """The label in one of the aspect's largest rectangles, that nearest to its middle."""
     spans = rectangles[:, 2] - rectangles[:, 0]
     if not len(rectangles) or np.sum(np.prod(spans, axis=1)) < least:
@@ -210,7 +210,7 @@ def _letter(axes: Axes, item: Aspect, rectangles: FloatArray, least: float) -> N
     axes.text(
         float(at[0]),
         float(at[1]),
-        _words(item.label),
+        _words(aspect.label),
         ha="center",
         va="center",
         fontsize=TEXT,
@@ -237,10 +237,10 @@ def _way(axes: Axes, path: AspectPath) -> None:
     axes.plot(*line[[0, -1]].T, "o", color=INK, markersize=3.5, zorder=6)
 
 
-def _dress(context: Context, axes: Axes, found: Aspects, names: tuple[str, str]) -> None:
+def _dress(context: Context, axes: Axes, aspects: Aspects, names: tuple[str, str]) -> None:
     for name, axis in zip(names, (axes.xaxis, axes.yaxis), strict=True):
-        k = found.box.axis(name)
-        low, high = found.box.low[k], found.box.high[k]
+        k = aspects.box.axis(name)
+        low, high = aspects.box.low[k], aspects.box.high[k]
         axis.set_view_interval(low, high, ignore=True)
         axis.set_label_text(axis_title(context, name))
         if is_angle(name) and context.record.angle == "deg":
@@ -248,34 +248,36 @@ def _dress(context: Context, axes: Axes, found: Aspects, names: tuple[str, str])
             axis.set_major_formatter(FuncFormatter(lambda value, _: minus(f"{np.degrees(value):.0f}")))
 
 
-def _legend(found: Aspects, path: AspectPath | None) -> list[Any]:
-    handles: list[Any] = [Patch(label=_words(item.label), **_style(k)) for k, item in enumerate(found.aspects[:NAMED])]
-    if len(found) > NAMED:
-        handles.append(Patch(facecolor="none", label=f"and {len(found) - NAMED} smaller ones"))
+def _legend(aspects: Aspects, path: AspectPath | None) -> list[Any]:
+    handles: list[Any] = [
+        Patch(label=_words(item.label), **_style(k)) for k, item in enumerate(aspects.aspects[:NAMED])
+    ]
+    if len(aspects) > NAMED:
+        handles.append(Patch(facecolor="none", label=f"and {len(aspects) - NAMED} smaller ones"))
     handles.append(Patch(facecolor=PALE, label="undecided"))
     if path is not None:
         handles.append(Line2D([], [], color=INK, marker="o", markersize=3.5, label="path"))
     return handles
 
 
-def _data(found: Aspects, cuts: list[float | None], path: AspectPath | None) -> dict[str, Any]:
+def _data(aspects: Aspects, cuts: list[float | None], path: AspectPath | None) -> dict[str, Any]:
     def listed(boxes: Boxes) -> list[Any]:
         return [_rectangles(boxes, value) for value in cuts]
 
     return {
-        "mode": found.mode,
-        "plane": list(found.names[:2]),
+        "mode": aspects.mode,
+        "plane": list(aspects.names[:2]),
         "cuts": cuts,
         "aspects": [
             {"label": item.label, "volume": list(item.volume), "rectangles": listed(item.boxes)}
-            for item in found.aspects
+            for item in aspects.aspects
         ],
-        "undecided": listed(found.search.undecided),
+        "undecided": listed(aspects.search.undecided),
         "path": None if path is None else path.points,
     }
 
 
-ASPECTS = Entry(
+ASPECTS = FigureKind(
     "aspects",
     "Aspects: parts without singularities",
     no_aspects,

@@ -25,14 +25,14 @@ from assur.figures.sections import SECTIONS
 from assur.figures.singular import PARALLEL, SERIAL, SINGULAR
 from assur.figures.solid import SOLID
 from assur.figures.solutions import SOLUTIONS
-from assur.figures.spec import Drawing, Entry, FigureSpec
+from assur.figures.spec import Drawing, FigureKind, FigureSpec
 from assur.figures.structure import STRUCTURE
 from assur.figures.style import styled
 from assur.model.mechanism import MechanismRecord
 from assur.results.files import write_whole
 from assur.results.json_text import json_text
 
-ENTRIES: tuple[Entry, ...] = (
+ENTRIES: tuple[FigureKind, ...] = (
     STRUCTURE,
     MODEL,
     PLANES_FIGURE,
@@ -178,7 +178,7 @@ def chosen_names(record: MechanismRecord, asked: Sequence[str], context: Context
     return [entry.name for entry in ENTRIES if entry in entries]
 
 
-def _entry(record: MechanismRecord, name: str, context: Context) -> Entry:
+def _entry(record: MechanismRecord, name: str, context: Context) -> FigureKind:
     entry = next((item for item in ENTRIES if item.name == name), None)
     why = entry.missing(context) if entry else ""
     if entry is None or why:
@@ -186,21 +186,21 @@ def _entry(record: MechanismRecord, name: str, context: Context) -> Entry:
     return entry
 
 
-def _spec(context: Context, entry: Entry) -> FigureSpec:
+def _spec(context: Context, entry: FigureKind) -> FigureSpec:
     number = context.companion.numbers.get(entry.name, "")
     caption = entry.caption(context)
     return FigureSpec(entry.name, number, entry.title, f"{caption} {COMPARE.format(number)}" if number else caption)
 
 
-def _present(context: Context) -> list[Entry]:
+def _present(context: Context) -> list[FigureKind]:
     return [entry for entry in ENTRIES if not entry.missing(context)]
 
 
-def _chosen(record: MechanismRecord, context: Context, asked: Iterable[str] | None) -> list[Entry]:
+def _chosen(record: MechanismRecord, context: Context, asked: Iterable[str] | None) -> list[FigureKind]:
     return _present(context) if asked is None else [_entry(record, name, context) for name in asked]
 
 
-def _json(record: MechanismRecord, context: Context, entry: Entry, made: Drawing) -> str:
+def _json(record: MechanismRecord, context: Context, entry: FigureKind, made: Drawing) -> str:
     spec = _spec(context, entry)
     head = {
         "mechanism": record.name,

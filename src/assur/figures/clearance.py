@@ -47,7 +47,7 @@ RING = 7.0
 """Radius in points of the ring about a gap in the whole view, and about a place where links meet."""
 
 
-def drawn(record: MechanismRecord, item: Nearest) -> Drawing:
+def drawn(record: MechanismRecord, nearest: Nearest) -> Drawing:
     """A pair of links at the configuration where it is nearest: the whole mechanism, and the pair from close by.
 
     >>> from assur.scene.collisions import collisions
@@ -59,22 +59,22 @@ def drawn(record: MechanismRecord, item: Nearest) -> Drawing:
     ['base', 'rod2']
     """
     context = Context(record)
-    body, gap = skeleton(record, context.companion, item.joints), ends(record, item)
-    solids = _coloured(context, item)
+    body, gap = skeleton(record, context.companion, nearest.joints), ends(record, nearest)
+    solids = _coloured(context, nearest)
     camera = model_camera(context)
     page = canvas(PAGE, HEIGHT)
     half, tall = PAGE / 2, HEIGHT - HEAD
     whole = placed(solids, body)
-    _heading(page, record, item)
+    _heading(page, record, nearest)
     _whole(page, whole, inside(camera, whole.corners.reshape(-1, 3), (3, 3, half - 6, tall - 6)), gap, (half, tall))
-    pair = tuple(part for part in solids if part.link in item.links)
-    _close(page, record, item, _near(pair, body, gap, _width(record, item)), camera, gap, (half, 0.0, half, tall))
+    pair = tuple(part for part in solids if part.link in nearest.links)
+    _close(page, record, nearest, _near(pair, body, gap, _width(record, nearest)), camera, gap, (half, 0.0, half, tall))
     triad(page, camera, np.array([22.0, 20.0]))
     data = {
         "unit": record.unit,
-        "links": list(item.links),
-        "parts": list(item.parts),
-        "clearance": item.clearance,
+        "links": list(nearest.links),
+        "parts": list(nearest.parts),
+        "clearance": nearest.clearance,
         "thickness": thickness(record),
         "ends": gap,
         "points": body.points,
@@ -82,17 +82,17 @@ def drawn(record: MechanismRecord, item: Nearest) -> Drawing:
     return Drawing(page.figure, data)
 
 
-def _coloured(context: Context, item: Nearest) -> tuple[Part, ...]:
+def _coloured(context: Context, pair: Nearest) -> tuple[Part, ...]:
     """Every part, those of the two links in their colours and all others pale."""
-    own = dict(zip(item.links, PAIR, strict=True))
+    own = dict(zip(pair.links, PAIR, strict=True))
     made = parts(home_skeleton(context.record, context.companion), context.companion)
     return tuple(replace(part, colour=own.get(part.link, MUTED)) for part in made)
 
 
-def _heading(page: Canvas, record: MechanismRecord, item: Nearest) -> None:
+def _heading(page: Canvas, record: MechanismRecord, pair: Nearest) -> None:
     """The two links in their colours, and how near they come."""
-    said = "meet" if not item.clearance else f"come as near as {item.clearance:.4g} {record.unit}"
-    words = ((item.links[0], PAIR[0]), (r"$\;$and$\;$", INK), (item.links[1], PAIR[1]), (rf"$\;${said}", INK))
+    said = "meet" if not pair.clearance else f"come as near as {pair.clearance:.4g} {record.unit}"
+    words = ((pair.links[0], PAIR[0]), (r"$\;$and$\;$", INK), (pair.links[1], PAIR[1]), (rf"$\;${said}", INK))
     left, level = 4 * POINTS, (HEIGHT - 5.5) * POINTS
     renderer = FigureCanvasAgg(page.figure).get_renderer()  # type: ignore[no-untyped-call]  # matplotlib does not say
     for text, colour in words:
@@ -112,8 +112,8 @@ def _ring(page: Canvas, at: FloatArray, radius: float) -> None:
     page.disc(at, radius, "none", RED, 1.2, 13.1)
 
 
-def _width(record: MechanismRecord, item: Nearest) -> float:
-    return max(GAPS * item.clearance, THICK * thickness(record))
+def _width(record: MechanismRecord, pair: Nearest) -> float:
+    return max(GAPS * pair.clearance, THICK * thickness(record))
 
 
 def _near(pair: tuple[Part, ...], body: Skeleton, gap: FloatArray, width: float) -> Mesh:
@@ -131,7 +131,7 @@ def _near(pair: tuple[Part, ...], body: Skeleton, gap: FloatArray, width: float)
 def _close(
     page: Canvas,
     record: MechanismRecord,
-    item: Nearest,
+    pair: Nearest,
     mesh: Mesh,
     usual: Camera,
     gap: FloatArray,
@@ -139,24 +139,24 @@ def _close(
 ) -> None:
     """The pair from close by, in a box (left, bottom, width, height) in mm, the gap in almost true length."""
     left, bottom, width, height = (POINTS * side for side in box)
-    scale = min(width, height) / _width(record, item)
+    scale = min(width, height) / _width(record, pair)
     offset = np.array([left + width / 2, bottom + height / 2])
     camera = _camera(mesh, usual, gap, scale, (width, height))
     view = View(camera, scale, offset - scale * camera.project(gap.mean(axis=0)))
     paste(page, mesh, view, (left, bottom, width, height))
     page.line(np.array([[left, bottom + 6], [left, bottom + height - 6]]), 0.4, INK, 14)
     flat, letters = view(gap), Letters(page)
-    if item.clearance:
+    if pair.clearance:
         page.line(flat, 3.4, PAPER, 12, solid_capstyle="butt")
         page.line(flat, 1.6, RED, 12.1, solid_capstyle="butt")
         for at in flat:
             page.disc(at, 2.0, RED, PAPER, 0.5, 13)
         halo = [withStroke(linewidth=HALO, foreground=PAPER)]
-        letters.add_along(flat, f"{item.clearance:.4g} {record.unit}", 5.0, color=RED, path_effects=halo)
+        letters.add_along(flat, f"{pair.clearance:.4g} {record.unit}", 5.0, color=RED, path_effects=halo)
     else:
         _ring(page, flat.mean(axis=0), RING)
     letters.place()
-    names = " and ".join(dict.fromkeys(item.parts))
+    names = " and ".join(dict.fromkeys(pair.parts))
     page.text(
         (left + width / 2, bottom + 7),
         names,
@@ -176,7 +176,7 @@ def _camera(mesh: Mesh, usual: Camera, gap: FloatArray, scale: float, size: tupl
         *(orthographic(azimuth, elevation) for azimuth, elevation in product(range(0, 360, 30), range(-60, 90, 30))),
     ]
     fair = [item for item in found if np.linalg.norm(item.project(way)) >= TRUE * length]
-    fair.sort(key=lambda item: -float(item.toward @ usual.toward))
+    fair.sort(key=lambda pair: -float(pair.toward @ usual.toward))
     middle = np.array(size) / 2
     for item in fair:
         view = View(item, scale, middle - scale * item.project(gap.mean(axis=0)))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from assur.figures.canvas import POINTS, Canvas, View, inside
 from assur.figures.context import Context
 from assur.figures.letters import letter
-from assur.figures.meaning import Named, accented, named, together
+from assur.figures.meaning import NamedParts, accented, named, together
 from assur.figures.placing import Letters
 from assur.figures.solid import model_camera, paste
 from assur.figures.style import LETTER, PAPER, RED
@@ -33,7 +33,7 @@ class Scene:
 
     examples: Sequence[SingularExample]
     body: Skeleton
-    named: Named
+    named: NamedParts
     mesh: Mesh
     camera: Camera
 
@@ -80,9 +80,9 @@ def _plate() -> dict[str, Any]:
     return {"boxstyle": "round,pad=0.08", "facecolor": "#ffffffd0", "edgecolor": "none"}
 
 
-def _lines(page: Canvas, view: View, found: Named, letters: Letters) -> None:
+def _lines(page: Canvas, view: View, parts: NamedParts, letters: Letters) -> None:
     """Each line through the points that are named together, a little longer than they reach."""
-    for line in found.lines:
+    for line in parts.lines:
         flat = view(line)
         gaps = np.linalg.norm(flat[:, None] - flat[None], axis=2)
         first, last = np.unravel_index(np.argmax(gaps), gaps.shape)

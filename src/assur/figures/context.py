@@ -89,9 +89,9 @@ class Context:
         """
         return self._gap(self.skeleton, values)
 
-    def _gap(self, here: Skeleton, values: FloatArray) -> float:
+    def _gap(self, drawn: Skeleton, values: FloatArray) -> float:
         there = skeleton(self.record, self.companion, values).points
-        return float(sum(np.linalg.norm(there[name] - at) for name, at in here.points.items()))
+        return float(sum(np.linalg.norm(there[name] - at) for name, at in drawn.points.items()))
 
     @cached_property
     def skeleton(self) -> Skeleton:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from assur.figures.context import Context
 from assur.figures.plane_map import COLOURS, SHOWN, beyond, coloured, planes
 from assur.figures.plots import mode_words, no_workspace
-from assur.figures.spec import Drawing, Entry
+from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import PAGE, TEXT, new_figure
 from assur.kinematics.rates.units import factor_unit, is_mixed
 from assur.performance.indices import INDICES
@@ -119,8 +119,8 @@ def _levels(top: float) -> list[float]:
     return [float(level) for level in ticks if 0.0 < level < top]
 
 
-DEXTERITY = Entry("dexterity", "Local condition index", _missing, _caption, partial(_draw, measure=INDEX))
-LARGEST = Entry(
+DEXTERITY = FigureKind("dexterity", "Local condition index", _missing, _caption, partial(_draw, measure=INDEX))
+LARGEST = FigureKind(
     "fastest",
     "Largest velocity factor",
     _missing,
@@ -131,7 +131,7 @@ LARGEST = Entry(
     ),
     partial(_draw, measure=FASTEST),
 )
-SMALLEST = Entry(
+SMALLEST = FigureKind(
     "slowest",
     "Smallest velocity factor",
     _missing,

@@ -98,9 +98,9 @@ def _partner(skeleton: Skeleton, mark: JointMark) -> FloatArray | None:
     return None
 
 
-def draw_arcs(page: Canvas, view: View, found: list[Arc], letters: Letters) -> None:
+def draw_arcs(page: Canvas, view: View, arcs: list[Arc], letters: Letters) -> None:
     """Arcs with their letters, and the directions that they are counted from."""
-    for arc in found:
+    for arc in arcs:
         radius = float(np.linalg.norm(arc.points[0] - arc.corner))
         zero = view(np.array([arc.corner, arc.corner + 1.9 * radius * arc.sides[0]]))
         guide(page, zero, 8.0)
@@ -161,7 +161,7 @@ def formula_text(formula: str) -> str:
     >>> formula_text("2*d"), formula_text("l4"), formula_text("sqrt(3)*r"), formula_text("uP")
     ('$2d$', '$l_{4}$', '$\\sqrt{3}\\,r$', '$u_P$')
     """
-    named = re.sub(r"[A-Za-z]\w*", lambda found: mathematics(found[0]) or _indexed(found[0]), formula)
+    named = re.sub(r"[A-Za-z]\w*", lambda name: mathematics(name[0]) or _indexed(name[0]), formula)
     rooted = re.sub(r"sqrt\(([^()]*)\)", r"\\sqrt{\1}", named)
     whole = rooted.replace("}*", "}" + chr(92) + ",").replace("*", "")
     return f"${whole}$" if is_settable(whole) else formula

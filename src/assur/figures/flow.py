@@ -17,7 +17,7 @@ from assur.figures.context import Context
 from assur.figures.labels import is_settable, label
 from assur.figures.layers import Layout, layout, rows
 from assur.figures.letters import letter
-from assur.figures.spec import Drawing, Entry
+from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import GREY, INK, LETTER, SMALL, new_figure
 from assur.model.closed_form import Eliminant, PolynomialSystem
 
@@ -31,7 +31,7 @@ GAP = 13.0
 
 
 @dataclass(frozen=True)
-class Box:
+class FlowBox:
     """A step of the solution: what it is, what it is made from, its equation, and the mode sign chosen in it."""
 
     name: str
@@ -49,7 +49,7 @@ class Box:
         return ", ".join(part for part in (equation, sign) if part)
 
 
-def boxes(context: Context) -> dict[str, Box]:
+def boxes(context: Context) -> dict[str, FlowBox]:
     """Every step of the direct solution by name, inputs first.
 
     >>> from assur.model.registry import load_record
@@ -58,20 +58,20 @@ def boxes(context: Context) -> dict[str, Box]:
     (('J1', 'J2', 'J3', 'closed'), '(17)')
     """
     record, plan = context.record, context.companion.flow
-    found = {item.name: Box(item.name, "input", label(item.latex, item.name), ()) for item in record.inputs}
+    found = {item.name: FlowBox(item.name, "input", label(item.latex, item.name), ()) for item in record.inputs}
     quantities = record.closed_form.quantity_list if record.closed_form else ()
     for item in quantities:
         if item.problem != "inverse" and item.name not in plan.leave_out:
             equation = item.equation.split(", ")[0]
             latex = label(item.latex, item.name)
-            found[item.name] = Box(item.name, "quantity", latex, item.needs, equation)
+            found[item.name] = FlowBox(item.name, "quantity", latex, item.needs, equation)
     for name, step in plan.steps.items():
         known = found.get(name)
         needs = tuple(step.needs if step.needs is not None else known.needs if known else ())
         kind: Kind = "condition" if step.condition else "pose" if name in record.platform.pose else "quantity"
         latex = step.latex if is_settable(step.latex) else known.latex if known else label("", name)
         equation = step.equation or (known.equation if known else "")
-        found[name] = Box(name, kind, latex, (*needs, *step.adds), equation, step.sign)
+        found[name] = FlowBox(name, kind, latex, (*needs, *step.adds), equation, step.sign)
     return found
 
 
@@ -141,12 +141,12 @@ def _places(plan: Layout, row: dict[str, int], low: float, depth: float) -> dict
     return {name: np.array([x - low, depth - 8 - HALF - ROW * level[name]]) for name, x in plan.centre.items()}
 
 
-def _sizes(found: list[Box]) -> dict[str, float]:
+def _sizes(boxes: list[FlowBox]) -> dict[str, float]:
     """Widths of the boxes in points."""
     figure = new_figure(10, 10)
     renderer = FigureCanvasAgg(figure).get_renderer()  # type: ignore[no-untyped-call]  # matplotlib does not say
     sizes = {}
-    for box in found:
+    for box in boxes:
         lines = [
             figure.text(0, 0, f"${box.latex}$", fontsize=LETTER),
             figure.text(0, 0, box.note, fontsize=SMALL),
@@ -155,7 +155,7 @@ def _sizes(found: list[Box]) -> dict[str, float]:
     return sizes
 
 
-def _box(page: Canvas, box: Box, at: FloatArray, width: float) -> None:
+def _box(page: Canvas, box: FlowBox, at: FloatArray, width: float) -> None:
     style = (0, (3, 2)) if box.kind == "condition" else "-"
     patch = FancyBboxPatch(
         (at[0] - width / 2, at[1] - HALF),
@@ -220,7 +220,7 @@ def _port(pairs: list[tuple[str, str]], pair: tuple[str, str], width: float) -> 
     return step * (pairs.index(pair) - (len(pairs) - 1) / 2)
 
 
-def _data(context: Context, found: dict[str, Box], row: dict[str, int]) -> dict[str, Any]:
+def _data(context: Context, boxes: dict[str, FlowBox], row: dict[str, int]) -> dict[str, Any]:
     nodes = [
         {
             "name": box.name,
@@ -230,10 +230,10 @@ def _data(context: Context, found: dict[str, Box], row: dict[str, int]) -> dict[
             "sign": box.sign,
             "row": row[box.name],
         }
-        for box in found.values()
+        for box in boxes.values()
     ]
-    arrows = [[want, box.name] for box in found.values() for want in box.needs]
+    arrows = [[want, box.name] for box in boxes.values() for want in box.needs]
     return {"inputs": [item.name for item in context.record.inputs], "nodes": nodes, "arrows": arrows}
 
 
-FLOW = Entry("flow", "Flow of the direct solution", _missing, _caption, _draw)
+FLOW = FigureKind("flow", "Flow of the direct solution", _missing, _caption, _draw)

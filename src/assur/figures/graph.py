@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from assur.figures.canvas import POINTS, Canvas, canvas
 from assur.figures.context import Context
-from assur.figures.graph_layout import Bond, Plan, plan
+from assur.figures.graph_layout import Bond, GraphLayout, plan
 from assur.figures.letters import letter
-from assur.figures.spec import Drawing, Entry, always
+from assur.figures.spec import Drawing, FigureKind, always
 from assur.figures.style import GREY, INK, ORANGE, PAPER, SERIES, SMALL, TEXT, new_figure
 from assur.figures.symbols import hatching
 from assur.topology.linkages.linkage import Linkage
@@ -44,7 +44,7 @@ _GROUP = re.compile(r"Pa(\d+)")
 
 
 @dataclass(frozen=True)
-class Edge:
+class DrawnEdge:
     """A joint of the graph, or a parallelogram as one: its name, which freedoms are driven, and of several."""
 
     name: str
@@ -69,18 +69,20 @@ class Edge:
         return f"{name}\n{below}" if below else name
 
 
-def edges(linkage: Linkage) -> tuple[Edge, ...]:
+def edges(linkage: Linkage) -> tuple[DrawnEdge, ...]:
     """The edges of the graph in the order of the joints, a group of joints where its first one stands."""
     owner = {name: group for group in linkage.groups.values() for name in group.joints}
-    found: dict[str, Edge] = {}
+    found: dict[str, DrawnEdge] = {}
     for name, joint in linkage.joints.items():
         if name in owner:
             group = owner[name]
             sign = group.kind.removeprefix("P(").removesuffix(")")
-            found.setdefault(group.name, Edge(group.name, sign, group.parent, group.child, group.joints))
+            found.setdefault(group.name, DrawnEdge(group.name, sign, group.parent, group.child, group.joints))
         else:
             driven = tuple(joint.type.components[index] for other, index in linkage.inputs if other == name)
-            found[name] = Edge(name, joint.type.letter, joint.parent, joint.child, (), driven, joint.type.freedoms > 1)
+            found[name] = DrawnEdge(
+                name, joint.type.letter, joint.parent, joint.child, (), driven, joint.type.freedoms > 1
+            )
     return tuple(found.values())
 
 
@@ -157,7 +159,7 @@ Legend = list[tuple[str, str]]
 
 
 def _legend(
-    found: Sequence[Edge], loops: Sequence[Loop], assur_chains: Sequence[AssurChain], tones: Mapping[str, _Tone]
+    edges: Sequence[DrawnEdge], loops: Sequence[Loop], assur_chains: Sequence[AssurChain], tones: Mapping[str, _Tone]
 ) -> Legend:
     lines: Legend = []
     for number, chain in enumerate(assur_chains, 1):
@@ -167,12 +169,12 @@ def _legend(
             delta = f"{loop.delta:+d}".replace("-", "\N{MINUS SIGN}") if loop.delta else "0"
             text = f"{index + 1}: $\\xi$ = {loop.xi}, $\\Delta$ = {delta}"
             lines.append((text, tones[loop.edges[0]].colour))
-    if any(item.driven for item in found):
+    if any(item.driven for item in edges):
         lines.append(("actuated", ORANGE))
     return lines
 
 
-def _page(places: Plan, bonds: Sequence[Bond], width: float, lines: int) -> Canvas:
+def _page(places: GraphLayout, bonds: Sequence[Bond], width: float, lines: int) -> Canvas:
     """A page about the graph and the legend on its right; its axes count in the plan's points."""
     rooms = {bond.name: bond.room for bond in bonds}
     left = min(*(bar[0] for bar in places.links.values()), *(at[0] - rooms[n][0] for n, at in places.joints.items()))
@@ -185,13 +187,13 @@ def _page(places: Plan, bonds: Sequence[Bond], width: float, lines: int) -> Canv
     return page
 
 
-def _right(places: Plan, bonds: Sequence[Bond]) -> float:
+def _right(places: GraphLayout, bonds: Sequence[Bond]) -> float:
     """Where the graph ends and the legend may begin."""
     letters = [float(places.joints[bond.name][0]) + bond.room[1] for bond in bonds]
     return max(*letters, *(bar[1] for bar in places.links.values()))
 
 
-def _write(page: Canvas, places: Plan, bonds: Sequence[Bond], legend: Legend) -> None:
+def _write(page: Canvas, places: GraphLayout, bonds: Sequence[Bond], legend: Legend) -> None:
     x = _right(places, bonds) + 12.0
     y = max(bar[2] for bar in places.links.values()) + HALF - LINE / 2
     for text, colour in legend:
@@ -203,19 +205,19 @@ def _write(page: Canvas, places: Plan, bonds: Sequence[Bond], legend: Legend) ->
         y -= LINE
 
 
-def _edge(page: Canvas, item: Edge, places: Plan, tones: Mapping[str, _Tone]) -> None:
-    at, tone = places.joints[item.name], tones.get(item.name)
-    bold = bool(item.joints)
-    _line(page, places.lines[item.name], tone.colour if tone else INK, 3.4 if bold else 1.6)
-    fill = ORANGE if item.driven else PAPER
+def _edge(page: Canvas, edge: DrawnEdge, places: GraphLayout, tones: Mapping[str, _Tone]) -> None:
+    at, tone = places.joints[edge.name], tones.get(edge.name)
+    bold = bool(edge.joints)
+    _line(page, places.lines[edge.name], tone.colour if tone else INK, 3.4 if bold else 1.6)
+    fill = ORANGE if edge.driven else PAPER
     if bold:
         page.polygon(at + RADIUS * SLANTED, fill, order=6)
     else:
         page.disc(at, RADIUS, fill, order=6)
-    page.text(at - [0.0, 0.3], item.letter, fontsize=SMALL)
-    page.text(at + np.array([item.reach + 3.0, 0.0]), item.label, ha="left", fontsize=TEXT, linespacing=1.0)
+    page.text(at - [0.0, 0.3], edge.letter, fontsize=SMALL)
+    page.text(at + np.array([edge.reach + 3.0, 0.0]), edge.label, ha="left", fontsize=TEXT, linespacing=1.0)
     if tone:
-        page.text(at - [item.reach + 3.0, 0.0], str(tone.number), ha="right", fontsize=SMALL, color=GREY)
+        page.text(at - [edge.reach + 3.0, 0.0], str(tone.number), ha="right", fontsize=SMALL, color=GREY)
 
 
 def _line(page: Canvas, points: FloatArray, colour: str, width: float) -> None:
@@ -240,7 +242,11 @@ def _link(page: Canvas, bar: tuple[float, float, float], name: str, *, ground: b
 
 
 def _data(
-    linkage: Linkage, found: Sequence[Edge], places: Plan, loops: Sequence[Loop], assur_chains: Sequence[AssurChain]
+    linkage: Linkage,
+    edges: Sequence[DrawnEdge],
+    places: GraphLayout,
+    loops: Sequence[Loop],
+    assur_chains: Sequence[AssurChain],
 ) -> dict[str, Any]:
     return {
         "base": linkage.base,
@@ -255,7 +261,7 @@ def _data(
                 "driven": list(item.driven),
                 "at": places.joints[item.name],
             }
-            for item in found
+            for item in edges
         ],
         "loops": [{"joints": list(loop.edges), "xi": loop.xi, "delta": loop.delta} for loop in loops],
         "assur_chains": [
@@ -278,4 +284,4 @@ def _draw(context: Context) -> Drawing:
     return graph_drawing(found.linkage, found.loops, found.assur_chains)
 
 
-GRAPH = Entry("graph", "Links and joints", always, _caption, _draw)
+GRAPH = FigureKind("graph", "Links and joints", always, _caption, _draw)

@@ -36,7 +36,7 @@ class Bond:
 
 
 @dataclass(frozen=True, eq=False)
-class Plan:
+class GraphLayout:
     """Places in points, the base at height 0.
 
     Attributes:
@@ -52,7 +52,7 @@ class Plan:
     upright: bool
 
 
-def plan(bonds: Sequence[Bond], base: str, platform: str, widths: Mapping[str, float]) -> Plan:
+def plan(bonds: Sequence[Bond], base: str, platform: str, widths: Mapping[str, float]) -> GraphLayout:
     """Places for a connected graph; the same input gives the same output.
 
     Args:
@@ -81,7 +81,7 @@ class _Upright:
     platform: str
     widths: Mapping[str, float]
 
-    def plan(self, reduced: Tree) -> Plan:
+    def plan(self, reduced: Tree) -> GraphLayout:
         """Every place."""
         height = ROW * levels(reduced)
         x = dict(self._columns(reduced, 0.0))
@@ -94,7 +94,7 @@ class _Upright:
             link: self._bar(link, [x[b.name] for b in self.bonds.values() if link in (b.start, b.end)], level[link])
             for link in level
         }
-        return Plan({name: line.mean(axis=0) for name, line in lines.items()}, links, lines, upright=True)
+        return GraphLayout({name: line.mean(axis=0) for name, line in lines.items()}, links, lines, upright=True)
 
     def _bar(self, link: str, columns: Sequence[float], height: float) -> tuple[float, float, float]:
         middle = (min(columns) + max(columns)) / 2
@@ -142,7 +142,7 @@ class _Upright:
 # ---- any other graph --------------------------------------------------------------------------------------
 
 
-def _layered(bonds: Sequence[Bond], base: str, platform: str, widths: Mapping[str, float]) -> Plan:
+def _layered(bonds: Sequence[Bond], base: str, platform: str, widths: Mapping[str, float]) -> GraphLayout:
     """Links and joints as boxes on layers, every line from a link near the base to one farther up."""
     near = _near(bonds, base, platform)
     ends = {bond.name: sorted((bond.start, bond.end), key=near.index) for bond in bonds}
@@ -165,7 +165,7 @@ def _layered(bonds: Sequence[Bond], base: str, platform: str, widths: Mapping[st
         _spread([lines[name] for name in ends if ends[name][0] == link], 0, 1, boxes[link])
         _spread([lines[name] for name in ends if ends[name][1] == link], -1, -2, boxes[link])
     bars = {link: (at[link][0] - boxes[link] / 2, at[link][0] + boxes[link] / 2, at[link][1]) for link in near}
-    return Plan({name: at[node[name]] for name in ends}, bars, lines, upright=False)
+    return GraphLayout({name: at[node[name]] for name in ends}, bars, lines, upright=False)
 
 
 def _near(bonds: Sequence[Bond], base: str, platform: str) -> list[str]:

@@ -12,7 +12,7 @@ from assur.errors import UsageError
 from assur.figures.context import Context
 from assur.figures.plane_map import SHOWN, MappedPlane, beyond, coloured, panels, plane_of_lengths, with_bar
 from assur.figures.plots import mode_words, no_workspace
-from assur.figures.spec import Drawing, Entry
+from assur.figures.spec import Drawing, FigureKind
 from assur.figures.written import units
 from assur.performance.indices import INDICES
 from assur.workspace.index_maps import IndexMaps, index_maps
@@ -31,24 +31,24 @@ def whole(context: Context) -> IndexMaps:
     return found
 
 
-def drawn(context: Context, found: IndexMaps) -> Drawing:
+def drawn(context: Context, maps: IndexMaps) -> Drawing:
     """Every index over two coordinates of the workspace of a context.
 
     Errors:
         UsageError: maps of one or of three coordinates.
     """
-    if len(found.axes) != 2:
-        raise UsageError(f"{len(found.axes)} coordinates are not a plane", hint="map two, hold the others")
-    (first, xs), (second, ys) = found.axes
-    plane = MappedPlane(context, (first, second), found.held, xs, ys)
-    titles = [f"${item.symbol}$" + (f" ({units(item.unit)})" if item.unit else "") for item in found.maps.values()]
+    if len(maps.axes) != 2:
+        raise UsageError(f"{len(maps.axes)} coordinates are not a plane", hint="map two, hold the others")
+    (first, xs), (second, ys) = maps.axes
+    plane = MappedPlane(context, (first, second), maps.held, xs, ys)
+    titles = [f"${item.symbol}$" + (f" ({units(item.unit)})" if item.unit else "") for item in maps.maps.values()]
     figure, pairs = panels(plane, titles, right=13.0)
-    for pair, (name, item) in zip(pairs, found.maps.items(), strict=True):
+    for pair, (name, item) in zip(pairs, maps.maps.items(), strict=True):
         top = _top(name, item.values[np.isfinite(item.values)])
         values = np.where(np.isinf(item.values), np.nan if top is None else top, item.values).T
         image = coloured(pair[0], plane, values, Normalize(0.0, top or 1.0))
         with_bar(pair, image, "none found", beyond(top or np.inf, item.values))
-    return Drawing(figure, found.to_json())
+    return Drawing(figure, maps.to_json())
 
 
 def _top(name: str, known: FloatArray) -> float | None:
@@ -94,7 +94,7 @@ def _caption(context: Context) -> str:
     return " ".join(parts)
 
 
-INDEX_MAPS = Entry(
+INDEX_MAPS = FigureKind(
     "indices",
     "Every index over one plane",
     no_workspace,

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from assur.figures.context import Context
 from assur.figures.plane_map import COLOURS, SHOWN, MappedPlane, beyond, coloured, plane_of_lengths
 from assur.figures.plots import mode_words, no_workspace
-from assur.figures.spec import Drawing, Entry
+from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import ORANGE, PAGE, TEXT, new_figure
 from assur.figures.written import units
 from assur.performance.indices import INDICES, Indices
@@ -38,11 +38,11 @@ class IndexField:
     """Every index at the nodes (rows, columns) of a plane."""
 
     plane: MappedPlane
-    found: Indices
+    indices: Indices
 
     def shares(self, name: str) -> tuple[FloatArray, float]:
         """An index between 0 and 1, and what it was divided by: 1, or the quantile where a velocity's colours end."""
-        values = self.found[name]
+        values = self.indices[name]
         known = values[np.isfinite(values)]
         if INDICES[name].power == 0 or not len(known):
             return values, 1.0
@@ -81,16 +81,16 @@ def _transmission_caption(context: Context) -> str:
 
 def _jacobian_caption(context: Context) -> str:
     there = field(context)
-    top, unit = there.shares("manipulability")[1], INDICES["manipulability"].unit(there.found)
+    top, unit = there.shares("manipulability")[1], INDICES["manipulability"].unit(there.indices)
     size = f"{top:.4g} {units(unit)}".strip()
     words = (
         f"Indices of $J = J_p^{{-1}}J_q$ ({mode_words(context)}): $1/\\kappa(J)$ in the 2-norm and in the Frobenius"
         f" norm, 0 singular and 1 isotropic, and the manipulability $\\mu = \\sqrt{{\\det JJ^T}}$ divided by {size},"
         f" its {100 * SHOWN:.0f} % quantile."
     )
-    if there.found.length is None:
+    if there.indices.length is None:
         return words
-    return f"{words} Lengths are divided by the characteristic length {there.found.length:.4g} {context.record.unit}."
+    return f"{words} Lengths are divided by the characteristic length {there.indices.length:.4g} {context.record.unit}."
 
 
 def _draw(context: Context, names: tuple[str, ...], *, good: bool) -> Drawing:
@@ -112,7 +112,7 @@ def _draw(context: Context, names: tuple[str, ...], *, good: bool) -> Drawing:
             axes.tick_params(labelleft=False)
         label = f"({chr(97 + k)}) ${INDICES[name].symbol}$"
         figure.text((start + scale * wide / 2) / width, 1.5 / height, label, ha="center", fontsize=TEXT)
-        data[name] = {"values": there.found[name], "divided_by": divisor}
+        data[name] = {"values": there.indices[name], "divided_by": divisor}
     figure.text(left / width, 1.0 - 3.5 / height, plane.words, fontsize=TEXT)
     bar = figure.add_axes(((width - right + 5.0) / width, bottom / height, 3.5 / width, scale * tall / height))
     end = beyond(1.0, *(there.shares(name)[0] for name in names))
@@ -127,20 +127,20 @@ def _draw(context: Context, names: tuple[str, ...], *, good: bool) -> Drawing:
             "held": plane.held,
             plane.names[0]: plane.xs,
             plane.names[1]: plane.ys,
-            "characteristic_length": there.found.length,
+            "characteristic_length": there.indices.length,
             "maps": data,
         },
     )
 
 
-TRANSMISSION = Entry(
+TRANSMISSION = FigureKind(
     "transmission",
     "Motion and force transmission",
     no_workspace,
     _transmission_caption,
     partial(_draw, names=TRANSMISSION_MAPS, good=True),
 )
-MANIPULABILITY = Entry(
+MANIPULABILITY = FigureKind(
     "manipulability",
     "Condition and manipulability",
     no_workspace,

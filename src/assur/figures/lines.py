@@ -67,7 +67,7 @@ class LineWork:
     creases: FloatArray
 
 
-def line_work(mesh: Mesh, view: View, found: Buffers, dots: float) -> LineWork:
+def line_work(mesh: Mesh, view: View, buffers: Buffers, dots: float) -> LineWork:
     """What is seen of the lines of a mesh on a page that the painter has filled with `dots` pixels per inch.
 
     >>> from assur.figures.raster import filled
@@ -80,9 +80,9 @@ def line_work(mesh: Mesh, view: View, found: Buffers, dots: float) -> LineWork:
     (6, 3)
     """
     facing = facing_of(mesh, view)
-    edges = _joined(mesh_edges(mesh, facing), meetings(mesh, found))
+    edges = _joined(mesh_edges(mesh, facing), meetings(mesh, buffers))
     scale = SAMPLES * dots / 72.0
-    segments, owner = _seen(mesh, edges, view, found, scale)
+    segments, owner = _seen(mesh, edges, view, buffers, scale)
     outline = edges.outline[owner]
     return LineWork(segments[outline], segments[~outline])
 
@@ -131,10 +131,10 @@ def mesh_edges(mesh: Mesh, facing: FloatArray) -> Edges:
     return Edges(np.stack([start, end], axis=1)[wanted], faces[wanted], outline[wanted])
 
 
-def meetings(mesh: Mesh, found: Buffers) -> Edges:
+def meetings(mesh: Mesh, buffers: Buffers) -> Edges:
     """Segments in which two triangles cross that show side by side, as where a pin leaves a plate."""
     both = []
-    for one, two in ((found.face[:, 1:], found.face[:, :-1]), (found.face[1:], found.face[:-1])):
+    for one, two in ((buffers.face[:, 1:], buffers.face[:, :-1]), (buffers.face[1:], buffers.face[:-1])):
         change = (one != two) & (one >= 0) & (two >= 0)
         change[change] = mesh.patch[one[change]] != mesh.patch[two[change]]
         both.append(np.stack([one[change], two[change]], axis=1))
@@ -175,15 +175,15 @@ def _joined(one: Edges, two: Edges) -> Edges:
     )
 
 
-def _seen(mesh: Mesh, edges: Edges, view: View, found: Buffers, scale: float) -> tuple[FloatArray, IntArray]:
+def _seen(mesh: Mesh, edges: Edges, view: View, buffers: Buffers, scale: float) -> tuple[FloatArray, IntArray]:
     """Segments (k, 2, 2) in points that are seen, and the edge (k,) that each is a part of."""
     flat, steps, owner, share, at, depth = _samples(edges.ends, view, scale)
     room = DEEP * float(np.ptp(view.camera.depth(mesh.corners)))
-    visible = _shows(mesh, mesh.patch[edges.faces][owner], at, depth + room, found)
+    visible = _shows(mesh, mesh.patch[edges.faces][owner], at, depth + room, buffers)
     return _runs(visible, owner, share, steps, flat)
 
 
-def before(lines: FloatArray, view: View, found: Buffers, dots: float) -> FloatArray:
+def before(lines: FloatArray, view: View, buffers: Buffers, dots: float) -> FloatArray:
     """What of segments (e, 2, 3) in space nothing on a page hides: segments (k, 2, 2) on it, in points.
 
     They need not be edges of what the page shows. One that lies on a face is seen.
@@ -198,10 +198,10 @@ def before(lines: FloatArray, view: View, found: Buffers, dots: float) -> FloatA
     [[10.0, 20.0], [40.0, 50.0]]
     """
     flat, steps, owner, share, at, depth = _samples(lines, view, SAMPLES * dots / 72.0)
-    height, width = found.depth.shape
+    height, width = buffers.depth.shape
     column, row = np.round(at).astype(int).T
     inside = (column >= 0) & (column < width) & (row >= 0) & (row < height)
-    there = found.depth[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)]
+    there = buffers.depth[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)]
     room = ON_IT * float(np.ptp(depth)) if len(depth) else 0.0
     return _runs(~inside | (depth >= there - room), owner, share, steps, flat)[0]
 
@@ -220,9 +220,9 @@ def _samples(
     return flat, steps, owner, share, at, near[owner, 0] + share * (near[owner, 1] - near[owner, 0])
 
 
-def _shows(mesh: Mesh, patch: IntArray, at: FloatArray, depth: FloatArray, found: Buffers) -> BoolArray:
+def _shows(mesh: Mesh, patch: IntArray, at: FloatArray, depth: FloatArray, buffers: Buffers) -> BoolArray:
     """Whether samples (s,) at fine pixels (s, 2) are seen: one of their patches (s, 2) shows beside them, no nearer."""
-    height, width = found.face.shape
+    height, width = buffers.face.shape
     column, row = np.round(at).astype(int).T
     visible = np.zeros(len(at), dtype=bool)
     for down in (-1, 0, 1):
@@ -230,9 +230,9 @@ def _shows(mesh: Mesh, patch: IntArray, at: FloatArray, depth: FloatArray, found
             y, x = row + down, column + right
             inside = (y >= 0) & (y < height) & (x >= 0) & (x < width)
             y, x = np.clip(y, 0, height - 1), np.clip(x, 0, width - 1)
-            face = found.face[y, x]
+            face = buffers.face[y, x]
             own = inside & (face >= 0) & np.any(mesh.patch[face][:, None] == patch, axis=1)
-            visible |= own & (depth >= found.depth[y, x])
+            visible |= own & (depth >= buffers.depth[y, x])
     return visible
 
 

@@ -18,7 +18,7 @@ _NUMBERED = re.compile(r"\blinks? ((?:\w+)(?:(?:, | and )\d+)*)")
 
 
 @dataclass(frozen=True, eq=False)
-class Named:
+class NamedParts:
     """What a text names.
 
     Attributes:
@@ -32,7 +32,7 @@ class Named:
     links: tuple[str, ...]
 
 
-def named(text: str, skeleton: Skeleton) -> Named:
+def named(text: str, skeleton: Skeleton) -> NamedParts:
     """Find the points, lines and links of a text.
 
     >>> from assur.scene.companion import companion
@@ -57,15 +57,15 @@ def named(text: str, skeleton: Skeleton) -> Named:
     letters = dict.fromkeys(name for run in runs if len(run) > 1 for name in run)
     links = _links(text, skeleton)
     lines += [rod.points for rod in skeleton.rods if rod.link in links and not letters]
-    return Named(tuple(lines), tuple(letters), links)
+    return NamedParts(tuple(lines), tuple(letters), links)
 
 
-def together(found: Sequence[Named]) -> Named:
+def together(named_parts: Sequence[NamedParts]) -> NamedParts:
     """What several texts name, each point and link once."""
-    return Named(
-        tuple(line for item in found for line in item.lines),
-        tuple(dict.fromkeys(name for item in found for name in item.letters)),
-        tuple(dict.fromkeys(link for item in found for link in item.links)),
+    return NamedParts(
+        tuple(line for item in named_parts for line in item.lines),
+        tuple(dict.fromkeys(name for item in named_parts for name in item.letters)),
+        tuple(dict.fromkeys(link for item in named_parts for link in item.links)),
     )
 
 
@@ -91,11 +91,11 @@ def _links(text: str, skeleton: Skeleton) -> tuple[str, ...]:
     return tuple(found)
 
 
-def accented(found: Named, skeleton: Skeleton) -> tuple[str, ...]:
+def accented(parts: NamedParts, skeleton: Skeleton) -> tuple[str, ...]:
     """Links that lie along the lines that a text names."""
-    links = dict.fromkeys(found.links)
+    links = dict.fromkeys(parts.links)
     for rod in skeleton.rods:
-        for line in found.lines:
+        for line in parts.lines:
             near = [float(np.min(np.linalg.norm(line - end, axis=1))) for end in rod.points]
             if max(near) < 1e-9 * skeleton.size:
                 links[rod.link] = None

@@ -13,7 +13,7 @@ from assur.figures.dimensions import arcs, draw_arcs, draw_frame, draw_measures,
 from assur.figures.letters import PRIME, letter
 from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, chain_colours, cloud_of, draw_bodies, draw_ground
-from assur.figures.spec import Drawing, Entry, always
+from assur.figures.spec import Drawing, FigureKind, always
 from assur.figures.style import GREY, TEXT
 from assur.scene.camera import oblique
 from assur.scene.hull import hull
@@ -98,4 +98,4 @@ def _data(skeleton: Skeleton, context: Context) -> dict[str, Any]:
     }
 
 
-MODEL = Entry("model", "Kinematic model", always, _caption, _draw)
+MODEL = FigureKind("model", "Kinematic model", always, _caption, _draw)

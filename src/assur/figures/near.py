@@ -25,7 +25,7 @@ CANDIDATES = 3
 
 
 @dataclass(frozen=True, eq=False)
-class Distance:
+class TriangleDistance:
     """Distance of points from triangles (k, 3, 3), looked for up to a bound."""
 
     triangles: FloatArray
@@ -42,7 +42,7 @@ class Distance:
     def __call__(self, points: FloatArray) -> FloatArray:
         """Distance (n,) of points (n, 3); the bound beyond it.
 
-        >>> from_square = Distance(np.array([[[0.0, 0, 0], [4, 0, 0], [4, 4, 0]]]), 10.0)
+        >>> from_square = TriangleDistance(np.array([[[0.0, 0, 0], [4, 0, 0], [4, 4, 0]]]), 10.0)
         >>> from_square(np.array([[3.0, 1.0, 2.0], [0.0, 0.0, 50.0]]))
         array([ 2., 10.])
         """
@@ -64,20 +64,20 @@ class Distance:
         return self(points).reshape(wide[0].shape)
 
 
-def near_solid(found: Workspace) -> Manifold:
+def near_solid(region: Workspace) -> Manifold:
     """What of the workspace is within `near` of a parallel-singular surface, on the axes of its own solid."""
-    if any(locus.everywhere for locus in found.loci):
-        return found.region.solid
-    surfaces = [triangles_of(locus.vertices, locus.faces) for locus in found.loci if len(locus.faces)]
-    if not surfaces or any(is_angle(name) for name in found.box.names):
+    if any(locus.everywhere for locus in region.loci):
+        return region.region.solid
+    surfaces = [triangles_of(locus.vertices, locus.faces) for locus in region.loci if len(locus.faces)]
+    if not surfaces or any(is_angle(name) for name in region.box.names):
         return Manifold()
-    wanted = np.ceil(CELLS_IN_DISTANCE * np.subtract(found.box.high, found.box.low) / found.near).astype(int)
-    grid = UniformGrid(found.box, tuple(np.clip(wanted, 24, FINEST).tolist()))
+    wanted = np.ceil(CELLS_IN_DISTANCE * np.subtract(region.box.high, region.box.low) / region.near).astype(int)
+    grid = UniformGrid(region.box, tuple(np.clip(wanted, 24, FINEST).tolist()))
     slab = np.ones(3)
-    slab[grid.dimension :] = found.region.grid.slack / grid.slack
-    close = [_round(Distance(surface, 2 * found.near), grid, found.near).scale(slab) for surface in surfaces]
-    return intersection([found.region.solid, union(close)])
+    slab[grid.dimension :] = region.region.grid.slack / grid.slack
+    close = [_round(TriangleDistance(surface, 2 * region.near), grid, region.near).scale(slab) for surface in surfaces]
+    return intersection([region.region.solid, union(close)])
 
 
-def _round(distance: Distance, grid: UniformGrid, near: float) -> Manifold:
+def _round(distance: TriangleDistance, grid: UniformGrid, near: float) -> Manifold:
     return solid_where(sample(lambda columns: near - distance.field(columns), grid), grid)

@@ -12,7 +12,7 @@ from assur.figures.context import Context
 from assur.figures.coordinates import axis_title, shown, symbol, value_words
 from assur.figures.plane_map import MappedPlane, coloured, panels, plane_of_tilts, with_bar
 from assur.figures.plots import free_coordinates, mode_words, no_workspace
-from assur.figures.spec import Drawing, Entry
+from assur.figures.spec import Drawing, FigureKind
 from assur.kinematics.parasitic import moving
 from assur.workspace.parasitic import Largest, largest_parasitic, parasitic_over
 
@@ -92,4 +92,4 @@ def _caption(context: Context) -> str:
     return f"Parasitic motion: the platform's coordinates that the pose leaves out ({mode_words(context)}).{largest}"
 
 
-PARASITIC = Entry("parasitic", "Parasitic motion", _missing, _caption, _draw)
+PARASITIC = FigureKind("parasitic", "Parasitic motion", _missing, _caption, _draw)

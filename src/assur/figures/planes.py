@@ -15,7 +15,7 @@ from assur.figures.labels import label
 from assur.figures.letters import letter
 from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, chain_colours, draw_bodies
-from assur.figures.spec import Drawing, Entry
+from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import GREY, INK, PAGE, TEXT
 from assur.scene.camera import AXES, Camera, plane
 from assur.scene.companion import DrawnMeasure
@@ -28,7 +28,7 @@ PLANES = {"y": ("x", "z"), "x": ("y", "z"), "z": ("x", "y")}
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class PlanarPart:
     """What moves in one plane: its normal, the angles that are counted in it, and the skeleton of its links."""
 
     normal: str
@@ -47,7 +47,7 @@ class Part:
         return f"{right.upper()}O{up.upper()} plane"
 
 
-def parts(context: Context) -> list[Part]:
+def parts(context: Context) -> list[PlanarPart]:
     """The planes with a named angle, most angles first."""
     skeleton = context.schematic
     found = arcs(skeleton, 0.1 * skeleton.size)
@@ -59,7 +59,7 @@ def parts(context: Context) -> list[Part]:
         if normal:
             groups.setdefault(normal, []).append(arc)
     ordered = sorted(groups, key=lambda normal: -len(groups[normal]))
-    return [Part(normal, tuple(groups[normal]), _part_of(skeleton, normal)) for normal in ordered]
+    return [PlanarPart(normal, tuple(groups[normal]), _part_of(skeleton, normal)) for normal in ordered]
 
 
 def _normal(axis: FloatArray) -> str | None:
@@ -124,19 +124,19 @@ def _draw(context: Context) -> Drawing:
     return Drawing(page.figure, {"unit": context.record.unit, "planes": [_data(part) for part in found]})
 
 
-def _widths(found: list[Part], room: float) -> list[float]:
+def _widths(parts: list[PlanarPart], room: float) -> list[float]:
     """Widths in mm in proportion to those of the parts, so that all are drawn to about one scale."""
-    spans = [float(np.ptp(part.camera.project(_cloud(part))[:, 0])) for part in found]
+    spans = [float(np.ptp(part.camera.project(_cloud(part))[:, 0])) for part in parts]
     return [room * span / sum(spans) for span in spans]
 
 
-def _cloud(part: Part) -> FloatArray:
+def _cloud(part: PlanarPart) -> FloatArray:
     """Points of the links, and where the directions that angles are counted from end."""
     ends = [arc.corner + 2 * (arc.points[0] - arc.corner) for arc in part.arcs]
     return np.concatenate([part.skeleton.cloud, ends])
 
 
-def _panel(context: Context, page: Canvas, view: View, part: Part, letters: Letters) -> None:
+def _panel(context: Context, page: Canvas, view: View, part: PlanarPart, letters: Letters) -> None:
     skeleton = part.skeleton
     colours = chain_colours(context.schematic)
     draw_bodies(page, view, skeleton, letters, Pen(width=1.5, symbol=0.75, colours=colours))
@@ -206,7 +206,7 @@ def _measure(page: Canvas, view: View, skeleton: Skeleton, measure: DrawnMeasure
     letters.add_along(feet, f"${label(measure.latex, measure.length or measure.along)}$", clear=1.5, fontsize=TEXT)
 
 
-def _data(part: Part) -> dict[str, Any]:
+def _data(part: PlanarPart) -> dict[str, Any]:
     right, up = PLANES[part.normal]
     keep = ["xyz".index(right), "xyz".index(up)]
     return {
@@ -216,4 +216,4 @@ def _data(part: Part) -> dict[str, Any]:
     }
 
 
-PLANES_FIGURE = Entry("planes", "Geometric relations in the planes of the loops", _missing, _caption, _draw)
+PLANES_FIGURE = FigureKind("planes", "Geometric relations in the planes of the loops", _missing, _caption, _draw)

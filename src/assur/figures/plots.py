@@ -146,9 +146,9 @@ def factor_of(context: Context, name: str) -> Factor:
     return next(item for item in parallel_factors(context.record) if item.name == name)
 
 
-def present(found: Workspace) -> list[Locus]:
+def present(region: Workspace) -> list[Locus]:
     """The loci that have a surface inside the workspace."""
-    return [locus for locus in found.loci if len(locus.faces)]
+    return [locus for locus in region.loci if len(locus.faces)]
 
 
 def legend_of(context: Context, *, near: bool = True, loci: bool = True) -> list[Patch | Line2D]:

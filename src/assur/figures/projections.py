@@ -23,7 +23,7 @@ from assur.figures.plots import (
     present,
     rim,
 )
-from assur.figures.spec import Drawing, Entry
+from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import GREY, PAGE, TEXT, new_figure
 from assur.workspace.projections import shadow
 
@@ -88,4 +88,4 @@ def _draw(context: Context) -> Drawing:
     return Drawing(figure, data)
 
 
-PROJECTIONS = Entry("projections", "Projections of the workspace", no_solid_workspace, _caption, _draw)
+PROJECTIONS = FigureKind("projections", "Projections of the workspace", no_solid_workspace, _caption, _draw)

@@ -107,12 +107,12 @@ def picture(
     return lit(mesh, view, filled(mesh, view, size, dots, solid=solid), dots, edges=edges)
 
 
-def lit(mesh: Mesh, view: View, found: Buffers, dots: float, *, edges: bool = True) -> FloatArray:
+def lit(mesh: Mesh, view: View, buffers: Buffers, dots: float, *, edges: bool = True) -> FloatArray:
     """The picture (h, w, 4) of what is nearest, with light on it."""
     flat = _fine(mesh, view, dots)
-    height, width = found.face.shape
-    seen = found.face >= 0
-    index = found.face[seen]
+    height, width = buffers.face.shape
+    seen = buffers.face >= 0
+    index = buffers.face[seen]
     weights = _weights(flat, index, seen)
     colour = mesh.colour.astype(np.float32)[index]
     light = _light(_interpolated(mesh.normals.astype(np.float32), index, weights), view)
@@ -120,7 +120,7 @@ def lit(mesh: Mesh, view: View, found: Buffers, dots: float, *, edges: bool = Tr
     image[seen, :3] = np.minimum(colour * light[:, None], 1.0)
     image[seen, 3] = 1.0
     if edges:
-        line = _changes(np.where(seen, mesh.patch[found.face], -1))
+        line = _changes(np.where(seen, mesh.patch[buffers.face], -1))
         image[line] = [*EDGE, 1.0]
     return _coarse(image)
 

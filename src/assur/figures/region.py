@@ -31,7 +31,7 @@ from assur.figures.plots import (
 from assur.figures.raster import filled, lit
 from assur.figures.singular import condition
 from assur.figures.solid import strokes
-from assur.figures.spec import Drawing, Entry
+from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import DOTS_PER_INCH, GREY, PAGE, SMALL, TEXT, new_figure
 from assur.figures.written import times_ten, units
 from assur.model.pose import is_angle
@@ -57,7 +57,7 @@ def _caption(context: Context) -> str:
     )
 
 
-def size_words(found: Workspace) -> str:
+def size_words(region: Workspace) -> str:
     """Volume or area with its error in a power of ten.
 
     >>> from types import SimpleNamespace
@@ -66,13 +66,13 @@ def size_words(found: Workspace) -> str:
     >>> size_words(SimpleNamespace(volume=2.8459, volume_error=0.0003, unit="m^3"))
     '2.8459 ± 0.0003 m$^3$'
     """
-    if found.volume == 0:
-        return f"0 {units(found.unit)}"
-    power = int(np.floor(np.log10(found.volume)))
-    digits = int(np.clip(power - np.floor(np.log10(max(found.volume_error, 1e-6 * found.volume))), 1, 6))
-    value, error = found.volume / 10.0**power, found.volume_error / 10.0**power
+    if region.volume == 0:
+        return f"0 {units(region.unit)}"
+    power = int(np.floor(np.log10(region.volume)))
+    digits = int(np.clip(power - np.floor(np.log10(max(region.volume_error, 1e-6 * region.volume))), 1, 6))
+    value, error = region.volume / 10.0**power, region.volume_error / 10.0**power
     pair = f"{value:.{digits}f} ± {error:.{digits}f}"
-    return f"{times_ten(f'({pair})' if power else pair, power)} {units(found.unit)}"
+    return f"{times_ten(f'({pair})' if power else pair, power)} {units(region.unit)}"
 
 
 def _draw(context: Context) -> Drawing:
@@ -139,9 +139,9 @@ def _space(context: Context) -> Any:
     return page.figure
 
 
-def _contour(found: Workspace, drawn: FloatArray, view: View) -> FloatArray:
+def _contour(region: Workspace, drawn: FloatArray, view: View) -> FloatArray:
     """Edges (e, 2, 3) of the region beyond which nothing of it is seen."""
-    body = surface(drawn * found.vertices, found.faces, GREY)
+    body = surface(drawn * region.vertices, region.faces, GREY)
     edges = mesh_edges(body, facing_of(body, view))
     return edges.ends[edges.outline]
 
@@ -180,4 +180,4 @@ def _captions(context: Context, page: Canvas, panel: float, width: float) -> Non
             )
 
 
-WORKSPACE = Entry("workspace", "Workspace and parallel singularities", no_workspace, _caption, _draw)
+WORKSPACE = FigureKind("workspace", "Workspace and parallel singularities", no_workspace, _caption, _draw)

@@ -26,11 +26,11 @@ from assur.figures.plots import (
     no_solid_workspace,
     present,
 )
-from assur.figures.spec import Drawing, Entry
+from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import BLUE, GREEN, GREY, INK, PAGE, PINK, SMALL, TEXT, new_figure
 from assur.figures.written import units
 from assur.workspace.certified.region import unit
-from assur.workspace.sections import Section, cut
+from assur.workspace.sections import RegionSection, cut
 
 FloatArray = NDArray[np.float64]
 BORDERS = (INK, BLUE, PINK, GREEN)
@@ -101,17 +101,17 @@ def _draw(context: Context) -> Drawing:
     return Drawing(figure, _data(context))
 
 
-def _panel(context: Context, axes: Axes, item: Section, used: dict[str, Line2D]) -> None:
+def _panel(context: Context, axes: Axes, section: RegionSection, used: dict[str, Line2D]) -> None:
     found = context.workspace
-    axis = found.box.axis(item.coordinate)
-    fill(axes, item.polygons, FREE)
-    fill(axes, _close(context, item)[1], CLOSE, order=2)
-    keep = [found.box.axis(name) for name in item.plane]
+    axis = found.box.axis(section.coordinate)
+    fill(axes, section.polygons, FREE)
+    fill(axes, _close(context, section)[1], CLOSE, order=2)
+    keep = [found.box.axis(name) for name in section.plane]
     for k, locus in enumerate(present(found)):
-        curves(axes, in_plane(locus, axis, item.value)[:, :, keep], k)
-    for polygon in item.polygons:
+        curves(axes, in_plane(locus, axis, section.value)[:, :, keep], k)
+    for polygon in section.polygons:
         edges = np.stack([polygon, np.roll(polygon, -1, axis=0)], axis=1)  # (k, 2, 2)
-        middles = np.full((len(edges), 3), item.value)
+        middles = np.full((len(edges), 3), section.value)
         middles[:, keep] = edges.mean(axis=1)
         names = kinds(context, middles)
         for name in dict.fromkeys(names):
@@ -132,28 +132,28 @@ def _areas(context: Context) -> list[Any]:
     return legend_of(context) if met else legend_of(context, near=False, loci=False)
 
 
-def _runs(edges: FloatArray, wanted: list[bool]) -> list[FloatArray]:
+def _runs(edges: FloatArray, kept: list[bool]) -> list[FloatArray]:
     """Polylines of the edges (k, 2, 2) of a closed polygon that are wanted, each as long as it runs on."""
-    if all(wanted):
+    if all(kept):
         return [np.concatenate([edges[:, 0], edges[:1, 0]])]
-    start = wanted.index(False)
+    start = kept.index(False)
     order = [*range(start, len(edges)), *range(start)]
     found: list[list[FloatArray]] = []
     running = False
     for k in order:
-        if wanted[k]:
+        if kept[k]:
             if not running:
                 found.append([edges[k, 0]])
             found[-1].append(edges[k, 1])
-        running = wanted[k]
+        running = kept[k]
     return [np.array(run) for run in found]
 
 
-def _close(context: Context, item: Section) -> tuple[float, tuple[FloatArray, ...]]:
+def _close(context: Context, section: RegionSection) -> tuple[float, tuple[FloatArray, ...]]:
     """Area and polygons of what is near a parallel singularity in a section."""
     box = context.workspace.box
-    axis = box.axis(item.coordinate)
-    return cut(context.near, axis, item.value, (box.low[axis], box.high[axis]))
+    axis = box.axis(section.coordinate)
+    return cut(context.near, axis, section.value, (box.low[axis], box.high[axis]))
 
 
 def _proved(context: Context) -> dict[float, tuple[float, float]]:
@@ -221,4 +221,4 @@ def _data(context: Context) -> dict[str, Any]:
     return {"unit": context.record.unit, "mode": found.mode, "near": found.near, "sections": sections}
 
 
-SECTIONS = Entry("sections", "Sections of the workspace", _missing, _caption, _draw)
+SECTIONS = FigureKind("sections", "Sections of the workspace", _missing, _caption, _draw)

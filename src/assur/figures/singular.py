@@ -14,7 +14,7 @@ from assur.figures.context import Context
 from assur.figures.labels import label
 from assur.figures.meaning import typeset
 from assur.figures.solid import model_camera, triad
-from assur.figures.spec import Drawing, Entry
+from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import LETTER, PAGE, SMALL, TEXT
 from assur.figures.written import minus
 from assur.model.closed_form import Factor
@@ -240,21 +240,21 @@ def _data(scene: Scene) -> list[dict[str, Any]]:
     ]
 
 
-SERIAL = Entry(
+SERIAL = FigureKind(
     "serial",
     "Serial singularity",
     partial(_missing, "serial"),
     partial(_caption, "serial"),
     partial(_draw_one, "serial"),
 )
-PARALLEL = Entry(
+PARALLEL = FigureKind(
     "parallel",
     "Parallel singularity",
     partial(_missing, "parallel"),
     partial(_caption, "parallel"),
     partial(_draw_one, "parallel"),
 )
-SINGULAR = Entry(
+SINGULAR = FigureKind(
     "singular",
     "Singular configurations of the further factors",
     _missing_further,

@@ -17,7 +17,7 @@ from assur.figures.letters import letter
 from assur.figures.lines import LineWork, line_work
 from assur.figures.placing import Letters
 from assur.figures.raster import SAMPLES, Buffers, filled, lit
-from assur.figures.spec import Drawing, Entry, always
+from assur.figures.spec import Drawing, FigureKind, always
 from assur.figures.style import BLUE, DOTS_PER_INCH, INK, PAPER, SMALL
 from assur.figures.written import minus
 from assur.scene.camera import Camera, orthographic
@@ -92,15 +92,15 @@ class Pasted:
 
     lines: LineWork
     view: View
-    found: Buffers
+    buffers: Buffers
 
     def hides(self, at: FloatArray, room: float) -> bool:
         """Whether something is nearer than a point (3,) by more than `room`."""
         column, row = np.round(SAMPLES * DOTS_PER_INCH / 72.0 * self.view(at) - 0.5).astype(int)
-        height, width = self.found.depth.shape
+        height, width = self.buffers.depth.shape
         if not (0 <= row < height and 0 <= column < width):
             return False
-        return bool(self.found.depth[row, column] > float(self.view.camera.depth(at)) + room)
+        return bool(self.buffers.depth[row, column] > float(self.view.camera.depth(at)) + room)
 
 
 def name_points(page: Canvas, view: View, skeleton: Skeleton, letters: Letters, drawn: Pasted) -> None:
@@ -197,4 +197,4 @@ def _data(context: Context, skeleton: Skeleton) -> dict[str, Any]:
     }
 
 
-SOLID = Entry("solid", "3-D model", always, _caption, _draw)
+SOLID = FigureKind("solid", "3-D model", always, _caption, _draw)

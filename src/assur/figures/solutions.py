@@ -15,7 +15,7 @@ from assur.figures.labels import label
 from assur.figures.letters import mathematics
 from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
-from assur.figures.spec import Drawing, Entry
+from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import BLUE, GREEN, INK, ORANGE, PAGE, PINK, RED, SKY, SMALL, TEXT
 from assur.figures.written import minus
 from assur.kinematics.answers.solution import Solution
@@ -117,10 +117,10 @@ def _draw(context: Context) -> Drawing:
     return Drawing(page.figure, _data(context, found))
 
 
-def _panel(context: Context, page: Canvas, view: View, found: list[Ghost]) -> None:
+def _panel(context: Context, page: Canvas, view: View, ghosts: list[Ghost]) -> None:
     letters = Letters(page)
-    draw_ground(page, view, found[0].skeleton, context.companion, letters)
-    for ghost in found[::-1]:
+    draw_ground(page, view, ghosts[0].skeleton, context.companion, letters)
+    for ghost in ghosts[::-1]:
         links = dict.fromkeys(context.record.links, ghost.colour)
         width = 1.7 if ghost.number == 1 else 1.1
         draw_bodies(
@@ -130,13 +130,13 @@ def _panel(context: Context, page: Canvas, view: View, found: list[Ghost]) -> No
             letters,
             Pen(width, 1.6, 0.6, links, 0.0 if ghost.number == 1 else -1.0),
         )
-    for ghost in found:
+    for ghost in ghosts:
         page.disc(view(ghost.origin), 1.6, ghost.colour, ghost.colour, order=15)
         letters.add(view(ghost.origin), str(ghost.number), clear=4.0, color=ghost.colour, weight="bold")
     letters.place()
 
 
-def _table(context: Context, page: Canvas, found: list[Ghost], width: float, height: float) -> None:
+def _table(context: Context, page: Canvas, ghosts: list[Ghost], width: float, height: float) -> None:
     """Coordinates of every solution, in its colour."""
     record = context.record
     heads = ["", *(_head(context, name) for name in record.platform.pose), "mode"]
@@ -147,7 +147,7 @@ def _table(context: Context, page: Canvas, found: list[Ghost], width: float, hei
         page.text(((left + k * step) * POINTS, top * POINTS), head, fontsize=TEXT)
     ends = np.array([[left - 0.4 * step, top - 2.4], [left + (len(heads) - 0.55) * step, top - 2.4]])
     page.line(ends * POINTS, 0.5)
-    for row, ghost in enumerate(found):
+    for row, ghost in enumerate(ghosts):
         cells = [str(ghost.number), *_cells(context, ghost), minus(ghost.solution.assembly_mode)]
         for k, cell in enumerate(cells):
             place = ((left + k * step) * POINTS, (top - 5.0 - 4.2 * row) * POINTS)
@@ -167,7 +167,7 @@ def _head(context: Context, name: str) -> str:
     return f"${mathematics(name) or name}$$\\,${unit}" if unit else f"${mathematics(name) or name}$"
 
 
-def _data(context: Context, found: list[Ghost]) -> dict[str, Any]:
+def _data(context: Context, ghosts: list[Ghost]) -> dict[str, Any]:
     return {
         "unit": context.record.unit,
         "inputs": context.assemblies.given,
@@ -180,9 +180,9 @@ def _data(context: Context, found: list[Ghost]) -> dict[str, Any]:
                 "residual": ghost.solution.residual,
                 "points": ghost.skeleton.points,
             }
-            for ghost in found
+            for ghost in ghosts
         ],
     }
 
 
-SOLUTIONS = Entry("solutions", "All direct solutions at the same inputs", _missing, _caption, _draw)
+SOLUTIONS = FigureKind("solutions", "All direct solutions at the same inputs", _missing, _caption, _draw)

@@ -35,7 +35,7 @@ class Drawing:
 
 
 @dataclass(frozen=True)
-class Entry:
+class FigureKind:
     """A kind of figure.
 
     Attributes:

@@ -13,7 +13,7 @@ from assur.figures.context import Context
 from assur.figures.letters import letter, mathematics, words
 from assur.figures.placing import Letters
 from assur.figures.sketch import CHAINS, Pen, chain_colours, cloud_of, draw_bodies, draw_ground
-from assur.figures.spec import Drawing, Entry, always
+from assur.figures.spec import Drawing, FigureKind, always
 from assur.figures.style import GREY, INK, SMALL, TEXT
 from assur.figures.symbols import direction
 from assur.scene.camera import oblique
@@ -140,4 +140,4 @@ def _data(context: Context, skeleton: Skeleton) -> dict[str, Any]:
     }
 
 
-STRUCTURE = Entry("structure", "Kinematic structure", always, _caption, _draw)
+STRUCTURE = FigureKind("structure", "Kinematic structure", always, _caption, _draw)

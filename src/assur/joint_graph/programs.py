@@ -109,12 +109,12 @@ class GraphProgram:
         return np.array([self.constants[name] for name in self.names if name in self.constants], dtype=float)
 
 
-def program(record: MechanismRecord, wanted: Wanted, given: tuple[str, ...] = ()) -> GraphProgram:
+def program(record: MechanismRecord, asked: Wanted, given: tuple[str, ...] = ()) -> GraphProgram:
     """The program of what a function asks of a configuration.
 
     Args:
         record: the mechanism.
-        wanted: names numbers of a configuration; the same function gives the same program.
+        asked: names numbers of a configuration; the same function gives the same program.
         given: names of other varying numbers, which the function takes after the configuration.
 
     Example: the frame of the platform of a five-bar turns and moves in the plane.
@@ -126,12 +126,12 @@ def program(record: MechanismRecord, wanted: Wanted, given: tuple[str, ...] = ()
     >>> program(record, height)(record, np.array([[np.pi / 2, 0.0, 0.0, 0.0, 0.0]])).shape
     (1, 1)
     """
-    return _programs(_structure(record), wanted, given)
+    return _programs(_structure(record), asked, given)
 
 
 @lru_cache(maxsize=256)
-def _programs(structure: _Structure, wanted: Wanted, given: tuple[str, ...]) -> GraphProgram:
-    return structure.program(wanted, given)
+def _programs(structure: _Structure, asked: Wanted, given: tuple[str, ...]) -> GraphProgram:
+    return structure.program(asked, given)
 
 
 @lru_cache(maxsize=64)
@@ -159,7 +159,7 @@ class _Structure:
     def __hash__(self) -> int:
         return hash(self._key)
 
-    def program(self, wanted: Wanted, given: tuple[str, ...]) -> GraphProgram:
+    def program(self, asked: Wanted, given: tuple[str, ...]) -> GraphProgram:
         recorder, record = Recorder(), self.record
         varying = {name: tuple(map(recorder.varying, own)) for name, own in state_names(record).items()}
         rates = {
@@ -176,7 +176,7 @@ class _Structure:
             return uniform[name]
 
         others = [recorder.varying(name) for name in given]
-        outputs = wanted(Configuration(joint_graph(record), self.pattern.mapped(number), varying, rates), *others)
+        outputs = asked(Configuration(joint_graph(record), self.pattern.mapped(number), varying, rates), *others)
         constants = {name: float(value) for name, value in outputs.items() if not isinstance(value, Recorded)}
         tape = recorder.tape({name: value for name, value in outputs.items() if name not in constants})
         return GraphProgram(*without_unused(tape), tuple(outputs), constants)

@@ -52,12 +52,12 @@ def _between(start: float, end: float, share: float) -> float:
     return float(start * (end / start) ** share) if start > 0 and end > 0 else start + share * (end - start)
 
 
-def _fault(record: MechanismRecord, found: Assembly) -> str:
+def _fault(record: MechanismRecord, assembly: Assembly) -> str:
     """What keeps an assembly from being the home of the file with other dimensions; empty where nothing does."""
-    if not bool(found.closed):
-        return gap_left(record, found)
+    if not bool(assembly.closed):
+        return gap_left(record, assembly)
     original = of_file(record)
-    before, now = _modes(original, assemble(original, original.home).values), _modes(record, found.values)
+    before, now = _modes(original, assemble(original, original.home).values), _modes(record, assembly.values)
     return "" if now == before else f"from home the loops close in the mode {now}, not in {before} as before"
 
 

@@ -294,13 +294,13 @@ def assemble(
     return Assembly(values.reshape(start.shape), error, error <= CLOSED * length, steps)
 
 
-def gap_left(record: MechanismRecord, found: Assembly) -> str:
+def gap_left(record: MechanismRecord, assembly: Assembly) -> str:
     """What is said of loops that do not close from home."""
-    return f"the loops do not close from home: a gap of {float(found.residual):.3g} {record.unit} remains"
+    return f"the loops do not close from home: a gap of {float(assembly.residual):.3g} {record.unit} remains"
 
 
 @dataclass(frozen=True, eq=False)
-class Mobility:
+class AssemblyMobility:
     """Freedom of the joint graph at an assembly, by the rank of its closure Jacobian.
 
     `rank` (...) of the 6 v rows, `freedoms` = n - rank, `redundant` = 6 v - rank, and `gap` (...): the
@@ -313,7 +313,7 @@ class Mobility:
     gap: FloatArray
 
 
-def mobility(record: MechanismRecord, values: FloatArray, *, threshold: float = RANK_GAP) -> Mobility:
+def mobility(record: MechanismRecord, values: FloatArray, *, threshold: float = RANK_GAP) -> AssemblyMobility:
     """Rank, freedoms and redundant constraints at assemblies (..., n).
 
     Translations are counted in units of the characteristic length, so that the rank does not depend on the unit.
@@ -328,4 +328,4 @@ def mobility(record: MechanismRecord, values: FloatArray, *, threshold: float = 
     dropped = np.max(np.where(kept, 0.0, singular), axis=-1)
     with np.errstate(divide="ignore"):
         gap = np.where(dropped > 0.0, smallest / dropped, np.inf)
-    return Mobility(rank, values.shape[-1] - rank, matrix.shape[-2] - rank, gap)
+    return AssemblyMobility(rank, values.shape[-1] - rank, matrix.shape[-2] - rank, gap)

@@ -185,8 +185,8 @@ def _scales(record: MechanismRecord, form: ClosedForm, path: Path) -> Iterator[P
             yield _problem(path, f"the scale '{formula}' is {size:g}", "it must be positive")
 
 
-def _problem(path: Path, found: str, allowed: str, hint: str = "", line: int | None = None) -> Problem:
-    return Problem(str(path), line, "", found, allowed, hint)
+def _problem(path: Path, given: str, allowed: str, hint: str = "", line: int | None = None) -> Problem:
+    return Problem(str(path), line, "", given, allowed, hint)
 
 
 def _line(error: BaseException, path: Path) -> int | None:

@@ -38,7 +38,7 @@ def with_parameters(record: Record, /, **overrides: Any) -> Record:
     except MechanismFileError as error:
         given = ", ".join(f"{name} = {value:g}" for name, value in checked.items())
         problem = error.problems[0]
-        place = f"{problem.path}: {problem.found}; {problem.allowed}"
+        place = f"{problem.path}: {problem.given}; {problem.allowed}"
         raise UsageError(f"{record.name} cannot be with {given}: {place}", hint=problem.hint) from None
     parts = {item.name: getattr(changed, item.name) for item in dataclasses.fields(MechanismRecord)}
     kept = {name: getattr(record, name) for name in _NOT_OF_FILE}

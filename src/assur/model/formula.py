@@ -22,13 +22,13 @@ from assur.errors import UsageError
 from assur.model.syntax import (
     Angle,
     Call,
-    Chain,
     Functions,
     Literal,
     Name,
     Negative,
     Node,
     Number,
+    Operands,
     Pi,
     evaluate,
     renamed,
@@ -64,14 +64,14 @@ _HINTS = {
 class FormulaError(UsageError):
     """A formula that does not follow the grammar: what was found where, and what was expected there."""
 
-    def __init__(self, text: str, position: int, found: str, expected: str, *, hint: str = "") -> None:
+    def __init__(self, text: str, position: int, given: str, expected: str, *, hint: str = "") -> None:
         start = max(0, position - 40)
         shown = text[start : position + 40].replace("\n", " ").replace("\t", " ")
         caret = " " * (position - start) + "^"
-        super().__init__(f"cannot read this formula:\n  {shown}\n  {caret} {found}; expected {expected}", hint=hint)
+        super().__init__(f"cannot read this formula:\n  {shown}\n  {caret} {given}; expected {expected}", hint=hint)
         self.text = text
         self.position = position
-        self.found = found
+        self.given = given
         self.expected = expected
 
 
@@ -189,7 +189,7 @@ class _Reader:
         while self._next.text in signs:
             sign = self._take().text
             rest.append((sign, part()))
-        return Chain(first, tuple(rest)) if rest else first
+        return Operands(first, tuple(rest)) if rest else first
 
     def _factor(self) -> Node:
         token = self._take()
@@ -245,5 +245,5 @@ class _Reader:
             hint = _HINTS["^"]
         self._fail(token.position, f"'{token.text}'" if token.text else "the end", expected, hint)
 
-    def _fail(self, position: int, found: str, expected: str, hint: str = "") -> NoReturn:
-        raise FormulaError(self.text, position, found, expected, hint=hint)
+    def _fail(self, position: int, given: str, expected: str, hint: str = "") -> NoReturn:
+        raise FormulaError(self.text, position, given, expected, hint=hint)

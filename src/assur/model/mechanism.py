@@ -18,7 +18,7 @@ from assur.joints.joint_type import JointType
 from assur.model.closed_form import ClosedForm
 from assur.model.file.description import Description
 from assur.model.formula import Formula
-from assur.model.written import WrittenJoint, WrittenVector
+from assur.model.written import JointFormulas, WrittenVector
 
 FloatArray = NDArray[np.float64]
 
@@ -79,7 +79,7 @@ class Joint:
     cone: float | None = None
     meaning: str = ""
     cone_axis: FloatArray | None = None
-    written: WrittenJoint | None = None
+    written: JointFormulas | None = None
 
     @cached_property
     def turned(self) -> bool:
@@ -132,7 +132,7 @@ class GeneralisedJoint:
 
 
 @dataclass(frozen=True)
-class Chain:
+class LimbRecord:
     """A branch from base to platform: serial, or an inner loop with an output link and a serial tail."""
 
     name: str
@@ -199,7 +199,7 @@ class MechanismRecord:
     file: Path
     folder: Path | None = None
     generalised: Mapping[str, GeneralisedJoint] = field(default_factory=dict)
-    chains: Mapping[str, Chain] = field(default_factory=dict)
+    chains: Mapping[str, LimbRecord] = field(default_factory=dict)
     angles: Mapping[str, Coordinate] = field(default_factory=dict)
     points: Mapping[str, Point] = field(default_factory=dict)
     box: Mapping[str, tuple[float, float]] = field(default_factory=dict)

@@ -74,14 +74,14 @@ class Call:
 
 
 @dataclass(frozen=True)
-class Chain:
+class Operands:
     """Terms joined by + and -, or factors joined by * and /, from left to right."""
 
     first: Node
     rest: tuple[tuple[str, Node], ...]
 
 
-Node = Number | Angle | Name | Pi | Negative | Call | Chain
+Node = Number | Angle | Name | Pi | Negative | Call | Operands
 
 
 def evaluate(node: Node, lookup: Mapping[str, Any], functions: Functions, number: Literal) -> Any:
@@ -100,7 +100,7 @@ def evaluate(node: Node, lookup: Mapping[str, Any], functions: Functions, number
         case Call(function, of):
             own = {"sqrt": functions.sqrt, "sin": functions.sin, "cos": functions.cos}[function]
             return own(evaluate(of, lookup, functions, number))
-        case Chain(first, rest):
+        case Operands(first, rest):
             result = evaluate(first, lookup, functions, number)
             for sign, term in rest:
                 result = _OPERATORS[sign](result, evaluate(term, lookup, functions, number))
@@ -116,7 +116,7 @@ def renamed(node: Node, names: Mapping[str, str]) -> Node:
             return Negative(renamed(of, names))
         case Call(function, of):
             return Call(function, renamed(of, names))
-        case Chain(first, rest):
-            return Chain(renamed(first, names), tuple((sign, renamed(term, names)) for sign, term in rest))
+        case Operands(first, rest):
+            return Operands(renamed(first, names), tuple((sign, renamed(term, names)) for sign, term in rest))
         case _:
             return node

@@ -45,17 +45,20 @@ class Declared:
     internal_freedoms: tuple[int, int] | None = None
     source: str = ""
 
-    def differences(self, found: Topology) -> tuple[str, ...]:
+    def differences(self, topology: Topology) -> tuple[str, ...]:
         """What the file declares and the engine does not find, one sentence each."""
         computed = {
-            "poc": (found.poc.t, found.poc.r),
-            "dim": found.poc.dim,
-            "dof": found.dof,
-            "xi": found.xi,
-            "coupling_degree": found.coupling_degree,
-            "limbs": tuple((limb.poc.t, limb.poc.r) for limb in found.limbs),
-            "limb_dims": tuple(limb.poc.dim for limb in found.limbs),
-            "redundant_constraints": (found.redundant_constraints.collapsed, found.redundant_constraints.joint_graph),
+            "poc": (topology.poc.t, topology.poc.r),
+            "dim": topology.poc.dim,
+            "dof": topology.dof,
+            "xi": topology.xi,
+            "coupling_degree": topology.coupling_degree,
+            "limbs": tuple((limb.poc.t, limb.poc.r) for limb in topology.limbs),
+            "limb_dims": tuple(limb.poc.dim for limb in topology.limbs),
+            "redundant_constraints": (
+                topology.redundant_constraints.collapsed,
+                topology.redundant_constraints.joint_graph,
+            ),
         }
         return tuple(
             f"declared {name} = {_plain(getattr(self, name))}, computed {_plain(value)}"

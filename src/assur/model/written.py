@@ -9,7 +9,7 @@ from typing import Any
 from assur.joints.joint_type import Directions
 from assur.joints.steps import UNTURNED, about
 from assur.model.formula import Formula
-from assur.model.syntax import Chain, Functions, Literal, Negative, Number, Pi
+from assur.model.syntax import Functions, Literal, Negative, Number, Operands, Pi
 from assur.numerics.sparse_vectors import Matrix, Vector, apply, dot
 from assur.numerics.vectors import taking
 
@@ -73,7 +73,7 @@ class WrittenVector:
 
 
 @dataclass(frozen=True)
-class WrittenJoint:
+class JointFormulas:
     """The formulas of a joint: its points, its axes, what its child's axis is in the child's frame, its pitch."""
 
     at: WrittenVector
@@ -101,12 +101,12 @@ def share_of_turn(index: int, count: int) -> Formula:
     1.5707963267948966
     """
     parts = Number("2"), (("*", Pi()), ("*", Number(str(index))), ("/", Number(str(count))))
-    return Formula(f"2*pi*{index}/{count}", Chain(*parts), frozenset())
+    return Formula(f"2*pi*{index}/{count}", Operands(*parts), frozenset())
 
 
 def in_degrees(formula: Formula) -> Formula:
     """A plain number of degrees as the angle."""
-    return Formula(formula.text, Chain(formula.root, (("*", Pi()), ("/", Number("180")))), formula.names)
+    return Formula(formula.text, Operands(formula.root, (("*", Pi()), ("/", Number("180")))), formula.names)
 
 
 def _is_whole(formula: Formula) -> bool:

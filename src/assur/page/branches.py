@@ -58,12 +58,12 @@ def modes(record: MechanismRecord) -> dict[str, Any]:
     }
 
 
-def _assembly(record: MechanismRecord, home: FloatArray, item: Posture) -> list[dict[str, Any]]:
+def _assembly(record: MechanismRecord, home: FloatArray, posture: Posture) -> list[dict[str, Any]]:
     """Assembly modes at the inputs of another working mode, itself first."""
-    label = mode_names(record, item.values)[1] or "this one"
-    if item.status is not Status.regular:  # the platform moves by itself there, or as good as
-        return [{**_plain(item), "label": label}]
-    first, *others = _listed(record, item.values, "direct", label)
+    label = mode_names(record, posture.values)[1] or "this one"
+    if posture.status is not Status.regular:  # the platform moves by itself there, or as good as
+        return [{**_plain(posture), "label": label}]
+    first, *others = _listed(record, posture.values, "direct", label)
     return [_plain(first), *({**_plain(row), "values": unwound(record, row.values, home).tolist()} for row in others)]
 
 
@@ -74,5 +74,5 @@ def _listed(record: MechanismRecord, values: FloatArray, problem: Problem, name:
     return [own, *found.others]
 
 
-def _plain(item: Posture) -> dict[str, Any]:
-    return {"label": item.label, "values": item.values.tolist(), "status": item.status.name}
+def _plain(posture: Posture) -> dict[str, Any]:
+    return {"label": posture.label, "values": posture.values.tolist(), "status": posture.status.name}

@@ -62,17 +62,17 @@ def errata_note(record: MechanismRecord) -> str:
     return f"{reason[0].upper()}{reason[1:]}." if reason else "None are known."
 
 
-def _facts(found: Topology) -> list[tuple[str, str]]:
-    redundant = found.redundant_constraints
-    internal = f", {found.internal_freedoms} of them internal" if found.internal_freedoms else ""
-    loops = "; ".join(f"loop {k}: ξ = {loop.xi}, Δ = {loop.delta:+d}" for k, loop in enumerate(found.loops, 1))
+def _facts(topology: Topology) -> list[tuple[str, str]]:
+    redundant = topology.redundant_constraints
+    internal = f", {topology.internal_freedoms} of them internal" if topology.internal_freedoms else ""
+    loops = "; ".join(f"loop {k}: ξ = {loop.xi}, Δ = {loop.delta:+d}" for k, loop in enumerate(topology.loops, 1))
     return [
-        ("POC set of the platform", str(found.poc)),
-        ("Degrees of freedom F", f"{found.dof}{internal}"),
-        ("Coupling degree κ", "" if found.coupling_degree is None else str(found.coupling_degree)),
+        ("POC set of the platform", str(topology.poc)),
+        ("Degrees of freedom F", f"{topology.dof}{internal}"),
+        ("Coupling degree κ", "" if topology.coupling_degree is None else str(topology.coupling_degree)),
         ("Loops", loops.replace("+0", "0").replace("-", "\N{MINUS SIGN}")),
-        ("Limbs", "; ".join(f"{rounded(limb.text)}: {limb.poc}" for limb in found.limbs)),
+        ("Limbs", "; ".join(f"{rounded(limb.text)}: {limb.poc}" for limb in topology.limbs)),
         ("Redundant constraints", f"{redundant.collapsed}; {redundant.joint_graph} of the whole joint graph"),
-        ("Decoupling", KINDS[found.decoupling.kind] if found.decoupling else ""),
-        ("Direct problem", "; ".join(line.rstrip(".") for line in found.plan.words)),
+        ("Decoupling", KINDS[topology.decoupling.kind] if topology.decoupling else ""),
+        ("Direct problem", "; ".join(line.rstrip(".") for line in topology.plan.words)),
     ]

@@ -6,7 +6,7 @@ the same bits in a browser. Angles come in by `Math.cos` and `Math.sin`, which m
 
 from __future__ import annotations
 
-from assur.kinematics.closed_form.recorded import Recording, Row, recording
+from assur.kinematics.closed_form.recorded import AnswerRow, Recording, recording
 from assur.kinematics.modes import sign_names
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
@@ -49,10 +49,10 @@ def _components(record: MechanismRecord) -> list[str]:
     return texts
 
 
-def _uniform(found: Recording) -> list[str]:
-    signs = sign_names(found.record, "inverse")
+def _uniform(recording: Recording) -> list[str]:
+    signs = sign_names(recording.record, "inverse")
     texts = []
-    for name in found.tape.uniform:
+    for name in recording.tape.uniform:
         kind, _, own = name.partition(".")
         if kind == "p":
             texts.append(f'parameters["{own}"]')
@@ -63,18 +63,18 @@ def _uniform(found: Recording) -> list[str]:
     return texts
 
 
-def _answer(found: Recording) -> str:
-    form = found.record.closed_form
+def _answer(recording: Recording) -> str:
+    form = recording.record.closed_form
     names = [item.name for item in form.factor_list] if form else []
     factors = ", ".join(
-        f'"{name}": {_value(found, row)}' for name, row in zip(names, found.rows["factors"], strict=True)
+        f'"{name}": {_value(recording, row)}' for name, row in zip(names, recording.rows["factors"], strict=True)
     )
-    inputs = ", ".join(_value(found, row) for row in found.rows["inputs"])
+    inputs = ", ".join(_value(recording, row) for row in recording.rows["inputs"])
     return f"return {{factors: {{{factors}}}, inputs: [{inputs}]}};"
 
 
-def _value(found: Recording, row: Row) -> str:
-    order = list(found.tape.outputs)
+def _value(recording: Recording, row: AnswerRow) -> str:
+    order = list(recording.tape.outputs)
     places = [f"n[{order.index(name)}]" for name in row.take]
     if row.finish != "angle":
         return places[0]

@@ -50,9 +50,9 @@ def scene(
     return content(record, layers(record, found), layers_note(record, found))
 
 
-def page_html(found: Mapping[str, Any]) -> str:
+def page_html(content: Mapping[str, Any]) -> str:
     """A scene with the program that draws it and its style, as one HTML file that asks for nothing else."""
-    name, title = found["name"], found["title"]
+    name, title = content["name"], content["title"]
     return (
         _environment()
         .get_template("page.html")
@@ -61,7 +61,7 @@ def page_html(found: Mapping[str, Any]) -> str:
             version=assur.__version__,
             style=Markup(asset("page.css")),
             program=Markup(asset("page.js")),
-            scene=Markup(embedded(json_text(found))),
+            scene=Markup(embedded(json_text(content))),
         )
     )
 

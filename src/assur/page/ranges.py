@@ -54,7 +54,7 @@ def pose_ranges(record: MechanismRecord) -> list[list[float]]:
     return found
 
 
-def whole_turn(here: float) -> tuple[float, float]:
+def whole_turn(angle: float) -> tuple[float, float]:
     """One turn in rad that holds an angle well inside, from -180 to 180 deg where it can be.
 
     Every value of the angle has a place on it.
@@ -62,19 +62,19 @@ def whole_turn(here: float) -> tuple[float, float]:
     >>> [float(end) for end in np.degrees(whole_turn(np.radians(170.0)))]
     [0.0, 360.0]
     """
-    centre = 0.0 if abs(here) <= CENTRED else np.pi * round(here / np.pi)
+    centre = 0.0 if abs(angle) <= CENTRED else np.pi * round(angle / np.pi)
     return centre - np.pi, centre + np.pi
 
 
-def _around(record: MechanismRecord, name: str, here: float) -> tuple[float, float]:
+def _around(record: MechanismRecord, name: str, home: float) -> tuple[float, float]:
     if name in QUATERNION:
         return -1.0, 1.0
     if name == "theta":
         return -np.pi / 2, np.pi / 2
     if name not in LENGTHS:
-        return whole_turn(here)
+        return whole_turn(home)
     half = characteristic_length(record)
-    return _outward(here - half, here + half)
+    return _outward(home - half, home + half)
 
 
 def _needed(record: MechanismRecord, home: FloatArray) -> FloatArray:
@@ -87,24 +87,24 @@ def _needed(record: MechanismRecord, home: FloatArray) -> FloatArray:
     return np.concatenate([home[None], found.inputs[found.exists]])
 
 
-def _range(record: MechanismRecord, item: Input, here: float, needed: FloatArray) -> list[float]:
-    if item.stroke is not None:
-        return [min(item.stroke[0], here), max(item.stroke[1], here)]
-    if counted(record)[item.coordinate.index]:
-        half = 2 * np.pi * _turns(record, item)
-        return [here - half, here + half]
-    if item.coordinate.kind == "angle":
-        return list(whole_turn(here))
+def _range(record: MechanismRecord, driven: Input, home: float, needed: FloatArray) -> list[float]:
+    if driven.stroke is not None:
+        return [min(driven.stroke[0], home), max(driven.stroke[1], home)]
+    if counted(record)[driven.coordinate.index]:
+        half = 2 * np.pi * _turns(record, driven)
+        return [home - half, home + half]
+    if driven.coordinate.kind == "angle":
+        return list(whole_turn(home))
     low, high = float(np.min(needed)), float(np.max(needed))
     half = PAD * (high - low) or characteristic_length(record)
     return list(_outward(low - half, high + half))
 
 
-def _turns(record: MechanismRecord, item: Input) -> int:
+def _turns(record: MechanismRecord, driven: Input) -> int:
     """Whole turns of a driven screw, or of a shaft that drives one, that advance it by the characteristic length."""
-    index = item.coordinate.index
+    index = driven.coordinate.index
     together = [row for row in lasting_relations(record) if row[index]]
-    screws = {record.coordinates[k].joint for row in together for k in np.flatnonzero(row)} | {item.coordinate.joint}
+    screws = {record.coordinates[k].joint for row in together for k in np.flatnonzero(row)} | {driven.coordinate.joint}
     pitch = max(abs(record.joints[name].pitch) for name in screws)
     return max(1, round(characteristic_length(record) / pitch))
 

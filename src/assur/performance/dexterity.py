@@ -31,7 +31,7 @@ STUDENT = 2.365
 """95 % of Student's distribution lies within this for 7 degrees of freedom."""
 
 
-class Region(Protocol):
+class SampledRegion(Protocol):
     """What a mean needs of a region, whatever made it."""
 
     @property
@@ -113,7 +113,7 @@ def dexterity(record: MechanismRecord, poses: ArrayLike, mode: str | None = None
 
 
 def global_condition_index(
-    record: MechanismRecord, region: Region, count: int = POINTS, rng: np.random.Generator | None = None
+    record: MechanismRecord, region: SampledRegion, count: int = POINTS, rng: np.random.Generator | None = None
 ) -> GlobalIndex:
     """Mean of the local condition index over a region, by quasi-random points shifted eight times by chance.
 
@@ -163,9 +163,9 @@ def _block(
     return status, *_condition(here, missing)
 
 
-def _condition(here: VelocityMap, missing: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
+def _condition(velocity: VelocityMap, missing: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
     """Condition indices (N,) and velocity factors (N, k), NaN where `missing`."""
-    factors = np.where(missing[:, None], np.nan, here.velocity_factors)
+    factors = np.where(missing[:, None], np.nan, velocity.velocity_factors)
     # a J without any motion at all has index 0
     largest = np.where(factors[:, 0] == 0.0, 1.0, factors[:, 0])
     return factors[:, -1] / largest, factors

@@ -107,22 +107,22 @@ class Index:
     one: str = "nothing special"
     source: str = ""
 
-    def unit(self, found: Indices) -> str:
+    def unit(self, indices: Indices) -> str:
         """Its unit, as "mm/rad" or "(mm/rad)^2"; "" for a number."""
-        power = found.velocity_factors.shape[-1] if self.power is None else self.power
-        if not found.unit or power == 0:
+        power = indices.velocity_factors.shape[-1] if self.power is None else self.power
+        if not indices.unit or power == 0:
             return ""
-        return found.unit if power == 1 else f"({found.unit})^{power}"
+        return indices.unit if power == 1 else f"({indices.unit})^{power}"
 
 
-def _condition(found: Indices) -> FloatArray:
-    largest = found.velocity_factors[..., 0]
+def _condition(indices: Indices) -> FloatArray:
+    largest = indices.velocity_factors[..., 0]
     # a J without any motion at all has index 0
-    return np.asarray(found.velocity_factors[..., -1] / np.where(largest == 0.0, 1.0, largest))
+    return np.asarray(indices.velocity_factors[..., -1] / np.where(largest == 0.0, 1.0, largest))
 
 
-def _frobenius(found: Indices) -> FloatArray:
-    factors = found.velocity_factors
+def _frobenius(indices: Indices) -> FloatArray:
+    factors = indices.velocity_factors
     singular = factors[..., -1:] == 0.0
     safe = np.where(singular, 1.0, factors)
     sizes = np.linalg.norm(safe, axis=-1) * np.linalg.norm(1.0 / safe, axis=-1)
@@ -154,7 +154,7 @@ INDICES: Mapping[str, Index] = {
         r"\mu",
         "manipulability, the product of the velocity factors",
         None,
-        lambda found: np.prod(found.velocity_factors, axis=-1),
+        lambda at: np.prod(at.velocity_factors, axis=-1),
         unbounded=True,
         formula="μ = √det(J Jᵀ) = s₁ s₂ ... s_r",
         zero="the ellipsoid is flat",
@@ -164,7 +164,7 @@ INDICES: Mapping[str, Index] = {
         r"\sigma_{\max}",
         "largest velocity factor",
         1,
-        lambda found: found.velocity_factors[..., 0],
+        lambda at: at.velocity_factors[..., 0],
         unbounded=True,
         formula="s₁",
         zero="no motion",
@@ -173,7 +173,7 @@ INDICES: Mapping[str, Index] = {
         r"\sigma_{\min}",
         "smallest velocity factor",
         1,
-        lambda found: found.velocity_factors[..., -1],
+        lambda at: at.velocity_factors[..., -1],
         formula="s_r",
         zero="serial singularity",
     ),
@@ -181,7 +181,7 @@ INDICES: Mapping[str, Index] = {
         r"\mathrm{ITI}",
         "least input transmission index: how well inputs drive their limbs",
         0,
-        lambda found: np.min(found.transmission.inputs, axis=-1),
+        lambda at: np.min(at.transmission.inputs, axis=-1),
         formula="least of |$ᵢ ∘ $ₜ| / |$ᵢ ∘ $ₜ|max over the inputs",
         zero="an input does not drive its limb",
         one="every input drives its limb fully",
@@ -191,7 +191,7 @@ INDICES: Mapping[str, Index] = {
         r"\mathrm{OTI}",
         "least output transmission index: how well limbs drive the platform",
         0,
-        lambda found: np.min(found.transmission.outputs, axis=-1),
+        lambda at: np.min(at.transmission.outputs, axis=-1),
         formula="least of |$ₜ ∘ $ₒ| / |$ₜ ∘ $ₒ|max over the inputs",
         zero="a limb does not drive the platform",
         one="all drive it fully",
@@ -201,7 +201,7 @@ INDICES: Mapping[str, Index] = {
         r"\mathrm{LTI}",
         "local transmission index, the least of all",
         0,
-        lambda found: found.transmission.local,
+        lambda at: at.transmission.local,
         formula="the least of both kinds",
         zero="singular",
         one="all motion and force are transmitted",
@@ -366,23 +366,23 @@ def _at_joints(record: MechanismRecord, joints: FloatArray) -> Part:
     return _part(record, status, here, joints)
 
 
-def status_of(here: VelocityMap) -> NDArray[np.int8]:
+def status_of(velocity: VelocityMap) -> NDArray[np.int8]:
     """`Status` (...) of configurations by what is singular there; unreachable where loops are open.
 
     Undecided where nothing is singular but the coordinates of the pose have no rates (`VelocityMap.no_rates`).
     """
-    kinds = 2 * here.singular_input + 3 * here.singular_output
+    kinds = 2 * velocity.singular_input + 3 * velocity.singular_output
     of_kind = np.array([Status.regular, 0, Status.serial, Status.parallel, 0, Status.comprehensive], dtype=np.int8)
-    found = np.where((kinds == 0) & here.no_rates, Status.undecided, of_kind[kinds])
-    return np.where(here.exists, found, Status.unreachable).astype(np.int8)
+    found = np.where((kinds == 0) & velocity.no_rates, Status.undecided, of_kind[kinds])
+    return np.where(velocity.exists, found, Status.unreachable).astype(np.int8)
 
 
-def _part(record: MechanismRecord, status: NDArray[np.int8], here: VelocityMap, joints: FloatArray) -> Part:
+def _part(record: MechanismRecord, status: NDArray[np.int8], velocity: VelocityMap, joints: FloatArray) -> Part:
     missing = (status == Status.unreachable) | ~np.all(np.isfinite(joints), axis=-1)
-    missing |= (status == Status.undecided) & ~here.no_rates
-    matrix = np.where((missing | here.singular_output | here.no_rates)[:, None, None], np.nan, here.matrix)
+    missing |= (status == Status.undecided) & ~velocity.no_rates
+    matrix = np.where((missing | velocity.singular_output | velocity.no_rates)[:, None, None], np.nan, velocity.matrix)
     found = transmission_at(record, np.where(missing[:, None], 0.0, joints))
-    singular = here.singular_output | here.singular_input
+    singular = velocity.singular_output | velocity.singular_input
     fields = [np.where(singular[:, None], 0.0, values) for values in (found.inputs, found.outputs)]
     inputs, outputs = (np.where(missing[:, None], np.nan, values) for values in fields)
     return status, matrix, inputs, outputs

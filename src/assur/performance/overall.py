@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.model.mechanism import MechanismRecord
-from assur.performance.dexterity import SHIFTS, STUDENT, Region
+from assur.performance.dexterity import SHIFTS, STUDENT, SampledRegion
 from assur.performance.indices import INDICES, Indices, indices, indices_at
 from assur.performance.scaling import Length
 from assur.performance.transmission import GOOD
@@ -26,7 +26,7 @@ FloatArray = NDArray[np.float64]
 POINTS = 2**12
 
 
-class MeasuredRegion(Region, Protocol):
+class MeasuredRegion(SampledRegion, Protocol):
     """A region of which the volume is known."""
 
     @property
@@ -196,8 +196,8 @@ def _beyond(field: FloatArray, shift: NDArray[np.int_]) -> float:
     return float((SHIFTS - 1) / SHIFTS * (least[1] - least[0])) if np.isfinite(least[1]) else float("nan")
 
 
-def _good(found: Indices, shift: NDArray[np.int_], region: MeasuredRegion) -> Share:
-    good = found.transmission.good.astype(float)
+def _good(indices: Indices, shift: NDArray[np.int_], region: MeasuredRegion) -> Share:
+    good = indices.transmission.good.astype(float)
     share, error = _mean(good, np.ones(len(good), dtype=bool), shift)
     volume = share * region.volume
     return Share(share, error, volume, error * region.volume + share * region.volume_error, region.unit)

@@ -91,34 +91,38 @@ def transmission_at(record: MechanismRecord, joints: ArrayLike) -> Transmission:
     return Transmission(inputs.reshape(shape), outputs.reshape(shape))
 
 
-def _inputs(record: MechanismRecord, there: Transmitted) -> FloatArray:
+def _inputs(record: MechanismRecord, transmitted: Transmitted) -> FloatArray:
     """Input transmission indices (N, F)."""
     names = list(record.joints)
-    found = np.zeros(there.pushes.shape)
+    found = np.zeros(transmitted.pushes.shape)
     for k, (item, after) in enumerate(zip(record.inputs, _after(record), strict=True)):
-        wrench = there.wrenches[:, k, names.index(item.coordinate.joint)]
-        found[:, k] = power_coefficient(wrench, there.input_twists[:, k], _centre(there, k, after))
-    return np.where(there.pushes, found, 0.0)
+        wrench = transmitted.wrenches[:, k, names.index(item.coordinate.joint)]
+        found[:, k] = power_coefficient(wrench, transmitted.input_twists[:, k], _centre(transmitted, k, after))
+    return np.where(transmitted.pushes, found, 0.0)
 
 
-def _outputs(record: MechanismRecord, there: Transmitted) -> FloatArray:
+def _outputs(record: MechanismRecord, transmitted: Transmitted) -> FloatArray:
     """Output transmission indices (N, F)."""
-    found = np.zeros(there.moves.shape)
+    found = np.zeros(transmitted.moves.shape)
     at_platform = _joints_of(record, record.platform.link)
     for k in range(len(record.inputs)):
-        centre = np.zeros_like(there.at_platform[:, k, 3:]) if is_point(record) else _centre(there, k, at_platform)
-        found[:, k] = power_coefficient(there.at_platform[:, k], there.twists[:, k], centre)
-    return np.where(there.moves, found, 0.0)
+        centre = (
+            np.zeros_like(transmitted.at_platform[:, k, 3:])
+            if is_point(record)
+            else _centre(transmitted, k, at_platform)
+        )
+        found[:, k] = power_coefficient(transmitted.at_platform[:, k], transmitted.twists[:, k], centre)
+    return np.where(transmitted.moves, found, 0.0)
 
 
-def _centre(there: Transmitted, index: int, joints: tuple[int, ...]) -> FloatArray:
+def _centre(transmitted: Transmitted, index: int, joints: tuple[int, ...]) -> FloatArray:
     """Centre (N, 3) of some joints, each counted by the wrench that passes through it when an input pushes."""
     chosen = list(joints)
-    about = there.wrenches[:, index, chosen].copy()
-    about[..., :3] -= np.cross(there.centres[:, chosen], about[..., 3:])
+    about = transmitted.wrenches[:, index, chosen].copy()
+    about[..., :3] -= np.cross(transmitted.centres[:, chosen], about[..., 3:])
     weights = np.linalg.norm(about, axis=-1)
     total = np.maximum(np.sum(weights, axis=-1, keepdims=True), np.finfo(float).tiny)
-    return np.asarray(np.einsum("nj,nja->na", weights / total, there.centres[:, chosen]))
+    return np.asarray(np.einsum("nj,nja->na", weights / total, transmitted.centres[:, chosen]))
 
 
 @lru_cache(maxsize=64)

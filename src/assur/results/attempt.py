@@ -17,7 +17,7 @@ def reason(error: UsageError | MechanismFileError) -> str:
     """Why an analysis was refused, in one line, without a path of this machine."""
     if isinstance(error, MechanismFileError):
         first = error.problems[0]
-        return f"{first.path}: {first.found}"
+        return f"{first.path}: {first.given}"
     return error.message
 
 

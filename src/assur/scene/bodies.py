@@ -19,7 +19,7 @@ from assur.scene.companion import Companion
 from assur.scene.companion import companion as companion_of
 from assur.scene.part import Part
 from assur.scene.parts import parts, unit
-from assur.scene.shapes import Ball, Box, Cylinder, Shape
+from assur.scene.shapes import Ball, Cuboid, Cylinder, Shape
 from assur.scene.skeleton import Skeleton, skeleton
 
 FloatArray = NDArray[np.float64]
@@ -31,7 +31,7 @@ CHIP = 0.02
 
 
 @dataclass(frozen=True, eq=False)
-class Body:
+class LinkBody:
     """One link as it would be made, in its own frame and the mechanism's unit.
 
     Attributes:
@@ -52,7 +52,7 @@ def home_skeleton(record: MechanismRecord, names: Companion | None = None) -> Sk
     return skeleton(record, names or companion_of(record), home_values(record))
 
 
-def bodies(record: MechanismRecord) -> tuple[Body, ...]:
+def bodies(record: MechanismRecord) -> tuple[LinkBody, ...]:
     """Every link that has parts, in the file's order.
 
     >>> from assur.model.registry import load_record
@@ -69,7 +69,7 @@ def bodies(record: MechanismRecord) -> tuple[Body, ...]:
             pins = tuple(part for part in of_link if part.role == "pin")
             inside = [_seen_from(drawn, part, link) for part in made if runs_in(record, part, link)]
             bores = (*(pin.shape for pin in pins), *(grown(shape, PLAY * unit(drawn)) for shape in inside))
-            collected.append(Body(link, tuple(part for part in of_link if part.role != "pin"), bores, pins))
+            collected.append(LinkBody(link, tuple(part for part in of_link if part.role != "pin"), bores, pins))
     return tuple(collected)
 
 
@@ -95,9 +95,9 @@ def grown(shape: Shape, play: float) -> Shape:
         way = shape.end - shape.start
         way = play * way / max(float(np.linalg.norm(way)), 1e-300)
         return Cylinder(shape.start - way, shape.end + way, shape.radius + play)
-    if isinstance(shape, Box):
+    if isinstance(shape, Cuboid):
         size = np.linalg.norm(shape.sides, axis=1, keepdims=True)
-        return Box(shape.centre, shape.sides * (1 + play / size))
+        return Cuboid(shape.centre, shape.sides * (1 + play / size))
     raise UsageError(f"grown: no play is known for a {shape.kind}; there is: ball, cylinder, box")
 
 
@@ -111,7 +111,7 @@ def _seen_from(skeleton: Skeleton, part: Part, link: str) -> Shape:
 def solid(shape: Shape) -> Manifold:
     """A shape as a closed triangle mesh.
 
-    >>> round(solid(Box(np.zeros(3), np.eye(3))).volume(), 9)
+    >>> round(solid(Cuboid(np.zeros(3), np.eye(3))).volume(), 9)
     8.0
     """
     return Manifold.hull_points(corners(shape))
@@ -122,7 +122,7 @@ def corners(shape: Shape) -> FloatArray:
     return np.ascontiguousarray(shape.mesh("#000000").corners.reshape(-1, 3))
 
 
-def fused(body: Body) -> Manifold:
+def fused(body: LinkBody) -> Manifold:
     """The link as one manifold, without chips that its bores cut off; empty where it has nothing but pins."""
     whole = Manifold.batch_boolean([solid(part.shape) for part in body.fused], OpType.Add)
     if not body.bores:

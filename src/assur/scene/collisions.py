@@ -21,7 +21,7 @@ from assur.joint_graph.frames import Frame, frames
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.convex_distance import convex_distance, nearest_points
 from assur.numerics.segments import segment_distances
-from assur.scene.bodies import Body, bodies, corners
+from assur.scene.bodies import LinkBody, bodies, corners
 
 FloatArray = NDArray[np.float64]
 Step = Callable[[int, int], None]
@@ -184,7 +184,7 @@ class _Hulls:
     radii: FloatArray
 
 
-def _hulls(body: Body, placed: Frame) -> _Hulls:
+def _hulls(body: LinkBody, placed: Frame) -> _Hulls:
     all_parts = (*body.fused, *body.pins)
     points = tuple(np.unique(corners(part.shape), axis=0) for part in all_parts)
     rows = [_hull(cloud) for cloud in points]

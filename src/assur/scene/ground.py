@@ -12,7 +12,7 @@ from assur.scene.companion import Companion
 from assur.scene.joining import stand
 from assur.scene.part import DARK, PLATE, STEEL, Part
 from assur.scene.rails import rails
-from assur.scene.shapes import Box
+from assur.scene.shapes import Cuboid
 from assur.scene.skeleton import JointMark, Skeleton
 from assur.scene.yokes import Yoke
 
@@ -50,7 +50,7 @@ def ground(
         slider = next(mark for mark in skeleton.marks if _runs_on(mark, start, end))
         side, up = bed(skeleton, slider, deep)
         sides = np.array([(end - start) / 2, 0.8 * size * side, 0.95 * size * up])
-        yield Part(f"rail {k}", base, Box((start + end) / 2 - (0.65 * size + deep) * up, sides), STEEL, "rail")
+        yield Part(f"rail {k}", base, Cuboid((start + end) / 2 - (0.65 * size + deep) * up, sides), STEEL, "rail")
         lowest = max(lowest, float(1.6 + deep / size * up[2]))
         feet += [start, end]
     drop = _drop(skeleton, np.array(feet), lowest if ends else None, size) if feet else None
@@ -63,7 +63,7 @@ def ground(
     low, high = np.min(feet, axis=0) - 3.2 * size, np.max(feet, axis=0) + 3.2 * size
     high[2] = (np.min(feet, axis=0)[2] if drop > 0 else np.max(feet, axis=0)[2]) - drop * size
     low[2] = high[2] - 1.3 * size
-    yield Part("base plate", base, Box((low + high) / 2, np.diag((high - low) / 2)), PLATE, "plate")
+    yield Part("base plate", base, Cuboid((low + high) / 2, np.diag((high - low) / 2)), PLATE, "plate")
     for mark in skeleton.marks:
         if mark.grounded and not mark.slides and not upright(mark):
             height = (low[2] + 1.15 * size if drop > 0 else high[2] - 1.15 * size) - mark.at[2]

@@ -24,7 +24,7 @@ from assur.workspace.fields import Field
 from assur.workspace.followed import FollowedField
 from assur.workspace.grid import UniformGrid
 from assur.workspace.region import Workspace, workspace
-from assur.workspace.sections import Section
+from assur.workspace.sections import RegionSection
 from assur.workspace.slices import MOST, slice_at
 
 FloatArray = NDArray[np.float64]
@@ -140,7 +140,7 @@ def _held_words(record: MechanismRecord, workspace: Workspace) -> list[str]:
     return [f"All of it at {', '.join(words)}."] if words else []
 
 
-def section_layer(record: MechanismRecord, cut: Section) -> Layer | None:
+def section_layer(record: MechanismRecord, cut: RegionSection) -> Layer | None:
     """The outline of a section; None where it is empty, or no area."""
     if not cut.polygons or len(cut.plane) != 2:
         return None

@@ -18,7 +18,7 @@ from assur.scene.hull import hull
 from assur.scene.joining import posts, stand, webs
 from assur.scene.mesh import Mesh, joined
 from assur.scene.part import DARK, DRIVE, LINKS, PLAIN, STAGE, STEEL, Part
-from assur.scene.shapes import Ball, Bar, Box, Cylinder, Slab
+from assur.scene.shapes import Ball, Bar, Cuboid, Cylinder, Slab
 from assur.scene.sizes import thickness
 from assur.scene.skeleton import JointMark, Rod, Skeleton
 from assur.scene.yokes import ASIDE, Yoke, cross, trimmed, yokes
@@ -208,7 +208,7 @@ def _slider(skeleton: Skeleton, mark: JointMark, layers: Mapping[str, int]) -> I
         yield Part(f"{joint.name} rod", joint.child, rod, STEEL, "rod", joint.name)
     sides = size * np.array([2.6 * axis, 1.9 * side, 1.15 * up] if not deep else [3.2 * axis, 3.2 * side, 1.15 * up])
     middle = where + (0.1 * size - deep) * up
-    yield Part(f"{joint.name} {name}", link, Box(middle, sides), colour, name, joint.name)
+    yield Part(f"{joint.name} {name}", link, Cuboid(middle, sides), colour, name, joint.name)
     over = held(skeleton, mark, size) if deep else []
     for mark_over in over:
         for shape in stand(mark_over, middle - mark_over.at, (_reach(mark_over, layers, True) - 0.4) * size, size):
@@ -242,7 +242,7 @@ def _stage(skeleton: Skeleton, colour: str) -> Iterator[Part]:
     margin = np.array([1.2 * size, 3.4 * size, 0.0])
     low, high = local.min(axis=0) - margin, local.max(axis=0) + margin
     low[2], high[2] = level, level + 0.8 * size
-    shape = Box(origin + rotation @ ((low + high) / 2), np.diag((high - low) / 2) @ rotation.T)
+    shape = Cuboid(origin + rotation @ ((low + high) / 2), np.diag((high - low) / 2) @ rotation.T)
     yield Part("plate", link, shape, colour, "plate")
 
 

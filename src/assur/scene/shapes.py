@@ -79,7 +79,7 @@ class Ball(_Solid):
 
 
 @dataclass(frozen=True, eq=False)
-class Box(_Solid):
+class Cuboid(_Solid):
     """A box by its centre (3,) and its three half sides (3, 3) as rows, at right angles to one another."""
 
     centre: FloatArray
@@ -115,4 +115,4 @@ class Slab(_Solid):
     ways = ("along",)
 
 
-Shape: TypeAlias = Cylinder | Ball | Box | Bar | Slab
+Shape: TypeAlias = Cylinder | Ball | Cuboid | Bar | Slab

@@ -252,7 +252,7 @@ def _zeros_in_mode(record: MechanismRecord, mode: str, poses: FloatArray, names:
         crossing = _evaluate(record, mode, _crossing_poses(record, mode, samples, name))
         candidates = [item for where in (crossing, border, samples) for item in _zeros(where, name, mode)]
         if candidates:
-            found.append(min(candidates, key=lambda item: item.others))
+            found.append(min(candidates, key=lambda candidate: candidate.others))
     return found
 
 

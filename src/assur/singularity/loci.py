@@ -25,7 +25,7 @@ OUTPUT = Factor("output", "parallel", "1", "the inputs stand and the platform ca
 """The one parallel factor of a mechanism without closed form: with rows of Jp of length 1, so that it is at most 1."""
 
 
-class Region(Protocol):
+class FactorRegion(Protocol):
     """What this analysis needs of a region, whatever made it."""
 
     def factor_inside(self, name: str) -> NDArray[np.float32]:
@@ -58,7 +58,9 @@ class Locus:
     everywhere: bool = False
 
 
-def parallel_loci(record: MechanismRecord, region: Region, coarser: Region | None = None) -> tuple[Locus, ...]:
+def parallel_loci(
+    record: MechanismRecord, region: FactorRegion, coarser: FactorRegion | None = None
+) -> tuple[Locus, ...]:
     """The locus of every parallel factor in a region; one without faces where the factor keeps its sign.
 
     `coarser` is the same region at half the resolution, for the errors of areas.
@@ -90,7 +92,7 @@ def parallel_factors(record: MechanismRecord) -> tuple[Factor, ...]:
     return (OUTPUT,) if square else ()
 
 
-def _locus(record: MechanismRecord, region: Region, factor: Factor) -> Locus:
+def _locus(record: MechanismRecord, region: FactorRegion, factor: Factor) -> Locus:
     values = region.factor_inside(factor.name)
     zero = FACTOR_TOLERANCE * scale(record, factor.scale)
     everywhere = values.size > 0 and bool(np.all(np.abs(values) <= zero))

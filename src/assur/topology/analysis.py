@@ -169,7 +169,7 @@ def analyse(
     rules = as_the_limbs_are(rules, limbs)
     order = coupling(home.collapsed, motions(home.collapsed, base, platform).internal)
     if not home.is_branch_point:  # the rules may speak of another mode
-        check_xi(chains or (), [limb.here for limb in limbs], order.loops, held=held)
+        check_xi(chains or (), [limb.motion for limb in limbs], order.loops, held=held)
     decoupling = _decoupling(by_jacobian(home.collapsed, base, platform), chains, rules.platform, still=still)
     plan = solution_plan(order, home.collapsed, base, platform)
     solvable = not plan.free

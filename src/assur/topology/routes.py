@@ -95,7 +95,7 @@ class KnownLimb:
     """A limb's POC set, and its motion by the rules where that holds at the mechanism's configurations too."""
 
     known: Known
-    here: Motion | None
+    motion: Motion | None
 
 
 def limb_known(
@@ -132,7 +132,7 @@ def as_the_limbs_are(rules: Rules, limbs: Sequence[KnownLimb]) -> Rules:
     The rules take a limb to move as it does by itself, once it is displaced. A mechanism may keep it where it has fewer
     motions: the limbs R[z]@A P[x] R[z]@A stand with their axes on one line, and three of them never leave that.
     """
-    special = [number for number, limb in enumerate(limbs, 1) if limb.here is None]
+    special = [number for number, limb in enumerate(limbs, 1) if limb.motion is None]
     if not special or isinstance(rules.platform, Refusal):
         return rules
     reason = f"the mechanism keeps limb {special[0]} in a special position, where it has other motions than by itself"

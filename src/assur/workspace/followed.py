@@ -219,7 +219,7 @@ def followed_margins(
 ) -> dict[str, FollowedField]:
     """The margins of a mode that was followed: its reach, then strokes and limits."""
     record = over.record
-    found: dict[str, FollowedField] = {REACH: ReachField(over, lambda found: found.measures[0])}
+    found: dict[str, FollowedField] = {REACH: ReachField(over, lambda grid: grid.measures[0])}
     for name, bound in bounds(record, strokes).items():
         found[name] = FollowedField(over, _of_joints(record, bound))
     return found
@@ -227,7 +227,7 @@ def followed_margins(
 
 def followed_factors(over: Continuation) -> dict[str, FollowedField]:
     """The determinant of Jp, signed; none where a mechanism has more or fewer inputs than rates of its pose."""
-    return {OUTPUT.name: FollowedField(over, lambda found: found.measures[1])}
+    return {OUTPUT.name: FollowedField(over, lambda grid: grid.measures[1])}
 
 
 def over_grid(
@@ -285,7 +285,7 @@ def _start(
 
 
 def _of_joints(record: MechanismRecord, bound: Bound) -> Callable[[Followed], FloatArray]:
-    return lambda found: bound(_values(record, found.joints))
+    return lambda grid: bound(_values(record, grid.joints))
 
 
 def _values(record: MechanismRecord, joints: FloatArray) -> Values:

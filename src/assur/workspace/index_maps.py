@@ -106,9 +106,9 @@ class IndexMaps:
             return self
         turn = {name: 1.0 if name in LENGTHS else 180 / np.pi for name in (*self.coordinates, *self.held)}
 
-        def there(found: Extreme | None) -> Extreme | None:
-            at = zip(self.coordinates, found.at if found else (), strict=False)
-            return found and Extreme(found.value, tuple(value * turn[name] for name, value in at))
+        def there(extreme: Extreme | None) -> Extreme | None:
+            at = zip(self.coordinates, extreme.at if extreme else (), strict=False)
+            return extreme and Extreme(extreme.value, tuple(value * turn[name] for name, value in at))
 
         return replace(
             self,

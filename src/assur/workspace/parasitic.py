@@ -30,7 +30,7 @@ class Largest:
 
 
 def largest_parasitic(
-    record: MechanismRecord, found: Workspace, count: int = POINTS, rng: np.random.Generator | None = None
+    record: MechanismRecord, region: Workspace, count: int = POINTS, rng: np.random.Generator | None = None
 ) -> dict[str, Largest]:
     """Where each coordinate that the pose leaves out is largest in size, over a workspace.
 
@@ -54,27 +54,29 @@ def largest_parasitic(
     names = moving(record)
     if not names:
         return {}
-    free = [found.slice.pose.index(name) for name in found.box.names if name in found.slice.pose]
-    inside = found.interior(count, rng or np.random.default_rng(20190719))[:, free]
-    points = np.concatenate([found.vertices, inside]) if len(free) == len(found.box.names) else found.vertices
-    values = parasitic_over(record, found, points)
+    free = [region.slice.pose.index(name) for name in region.box.names if name in region.slice.pose]
+    inside = region.interior(count, rng or np.random.default_rng(20190719))[:, free]
+    points = np.concatenate([region.vertices, inside]) if len(free) == len(region.box.names) else region.vertices
+    values = parasitic_over(record, region, points)
     largest = {}
     for name in names:
         sizes = np.nan_to_num(np.abs(values[name]), nan=-1.0)
         if np.any(sizes >= 0):
             k = int(np.argmax(sizes))
-            largest[name] = Largest(float(values[name][k]), dict(zip(found.box.names, points[k].tolist(), strict=True)))
+            largest[name] = Largest(
+                float(values[name][k]), dict(zip(region.box.names, points[k].tolist(), strict=True))
+            )
     return largest
 
 
-def parasitic_over(record: MechanismRecord, found: Workspace, points: FloatArray) -> dict[str, FloatArray]:
+def parasitic_over(record: MechanismRecord, region: Workspace, points: FloatArray) -> dict[str, FloatArray]:
     """The coordinates that the pose leaves out, each (N,), at points (N, free coordinates) of a workspace.
 
     NaN where its mode does not reach a point.
     """
     if record.closed_form is not None:
-        return parasitic(record, found.slice.poses(points), found.mode)
-    joints = found.joints(points)
+        return parasitic(record, region.slice.poses(points), region.mode)
+    joints = region.joints(points)
     reached = np.all(np.isfinite(joints), axis=1)
     answer = {}
     for name, values in parasitic_at(record, joints[reached]).items():

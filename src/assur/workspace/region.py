@@ -30,7 +30,7 @@ from assur.workspace.mode_fields import CLOSED_FORM, Progress, mode_fields
 from assur.workspace.nearness import near_volume, triangles_of
 from assur.workspace.projections import Projection, projection
 from assur.workspace.reach import Reach
-from assur.workspace.sections import Section, section
+from assur.workspace.sections import RegionSection, section
 from assur.workspace.slices import MOST, Slice, slice_at
 from assur.workspace.volume import at_two_resolutions
 
@@ -70,7 +70,7 @@ class Workspace:
     unit: str
     volume: float
     volume_error: float
-    sections: tuple[Section, ...] = field(repr=False)
+    sections: tuple[RegionSection, ...] = field(repr=False)
     loci: tuple[Locus, ...] = field(repr=False)
     near: float
     share: float | None
@@ -97,7 +97,7 @@ class Workspace:
         }
         return {"factors": factors, "near": self.near, "share": self.share}
 
-    def section(self, value: float, coordinate: str | None = None) -> Section:
+    def section(self, value: float, coordinate: str | None = None) -> RegionSection:
         """The cut at a value of a pose coordinate, the last one where none is named."""
         return section(self.region, value, coordinate or self.box.names[-1], self.coarser)
 

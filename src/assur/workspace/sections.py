@@ -17,7 +17,7 @@ AROUND = (-1.0, -0.5, 0.0, 0.5, 1.0)
 
 
 @dataclass(frozen=True, eq=False)
-class Section:
+class RegionSection:
     """A cut through a region at one value of one coordinate.
 
     Attributes:
@@ -67,7 +67,7 @@ def cut(solid: Manifold, axis: int, value: float, span: tuple[float, float]) -> 
     return float(cross.area()), flat_polygons(cross, axis)
 
 
-def section(region: Reach, value: float, coordinate: str, coarser: Reach) -> Section:
+def section(region: Reach, value: float, coordinate: str, coarser: Reach) -> RegionSection:
     """The cut through a region at a value of one of its coordinates, which must lie in the box.
 
     `coarser` is the same region at half the resolution, by which the error of the area is estimated.
@@ -84,7 +84,7 @@ def section(region: Reach, value: float, coordinate: str, coarser: Reach) -> Sec
     if region.grid.dimension == 2:
         polygons = tuple(_interval(polygon[:, [0]]) for polygon in polygons)
     error = _area_error(region, coarser, axis, float(value))
-    return Section(coordinate, float(value), plane, area / region.grid.thickness, error, polygons)
+    return RegionSection(coordinate, float(value), plane, area / region.grid.thickness, error, polygons)
 
 
 def _area_error(region: Reach, coarser: Reach, axis: int, value: float) -> float:

@@ -21,7 +21,7 @@ MOST = 16
 """Ways along one axis across a surface, and ways beyond the border, at most."""
 
 
-def ways_across(found: Workspace) -> Iterator[Way]:
+def ways_across(region: Workspace) -> Iterator[Way]:
     """Ways on which a followed workspace shows that det Jp changes its sign, then ways beyond its border.
 
     Joint values (n,) at a reached node of the grid, and the pose (m,) of a neighbour. None with a closed form.
@@ -31,22 +31,22 @@ def ways_across(found: Workspace) -> Iterator[Way]:
     >>> list(ways_across(workspace(load_record("fivebar"), resolution=8)))
     []
     """
-    field = next((item for item in found.margins.values() if isinstance(item, FollowedField)), None)
+    field = next((item for item in region.margins.values() if isinstance(item, FollowedField)), None)
     if field is None or not np.any(field.over.reached):
         return
     over = field.over
     sides = np.full(over.reached.shape, np.nan)
-    if OUTPUT.name in found.region.factors:
+    if OUTPUT.name in region.region.factors:
         sides[over.reached] = np.sign(over.at_nodes.measures[1])
     for axis in range(sides.ndim):
         here, there = (np.take(sides, range(first, sides.shape[axis] + first - 1), axis) for first in (0, 1))
         nodes = np.argwhere(here * there < 0)
         nodes = nodes[_central(nodes, sides.shape)]
         ahead = nodes + np.eye(sides.ndim, dtype=np.intp)[axis]
-        yield from zip(over.joints[tuple(nodes.T)], found.slice.poses(over.points(ahead)), strict=True)
+        yield from zip(over.joints[tuple(nodes.T)], region.slice.poses(over.points(ahead)), strict=True)
     rows = _central(over.ends.tails, sides.shape)
     tails, heads = over.ends.tails[rows], over.ends.heads[rows]
-    yield from zip(over.joints[tuple(tails.T)], found.slice.poses(over.points(heads)), strict=True)
+    yield from zip(over.joints[tuple(tails.T)], region.slice.poses(over.points(heads)), strict=True)
 
 
 def _central(nodes: NDArray[np.intp], shape: tuple[int, ...]) -> NDArray[np.intp]:

@@ -9,13 +9,13 @@ import pytest
 
 from assur.errors import UsageError
 from assur.export.cad import kernel
-from assur.scene.shapes import Ball, Bar, Box, Cylinder, Slab
+from assur.scene.shapes import Ball, Bar, Cuboid, Cylinder, Slab
 
 SHAPES = (
     (Cylinder(np.array([0.0, 1, 2]), np.array([3.0, 1, 6]), 0.4), np.pi * 0.16 * 5),
     (Cylinder(np.ones(3), np.ones(3), 0.4), 4 / 3 * np.pi * 0.064),
     (Ball(np.array([1.0, 2, 3]), 0.7), 4 / 3 * np.pi * 0.343),
-    (Box(np.array([1.0, 0, 0]), np.diag([1.0, 2.0, 3.0])), 48.0),
+    (Cuboid(np.array([1.0, 0, 0]), np.diag([1.0, 2.0, 3.0])), 48.0),
     (Bar(np.zeros(3), np.array([2.0, 0, 0]), np.array([0.0, 0, 1]), 0.3, 0.1), 0.1 * (2 * 0.6 + np.pi * 0.09)),
     (Slab(np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([0.0, 0, 0.5])), 0.25),
 )
@@ -33,11 +33,11 @@ def test_volume_bounds_and_validity(shape, wanted):
 
 @pytest.mark.cad
 def test_a_bore_is_taken_away_and_pieces_are_counted():
-    plate = kernel.solid(Box(np.zeros(3), np.diag([4.0, 1.0, 0.5])))
+    plate = kernel.solid(Cuboid(np.zeros(3), np.diag([4.0, 1.0, 0.5])))
     bore = kernel.solid(Cylinder(np.array([0.0, 0, -1]), np.array([0.0, 0, 1]), 0.5))
     made = kernel.fused([plate], [bore])
     assert kernel.volume(made) == pytest.approx(16 - np.pi * 0.25, rel=1e-9)
-    cut = kernel.fused([plate], [kernel.solid(Box(np.zeros(3), np.diag([0.5, 2.0, 2.0])))])
+    cut = kernel.fused([plate], [kernel.solid(Cuboid(np.zeros(3), np.diag([0.5, 2.0, 2.0])))])
     assert len(kernel.solids_of(cut)) == 2
 
 

@@ -8,7 +8,7 @@ import pytest
 import assur
 from assur.joint_graph.frames import frames
 from assur.kinematics.border import inputs_of
-from assur.kinematics.certified.domain import Reach, _by_both, pose_box, reaches
+from assur.kinematics.certified.domain import ReachBound, _by_both, pose_box, reaches
 from assur.model.pose import is_angle
 from assur.model.registry import names
 from catalogue import each
@@ -73,7 +73,7 @@ def test_two_cylinders_that_are_not_parallel_bound_what_lies_in_both():
     rng = np.random.default_rng(4)
     for _ in range(20):
         axes = [axis / np.linalg.norm(axis) for axis in rng.standard_normal((2, 3))]
-        one, other = (Reach(100 * rng.standard_normal(3), 50.0 + 200 * rng.random(), axis) for axis in axes)
+        one, other = (ReachBound(100 * rng.standard_normal(3), 50.0 + 200 * rng.random(), axis) for axis in axes)
         points = rng.uniform(-2000, 2000, (40_000, 3))
         away = [points - item.centre for item in (one, other)]
         inside = [
@@ -85,7 +85,7 @@ def test_two_cylinders_that_are_not_parallel_bound_what_lies_in_both():
             bounds = _by_both(coordinate, one, other)
             if bounds is not None and len(both):
                 assert np.all(np.abs(both[:, coordinate] - bounds[0]) <= bounds[1])
-    parallel = Reach(np.ones(3), 5.0, one.axis)
+    parallel = ReachBound(np.ones(3), 5.0, one.axis)
     assert _by_both(0, one, parallel) is None
 
 

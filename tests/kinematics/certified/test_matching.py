@@ -8,7 +8,7 @@ import pytest
 import assur
 from assur.kinematics import position
 from assur.kinematics.certified import signs
-from assur.kinematics.certified.branches import Judged
+from assur.kinematics.certified.branches import JudgedBranches
 from assur.kinematics.certified.certify import certified_direct
 from assur.kinematics.certified.matching import Candidates, matched
 from assur.kinematics.certified.proofs import Proofs
@@ -68,7 +68,7 @@ def test_a_branch_whose_bounds_hold_two_proved_poses_does_not_hide_one():
     poses = Interval.of([[0.0, 0.0], [1.0, 1.0]], [[0.1, 0.1], [1.1, 1.1]])
     alone = Interval.of([[-0.1, -0.1], [0.9, 0.9]], [[0.2, 0.2], [1.2, 1.2]])
     doubt = Doubt("m", np.array([-1.0]), np.array([1.0]), "may merge")
-    branches = Judged(
+    branches = JudgedBranches(
         Interval.of([[-1.0, -1.0], [-9.0, -9.0]], [[2.0, 2.0], [9.0, 9.0]]),
         Interval.of(np.zeros((2, 2))),
         np.array([True, False]),
@@ -97,7 +97,7 @@ def test_two_branches_that_may_be_one_pose_count_once(second, modes, count):
     record, inputs = load_record("fivebar"), np.array([2.2, 0.9])
     low = np.array([[0.0, 0.0], second])
     both, none = np.array([True, True]), np.array([False, False])
-    branches = Judged(Interval.of(low, low + 0.1), Interval.of(np.zeros((2, 2))), both, none, none, (), {})
+    branches = JudgedBranches(Interval.of(low, low + 0.1), Interval.of(np.zeros((2, 2))), both, none, none, (), {})
     nothing = Interval.of(np.zeros((0, 2)))
     found = matched(
         record,

@@ -9,7 +9,7 @@ import assur
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.closed_form import filling
 from assur.kinematics.closed_form.filling import REPAID, REPAID_LOADED, chosen, finished
-from assur.kinematics.closed_form.recorded import Row, recording
+from assur.kinematics.closed_form.recorded import AnswerRow, recording
 from assur.kinematics.closed_form.sweep import inverse_sweep
 
 
@@ -79,11 +79,11 @@ def test_components_in_any_form_have_the_same_bits():
 
 def test_rows_that_numpy_finishes():
     numbers = {"c": np.array([0.0]), "s": np.array([1.0]), **{f"m{k}": np.array([float(k)]) for k in range(16)}}
-    assert finished(Row(("c",)), numbers)[0] == 0
-    assert finished(Row(("c", "s"), "angle"), numbers)[0] == np.pi / 2
-    assert finished(Row(("c", "s"), "angle", -1.0, 0.5), numbers)[0] == 0.5 - np.pi / 2
+    assert finished(AnswerRow(("c",)), numbers)[0] == 0
+    assert finished(AnswerRow(("c", "s"), "angle"), numbers)[0] == np.pi / 2
+    assert finished(AnswerRow(("c", "s"), "angle", -1.0, 0.5), numbers)[0] == 0.5 - np.pi / 2
     numbers |= {f"m{k}": np.array([2.0 if k % 5 == 0 else 0.0]) for k in range(16)}
     square = tuple(f"m{k}" for k in range(16))
-    assert round(float(finished(Row(square, "determinant", -1.0), numbers)[0]), 12) == -16
-    assert finished(Row((*square, *square), "condition_index"), numbers)[0] == 1
-    assert finished(Row((*square, *square), "smallest"), numbers)[0] == 1
+    assert round(float(finished(AnswerRow(square, "determinant", -1.0), numbers)[0]), 12) == -16
+    assert finished(AnswerRow((*square, *square), "condition_index"), numbers)[0] == 1
+    assert finished(AnswerRow((*square, *square), "smallest"), numbers)[0] == 1

@@ -7,7 +7,7 @@ import pytest
 
 import assur
 from assur.errors import UsageError
-from assur.kinematics.closed_form.recorded import Row, recording
+from assur.kinematics.closed_form.recorded import AnswerRow, recording
 from assur.kinematics.closed_form.sweep import inverse_sweep
 from assur.kinematics.modes import all_modes, mode_signs
 from assur.model.dimensions import with_parameters
@@ -41,7 +41,7 @@ def test_only_what_is_wanted_is_recorded(zeng):
 
 
 def test_lengths_are_printed_by_the_tape_and_angles_by_numpy(zeng):
-    assert recording(zeng, "inverse", ("inputs",)).rows["inputs"][0] == Row((".yA1",))
+    assert recording(zeng, "inverse", ("inputs",)).rows["inputs"][0] == AnswerRow((".yA1",))
     fivebar = recording(assur.load("fivebar"), "inverse", ("inputs",))
     assert [row.finish for row in fivebar.rows["inputs"]] == ["angle", "angle"]
     assert recording(assur.load("gough_stewart"), "inverse", ("det_jp",)).rows["det_jp"][0].finish == "determinant"

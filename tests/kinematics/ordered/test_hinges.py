@@ -12,8 +12,8 @@ from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.ordered.hinges import (
+    HingeTurn,
     Stiff,
-    Turn,
     middle,
     rods_between_balls,
     triangles_of_balls,
@@ -35,7 +35,7 @@ def _near_home(record: MechanismRecord) -> np.ndarray:
 def test_orientations_at_assemblies_obey_them(name: str) -> None:
     record = load_record(name)
     joints = [*turns_of_joints(record, {}), *turns_of_parallelograms(record, tuple(record.generalised))]
-    assert any(isinstance(joint, Turn) for joint in joints)
+    assert any(isinstance(joint, HingeTurn) for joint in joints)
     values = _near_home(record)
     assert len(values) >= 3
     placed = frames(record, values)
@@ -89,8 +89,8 @@ def test_a_locked_joint_is_stiff() -> None:
     record = load_record("fivebar")
     free = list(turns_of_joints(record, {}))
     locked = list(turns_of_joints(record, dict.fromkeys(record.input_indices, 0.5)))
-    assert [isinstance(joint, Turn) for joint in free] == [True] * 5
-    assert [isinstance(joint, Turn) for joint in locked] == [False, False, True, True, True]
+    assert [isinstance(joint, HingeTurn) for joint in free] == [True] * 5
+    assert [isinstance(joint, HingeTurn) for joint in locked] == [False, False, True, True, True]
 
 
 def test_rods_of_a_kept_parallelogram_share_a_number_and_a_direction() -> None:
@@ -109,7 +109,7 @@ def test_short_links_of_a_ball_jointed_parallelogram_turn_about_their_direction(
     record = load_record("delta_4s")
     found = list(turns_of_parallelograms(record, tuple(record.generalised)))
     assert [(turn.parent, turn.child) for turn in found] == [(f"leg{k}.arm", "platform") for k in (1, 2, 3)]
-    assert all(isinstance(turn, Turn) for turn in found)
+    assert all(isinstance(turn, HingeTurn) for turn in found)
     motor = record.joints["leg1.A"].axes[0]
     np.testing.assert_allclose(np.cross(found[0].axis, motor), 0.0, atol=1e-12)
     assert not list(turns_of_parallelograms(record, ()))

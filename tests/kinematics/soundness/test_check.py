@@ -263,7 +263,7 @@ def files_of_mechanisms() -> list[Path]:
 def test_files_of_the_tests_are_sound(path: Path) -> None:
     found = faults(load_record(path))
     if path.name in KNOWN:
-        assert any(KNOWN[path.name] in problem.found for problem in found)
+        assert any(KNOWN[path.name] in problem.given for problem in found)
     else:
         assert found == ()
 
@@ -298,7 +298,7 @@ def test_an_axis_that_is_not_quite_parallel_is_named() -> None:
     text = written(FOUR, [('child_at = ["rocker", 0, 0], axis = "z"', f'child_at = ["rocker", 0, 0], axis = {slant}')])
     (problem,) = faults(read_text(text, Path("m.toml")))
     assert re.fullmatch(
-        r"the loop through A, B, C, D does not close from home: a gap of [\d.]+ (mm|deg) remains", problem.found
+        r"the loop through A, B, C, D does not close from home: a gap of [\d.]+ (mm|deg) remains", problem.given
     )
     assert problem.hint.startswith("the axes of B and C are 2 deg from parallel; another home closes: ")
 
@@ -315,7 +315,7 @@ def test_loops_that_close_one_by_one_but_not_together() -> None:
     record = read_text(text, Path("m.toml"))
     (problem,) = faults(record)
     assert problem.path == "limbs.leg.home"
-    assert problem.found.startswith("each loop closes by itself, but not all together: a gap of ")
+    assert problem.given.startswith("each loop closes by itself, but not all together: a gap of ")
 
 
 # ---- limits ---------------------------------------------------------------------------------------------------
@@ -405,7 +405,7 @@ def test_a_home_that_is_far_from_the_assembly_is_noted_with_the_largest_first() 
     stated, closed = np.degrees(record.home), np.degrees(home_values(record))
     order = np.argsort(-np.abs(closed - stated))[:3]
     assert (note.line, note.path, note.allowed) == (23, "home", NEAR)
-    assert note.found == "the loops close at " + "; ".join(
+    assert note.given == "the loops close at " + "; ".join(
         f"{'ABCD'[k]} = {closed[k]:.4g} deg, the file says {stated[k]:.4g} deg" for k in order
     )
 

@@ -13,5 +13,5 @@ def test_home_beyond_a_side_of_the_box_is_noted_with_its_line(tmp_path) -> None:
     (note,) = doubts(load_record(path))
     line = next(k for k, row in enumerate(text.splitlines(), 1) if row.startswith("box"))
     assert (note.line, note.path) == (line, "workspace.box.y")
-    assert note.found.startswith("home has y = 223.9")
-    assert note.found.endswith("mm, outside 230 mm to 260 mm")
+    assert note.given.startswith("home has y = 223.9")
+    assert note.given.endswith("mm, outside 230 mm to 260 mm")

@@ -63,7 +63,7 @@ def check(text: str) -> None:
     for problem in problems:
         assert problem.line is None or 1 <= problem.line <= lines
         assert problem.file == "f.toml"
-        assert problem.found
+        assert problem.given
         assert problem.allowed
         assert len(str(problem)) < 3000
         assert "Traceback" not in str(problem)

@@ -53,7 +53,7 @@ def missing(data: dict[str, Any], read: Any) -> tuple[Problem, ...]:
     try:
         read("\n".join(text for _, text in rows(data)), Path("f.toml"))
     except MechanismFileError as error:
-        return tuple(problem for problem in error.problems if problem.found == "missing")
+        return tuple(problem for problem in error.problems if problem.given == "missing")
     except UsageError:  # without what makes it a mechanism it is taken for a topology, or the other way round
         pass
     return ()

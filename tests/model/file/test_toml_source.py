@@ -105,9 +105,9 @@ def test_what_is_not_toml_is_refused_with_its_line(text: str, line: int, row: st
         read_toml(text, "f.toml")
     (problem,) = caught.value.problems
     assert (problem.file, problem.line, problem.hint) == ("f.toml", line, hint)
-    assert problem.found.startswith("not TOML: ")
+    assert problem.given.startswith("not TOML: ")
     again = f"; the first one is in line {first}" if first else ""
-    assert problem.found.endswith(f" in `{row}`{again}")
+    assert problem.given.endswith(f" in `{row}`{again}")
 
 
 @pytest.mark.parametrize(
@@ -165,7 +165,7 @@ def test_brackets_as_deep_as_the_toml_reader_goes_are_no_crash() -> None:
 def test_every_name_that_is_given_again_is_told_with_its_first_line() -> None:
     with pytest.raises(MechanismFileError) as caught:
         read_toml("a = 1\nb = 1\na = 2\nc = 3,5\nb = 2\n", "f.toml")
-    told = [(problem.line, problem.found.partition("; ")[2]) for problem in caught.value.problems]
+    told = [(problem.line, problem.given.partition("; ")[2]) for problem in caught.value.problems]
     assert told == [(3, "the first one is in line 1"), (4, ""), (5, "the first one is in line 2")]
 
 

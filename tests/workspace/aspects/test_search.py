@@ -11,14 +11,14 @@ from assur.model.registry import load_record
 from assur.workspace.aspects import search as module
 from assur.workspace.aspects.search import search
 from assur.workspace.certified.criteria import criteria
-from assur.workspace.certified.planes import Frame
+from assur.workspace.certified.planes import BoxQuestion
 from assur.workspace.domain import box_of
 
 
 def frame_of(name, mode=None, box=None, held=None):
     record = load_record(name)
     asked = criteria(record, mode, held=held, factors=("parallel", "serial")).nonsingular
-    return Frame(asked, box_of(record, box, asked.slice.free), asked.used)
+    return BoxQuestion(asked, box_of(record, box, asked.slice.free), asked.used)
 
 
 PART = {"phi": (0.0, 1.2)}

@@ -10,7 +10,7 @@ from assur.model.registry import load_record
 from assur.workspace.aspects.signs import factor_signs
 from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.criteria import Criteria, criteria
-from assur.workspace.certified.planes import Frame
+from assur.workspace.certified.planes import BoxQuestion
 from assur.workspace.domain import box_of
 
 
@@ -19,7 +19,7 @@ def test_no_pose_of_a_box_has_another_sign(name, size):
     record = load_record(name)
     asked = criteria(record, factors=("parallel", "serial"))
     box, rng = box_of(record, None, asked.slice.free), np.random.default_rng(5)
-    frame = Frame(asked, box, (True,) * len(box.names))
+    frame = BoxQuestion(asked, box, (True,) * len(box.names))
     middles = box.spread(300, rng).T
     boxes = Boxes(middles - size / 2, middles + size / 2)
     signs = factor_signs(frame, boxes)
@@ -37,7 +37,7 @@ def test_no_pose_of_a_box_has_another_sign(name, size):
 
 def test_a_box_across_a_singularity_has_no_sign():
     record = load_record("zeng2019")
-    frame = Frame(criteria(record, factors=("parallel",)), box_of(record, None), (True, False, True))
+    frame = BoxQuestion(criteria(record, factors=("parallel",)), box_of(record, None), (True, False, True))
     across = Boxes(np.array([[-90.0], [200.0]]), np.array([[-80.0], [220.0]]))
     above = Boxes(np.array([[-90.0], [250.0]]), np.array([[-80.0], [260.0]]))
     w = frame.criteria.names.index("w")
@@ -46,7 +46,7 @@ def test_a_box_across_a_singularity_has_no_sign():
 
 def test_slopes_are_asked_only_where_bounds_do_not_tell(monkeypatch):
     record = load_record("zeng2019")
-    frame = Frame(criteria(record, factors=("parallel",)), box_of(record, None), (True, False, True))
+    frame = BoxQuestion(criteria(record, factors=("parallel",)), box_of(record, None), (True, False, True))
     boxes = Boxes(np.array([[-90.0, -90.0], [200.0, 250.0]]), np.array([[-80.0, -80.0], [220.0, 260.0]]))
     asked, own = [], Criteria.sloped
 

@@ -10,7 +10,7 @@ from assur.workspace.aspects import volumes as module
 from assur.workspace.aspects.search import search
 from assur.workspace.aspects.volumes import volumes
 from assur.workspace.certified.criteria import criteria
-from assur.workspace.certified.planes import Frame
+from assur.workspace.certified.planes import BoxQuestion
 from assur.workspace.domain import box_of
 
 
@@ -18,7 +18,7 @@ def test_bounds_hold_the_share_of_random_poses():
     record = load_record("zeng2019")
     asked = criteria(record, factors=("parallel", "serial")).nonsingular
     box = box_of(record, None, asked.slice.free)
-    found = search(Frame(asked, box, asked.used), {"x": 2.0, "y": 1e9, "z": 2.0})
+    found = search(BoxQuestion(asked, box, asked.used), {"x": 2.0, "y": 1e9, "z": 2.0})
     bounds = volumes(found)
     points = box.spread(40_000, np.random.default_rng(3))
     answer = inverse(record, points, record.modes.default_working)
@@ -38,7 +38,9 @@ def test_parts_that_may_be_one_share_the_upper_bound(monkeypatch):
     record = load_record("planar_3rpr")
     asked = criteria(record, factors=("parallel", "serial")).nonsingular
     monkeypatch.setattr("assur.workspace.aspects.search.ROUNDS", 0)
-    found = search(Frame(asked, box_of(record, {"phi": (0.0, 1.2)}), asked.used), {"x": 2.5, "y": 2.5, "phi": 0.15})
+    found = search(
+        BoxQuestion(asked, box_of(record, {"phi": (0.0, 1.2)}), asked.used), {"x": 2.5, "y": 2.5, "phi": 0.15}
+    )
     bounds = volumes(found)
     for k in range(len(bounds)):
         for other in np.flatnonzero(found.links.group == found.links.group[k]):
@@ -48,7 +50,9 @@ def test_parts_that_may_be_one_share_the_upper_bound(monkeypatch):
 def test_what_is_undecided_is_looked_at_once_for_all_aspects(monkeypatch):
     record = load_record("zeng2019")
     asked = criteria(record, factors=("parallel", "serial")).nonsingular
-    found = search(Frame(asked, box_of(record, None, asked.slice.free), asked.used), {"x": 4.0, "y": 1e9, "z": 4.0})
+    found = search(
+        BoxQuestion(asked, box_of(record, None, asked.slice.free), asked.used), {"x": 4.0, "y": 1e9, "z": 4.0}
+    )
     looked, own = [], module.judged
 
     def counted(frame, boxes):

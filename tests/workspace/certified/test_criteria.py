@@ -18,7 +18,7 @@ from assur.workspace.bounds import bounds
 from assur.workspace.certified import criteria as module
 from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.criteria import criteria
-from assur.workspace.certified.planes import Frame
+from assur.workspace.certified.planes import BoxQuestion
 from assur.workspace.domain import box_of
 from assur.workspace.fields import factor_fields, margin_fields
 
@@ -153,7 +153,7 @@ def test_machine_code_has_the_bits_of_numpy_for_every_mechanism(name, monkeypatc
     """Values and slopes, so that no proof depends on which of both was used."""
     record, rng = assur.load(name), np.random.default_rng(7)
     asked = criteria(record, factors=KINDS).nonsingular
-    frame = Frame(asked, box_of(record, None, asked.slice.free), asked.used)
+    frame = BoxQuestion(asked, box_of(record, None, asked.slice.free), asked.used)
     boxes = boxes_of(frame.box, np.array(asked.used), rng)
     given = frame.whole(boxes.intervals)
     finite = rng.random(len(boxes)) > 0.1

@@ -10,7 +10,7 @@ from assur.numerics.recording.tape import Recorder
 from assur.workspace.certified import planes
 from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.criteria import Criteria, criteria
-from assur.workspace.certified.planes import Frame, joined, judged
+from assur.workspace.certified.planes import BoxQuestion, joined, judged
 from assur.workspace.domain import Box, box_of
 from assur.workspace.fields import margin_fields
 from assur.workspace.slices import Slice
@@ -23,7 +23,7 @@ def question(name, **options):
     record = assur.load(name)
     asked = criteria(record, **options)
     box = box_of(record, None, asked.slice.free)
-    return record, Frame(asked, box, (True,) * len(box.names))
+    return record, BoxQuestion(asked, box, (True,) * len(box.names))
 
 
 def lot(frame, count=200, share=0.06):
@@ -88,7 +88,7 @@ def test_where_the_formulas_divide_by_zero_no_box_is_inside_but_its_volume_is_kn
     """The five-bar with its free end at the first motor, which it reaches with two arms of one length."""
     record = assur.load("fivebar")
     asked = criteria(record)
-    frame = Frame(asked, box_of(record, None), (True, True))
+    frame = BoxQuestion(asked, box_of(record, None), (True, True))
     low = np.array(frame.box.low)[:, None]
     grid = Boxes(low, np.array(frame.box.high)[:, None]).divided([60, 60])
     found = asked.over(grid.intervals)
@@ -123,7 +123,7 @@ def made_up(margin):
     x = recorder.varying("x")
     tape = recorder.tape({"m": margin(x)})
     asked = Criteria(Slice(("x",), ("x",), {}), tape, (), ("m",), (), (), (), {})
-    return Frame(asked, Box(("x",), (-1.0,), (1.0,)), (True,))
+    return BoxQuestion(asked, Box(("x",), (-1.0,), (1.0,)), (True,))
 
 
 def test_a_margin_that_is_not_defined_somewhere_is_not_taken_for_inside():

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from assur.kinematics.soundness.check import METRES
 from assur.model.mechanism import Input, Joint, MechanismRecord
 from assur.results.answers.files import BillRow
-from assur.scene.bodies import Body, bodies, corners, fused
+from assur.scene.bodies import LinkBody, bodies, corners, fused
 from assur.scene.part import Part
-from assur.scene.shapes import Ball, Bar, Box, Cylinder, Shape, Slab
+from assur.scene.shapes import Ball, Bar, Cuboid, Cylinder, Shape, Slab
 
 FloatArray = NDArray[np.float64]
 
@@ -32,7 +32,7 @@ def bill(record: MechanismRecord) -> tuple[BillRow, ...]:
     """
     millimetre = 1e3 * METRES[record.unit]
     made = bodies(record)
-    alike: list[list[Body]] = []
+    alike: list[list[LinkBody]] = []
     for body in (item for item in made if item.fused):
         group = next((group for group in alike if _same(_form(group[0]), _form(body))), None)
         if group is None:
@@ -74,7 +74,7 @@ def bill_csv(rows: Iterable[BillRow]) -> str:
     return stream.getvalue()
 
 
-def _form(body: Body) -> tuple[tuple[str, ...], FloatArray]:
+def _form(body: LinkBody) -> tuple[tuple[str, ...], FloatArray]:
     """Equal for links that are alike or mirrored: roles of the parts; their sizes, distances and the volume."""
     listed = sorted((f"{item.role} {item.shape.kind}", _sizes(item.shape)) for item in body.fused)
     middles = np.array([corners(item.shape).mean(axis=0) for item in body.fused])
@@ -97,25 +97,25 @@ def _sizes(shape: Shape) -> tuple[float, ...]:
         return (2 * shape.radius, float(np.linalg.norm(shape.end - shape.start)))
     if isinstance(shape, Bar):
         return (float(np.linalg.norm(shape.end - shape.start)), 2 * shape.radius, shape.thickness)
-    if isinstance(shape, Box):
+    if isinstance(shape, Cuboid):
         return tuple(float(value) for value in np.sort(2 * np.linalg.norm(shape.sides, axis=1))[::-1])
     thick = float(np.linalg.norm(shape.along))
     flat = np.linalg.norm(shape.outline - np.roll(shape.outline, 1, axis=0), axis=1)
     return (*(float(value) for value in np.sort(flat)[::-1]), thick)
 
 
-def _words(item: Part, millimetre: float) -> str:
+def _words(part: Part, millimetre: float) -> str:
     """A part with its sizes, as "bar 250 between eyes, 26 x 8"."""
-    sizes = [f"{value * millimetre:.4g}" for value in _sizes(item.shape)]
-    if isinstance(item.shape, Ball):
-        return f"{item.role} d {sizes[0]}"
-    if isinstance(item.shape, Cylinder):
-        return f"{item.role} d {sizes[0]} x {sizes[1]}"
-    if isinstance(item.shape, Bar):
-        return f"{item.role} {sizes[0]} from hole to hole, {sizes[1]} x {sizes[2]}"
-    if isinstance(item.shape, Slab):
-        return f"{item.role} with {len(sizes) - 1} corners, sides {' '.join(sizes[:-1])}, {sizes[-1]} thick"
-    return f"{item.role} {' x '.join(sizes)}"
+    sizes = [f"{value * millimetre:.4g}" for value in _sizes(part.shape)]
+    if isinstance(part.shape, Ball):
+        return f"{part.role} d {sizes[0]}"
+    if isinstance(part.shape, Cylinder):
+        return f"{part.role} d {sizes[0]} x {sizes[1]}"
+    if isinstance(part.shape, Bar):
+        return f"{part.role} {sizes[0]} from hole to hole, {sizes[1]} x {sizes[2]}"
+    if isinstance(part.shape, Slab):
+        return f"{part.role} with {len(sizes) - 1} corners, sides {' '.join(sizes[:-1])}, {sizes[-1]} thick"
+    return f"{part.role} {' x '.join(sizes)}"
 
 
 def _counted(words: Iterable[str]) -> list[str]:

@@ -117,9 +117,9 @@ def _places(record: MechanismRecord, values: FloatArray) -> dict[str, tuple[NDAr
     return found
 
 
-def _mesh(buffer: _Buffer, item: Part, material: int) -> dict[str, Any]:
+def _mesh(buffer: _Buffer, part: Part, material: int) -> dict[str, Any]:
     """A part as one primitive: vertices that agree in place and normal are one."""
-    drawn = item.shape.mesh(item.colour)
+    drawn = part.shape.mesh(part.colour)
     rows = np.concatenate([drawn.corners, drawn.normals], axis=2).reshape(-1, 6).astype(np.float32)
     flat = drawn.corners.astype(np.float32)
     area = np.linalg.norm(np.cross(flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]), axis=1)
@@ -130,7 +130,7 @@ def _mesh(buffer: _Buffer, item: Part, material: int) -> dict[str, Any]:
         "NORMAL": buffer.add(np.ascontiguousarray(vertices[:, 3:]), target=VERTICES),
     }
     primitive = {"attributes": attributes, "indices": buffer.add(faces, target=FACES), "material": material}
-    return {"name": item.name, "primitives": [primitive]}
+    return {"name": part.name, "primitives": [primitive]}
 
 
 def _material(colour: str) -> dict[str, Any]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import AssurError, UsageError, extra_hint
-from assur.scene.shapes import Ball, Bar, Box, Cylinder, Shape, Slab
+from assur.scene.shapes import Ball, Bar, Cuboid, Cylinder, Shape, Slab
 
 FloatArray = NDArray[np.float64]
 
@@ -44,7 +44,7 @@ def solid(shape: Shape) -> Any:
         if length <= 1e-9 * shape.radius:
             return BRepPrimAPI_MakeSphere(_point(shape.start), shape.radius).Shape()
         return BRepPrimAPI_MakeCylinder(_axes(shape.start, way), shape.radius, length).Shape()
-    if isinstance(shape, Box):
+    if isinstance(shape, Cuboid):
         a, b, c = shape.sides
         corners = shape.centre + np.array([-a - b - c, a - b - c, a + b - c, -a + b - c])
         return _extruded(_outline(corners), 2 * c)

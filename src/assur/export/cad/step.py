@@ -13,7 +13,7 @@ from assur.export.cad import kernel
 from assur.joint_graph.frames import frames
 from assur.kinematics.soundness.check import METRES
 from assur.model.mechanism import MechanismRecord
-from assur.scene.bodies import CHIP, Body, bodies
+from assur.scene.bodies import CHIP, LinkBody, bodies
 from assur.scene.mesh import rgb
 
 FloatArray = NDArray[np.float64]
@@ -61,7 +61,7 @@ def step(record: MechanismRecord, values: FloatArray) -> bytes:
     return stream.getvalue()
 
 
-def link_solids(body: Body, scale: float) -> list[tuple[str, Any, str]]:
+def link_solids(body: LinkBody, scale: float) -> list[tuple[str, Any, str]]:
     """Name, solid and colour of the pieces of a link, in its frame, lengths times `scale`: the body, then its pins."""
     found = []
     if body.fused:

@@ -35,7 +35,7 @@ from assur.results.answers.position import (
 )
 
 
-def answer(found: SolutionSet) -> DirectAnswer | InverseAnswer:
+def answer(solutions: SolutionSet) -> DirectAnswer | InverseAnswer:
     """The answer to one direct or inverse problem; angles in the mechanism's angle unit.
 
     >>> from assur.kinematics.position import direct
@@ -44,22 +44,22 @@ def answer(found: SolutionSet) -> DirectAnswer | InverseAnswer:
     >>> said.status, said.complete, said.solutions[0].mode
     ('regular', True, '+++')
     """
-    record = found.record
-    listed, home = list(found), home_solution(found)
+    record = solutions.record
+    listed, home = list(solutions), home_solution(solutions)
     shared: dict[str, Any] = {
         "mechanism": record.name,
         "unit": record.unit,
         "angle": record.angle,
         "coordinates": record.platform.pose,
         "input_names": border.input_names(record),
-        "status": Status(int(found.overall_status)).name,
-        "complete": found.complete,
-        "complete_for": found.complete_for,
-        "right": found.right,
+        "status": Status(int(solutions.overall_status)).name,
+        "complete": solutions.complete,
+        "complete_for": solutions.complete_for,
+        "right": solutions.right,
         "limits_stated": limits_stated(record),
         "doubles": tuple(
             DoubleSolution((listed[a].mode, listed[b].mode), apart)
-            for a, b, apart in doubles(record, found.joints[found.exists])
+            for a, b, apart in doubles(record, solutions.joints[solutions.exists])
         ),
         "home_by": home.words,
         "curves": tuple(
@@ -69,22 +69,22 @@ def answer(found: SolutionSet) -> DirectAnswer | InverseAnswer:
                 curve.mode,
                 pose_at_border(record, curve.poses(9)).tolist(),
             )
-            for curve in found.curves
+            for curve in solutions.curves
         ),
-        "failures": missing(record, found.failures),
+        "failures": missing(record, solutions.failures),
     }
     marked = [(item, _said(record, item, mark)) for item, mark in zip(listed, home.marks, strict=True)]
-    if found.problem == "direct":
+    if solutions.problem == "direct":
         poses = (
             PoseSolution(**said, pose=pose_at_border(record, item.pose).tolist(), working_mode=item.working_mode)
             for item, said in marked
         )
-        return DirectAnswer(**shared, inputs=inputs_at_border(record, found.given).tolist(), solutions=tuple(poses))
+        return DirectAnswer(**shared, inputs=inputs_at_border(record, solutions.given).tolist(), solutions=tuple(poses))
     inputs = (
         InputsSolution(**said, inputs=inputs_at_border(record, item.inputs).tolist(), assembly_mode=item.assembly_mode)
         for item, said in marked
     )
-    return InverseAnswer(**shared, pose=pose_at_border(record, found.given).tolist(), solutions=tuple(inputs))
+    return InverseAnswer(**shared, pose=pose_at_border(record, solutions.given).tolist(), solutions=tuple(inputs))
 
 
 def missing(record: MechanismRecord, failures: tuple[Failure, ...]) -> tuple[NegativeQuantity, ...]:
@@ -95,23 +95,23 @@ def missing(record: MechanismRecord, failures: tuple[Failure, ...]) -> tuple[Neg
     )
 
 
-def _said(record: MechanismRecord, item: Solution, home: bool | None) -> dict[str, Any]:
-    loop = item.open_loop
+def _said(record: MechanismRecord, solution: Solution, home: bool | None) -> dict[str, Any]:
+    loop = solution.open_loop
     return {
-        "mode": item.mode,
-        "residual": item.residual,
-        "status": item.status.name,
+        "mode": solution.mode,
+        "residual": solution.residual,
+        "status": solution.status.name,
         "open_loop": None if loop is None else WidestGap(loop.loop, loop.joint, loop.gap),
-        "limits": limits_at_border(record, item),
-        "angles": angles_remark(record, item.pose),
-        "parasitic": _parasitic(record, item),
+        "limits": limits_at_border(record, solution),
+        "angles": angles_remark(record, solution.pose),
+        "parasitic": _parasitic(record, solution),
         "home": home,
     }
 
 
-def _parasitic(record: MechanismRecord, item: Solution) -> dict[str, float]:
+def _parasitic(record: MechanismRecord, solution: Solution) -> dict[str, float]:
     """Those of the platform's coordinates that the pose leaves out and that move."""
     if not (names := moving(record)):
         return {}
-    every = all_coordinates(record, np.array(list(item.joints.values())))
+    every = all_coordinates(record, np.array(list(solution.joints.values())))
     return coordinates_at_border(record, {name: float(every[name]) for name in names})

@@ -17,17 +17,17 @@ from assur.results.answers.position import ExceededLimit, KeptLimits
 FloatArray = NDArray[np.float64]
 
 
-def limits_at_border(record: MechanismRecord, item: Solution) -> KeptLimits:
+def limits_at_border(record: MechanismRecord, solution: Solution) -> KeptLimits:
     """Whether a solution keeps the limits of the file, and each that it does not keep."""
     outside = []
-    for each in item.excesses:
+    for each in solution.excesses:
         value, low, high, by = (
             float(angle_at_border(record, number) if each.angular else number)
             for number in (each.value, each.low, each.high, each.by)
         )
         unit = record.angle if each.angular else record.unit
         outside.append(ExceededLimit(each.limit, each.joint, value, low, high, by, unit))
-    return KeptLimits(item.within_limits, tuple(outside))
+    return KeptLimits(solution.within_limits, tuple(outside))
 
 
 def coordinates_at_border(record: MechanismRecord, values: Mapping[str, float]) -> dict[str, float]:

@@ -168,9 +168,9 @@ class SolutionSet(ABC):
         inputs = self._asked(self.inputs, "direct").reshape(-1, self.inputs.shape[-1])[rows]
         return border.distance(self.record, joints, poses, inputs)
 
-    def _asked(self, found: FloatArray, problem: Problem) -> FloatArray:
+    def _asked(self, poses: FloatArray, problem: Problem) -> FloatArray:
         """What was given, where this is the problem in which it is given; else what was found."""
-        return np.broadcast_to(self.given[..., None, :], found.shape) if self.problem == problem else found
+        return np.broadcast_to(self.given[..., None, :], poses.shape) if self.problem == problem else poses
 
     def __iter__(self) -> Iterator[Solution]:
         """The listed solutions of a batch of one."""

@@ -75,9 +75,9 @@ def direct_by_boxes(
     return CertifiedSolutions(record, "direct", inputs, solutions, tuple(doubts), True, form.complete_for, right)
 
 
-def _within_a_turn(names: tuple[str, ...], found: Zeros) -> tuple[Interval, set[int]]:
+def _within_a_turn(names: tuple[str, ...], zeros: Zeros) -> tuple[Interval, set[int]]:
     """Poses (K, m) with angles about zero, and those that may be others' after a whole turn."""
-    poses = found.isolated
+    poses = zeros.isolated
     for k, name in enumerate(names):
         if is_angle(name):
             over = poses.middle[:, k] > HALF_TURN
@@ -89,7 +89,7 @@ def _within_a_turn(names: tuple[str, ...], found: Zeros) -> tuple[Interval, set[
         k
         for k in range(len(poses.low))
         for j in range(k)
-        if found.labels[j] == found.labels[k] and not np.any(common(poses[j], poses[k])[1])
+        if zeros.labels[j] == zeros.labels[k] and not np.any(common(poses[j], poses[k])[1])
     }
     return poses, twice
 

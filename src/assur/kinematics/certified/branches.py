@@ -25,7 +25,7 @@ Kernel = Callable[[Any], Branch]
 
 
 @dataclass(frozen=True, eq=False)
-class Judged:
+class JudgedBranches:
     """K branches of one problem.
 
     Attributes:
@@ -45,7 +45,7 @@ class Judged:
     by: dict[str, int]
 
 
-def judged(record: MechanismRecord, kernel: Kernel, margins: Sequence[Margin], count: int) -> Judged:
+def judged(record: MechanismRecord, kernel: Kernel, margins: Sequence[Margin], count: int) -> JudgedBranches:
     """What the margins of a kernel's K branches say, in the order in which they are met.
 
     A margin that is certainly negative excludes its branch, unless the formulas may have degenerated before; there the
@@ -76,7 +76,7 @@ def judged(record: MechanismRecord, kernel: Kernel, margins: Sequence[Margin], c
     exists &= ~absent
     for value in (*sure_branch.pose, *sure_branch.inputs):
         exists &= _wide(number(value), count).defined
-    return Judged(pose, inputs, exists, absent, ~exists & ~absent & ~degenerate, doubts, by)
+    return JudgedBranches(pose, inputs, exists, absent, ~exists & ~absent & ~degenerate, doubts, by)
 
 
 def grouped(doubts: Sequence[tuple[int, Doubt]]) -> tuple[Doubt, ...]:

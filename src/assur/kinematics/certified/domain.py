@@ -36,7 +36,7 @@ BEGINNING = -2.9
 
 
 @dataclass(frozen=True, eq=False)
-class Reach:
+class ReachBound:
     """|(p - centre) without its part along `axis`| <= radius for the platform's point p; a ball where axis is None."""
 
     centre: FloatArray
@@ -73,7 +73,7 @@ def pose_box(record: MechanismRecord, inputs: FloatArray) -> tuple[FloatArray, F
     return low, high
 
 
-def reaches(record: MechanismRecord, inputs: FloatArray) -> Iterable[Reach]:
+def reaches(record: MechanismRecord, inputs: FloatArray) -> Iterable[ReachBound]:
     """Balls and cylinders, each of which holds the platform's point at printed inputs (n,)."""
     driven = [pair for pair in zip(record.inputs, inputs.tolist(), strict=True) if pair[0].coordinate.kind == "length"]
     known = {item.coordinate.joint: (value - item.offset) * item.sign for item, value in driven}
@@ -110,7 +110,7 @@ def _parallel(a: FloatArray, b: FloatArray) -> bool:
 
 def _from(
     record: MechanismRecord, first: Joint, usable: list[Joint], axis: FloatArray | None, known: dict[str, float]
-) -> Iterable[Reach]:
+) -> Iterable[ReachBound]:
     """The region of the platform's point along the shortest way that begins with a joint of the base, if there is one.
 
     Lengths of links are added up from joint to joint, and how far sliders are driven out.
@@ -141,7 +141,7 @@ def _from(
                 heapq.heappush(open_, (total, tickets, far, _point(joint, far)))
                 tickets += 1
     if np.isfinite(best):
-        yield Reach(centre, float(best) + SPARE * (best + float(np.linalg.norm(centre))), axis)
+        yield ReachBound(centre, float(best) + SPARE * (best + float(np.linalg.norm(centre))), axis)
 
 
 def _length(vector: FloatArray, axis: FloatArray | None) -> float:
@@ -159,7 +159,7 @@ def _other(joint: Joint, link: str) -> str:
     return joint.child if link == joint.parent else joint.parent
 
 
-def _along(coordinate: int, regions: tuple[Reach, ...]) -> tuple[float, float] | None:
+def _along(coordinate: int, regions: tuple[ReachBound, ...]) -> tuple[float, float] | None:
     """Bounds of a coordinate of the platform's point, or None.
 
     A ball bounds it, a cylinder whose axis has exactly no part along it, and two cylinders that are not parallel.
@@ -178,7 +178,7 @@ def _along(coordinate: int, regions: tuple[Reach, ...]) -> tuple[float, float] |
     return low, high
 
 
-def _by_both(coordinate: int, one: Reach, other: Reach) -> tuple[float, float] | None:
+def _by_both(coordinate: int, one: ReachBound, other: ReachBound) -> tuple[float, float] | None:
     """Middle and spread of a coordinate of a point in two regions, or None where they do not bound the space together.
 
     The coordinate is a weighted sum of places along the rows, along which each region is bounded, and of a rest that
@@ -204,7 +204,7 @@ def _size(weights: FloatArray, radii: FloatArray, first: int) -> float:
     return sum(float(np.linalg.norm(part) * radius) for part, radius in zip(parts, radii, strict=True))
 
 
-def _across(region: Reach) -> FloatArray:
+def _across(region: ReachBound) -> FloatArray:
     """Orthonormal directions (k, 3) along which a region bounds the point."""
     if region.axis is None:
         return np.eye(3)

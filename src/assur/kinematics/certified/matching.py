@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.answers.solution_set import SolutionSet
-from assur.kinematics.certified.branches import Judged, grouped
+from assur.kinematics.certified.branches import JudgedBranches, grouped
 from assur.kinematics.certified.given import inputs_meant
 from assur.kinematics.certified.proofs import Proofs, turned
 from assur.kinematics.certified.result import CertifiedSolutions, Doubt, ProvedSolution
@@ -32,7 +32,7 @@ LEGS = "Krawczyk on the legs"
 class Candidates:
     """Branches of a closed form over intervals, their modes and the working modes of the float answer, if known."""
 
-    branches: Judged
+    branches: JudgedBranches
     modes: tuple[str, ...]
     working: tuple[str, ...]
 

@@ -79,16 +79,16 @@ def pose_rows(names: Pose, platform: Placed, pose: Interval) -> tuple[list[Any],
     return rows, positive
 
 
-def _wanted_rotation(wanted: dict[str, Interval]) -> Any:
+def _wanted_rotation(pose: dict[str, Interval]) -> Any:
     """Rows of the rotation that a quaternion of any length, or phi, theta and psi mean."""
-    if QUATERNION[0] not in wanted:
-        (cf, sf), (ct, st), (cp, sp) = (turn(wanted[name]) for name in ANGLES)
+    if QUATERNION[0] not in pose:
+        (cf, sf), (ct, st), (cp, sp) = (turn(pose[name]) for name in ANGLES)
         return (
             (cf * ct, cf * st * sp - sf * cp, cf * st * cp + sf * sp),
             (sf * ct, sf * st * sp + cf * cp, sf * st * cp - cf * sp),
             (-st, ct * sp, ct * cp),
         )
-    w, x, y, z = (wanted[name] for name in QUATERNION)
+    w, x, y, z = (pose[name] for name in QUATERNION)
     twice = 2 / (w * w + x * x + y * y + z * z)
     return (
         (1 - twice * (y * y + z * z), twice * (x * y - w * z), twice * (x * z + w * y)),
@@ -97,9 +97,9 @@ def _wanted_rotation(wanted: dict[str, Interval]) -> Any:
     )
 
 
-def _turned_to(rotation: Any, wanted: Any) -> tuple[list[Any], list[Any]]:
+def _turned_to(rotation: Any, target: Any) -> tuple[list[Any], list[Any]]:
     """Skew part and trace of the turn from a wanted rotation to a rotation."""
-    gap = [[_dot([row[i] for row in wanted], [row[j] for row in rotation]) for j in range(3)] for i in range(3)]
+    gap = [[_dot([row[i] for row in target], [row[j] for row in rotation]) for j in range(3)] for i in range(3)]
     skew = [minus(gap[2][1], gap[1][2]), minus(gap[0][2], gap[2][0]), minus(gap[1][0], gap[0][1])]
     return skew, [plus(plus(gap[0][0], gap[1][1]), gap[2][2])]
 

@@ -42,21 +42,21 @@ def sizes(record: MechanismRecord) -> FloatArray:
     return np.array([1.0 if is_angle(name) else length for name in record.platform.pose])
 
 
-def proofs(legs: Legs, found: SolutionSet) -> Proofs:
+def proofs(legs: Legs, solutions: SolutionSet) -> Proofs:
     """Which solutions of a float answer to a direct problem are proved, with their bounds.
 
     None where the pose is a quaternion, or where a leg has no sign (the pose is serially singular).
     """
     record = legs.record
-    rows = np.flatnonzero(found.exists)
-    labels = [_label(record, str(found.other_labels[row])) for row in rows]
+    rows = np.flatnonzero(solutions.exists)
+    labels = [_label(record, str(solutions.other_labels[row])) for row in rows]
     rows = np.array([row for row, label in zip(rows, labels, strict=True) if label >= 0], dtype=np.intp)
     known = np.array([label for label in labels if label >= 0], dtype=np.intp)
     none = np.zeros(0, dtype=np.intp)
     nothing = empty(len(record.platform.pose))
     if has_quaternion(record.platform.pose) or not len(rows):
         return Proofs(nothing, nothing, none)
-    centre = found.poses[rows]
+    centre = solutions.poses[rows]
     low, high = np.empty_like(centre), np.empty_like(centre)
     half = np.zeros_like(centre)
     for radius in RADII:

@@ -60,12 +60,12 @@ class RecordedLegs:
             found += cosine_sine(value) if is_angle(name) else (value,)
         return [*found, *(as_interval(row) for row in self.legs.modes[labels].T)]
 
-    def _dual(self, found: dict[str, Interval], name: str) -> Dual:
+    def _dual(self, intervals: dict[str, Interval], name: str) -> Dual:
         """An output with its derivatives (m, N)."""
-        count = found[name].shape
+        count = intervals[name].shape
         zero = broadcast(as_interval(0.0), count)
-        rates = [found.get(f"d{name}/d{axis}", zero) for axis in self.legs.record.platform.pose]
-        return Dual(found[name], stack([broadcast(rate, count) for rate in rates], axis=0))
+        rates = [intervals.get(f"d{name}/d{axis}", zero) for axis in self.legs.record.platform.pose]
+        return Dual(intervals[name], stack([broadcast(rate, count) for rate in rates], axis=0))
 
     @cached_property
     def _recorded(self) -> tuple[Tape, tuple[Interval, ...]]:

@@ -162,7 +162,7 @@ def at_most(size: float) -> str:
     return f"{1.05 * size:.1e}"
 
 
-def answer(found: CertifiedSolutions) -> CertifiedDirect | CertifiedInverse:
+def answer(solutions: CertifiedSolutions) -> CertifiedDirect | CertifiedInverse:
     """A certificate at the border, angles in the mechanism's angle unit.
 
     Bounds in degrees are rounded outwards.
@@ -173,46 +173,46 @@ def answer(found: CertifiedSolutions) -> CertifiedDirect | CertifiedInverse:
     >>> said.proved, len(said.solutions), said.solutions[0].mode
     (True, 4, '+++')
     """
-    record = found.record
+    record = solutions.record
     shared: dict[str, Any] = {
         "mechanism": record.name,
         "unit": record.unit,
         "angle": record.angle,
         "coordinates": record.platform.pose,
         "input_names": border.input_names(record),
-        "proved": found.proved,
-        "complete": found.complete,
-        "complete_for": found.complete_for,
-        "right": found.right,
+        "proved": solutions.proved,
+        "complete": solutions.complete,
+        "complete_for": solutions.complete_for,
+        "right": solutions.right,
         "limits_stated": limits_stated(record),
-        "undecided": tuple(_doubt(record, item) for item in found.undecided),
-        "excluded": found.excluded,
+        "undecided": tuple(_doubt(record, item) for item in solutions.undecided),
+        "excluded": solutions.excluded,
     }
-    kept = zip(found.solutions, _limits(found), strict=True)
-    if found.problem == "direct":
+    kept = zip(solutions.solutions, _limits(solutions), strict=True)
+    if solutions.problem == "direct":
         poses = tuple(_proved_pose(record, item, limits) for item, limits in kept)
-        return CertifiedDirect(**shared, inputs=inputs_at_border(record, found.given).tolist(), solutions=poses)
+        return CertifiedDirect(**shared, inputs=inputs_at_border(record, solutions.given).tolist(), solutions=poses)
     inputs = tuple(_proved_inputs(record, item, limits) for item, limits in kept)
-    return CertifiedInverse(**shared, pose=pose_at_border(record, found.given).tolist(), solutions=inputs)
+    return CertifiedInverse(**shared, pose=pose_at_border(record, solutions.given).tolist(), solutions=inputs)
 
 
-def _limits(found: CertifiedSolutions) -> list[KeptLimits]:
+def _limits(solutions: CertifiedSolutions) -> list[KeptLimits]:
     """Which limits of the file each solution exceeds, of the solution in floating point that lies at it.
 
     That is no proof; `within` is None where the file states no limits, and where no such solution was found.
     """
-    record, direct = found.record, found.problem == "direct"
+    record, direct = solutions.record, solutions.problem == "direct"
     none = KeptLimits(None, ())
-    if not limits_stated(record) or not found.solutions:
-        return [none] * len(found.solutions)
-    floats = list((position.direct if direct else position.inverse)(record, found.given))
+    if not limits_stated(record) or not solutions.solutions:
+        return [none] * len(solutions.solutions)
+    floats = list((position.direct if direct else position.inverse)(record, solutions.given))
     rows = np.array([one.pose if direct else one.inputs for one in floats])
     names = record.platform.pose
     same = np.array([is_angle(name) for name in names]) if direct else periodic_inputs(record)
     lengths = [name in LENGTHS for name in names] if direct else [k.coordinate.kind == "length" for k in record.inputs]
     sizes = np.where(lengths, characteristic_length(record), 1.0)
     kept = []
-    for item in found.solutions:
+    for item in solutions.solutions:
         change = rows - (item.pose if direct else item.inputs).middle
         change = np.where(same, np.remainder(change + np.pi, 2 * np.pi) - np.pi, change)
         away = np.max(np.abs(change) / sizes, axis=-1) if len(rows) else np.array([np.inf])
@@ -221,24 +221,24 @@ def _limits(found: CertifiedSolutions) -> list[KeptLimits]:
     return kept
 
 
-def _proved_pose(record: MechanismRecord, item: ProvedSolution, limits: KeptLimits) -> ProvedPose:
-    bounds, free = _pose_bounds(record, item.pose.low, item.pose.high), undetermined(record, item.pose)
-    return ProvedPose(item.mode, item.how, item.left, limits, bounds, free, item.working_mode)
+def _proved_pose(record: MechanismRecord, solution: ProvedSolution, limits: KeptLimits) -> ProvedPose:
+    bounds, free = _pose_bounds(record, solution.pose.low, solution.pose.high), undetermined(record, solution.pose)
+    return ProvedPose(solution.mode, solution.how, solution.left, limits, bounds, free, solution.working_mode)
 
 
-def _proved_inputs(record: MechanismRecord, item: ProvedSolution, limits: KeptLimits) -> ProvedInputs:
-    low, high = (inputs_at_border(record, end) for end in (item.inputs.low, item.inputs.high))
+def _proved_inputs(record: MechanismRecord, solution: ProvedSolution, limits: KeptLimits) -> ProvedInputs:
+    low, high = (inputs_at_border(record, end) for end in (solution.inputs.low, solution.inputs.high))
     angular = [one.coordinate.kind == "angle" for one in record.inputs]
     bounds = _outward(record, low, high, angular)
-    return ProvedInputs(item.mode, item.how, item.left, limits, bounds, item.assembly_mode)
+    return ProvedInputs(solution.mode, solution.how, solution.left, limits, bounds, solution.assembly_mode)
 
 
-def _doubt(record: MechanismRecord, item: Doubt) -> UndecidedPlace:
-    bounds = Bounds(item.low.tolist(), item.high.tolist())
-    if item.name == "pose":
-        bounds = _pose_bounds(record, item.low, item.high)
-    unit = power(record.unit, item.unit)
-    return UndecidedPlace(bounds.low, bounds.high, item.name, unit, item.meaning, item.branches)
+def _doubt(record: MechanismRecord, doubt: Doubt) -> UndecidedPlace:
+    bounds = Bounds(doubt.low.tolist(), doubt.high.tolist())
+    if doubt.name == "pose":
+        bounds = _pose_bounds(record, doubt.low, doubt.high)
+    unit = power(record.unit, doubt.unit)
+    return UndecidedPlace(bounds.low, bounds.high, doubt.name, unit, doubt.meaning, doubt.branches)
 
 
 def _pose_bounds(record: MechanismRecord, low: FloatArray, high: FloatArray) -> Bounds:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics import position
-from assur.kinematics.certified.branches import Judged, judged
+from assur.kinematics.certified.branches import JudgedBranches, judged
 from assur.kinematics.certified.given import joint_inputs, parameters
 from assur.kinematics.certified.legs import Legs
 from assur.kinematics.certified.matching import Candidates, matched
@@ -39,7 +39,7 @@ def direct_by_roots(record: MechanismRecord, eliminant: Eliminant, inputs: Float
     """Every pose at printed inputs (n,), from the real roots of one polynomial for each choice of its signs."""
     given, p = joint_inputs(record, inputs), parameters(record)
     extra: list[Doubt] = []
-    pieces: list[Judged] = []
+    pieces: list[JudgedBranches] = []
     margins = closed_form_of(record).direct_margins
     for signs in itertools.product((1.0, -1.0), repeat=len(eliminant.signs)):
         sign = (SimpleNamespace(**dict(zip(eliminant.signs, signs, strict=True))),) if eliminant.signs else ()
@@ -115,7 +115,7 @@ def _row(items: tuple[Interval, ...]) -> Interval:
     return stack([Interval(item.low.reshape(()), item.high.reshape(()), item.defined.reshape(())) for item in items])
 
 
-def _together(record: MechanismRecord, pieces: list[Judged]) -> Judged:
+def _together(record: MechanismRecord, pieces: list[JudgedBranches]) -> JudgedBranches:
     """All branches of all choices of signs as one."""
     start = 0
     doubts: list[tuple[int, Doubt]] = []
@@ -126,7 +126,7 @@ def _together(record: MechanismRecord, pieces: list[Judged]) -> Judged:
         for name, count in item.by.items():
             by[name] = by.get(name, 0) + count
     none = np.zeros(0, dtype=bool)
-    return Judged(
+    return JudgedBranches(
         pose=concatenate([empty(len(record.platform.pose)), *(item.pose for item in pieces)]),
         inputs=concatenate([empty(len(record.inputs)), *(item.inputs for item in pieces)]),
         exists=np.concatenate([none, *(item.exists for item in pieces)]),
@@ -137,10 +137,12 @@ def _together(record: MechanismRecord, pieces: list[Judged]) -> Judged:
     )
 
 
-def _labels(found: Judged, poses: FloatArray, exists: NDArray[np.bool_], labels: NDArray[np.str_]) -> tuple[str, ...]:
+def _labels(
+    judged: JudgedBranches, poses: FloatArray, exists: NDArray[np.bool_], labels: NDArray[np.str_]
+) -> tuple[str, ...]:
     """The float answer's label of each branch: that of the nearest pose, none where there is no float answer."""
     rows = np.flatnonzero(exists)
     if not len(rows):
-        return ("",) * len(found.exists)
-    gaps = np.linalg.norm(found.pose.middle[:, None] - poses[rows], axis=-1)
+        return ("",) * len(judged.exists)
+    gaps = np.linalg.norm(judged.pose.middle[:, None] - poses[rows], axis=-1)
     return tuple(str(labels[rows[k]]) for k in np.argmin(gaps, axis=1))

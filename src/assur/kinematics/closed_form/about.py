@@ -47,7 +47,7 @@ def described(plan: Plan, counts: Counts, done: int) -> dict[str, Any]:
     """
     known = dict(plan.about or {})
     files, status = known.pop("files"), counts.get("status", {})
-    modes = dict(sorted(counts.get("modes", {}).items(), key=lambda item: int(item[0])))
+    modes = dict(sorted(counts.get("modes", {}).items(), key=lambda counted: int(counted[0])))
     by_status = {one.name: status[one.name] for one in Status if one.name in status}
     return {
         **known,

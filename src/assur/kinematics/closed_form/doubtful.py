@@ -26,11 +26,11 @@ BEYOND_DOUBT = 1e-2
 """Part of its scale by which a radicand is negative for certain: rounding moves n roots that meet by its n-th root."""
 
 
-def decided(found: Branches, count: IntArray) -> tuple[BoolArray, BoolArray]:
+def decided(branches: Branches, count: IntArray) -> tuple[BoolArray, BoolArray]:
     """Which branches (N, K) of N direct problems are no solutions of their own, and which are not decided.
 
     Args:
-        found: every branch whose root may be real, with the values of all joints.
+        branches: every branch whose root may be real, with the values of all joints.
         count: (N, K) how many roots lie where each does; 1 for a simple root, 0 for one that is not real.
 
     Returns:
@@ -40,17 +40,17 @@ def decided(found: Branches, count: IntArray) -> tuple[BoolArray, BoolArray]:
         and where three or more roots lie together and not all of them are poses that are not singular.
     """
     degenerate, forbidden = np.zeros(count.shape, dtype=bool), np.zeros(count.shape, dtype=bool)
-    for margin in found._margin_list:
-        value = found.margins[margin.name]
+    for margin in branches._margin_list:
+        value = branches.margins[margin.name]
         if margin.zero == "degenerate":
-            degenerate |= vanishes(found.record, margin, value) | ~np.isfinite(value)
+            degenerate |= vanishes(branches.record, margin, value) | ~np.isfinite(value)
         else:
-            forbidden |= value < -BEYOND_DOUBT * scale(found.record, margin.scale)
+            forbidden |= value < -BEYOND_DOUBT * scale(branches.record, margin.scale)
     count = np.where(forbidden, 0, count)
-    joints, residuals, status = found.joints, found.residuals, found.formula_status
+    joints, residuals, status = branches.joints, branches.residuals, branches.formula_status
     dropped, unsure = np.zeros(count.shape, dtype=bool), (count > 1) & degenerate
     for row in range(len(count)):
-        one = _Problem(found.record, joints[row], residuals[row], status[row], count[row])
+        one = _Problem(branches.record, joints[row], residuals[row], status[row], count[row])
         dropped[row], more = one.decided()
         unsure[row] |= more
     return dropped, unsure

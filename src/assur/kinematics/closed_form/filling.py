@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics import border
 from assur.kinematics.closed_form.blocks import NOT_FINITE, Components, FloatArray, Progress, each_block
-from assur.kinematics.closed_form.recorded import Recording, Row
+from assur.kinematics.closed_form.recorded import AnswerRow, Recording
 from assur.numerics.recording.loops import empty_rows
 from assur.numerics.singular_values import float_condition_index
 from assur.numerics.small_matrices import determinant
@@ -49,7 +49,7 @@ class Filler:
 
     recording: Recording
     uniform: FloatArray
-    rows: tuple[Row, ...]
+    rows: tuple[AnswerRow, ...]
     truths_wanted: tuple[str, ...]
     numbers: FloatArray
     truths: BoolArray
@@ -65,7 +65,7 @@ class Filler:
         wide = np.empty((len(rows[0]), count)), np.empty((len(rows[1]), count), dtype=bool)
         odd = loop.fill(ready, self.uniform, wide, rows, (0, count), streaming=False)
         named = dict(zip(self._outputs, wide[0], strict=True))
-        done: dict[Row, int] = {}
+        done: dict[AnswerRow, int] = {}
         part = slice(start, start + count)
         for k, row in enumerate(self.rows):
             first = done.setdefault(row, k)
@@ -93,7 +93,7 @@ class Filler:
         return np.array(first, dtype=np.intp), np.array(second, dtype=np.intp)
 
 
-def finished(row: Row, numbers: Mapping[str, FloatArray]) -> FloatArray:
+def finished(row: AnswerRow, numbers: Mapping[str, FloatArray]) -> FloatArray:
     """A row (b,) from the outputs of the tape, each (b,)."""
     values = [numbers[name] for name in row.take]
     if not row.finish:

@@ -25,7 +25,7 @@ from assur.kinematics.turns import periodic_inputs
 from assur.model.closed_form import Branch, Margin
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
-from assur.numerics.recording.loops import Loop, compiled
+from assur.numerics.recording.loops import CompiledLoop, compiled
 from assur.numerics.recording.tape import Recorded, Recorder, Tape
 from assur.numerics.singular_values import SIZES, condition_index
 from assur.numerics.small_matrices import LARGEST_BY_COFACTORS, by_cofactors
@@ -36,7 +36,7 @@ Finish = Literal["", "angle", "determinant", "condition_index", "smallest"]
 
 
 @dataclass(frozen=True)
-class Row:
+class AnswerRow:
     """A row of an answer: a number of the tape, or what NumPy makes of several.
 
     Attributes:
@@ -65,11 +65,11 @@ class Recording:
     record: MechanismRecord
     problem: Problem
     tape: Tape
-    rows: Mapping[str, tuple[Row, ...]]
+    rows: Mapping[str, tuple[AnswerRow, ...]]
     truths: tuple[str, ...]
 
     @cached_property
-    def loop(self) -> Loop:
+    def loop(self) -> CompiledLoop:
         """The tape as a compiled loop."""
         return compiled(self.tape)
 
@@ -134,7 +134,7 @@ class _Writer:
         self.bounds = {item.name: self.ns.uniform(f"tolerance.{item.name}") for item in _margins(self.form, problem)}
         self.kernel = self.form.inverse if problem == "inverse" else branch_kernel(record)
         self.outputs: dict[str, Any] = {}
-        self.rows: dict[str, list[Row]] = {}
+        self.rows: dict[str, list[AnswerRow]] = {}
         self.truths: list[str] = []
 
     def one(self, sign: SimpleNamespace, want: Sequence[str]) -> None:
@@ -183,7 +183,7 @@ class _Writer:
             return self.ns.varying(f"cos {name}"), self.ns.varying(f"sin {name}")
         return self.ns.varying(name)
 
-    def _input_rows(self, branch: Branch, label: str) -> list[Row]:
+    def _input_rows(self, branch: Branch, label: str) -> list[AnswerRow]:
         rows = []
         for value, item in zip(branch.inputs, self.record.inputs, strict=True):
             plain = isinstance(value, tuple) or (item.sign, item.offset) == (1.0, 0.0)
@@ -191,20 +191,20 @@ class _Writer:
             rows.append(self._row(f"{label}.{item.name}", printed, item.sign, item.offset))
         return rows
 
-    def _row(self, name: str, value: Any, sign: float = 1.0, offset: float = 0.0) -> Row:
+    def _row(self, name: str, value: Any, sign: float = 1.0, offset: float = 0.0) -> AnswerRow:
         if not isinstance(value, tuple):
             return self._number(name, value)
         self.outputs[f"{name}.cos"], self.outputs[f"{name}.sin"] = value
-        return Row((f"{name}.cos", f"{name}.sin"), "angle", sign, offset)
+        return AnswerRow((f"{name}.cos", f"{name}.sin"), "angle", sign, offset)
 
-    def _number(self, name: str, value: Any) -> Row:
+    def _number(self, name: str, value: Any) -> AnswerRow:
         self.outputs[name] = value
-        return Row((name,))
+        return AnswerRow((name,))
 
-    def _determinant(self, name: str, matrix: Sequence[Sequence[Any]], factor: float) -> Row:
+    def _determinant(self, name: str, matrix: Sequence[Sequence[Any]], factor: float) -> AnswerRow:
         if len(matrix) <= LARGEST_BY_COFACTORS:
             return self._number(name, by_cofactors(matrix) * factor if name == "det_jq" else by_cofactors(matrix))
-        return Row(self._entries(name, matrix), "determinant", factor)
+        return AnswerRow(self._entries(name, matrix), "determinant", factor)
 
     def _condition(self, jp: Sequence[Sequence[Any]], jq: Sequence[Sequence[Any]], want: Sequence[str]) -> None:
         names: tuple[Literal["condition_index", "smallest"], ...] = ("condition_index", "smallest")
@@ -216,7 +216,7 @@ class _Writer:
         take = (*self._entries("det_jp", jp), *self._entries("det_jq", jq))
         for name in names:
             if name in want:
-                self.rows[name] = [Row(take, name)]
+                self.rows[name] = [AnswerRow(take, name)]
 
     def _entries(self, name: str, matrix: Sequence[Sequence[Any]]) -> tuple[str, ...]:
         labels = [f"{name}.{r}{c}" for r in range(len(matrix)) for c in range(len(matrix))]

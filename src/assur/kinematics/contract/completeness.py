@@ -17,7 +17,7 @@ from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem, mode_text
 from assur.kinematics.ordered.loops import crossed_parallelograms
 from assur.kinematics.pose import pose_error, pose_of
-from assur.kinematics.rates.motions import Motion
+from assur.kinematics.rates.motions import InstantaneousMotion
 from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 
@@ -33,7 +33,7 @@ CONSTANT, TURNED = 1e-9, 1e-4
 of a reduced model."""
 
 
-def missing(found: Solutions, joints: FloatArray, motion: Motion) -> list[Mismatch]:
+def missing(found: Solutions, joints: FloatArray, motion: InstantaneousMotion) -> list[Mismatch]:
     """Assemblies (A, n) of the joint graph that the closed form lacks, for either problem.
 
     Args:
@@ -71,7 +71,7 @@ def random_assemblies(record: MechanismRecord, count: int, random: np.random.Gen
     return np.concatenate([home[None], reached.values[reached.closed]])
 
 
-def _clear(problem: Problem, motion: Motion) -> BoolArray:
+def _clear(problem: Problem, motion: InstantaneousMotion) -> BoolArray:
     """Where what is given determines the assembly, well away from a singularity."""
     part = motion.pose if problem == "inverse" else motion.inputs
     sizes = np.linalg.svd(part, compute_uv=False)[..., part.shape[-2] - 1]

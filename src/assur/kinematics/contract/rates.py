@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from assur.kinematics.contract.mismatch import Mismatch, place_text
 from assur.kinematics.contract.solutions import Solutions
-from assur.kinematics.rates.motions import Motion, input_units, pose_units
+from assur.kinematics.rates.motions import InstantaneousMotion, input_units, pose_units
 
 FloatArray = NDArray[np.float64]
 
@@ -17,7 +17,7 @@ CLEAR = 1e-3
 """Near a singularity of the closure, closer than this share, its null space is not clear enough to judge by."""
 
 
-def wrong_rates(found: Solutions, motion: Motion) -> list[Mismatch]:
+def wrong_rates(found: Solutions, motion: InstantaneousMotion) -> list[Mismatch]:
     """Rows of the velocity equation that a motion of the joint graph, at the same joint values, does not obey."""
     if not len(found):
         return []
@@ -43,7 +43,7 @@ def wrong_rates(found: Solutions, motion: Motion) -> list[Mismatch]:
     return [Mismatch("Jp and Jq", f"row {line + 1}", found.problem, text, allowed)]
 
 
-def _clear(motion: Motion) -> NDArray[np.bool_]:
+def _clear(motion: InstantaneousMotion) -> NDArray[np.bool_]:
     """Where the rank of the closure is beyond doubt, and the usual one."""
     rank = motion.ranks.closure
     least = np.take_along_axis(motion.values, rank[:, None] - 1, axis=-1)[:, 0] / motion.values[:, 0]

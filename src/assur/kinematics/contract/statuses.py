@@ -13,7 +13,7 @@ from assur.kinematics.closure import RANK_GAP
 from assur.kinematics.contract.mismatch import Mismatch, place_text
 from assur.kinematics.contract.solutions import Solutions
 from assur.kinematics.rates.finite_motion import has_finite_motion
-from assur.kinematics.rates.motions import Motion, general, general_share, motions
+from assur.kinematics.rates.motions import InstantaneousMotion, general, general_share, motions
 from assur.kinematics.status import FACTOR_TOLERANCE, Status, classify, closed_form_of, relative_factors
 
 FloatArray = NDArray[np.float64]
@@ -25,7 +25,7 @@ MOVED = 4
 """So many that are called a self-motion are moved by finite steps."""
 
 
-def false_statuses(found: Solutions, motion: Motion | None = None) -> list[Mismatch]:
+def false_statuses(found: Solutions, motion: InstantaneousMotion | None = None) -> list[Mismatch]:
     """Solutions that factors call singular and that are not, with the factors by which they do.
 
     Args:
@@ -57,7 +57,7 @@ def false_statuses(found: Solutions, motion: Motion | None = None) -> list[Misma
     return [_told(found, int(wrong[0]), Status(int(status[wrong[0]])))] if len(wrong) else []
 
 
-def _regular(found: Solutions, motion: Motion) -> tuple[BoolArray, BoolArray, BoolArray]:
+def _regular(found: Solutions, motion: InstantaneousMotion) -> tuple[BoolArray, BoolArray, BoolArray]:
     """Where (S,) the platform keeps its freedoms, the inputs hold it, and the closure keeps its rank, beyond doubt."""
     record = found.record
     least = [np.linalg.svd(part, compute_uv=False)[..., part.shape[-2] - 1] for part in (motion.pose, motion.inputs)]

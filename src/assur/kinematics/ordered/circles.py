@@ -90,16 +90,16 @@ def system(
     return replace(bare, matrix=matrix, items=_alone(items, matrix))
 
 
-def joint_values(found: System, unknowns: ComplexArray, locked: Mapping[int, float]) -> FloatArray:
+def joint_values(system: System, unknowns: ComplexArray, locked: Mapping[int, float]) -> FloatArray:
     """Joint values (n,) of real unknowns (1 + c,), the first of which is 1."""
-    record = found.record
+    record = system.record
     slices = joint_graph(record).slices
     values = np.zeros(len(record.coordinates))
-    placed = {link: _orientation(found, item, unknowns) for link, item in found.turnings.items()}
-    lengths = {index: unknowns[column].real for index, column in found.slides.items()}
-    lengths |= {i.index: (unknowns[i.first] / unknowns[i.circle]).real for i in found.items if i.kind == "slider"}
+    placed = {link: _orientation(system, item, unknowns) for link, item in system.turnings.items()}
+    lengths = {index: unknowns[column].real for index, column in system.slides.items()}
+    lengths |= {i.index: (unknowns[i.first] / unknowns[i.circle]).real for i in system.items if i.kind == "slider"}
     for index, length in lengths.items():
-        values[index] = length * found.length
+        values[index] = length * system.length
     for name, joint in record.joints.items():
         own = values[slices[name]]
         turned = placed[joint.parent].T @ placed[joint.child] @ joint.turn.T
@@ -251,20 +251,20 @@ def _halves(axis: FloatArray, across: FloatArray) -> ComplexArray:
     return np.stack([(across - 1j * quarter) / 2, (across + 1j * quarter) / 2], axis=1)
 
 
-def _triangle(found: System, turning: Turning) -> Item:
-    return [item for item in found.items if item.kind == "triangle"][turning.triangle or 0]
+def _triangle(system: System, turning: Turning) -> Item:
+    return [item for item in system.items if item.kind == "triangle"][turning.triangle or 0]
 
 
-def _ball(found: System, turning: Turning) -> Item:
-    return [item for item in found.items if item.kind == "ball"][turning.ball or 0]
+def _ball(system: System, turning: Turning) -> Item:
+    return [item for item in system.items if item.kind == "ball"][turning.ball or 0]
 
 
-def _orientation(found: System, turning: Turning, unknowns: ComplexArray) -> FloatArray:
+def _orientation(system: System, turning: Turning, unknowns: ComplexArray) -> FloatArray:
     if turning.corners is not None:
-        sides = unknowns[list(_triangle(found, turning).columns)].real.reshape(2, 3)
+        sides = unknowns[list(_triangle(system, turning).columns)].real.reshape(2, 3)
         return _upright(sides) @ _upright(turning.corners[1:] - turning.corners[0]).T
     if turning.line is not None:
-        wanted = unknowns[list(_ball(found, turning).columns)].real
+        wanted = unknowns[list(_ball(system, turning).columns)].real
         if turning.line @ wanted >= 0.0:
             return rotations.taking(turning.line, wanted)
         across = np.cross(turning.line, np.eye(3)[np.argmin(np.abs(turning.line))])
@@ -275,7 +275,7 @@ def _orientation(found: System, turning: Turning, unknowns: ComplexArray) -> Flo
     z = unknowns[1 + 2 * turning.circle]
     inner = turning.rotation
     if turning.hinge is not None:
-        rod = [item for item in found.items if item.kind == "rod"][turning.rod or 0]
+        rod = [item for item in system.items if item.kind == "rod"][turning.rod or 0]
         angle = np.arctan2(unknowns[rod.first + 2].real, (unknowns[rod.first] / z).real)
         inner = rotations.about_axis(turning.hinge, angle) @ inner
     return rotations.about_axis(turning.axis, np.angle(z)) @ inner

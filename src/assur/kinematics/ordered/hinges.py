@@ -44,7 +44,7 @@ class Stiff:
 
 
 @dataclass(frozen=True, eq=False)
-class Turn:
+class HingeTurn:
     """R_child = R_parent Rot(axis, q) after, q free."""
 
     parent: str
@@ -53,9 +53,9 @@ class Turn:
     axis: FloatArray
 
     @property
-    def back(self) -> Turn:
+    def back(self) -> HingeTurn:
         """The same, seen from the child."""
-        return Turn(self.child, self.parent, self.after.T, -self.after.T @ self.axis)
+        return HingeTurn(self.child, self.parent, self.after.T, -self.after.T @ self.axis)
 
 
 def middle(joint: Joint) -> str:
@@ -63,7 +63,7 @@ def middle(joint: Joint) -> str:
     return f"{joint.name}'s cross"
 
 
-def turns_of_joints(record: MechanismRecord, locked: Mapping[int, float]) -> Iterable[Stiff | Turn]:
+def turns_of_joints(record: MechanismRecord, locked: Mapping[int, float]) -> Iterable[Stiff | HingeTurn]:
     """What each joint allows, joint values `locked` (index -> value) given; a universal joint by way of its cross."""
     slices = joint_graph(record).slices
     for name, joint in record.joints.items():
@@ -78,7 +78,7 @@ def turns_of_joints(record: MechanismRecord, locked: Mapping[int, float]) -> Ite
             if np.all(np.isfinite(values)):
                 yield Stiff(links[k], links[k + 1], _turned(joint, step, values) @ after)
             elif step.kind == "turn":
-                yield Turn(links[k], links[k + 1], after, joint.axes[step.direction])
+                yield HingeTurn(links[k], links[k + 1], after, joint.axes[step.direction])
             elif step.kind == "screw":
                 raise NotCirclesError(f"{name} is {joint.type.name}")
 
@@ -90,7 +90,7 @@ def _turned(joint: Joint, step: Step, values: FloatArray) -> FloatArray:
     return rotations.about_axis(joint.axes[step.direction], values[0])
 
 
-def turns_of_parallelograms(record: MechanismRecord, parallel: Collection[str]) -> Iterable[Stiff | Turn]:
+def turns_of_parallelograms(record: MechanismRecord, parallel: Collection[str]) -> Iterable[Stiff | HingeTurn]:
     """How opposite links of parallelograms can turn against each other: not at all in a P(4R).
 
     Nor do the rods of a P(2US), if its universal joints are parallel; one may have rolled over, half a turn.
@@ -108,7 +108,7 @@ def turns_of_parallelograms(record: MechanismRecord, parallel: Collection[str]) 
             yield from _rods_alike(record, group, placed)
         if group.kind in ("P(4S)", "P(2US)"):
             near, far = (_point_on(record.joints[name], group.parent) for name in _near(record, group))
-            yield Turn(group.parent, group.child, between, (far - near) / np.linalg.norm(far - near))
+            yield HingeTurn(group.parent, group.child, between, (far - near) / np.linalg.norm(far - near))
 
 
 def _rods_alike(

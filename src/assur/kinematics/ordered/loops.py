@@ -232,9 +232,9 @@ def _nothing(record: MechanismRecord, complete: bool, right: str) -> LoopSolutio
     return LoopSolutions(np.zeros((0, len(record.coordinates))), complete, right, 0)
 
 
-def _right(equations: System, found: Solved) -> str:
+def _right(equations: System, solved: Solved) -> str:
     names = _names(equations)
-    sets = [f"{' and '.join(names[number] for number in item.items)} ({item.roots})" for item in found.sets]
+    sets = [f"{' and '.join(names[number] for number in item.items)} ({item.roots})" for item in solved.sets]
     return (
         f"its loops in turn, each for all its roots: {', then '.join(sets)}" if sets else "its loops, which are linear"
     )

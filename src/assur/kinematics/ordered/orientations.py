@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.ordered.hinges import (
+    HingeTurn,
     NoAssemblyError,
     NotCirclesError,
     Stiff,
-    Turn,
     rods_between_balls,
     triangles_of_balls,
     turns_of_joints,
@@ -115,7 +115,7 @@ Bodies = dict[str, tuple[str, FloatArray]]
 """Link -> its body, called by its first link, and the link's orientation in it."""
 
 
-def _bodies(base: str, joints: Sequence[Stiff | Turn]) -> Bodies:
+def _bodies(base: str, joints: Sequence[Stiff | HingeTurn]) -> Bodies:
     links = dict.fromkeys((base, *(link for joint in joints for link in (joint.parent, joint.child))))
     stiff = [joint for joint in joints if isinstance(joint, Stiff)]
     found: Bodies = {}
@@ -140,13 +140,13 @@ def _bodies(base: str, joints: Sequence[Stiff | Turn]) -> Bodies:
     return found
 
 
-def _free(joints: Sequence[Stiff | Turn], bodies: Bodies) -> list[Turn]:
+def _free(joints: Sequence[Stiff | HingeTurn], bodies: Bodies) -> list[HingeTurn]:
     """Joints that turn, between bodies: R_b = R_a Rot(axis, q) after."""
     found = []
     for joint in joints:
-        if isinstance(joint, Turn):
+        if isinstance(joint, HingeTurn):
             (first, inside), (second, other) = bodies[joint.parent], bodies[joint.child]
-            turn = Turn(first, second, inside @ joint.after @ other.T, inside @ joint.axis)
+            turn = HingeTurn(first, second, inside @ joint.after @ other.T, inside @ joint.axis)
             if first != second:
                 found.append(turn)
             elif np.max(np.abs(turn.after @ turn.axis - turn.axis)) > EXACT:
@@ -158,7 +158,7 @@ Way = tuple[FloatArray, FloatArray]
 """A direction u and C: the orientation is Rot(u, psi) C."""
 
 
-def _ways(free: list[Turn], root: str, rotation: FloatArray) -> dict[str, list[Way]]:
+def _ways(free: list[HingeTurn], root: str, rotation: FloatArray) -> dict[str, list[Way]]:
     """For each body, the directions by whose axes alone it hangs on the root, whose orientation is given."""
     both = [*free, *(turn.back for turn in free)]
     directions: list[FloatArray] = []
@@ -180,7 +180,7 @@ def _ways(free: list[Turn], root: str, rotation: FloatArray) -> dict[str, list[W
     return found
 
 
-def _held_together(free: list[Turn]) -> Stiff | None:
+def _held_together(free: list[HingeTurn]) -> Stiff | None:
     """Two bodies that turn against each other about two directions, so not at all."""
     for root in dict.fromkeys(body for turn in free for body in (turn.parent, turn.child)):
         for body, ways in _ways(free, root, np.eye(3)).items():
@@ -194,7 +194,7 @@ def _held_together(free: list[Turn]) -> Stiff | None:
     return None
 
 
-def _hinged(free: list[Turn], circling: Mapping[str, Way]) -> dict[str, tuple[str, FloatArray, FloatArray]]:
+def _hinged(free: list[HingeTurn], circling: Mapping[str, Way]) -> dict[str, tuple[str, FloatArray, FloatArray]]:
     """Rods on hinges: the body that carries them, the hinge's direction and C, both where that body's psi is zero."""
     found: dict[str, tuple[str, FloatArray, FloatArray]] = {}
     both = [*free, *(turn.back for turn in free)]
@@ -210,7 +210,7 @@ def _hinged(free: list[Turn], circling: Mapping[str, Way]) -> dict[str, tuple[st
     return found
 
 
-def _refuse(free: list[Turn], circling: Mapping[str, Way]) -> None:
+def _refuse(free: list[HingeTurn], circling: Mapping[str, Way]) -> None:
     """Every axis must be along the direction of what turns about it."""
     for turn in free:
         for body, axis in ((turn.parent, turn.axis), (turn.child, turn.after.T @ turn.axis)):

@@ -202,8 +202,8 @@ def _places(size: int, degree: int) -> dict[Monomial, int]:
     return {item: number for number, item in enumerate(_monomials(size, degree))}
 
 
-def _times(item: Monomial, *others: int) -> Monomial:
-    return tuple(sorted((*item, *others)))
+def _times(monomial: Monomial, *others: int) -> Monomial:
+    return tuple(sorted((*monomial, *others)))
 
 
 @lru_cache(maxsize=64)

@@ -58,7 +58,7 @@ class CurveError(Exception):
         self.error = error
 
 
-def solve(found: System) -> Solved:
+def solve(system: System) -> Solved:
     """All real solutions of the equations of the loops.
 
     Errors:
@@ -73,19 +73,19 @@ def solve(found: System) -> Solved:
     >>> found.unknowns.shape, found.sets
     ((2, 5), (Set(items=(0, 1), roots=2),))
     """
-    slid = sorted(found.slides.values())
-    if np.linalg.matrix_rank(found.matrix[:, slid], tol=RANK) < len(slid):
+    slid = sorted(system.slides.values())
+    if np.linalg.matrix_rank(system.matrix[:, slid], tol=RANK) < len(slid):
         raise NotCirclesError("some lengths are not determined")
-    rows = without(found.matrix, slid)
-    known = np.zeros((1, found.matrix.shape[1]), dtype=complex)
+    rows = without(system.matrix, slid)
+    known = np.zeros((1, system.matrix.shape[1]), dtype=complex)
     known[0, 0] = 1.0
     bent = np.zeros(1)
-    left = list(range(len(found.items)))
+    left = list(range(len(system.items)))
     looked, sets = 0, []
-    for chosen in _order(rows, found.items):
+    for chosen in _order(rows, system.items):
         left = [number for number in left if number not in chosen]
-        equations = without(rows, _columns(found.items, left))
-        items = [found.items[number] for number in chosen]
+        equations = without(rows, _columns(system.items, left))
+        items = [system.items[number] for number in chosen]
         roots = [roots_of_set(equations, row, items) for row in known]
         real = [_real(part.values, row, items) for part, row in zip(roots, known, strict=True)]
         bent = np.concatenate([np.maximum(own, before) for (_, own), before in zip(real, bent, strict=True)])
@@ -98,7 +98,7 @@ def solve(found: System) -> Solved:
         if not len(known):
             break
     if len(slid):
-        known[:, slid] = -(np.linalg.pinv(found.matrix[:, slid]) @ (found.matrix @ known.T)).T
+        known[:, slid] = -(np.linalg.pinv(system.matrix[:, slid]) @ (system.matrix @ known.T)).T
     return Solved(known, bent, tuple(sets), looked)
 
 
@@ -140,7 +140,7 @@ def _real(values: ComplexArray, row: ComplexArray, items: Sequence[Item]) -> tup
     found = np.repeat(row[None], len(values), axis=0)
     found[:, columns] = values
     found = np.hstack([found, values])  # the roots as they were, at the end of each row
-    for item in sorted(items, key=lambda item: item.kind != "circle"):
+    for item in sorted(items, key=lambda equations: equations.kind != "circle"):
         if item.kind == "triangle":
             good = np.max(np.abs(found[:, list(item.columns)].imag), axis=1) < REAL
             found = found[good]

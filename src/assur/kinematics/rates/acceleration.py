@@ -19,7 +19,7 @@ from assur.kinematics.closure import CLOSED, closure_error
 from assur.kinematics.pose import LEAST_COSINE, platform_frame, platform_twists, pose_rates
 from assur.kinematics.rates.motions import (
     SINGULAR,
-    Motion,
+    InstantaneousMotion,
     general,
     input_units,
     motions,
@@ -111,7 +111,7 @@ def _bias(record: MechanismRecord, values: FloatArray, rates: FloatArray) -> tup
     return loops.reshape(*values.shape[:-1], 6 * len(graph.cut)), platform
 
 
-def _least(motion: Motion, bias: FloatArray) -> FloatArray:
+def _least(motion: InstantaneousMotion, bias: FloatArray) -> FloatArray:
     """The smallest scaled joint accelerations (..., n) that undo a bias (..., 6 v) of the loops."""
     count = motion.values.shape[-1]
     kept = np.arange(count) < motion.ranks.closure[..., None]

@@ -40,31 +40,31 @@ def classify_at(record: MechanismRecord, joints: ArrayLike) -> NDArray[np.int8]:
     return status_of(record, values, instantaneous(record, values))
 
 
-def status_of(record: MechanismRecord, values: FloatArray, here: Instant) -> NDArray[np.int8]:
+def status_of(record: MechanismRecord, values: FloatArray, instant: Instant) -> NDArray[np.int8]:
     """The same for joint values (..., n) whose first-order motion is known."""
-    serial, parallel = sides(here)
+    serial, parallel = sides(instant)
     with np.errstate(invalid="ignore"):
-        near = np.any([measure <= NEAR_SINGULAR for measure in here.measures.values()], axis=0)
-    status = np.zeros(here.closed.shape, dtype=np.int8)
+        near = np.any([measure <= NEAR_SINGULAR for measure in instant.measures.values()], axis=0)
+    status = np.zeros(instant.closed.shape, dtype=np.int8)
     for level, holds in (
         (Status.near_singular, near),
         (Status.serial, serial),
         (Status.parallel, parallel),
         (Status.comprehensive, serial & parallel),
-        (Status.constraint, here.types["IIM"]),
+        (Status.constraint, instant.types["IIM"]),
     ):
         status = np.where(holds, np.int8(level), status)
-    loose = here.types["RO"]
+    loose = instant.types["RO"]
     if np.any(loose):
         moves = np.zeros(loose.shape, dtype=bool)
         moves[loose] = has_finite_motion(record, values[loose])
         status = np.where(moves, np.int8(Status.self_motion), status)
-    return np.asarray(np.where(here.closed, status, np.int8(Status.not_closed)), dtype=np.int8)
+    return np.asarray(np.where(instant.closed, status, np.int8(Status.not_closed)), dtype=np.int8)
 
 
-def sides(here: Instant) -> tuple[BoolArray, BoolArray]:
+def sides(instant: Instant) -> tuple[BoolArray, BoolArray]:
     """Whether a configuration is singular on the inputs' side (serial) and on the platform's (parallel), each (...)."""
-    types = here.types
+    types = instant.types
     return types["RI"] | types["IO"], types["RO"] | types["II"]
 
 

@@ -22,8 +22,8 @@ from assur.kinematics.closure import CLOSED, closure_error
 from assur.kinematics.pose import turning_matrix
 from assur.kinematics.rates.motions import (
     SINGULAR,
+    InstantaneousMotion,
     IntArray,
-    Motion,
     Ranks,
     general,
     general_share,
@@ -68,7 +68,7 @@ class Instant:
     gap: FloatArray
     constraint_jacobian: FloatArray
     closed: BoolArray
-    motion: Motion
+    motion: InstantaneousMotion
     no_rates: BoolArray
 
     @cached_property

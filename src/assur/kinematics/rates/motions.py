@@ -59,7 +59,7 @@ class Ranks:
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class InstantaneousMotion:
     """Null space of the closure (..., n, n; columns that are none are zero), and what it moves, scaled to numbers.
 
     `left`, `values`, `right` are the singular value decomposition of the scaled closure Jacobian, `scale` (n,) turns
@@ -121,7 +121,7 @@ def general_share(record: MechanismRecord) -> float:
 
 
 @lru_cache(maxsize=64)
-def _around_home(record: MechanismRecord) -> Motion:
+def _around_home(record: MechanismRecord) -> InstantaneousMotion:
     """The motion at home and at assemblies near it."""
     home = home_values(record)
     there = motions(record, home, RANK_GAP)
@@ -131,7 +131,7 @@ def _around_home(record: MechanismRecord) -> Motion:
     return motions(record, np.concatenate([home[None], found.values[found.closed]]), RANK_GAP)
 
 
-def motions(record: MechanismRecord, values: FloatArray, threshold: float | None = None) -> Motion:
+def motions(record: MechanismRecord, values: FloatArray, threshold: float | None = None) -> InstantaneousMotion:
     """Null space of the closure at joint values (..., n), and what it moves.
 
     `threshold` is the share of the closure's largest singular value below which one counts as zero; by default
@@ -161,7 +161,7 @@ def motions(record: MechanismRecord, values: FloatArray, threshold: float | None
         bases[name], sizes, _ = np.linalg.svd(part @ null)
         ranks[name], gap = _rank(sizes, SINGULAR * np.linalg.norm(part, axis=(-1, -2)))
         gaps.append(gap)
-    return Motion(
+    return InstantaneousMotion(
         left=left,
         values=singular,
         right=right,

@@ -65,7 +65,7 @@ def faults(record: MechanismRecord) -> tuple[Problem, ...]:
 
 
 def _ordered(problems: list[Problem] | tuple[Problem, ...]) -> tuple[Problem, ...]:
-    return tuple(sorted(problems, key=lambda item: item.line or 0))
+    return tuple(sorted(problems, key=lambda problem: problem.line or 0))
 
 
 def check(record: MechanismRecord) -> None:
@@ -165,8 +165,8 @@ def _box(record: MechanismRecord) -> list[Problem]:
     return found
 
 
-def _orientation(record: MechanismRecord, here: Claims) -> list[Problem]:
-    turning = here.motion.twists[..., :3, :]
+def _orientation(record: MechanismRecord, claims: Claims) -> list[Problem]:
+    turning = claims.motion.twists[..., :3, :]
     if record.platform.orientation != "constant" or float(np.max(np.abs(turning), initial=0.0)) <= TURNS:
         return []
     found = f'"constant", but the platform turns as it moves, about {axis_name(turning)}'

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from assur.kinematics.closure import RANK_GAP, assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_rates
-from assur.kinematics.rates.motions import SINGULAR, Motion, Ranks, general, motions, pose_units
+from assur.kinematics.rates.motions import SINGULAR, InstantaneousMotion, Ranks, general, motions, pose_units
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import rate_names
 
@@ -28,7 +28,7 @@ class Claims:
 
     record: MechanismRecord
     values: FloatArray
-    motion: Motion
+    motion: InstantaneousMotion
     general: Ranks
     at: int
 

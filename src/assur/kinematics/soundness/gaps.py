@@ -31,7 +31,7 @@ SHOWN = 12
 
 
 @dataclass(frozen=True)
-class Loop:
+class JointCycle:
     """Joints in turn around a loop; `links[i]` lies between joint i and the next, the last before the first."""
 
     joints: tuple[str, ...]
@@ -41,7 +41,7 @@ class Loop:
         return f"the loop through {', '.join(self.joints)}"
 
 
-def loops(record: MechanismRecord) -> tuple[Loop, ...]:
+def loops(record: MechanismRecord) -> tuple[JointCycle, ...]:
     """One loop for each joint that closes one, by the shortest ways to the base.
 
     >>> from assur.model.registry import load_record
@@ -52,7 +52,7 @@ def loops(record: MechanismRecord) -> tuple[Loop, ...]:
     return tuple(_turned(record, cut, list(tree)) for cut, tree in zip(graph.cut, graph.loops, strict=True))
 
 
-def _turned(record: MechanismRecord, cut: Joint, left: list[str]) -> Loop:
+def _turned(record: MechanismRecord, cut: Joint, left: list[str]) -> JointCycle:
     """Around from the joint that the file names first."""
     joints, links = [cut.name], [cut.child]
     while left:
@@ -63,7 +63,7 @@ def _turned(record: MechanismRecord, cut: Joint, left: list[str]) -> Loop:
         links.append(second if links[-1] == first else first)
     order = list(record.joints)
     start = min(range(len(joints)), key=lambda at: order.index(joints[at]))
-    return Loop(tuple(joints[start:] + joints[:start]), tuple(links[start:] + links[:start]))
+    return JointCycle(tuple(joints[start:] + joints[:start]), tuple(links[start:] + links[:start]))
 
 
 def _ends(joint: Joint) -> tuple[str, str]:
@@ -92,7 +92,7 @@ def gap_problems(record: MechanismRecord) -> tuple[Problem, ...]:
     return tuple(dict.fromkeys(own.values())) or (_of_all(record, found),)
 
 
-def _too_long(record: MechanismRecord, loop: Loop) -> Problem | None:
+def _too_long(record: MechanismRecord, loop: JointCycle) -> Problem | None:
     """A side of a loop that the others together cannot span, whatever their angles."""
     if any(record.joints[name].type.carries for name in loop.joints):
         return None  # which carry any distance
@@ -119,7 +119,7 @@ def _point(joint: Joint, link: str) -> FloatArray:
     return joint.at if link == joint.parent else joint.child_at
 
 
-def _of_one(record: MechanismRecord, loop: Loop) -> Problem | None:
+def _of_one(record: MechanismRecord, loop: JointCycle) -> Problem | None:
     """A loop that does not close by itself, all others open."""
     alone, indices = _alone(record, loop)
     found = assemble(alone, alone.home)
@@ -131,7 +131,7 @@ def _of_one(record: MechanismRecord, loop: Loop) -> Problem | None:
     return problem(record, table_place(record, "home"), text, "values near an assembled configuration", hint)
 
 
-def _alone(record: MechanismRecord, loop: Loop) -> tuple[MechanismRecord, list[int]]:
+def _alone(record: MechanismRecord, loop: JointCycle) -> tuple[MechanismRecord, list[int]]:
     """The mechanism with the links and joints of one loop only, and the indices of its joint values."""
     kept = [item for item in record.coordinates if item.joint in loop.joints]
     indices = [item.index for item in kept]
@@ -152,25 +152,27 @@ def _alone(record: MechanismRecord, loop: Loop) -> tuple[MechanismRecord, list[i
     return alone, indices
 
 
-def _of_all(record: MechanismRecord, found: Assembly) -> Problem:
+def _of_all(record: MechanismRecord, assembly: Assembly) -> Problem:
     """Loops each of which closes by itself, but not all at once."""
-    text = f"each loop closes by itself, but not all together: a gap of {_gap(record, found)} remains"
-    hint = _hint(record, record.coordinates, found, tuple(record.joints))
+    text = f"each loop closes by itself, but not all together: a gap of {_gap(record, assembly)} remains"
+    hint = _hint(record, record.coordinates, assembly, tuple(record.joints))
     return problem(record, table_place(record, "home"), text, "values near an assembled configuration", hint)
 
 
-def _gap(record: MechanismRecord, found: Assembly) -> str:
+def _gap(record: MechanismRecord, assembly: Assembly) -> str:
     """The largest gap left: a distance or, where that weighs more, an angle."""
-    gaps = np.linalg.norm(residuals(record, found.values).reshape(-1, 2, 3), axis=-1)
+    gaps = np.linalg.norm(residuals(record, assembly.values).reshape(-1, 2, 3), axis=-1)
     distance, turn = np.max(gaps, axis=0)
     if distance >= turn:
         return f"{distance:.3g} {record.unit}"
     return f"{np.degrees(turn / characteristic_length(record)):.3g} deg"
 
 
-def _hint(record: MechanismRecord, coordinates: Sequence[Coordinate], found: Assembly, joints: tuple[str, ...]) -> str:
+def _hint(
+    record: MechanismRecord, coordinates: Sequence[Coordinate], assembly: Assembly, joints: tuple[str, ...]
+) -> str:
     home = _other_home(record)
-    axes = axes_hint(record, found.values, joints)
+    axes = axes_hint(record, assembly.values, joints)
     if isinstance(home, int):
         return f"nor from {home} other starts, so a dimension or an axis is at fault{'; ' if axes else ''}{axes}"
     values: dict[str, list[str]] = {}

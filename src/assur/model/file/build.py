@@ -9,7 +9,7 @@ import numpy as np
 from assur.model.file import schema
 from assur.model.file.build_chains import build_chains, build_generalised
 from assur.model.file.build_inputs import build_home, build_inputs
-from assur.model.file.build_joints import Geometry, build_joint
+from assur.model.file.build_joints import JointVectors, build_joint
 from assur.model.file.build_letters import build_angles, build_modes, build_points
 from assur.model.file.description import Description
 from assur.model.file.faults import Faults
@@ -66,7 +66,7 @@ def built(description: Description, overrides: Mapping[str, float], faults: Faul
     unit, angle = file.unit or "mm", file.angle or "rad"
     broken = tables.broken.get("parameters", frozenset())
     parameters, numbers = evaluate_parameters(file.parameters, overrides, (unit, angle), broken, faults)
-    geometry = Geometry(file, numbers)
+    geometry = JointVectors(file, numbers)
     joints = {name: build_joint(placed, scope, geometry) for name, placed in tables.joints.items()}
     record = MechanismRecord(
         name=file.name or "",
@@ -121,7 +121,7 @@ def _base(file: schema.FileEntry, scope: Scope) -> str:
     return "" if file.base is None else scope.link(file.base, ("base",)) or ""
 
 
-def _platform(file: schema.FileEntry, scope: Scope, geometry: Geometry) -> Platform:
+def _platform(file: schema.FileEntry, scope: Scope, geometry: JointVectors) -> Platform:
     entry = file.platform
     if entry is None:
         return Platform("", np.zeros(3), (), "any")

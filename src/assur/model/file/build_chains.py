@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from assur.model.file.limbs import Tables
 from assur.model.file.scope import Scope
-from assur.model.mechanism import Chain, GeneralisedJoint
+from assur.model.mechanism import GeneralisedJoint, LimbRecord
 
 
 def build_generalised(tables: Tables, scope: Scope) -> dict[str, GeneralisedJoint]:
@@ -21,7 +21,7 @@ def build_generalised(tables: Tables, scope: Scope) -> dict[str, GeneralisedJoin
     return found
 
 
-def build_chains(tables: Tables, scope: Scope) -> dict[str, Chain]:
+def build_chains(tables: Tables, scope: Scope) -> dict[str, LimbRecord]:
     """Branches from base to platform."""
     found = {}
     for name, placed in tables.chains.items():
@@ -32,5 +32,5 @@ def build_chains(tables: Tables, scope: Scope) -> dict[str, Chain]:
             names = [scope.element(text, (*path, part, place), own) for place, text in given]
             parts[part] = tuple(text for text in names if text)
         output = scope.link(entry.output, (*path, "output"), own) if entry.output else ""
-        found[name] = Chain(name, parts["serial"], parts["loop"], output or "", parts["tail"], entry.printed)
+        found[name] = LimbRecord(name, parts["serial"], parts["loop"], output or "", parts["tail"], entry.printed)
     return found

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from assur.joints.catalogue import JOINT_TYPES
 from assur.model.file import schema
-from assur.model.file.build_joints import Geometry
+from assur.model.file.build_joints import JointVectors
 from assur.model.file.faults import listed
 from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Tables
@@ -42,7 +42,7 @@ def build_inputs(file: schema.FileEntry, tables: Tables, scope: Scope, numbers: 
     return _ordered(file.inputs.order, found, scope)
 
 
-def _ordered(order: tuple[str, ...], found: Mapping[int, Input], scope: Scope) -> tuple[Input, ...]:
+def _ordered(order: tuple[str, ...], inputs: Mapping[int, Input], scope: Scope) -> tuple[Input, ...]:
     indices = []
     places: dict[int, int] = {}
     for place, name in enumerate(order):
@@ -50,7 +50,7 @@ def _ordered(order: tuple[str, ...], found: Mapping[int, Input], scope: Scope) -
         item = scope.coordinate(name, path)
         if item is None:
             continue
-        if item.index not in found:
+        if item.index not in inputs:
             hint = f'add {name} = {{ name = "q" }}'
             scope.faults.add(path, f"'{name}' has no entry in [inputs]", "allowed: the inputs, each once", hint)
         elif item.index in indices:
@@ -58,13 +58,13 @@ def _ordered(order: tuple[str, ...], found: Mapping[int, Input], scope: Scope) -
             scope.faults.add(path, f"'{name}' twice; {first}", "allowed: the inputs, each once")
         places.setdefault(item.index, place)
         indices.append(item.index)
-    left = [item.coordinate.joint for index, item in found.items() if index not in indices]
+    left = [item.coordinate.joint for index, item in inputs.items() if index not in indices]
     if left and len(indices) == len(order):
         scope.faults.add(("inputs", "order"), f"lacks {listed(left)}", "allowed: the inputs, each once")
-    return tuple(found[index] for index in indices if index in found)
+    return tuple(inputs[index] for index in indices if index in inputs)
 
 
-def build_home(tables: Tables, scope: Scope, geometry: Geometry) -> FloatArray:
+def build_home(tables: Tables, scope: Scope, geometry: JointVectors) -> FloatArray:
     """Joint values (n,) near one assembled configuration; every joint must have its own."""
     home = np.full(len(scope.coordinates), np.nan)
     places: dict[str, KeyPath] = {}

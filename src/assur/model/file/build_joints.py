@@ -16,14 +16,22 @@ from assur.model.file.numbers import KindError, Numbers, Triple, kind_of
 from assur.model.file.scope import Scope
 from assur.model.formula import Formula, parse
 from assur.model.mechanism import Joint
-from assur.model.written import LimbTurn, NumberReading, WrittenJoint, WrittenVector, in_degrees, is_zero, share_of_turn
+from assur.model.written import (
+    JointFormulas,
+    LimbTurn,
+    NumberReading,
+    WrittenVector,
+    in_degrees,
+    is_zero,
+    share_of_turn,
+)
 from assur.numerics.sparse_vectors import Vector
 
 FloatArray = NDArray[np.float64]
 SMALL = 1e-9
 
 
-class Geometry:
+class JointVectors:
     """Vectors of the file, turned where they belong to a repeated limb: their formulas, and the floats of these."""
 
     def __init__(self, file: schema.FileEntry, numbers: Numbers) -> None:
@@ -110,7 +118,7 @@ class Geometry:
         return _frozen(np.array(written(self.reading) if sound else checked, dtype=float))
 
 
-def build_joint(placed: Placed[schema.AnyJoint], scope: Scope, geometry: Geometry) -> Joint | None:
+def build_joint(placed: Placed[schema.AnyJoint], scope: Scope, geometry: JointVectors) -> Joint | None:
     """A joint, or None where one of its links is unknown."""
     entry, path, instance = placed.entry, placed.path, placed.instance
     parent = scope.link(entry.parent, (*path, "parent"), instance)
@@ -146,7 +154,7 @@ def build_joint(placed: Placed[schema.AnyJoint], scope: Scope, geometry: Geometr
     )
 
 
-def _written(placed: Placed[schema.AnyJoint], geometry: Geometry) -> WrittenJoint:
+def _written(placed: Placed[schema.AnyJoint], geometry: JointVectors) -> JointFormulas:
     """The formulas of a joint's dimensions."""
     entry, instance = placed.entry, placed.instance
     axes: tuple[Triple, ...] = ()
@@ -155,7 +163,7 @@ def _written(placed: Placed[schema.AnyJoint], geometry: Geometry) -> WrittenJoin
         axes, child_axis = (entry.axis,), entry.child_axis
     elif isinstance(entry, schema.UniversalEntry):
         axes = tuple(entry.axes)
-    return WrittenJoint(
+    return JointFormulas(
         geometry.written(entry.at, instance),
         geometry.written(entry.child_at, instance),
         tuple(geometry.written_axis(axis, instance) for axis in axes),
@@ -164,7 +172,7 @@ def _written(placed: Placed[schema.AnyJoint], geometry: Geometry) -> WrittenJoin
     )
 
 
-def _axes(placed: Placed[schema.AnyJoint], geometry: Geometry) -> tuple[FloatArray, FloatArray]:
+def _axes(placed: Placed[schema.AnyJoint], geometry: JointVectors) -> tuple[FloatArray, FloatArray]:
     """Unit vectors (k, 3) of all its steps, and the orientation (3, 3) of the child's frame at value zero."""
     entry, path, instance = placed.entry, placed.path, placed.instance
     if isinstance(entry, schema.SphericalEntry):
@@ -216,7 +224,7 @@ def _pitch(placed: Placed[schema.AnyJoint], numbers: Numbers) -> float:
     return pitch
 
 
-def _cone(placed: Placed[schema.AnyJoint], geometry: Geometry) -> tuple[FloatArray | None, float | None]:
+def _cone(placed: Placed[schema.AnyJoint], geometry: JointVectors) -> tuple[FloatArray | None, float | None]:
     """Axis (3,) and half angle in rad."""
     if not isinstance(placed.entry, schema.SphericalEntry) or placed.entry.cone is None:
         return None, None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from assur.model.file import schema
-from assur.model.file.build_joints import Geometry
+from assur.model.file.build_joints import JointVectors
 from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Tables
 from assur.model.file.numbers import MIXED, MIXED_HINT, Kind, KindError, Numbers, kind_of
@@ -65,7 +65,7 @@ def build_angles(file: schema.FileEntry, scope: Scope) -> dict[str, Coordinate]:
     return found
 
 
-def build_points(tables: Tables, scope: Scope, geometry: Geometry) -> dict[str, Point]:
+def build_points(tables: Tables, scope: Scope, geometry: JointVectors) -> dict[str, Point]:
     """Letters for points fixed in links, and their places there."""
     found = {}
     for name, placed in tables.points.items():

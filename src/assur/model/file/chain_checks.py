@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from assur.model.file.faults import Faults, listed
 from assur.model.file.key_path import KeyPath
 from assur.model.file.limbs import Instance, Tables
-from assur.model.mechanism import Chain, MechanismRecord
+from assur.model.mechanism import LimbRecord, MechanismRecord
 
 _ONCE = "allowed: each joint in one chain, once"
 
@@ -44,7 +44,7 @@ def _check_shares(record: MechanismRecord, tables: Tables, faults: Faults) -> No
         faults.add(("chains",), f"no chain has {listed(left)}", _ONCE, hint)
 
 
-def _joints(record: MechanismRecord, chain: Chain) -> list[str]:
+def _joints(record: MechanismRecord, chain: LimbRecord) -> list[str]:
     elements = (*chain.serial, *chain.loop, *chain.tail)
     return [
         joint
@@ -53,7 +53,7 @@ def _joints(record: MechanismRecord, chain: Chain) -> list[str]:
     ]
 
 
-def _check_chain(record: MechanismRecord, chain: Chain, path: KeyPath, faults: Faults) -> None:
+def _check_chain(record: MechanismRecord, chain: LimbRecord, path: KeyPath, faults: Faults) -> None:
     platform = record.platform.link
     if bool(chain.serial) == bool(chain.loop or chain.output or chain.tail):
         faults.add(path, "neither serial nor a loop", "allowed: serial, or loop, output and tail")

@@ -35,7 +35,7 @@ class Faults:
         other.problems, other.more, other._places = [*self.problems], self.more, {*self._places}
         return other
 
-    def add(self, path: KeyPath, found: str, allowed: str, hint: str = "") -> None:
+    def add(self, path: KeyPath, given: str, allowed: str, hint: str = "") -> None:
         """Note what was found at a place and what is allowed there."""
         in_limb = path[:1] == ("limbs",)
         self._places.add(path[2:] if in_limb else path)
@@ -45,7 +45,7 @@ class Faults:
         while path and isinstance(path[-1], int) and path not in self.source.lines:
             path = path[:-1]  # an index into what the file writes as one value
         place = (self.file, self.source.line(path), path_text(path))
-        problem = Problem(*place, cut(found, _LONG), cut(allowed, 2 * _LONG), cut(hint, _LONG))
+        problem = Problem(*place, cut(given, _LONG), cut(allowed, 2 * _LONG), cut(hint, _LONG))
         if problem not in self.problems:
             self.problems.append(problem)
 

@@ -89,14 +89,16 @@ def _check_size(record: MechanismRecord, faults: Faults) -> None:
         faults.add(("joints",), found, f"allowed: links of at least {_SMALLEST:g} {record.unit}, or all of no size")
 
 
-def _check_parallelogram(record: MechanismRecord, item: GeneralisedJoint, path: KeyPath, faults: Faults) -> None:
+def _check_parallelogram(
+    record: MechanismRecord, parallelogram: GeneralisedJoint, path: KeyPath, faults: Faults
+) -> None:
     """Four joints in turn around a loop of four links, opposite sides of equal length."""
-    joints = [record.joints[name] for name in item.joints]
-    corners = _CORNERS[item.kind]
+    joints = [record.joints[name] for name in parallelogram.joints]
+    corners = _CORNERS[parallelogram.kind]
     wrong = [joint.name for joint, corner in zip(joints, corners, strict=True) if joint.type.name != corner]
     if wrong:
         allowed = " and ".join(dict.fromkeys(corners))
-        faults.add((*path, "joints"), f"{listed(wrong)}", f"allowed in {item.kind}: {allowed} joints")
+        faults.add((*path, "joints"), f"{listed(wrong)}", f"allowed in {parallelogram.kind}: {allowed} joints")
         return
     links = _common_links(joints)
     if links is None:
@@ -104,9 +106,13 @@ def _check_parallelogram(record: MechanismRecord, item: GeneralisedJoint, path: 
         faults.add((*path, "joints"), "no loop of four links", "allowed: four joints around one loop", hint)
         return
     opposite = ({links[0], links[2]}, {links[1], links[3]})
-    if {item.parent, item.child} not in opposite:
+    if {parallelogram.parent, parallelogram.child} not in opposite:
         pairs = " or ".join(" and ".join(sorted(pair)) for pair in opposite)
-        faults.add((*path, "stands_for"), f"{item.parent} and {item.child}", f"allowed: opposite links, {pairs}")
+        faults.add(
+            (*path, "stands_for"),
+            f"{parallelogram.parent} and {parallelogram.child}",
+            f"allowed: opposite links, {pairs}",
+        )
     sides = [_side(joints[place], joints[(place + 1) % 4], links[place], faults, path) for place in range(4)]
     scale = max(sides)
     for first, second in ((0, 2), (1, 3)):

@@ -23,8 +23,8 @@ def _ref(name: str) -> Schema:
     return {"$ref": f"#/$defs/{name}"}
 
 
-def _list_of(item: Schema, count: int, said: str) -> Schema:
-    return {"description": said, "type": "array", "items": item, "minItems": count, "maxItems": count}
+def _list_of(entry: Schema, count: int, said: str) -> Schema:
+    return {"description": said, "type": "array", "items": entry, "minItems": count, "maxItems": count}
 
 
 _VALUE = _ref("value")

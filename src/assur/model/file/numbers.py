@@ -63,7 +63,7 @@ def kind_of(node: s.Node, kinds: Mapping[str, Kind]) -> Kind:
             return kind_of(of, kinds)
         case s.Call(function, of):
             return _call(function, kind_of(of, kinds))
-        case s.Chain(first, rest):
+        case s.Operands(first, rest):
             kind = kind_of(first, kinds)
             for sign, term in rest:
                 kind = _join(sign, kind, kind_of(term, kinds))

@@ -14,10 +14,10 @@ if TYPE_CHECKING:
 _LONG = 600
 
 
-def problem(record: MechanismRecord, path: KeyPath, found: str, allowed: str, hint: str = "") -> Problem:
+def problem(record: MechanismRecord, path: KeyPath, given: str, allowed: str, hint: str = "") -> Problem:
     """A problem with the line at which its path, or the nearest part of it, stands in the record's file."""
     line = record.description.source.line(path) if record.description else None
-    return Problem(str(record.file), line, path_text(path), cut(found, _LONG), f"allowed: {allowed}", cut(hint, _LONG))
+    return Problem(str(record.file), line, path_text(path), cut(given, _LONG), f"allowed: {allowed}", cut(hint, _LONG))
 
 
 def table_place(record: MechanismRecord, table: str) -> KeyPath:

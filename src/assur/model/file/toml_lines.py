@@ -28,7 +28,7 @@ class Lines:
         self.position = 0
         self.seen = 0
         self.line = 1
-        self.found: dict[KeyPath, int] = {}
+        self.line_of: dict[KeyPath, int] = {}
         self.notes: list[tuple[KeyPath, int]] = []
 
     def lines(self) -> dict[KeyPath, int]:
@@ -41,7 +41,7 @@ class Lines:
             else:
                 self._pair(table)
             self._skip()
-        return self.found
+        return self.line_of
 
     def _at(self, mark: str) -> bool:
         return self.text.startswith(mark, self.position)
@@ -55,7 +55,7 @@ class Lines:
         self.seen = self.position
         self.notes.append((path, self.line))
         for length in range(1, len(path) + 1):
-            self.found.setdefault(path[:length], self.line)
+            self.line_of.setdefault(path[:length], self.line)
         return path
 
     def _header(self) -> KeyPath:
@@ -110,12 +110,12 @@ class Lines:
     def _element(self, path: KeyPath, index: int) -> None:
         self._value(self._note((*path, index)))
 
-    def _items(self, closing: str, path: KeyPath, item: Callable[[KeyPath, int], None]) -> None:
+    def _items(self, closing: str, path: KeyPath, reader: Callable[[KeyPath, int], None]) -> None:
         self.position += 1
         index = 0
         self._skip()
         while self.position < len(self.text) and not self._at(closing):
-            item(path, index)
+            reader(path, index)
             index += 1
             self._skip()
             if self._at(","):

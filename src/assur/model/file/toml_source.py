@@ -118,8 +118,8 @@ def _check_size(data: dict[str, Any], file: str) -> None:
     raise _fault(file, None, *_TOO_DEEP)
 
 
-def _fault(file: str, line: int | None, found: str, allowed: str, hint: str = "") -> MechanismFileError:
-    return MechanismFileError([Problem(file, line, "", found, allowed, hint)])
+def _fault(file: str, line: int | None, given: str, allowed: str, hint: str = "") -> MechanismFileError:
+    return MechanismFileError([Problem(file, line, "", given, allowed, hint)])
 
 
 def _all_syntax(file: str, text: str, message: str) -> list[Problem]:

@@ -28,9 +28,9 @@ DEFINITION = "definition"
 COMMA = "write decimals with a point: 0.5, not 0,5"
 
 
-def refuse(found: str, allowed: str, hint: str = "") -> PydanticCustomError:
+def refuse(given: str, allowed: str, hint: str = "") -> PydanticCustomError:
     """An error of the form, in the words of a `Problem`."""
-    return PydanticCustomError("form", "{found}", {"found": found, "allowed": allowed, "hint": hint})
+    return PydanticCustomError("form", "{found}", {"found": given, "allowed": allowed, "hint": hint})
 
 
 def shown(value: object) -> str:
@@ -51,7 +51,7 @@ def _value(value: object) -> Formula:
         try:
             return parse(value)
         except FormulaError as error:
-            place = f"{error.found} at character {error.position + 1}"
+            place = f"{error.given} at character {error.position + 1}"
             raise refuse(f"{shown(value)} has {place}", f"expected {error.expected}", error.hint) from None
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise refuse(shown(value), 'allowed: a number, or a formula in quotes: 30, "l2/2", "62 deg"')

@@ -8,11 +8,11 @@ from typing import Any
 
 from assur.model.kernels import values as data
 from assur.model.kernels.faults import FormFault, KernelFault
-from assur.model.kernels.functions import UNSET, Frame, Run, called
+from assur.model.kernels.functions import UNSET, CallFrame, Run, called
 from assur.model.kernels.library import BUILTINS
 from assur.model.kernels.limits import NESTING, checked_length, checked_whole
 from assur.model.kernels.operations import BINARY, COMPARISONS, UNARY, entry
-from assur.model.kernels.scope import Scope, checked_name, target_names
+from assur.model.kernels.scope import KernelScope, checked_name, target_names
 from assur.model.kernels.values import Value
 from assur.numerics.expanded import Expanded
 
@@ -20,7 +20,7 @@ NONE: Mapping[str, Value] = {}
 FORM = "assignments, functions, for over a tuple, if on whole numbers, comprehensions, + - * / ** and calls"
 
 
-def expression(node: ast.expr, scope: Scope, depth: int = 0) -> Run:
+def expression(node: ast.expr, scope: KernelScope, depth: int = 0) -> Run:
     """An expression as work on a frame.
 
     Errors:
@@ -35,7 +35,7 @@ def expression(node: ast.expr, scope: Scope, depth: int = 0) -> Run:
     return reader(node, scope, depth + 1)
 
 
-def _constant(node: ast.Constant, scope: Scope, depth: int) -> Run:
+def _constant(node: ast.Constant, scope: KernelScope, depth: int) -> Run:
     value = node.value
     if not isinstance(value, bool | int | float | str | type(None)):
         raise FormFault(f"a constant of type {type(value).__name__}", "numbers, texts, None", line=node.lineno)
@@ -46,11 +46,11 @@ def _constant(node: ast.Constant, scope: Scope, depth: int) -> Run:
     return lambda frame: value
 
 
-def _name(node: ast.Name, scope: Scope, depth: int) -> Run:
+def _name(node: ast.Name, scope: KernelScope, depth: int) -> Run:
     name, place = node.id, scope.place(node.id)
     if place is not None:
 
-        def local(frame: Frame) -> Value:
+        def local(frame: CallFrame) -> Value:
             value = frame.values[place]
             if value is UNSET:
                 raise KernelFault(f"'{name}' is used before it has a value")
@@ -60,7 +60,7 @@ def _name(node: ast.Name, scope: Scope, depth: int) -> Run:
     shared = scope.shared
     scope.asked.setdefault(name, node.lineno)
 
-    def of_file(frame: Frame) -> Value:
+    def of_file(frame: CallFrame) -> Value:
         if name in shared:
             return shared[name]
         if name in BUILTINS:
@@ -70,22 +70,22 @@ def _name(node: ast.Name, scope: Scope, depth: int) -> Run:
     return of_file
 
 
-def _attribute(node: ast.Attribute, scope: Scope, depth: int) -> Run:
+def _attribute(node: ast.Attribute, scope: KernelScope, depth: int) -> Run:
     name, of, attribute = node.attr, expression(node.value, scope, depth), data.attribute
     if name.startswith("_"):
         raise FormFault(f"the attribute '{name[:60]}'", "names that do not begin with an underscore", line=node.lineno)
     return lambda frame: attribute(of(frame), name)
 
 
-def _subscript(node: ast.Subscript, scope: Scope, depth: int) -> Run:
+def _subscript(node: ast.Subscript, scope: KernelScope, depth: int) -> Run:
     of, index = expression(node.value, scope, depth), expression(node.slice, scope, depth)
     return lambda frame: entry(of(frame), index(frame))
 
 
-def _slice(node: Any, scope: Scope, depth: int) -> Run:
+def _slice(node: Any, scope: KernelScope, depth: int) -> Run:
     ends = [None if end is None else expression(end, scope, depth) for end in (node.lower, node.upper, node.step)]
 
-    def cut(frame: Frame) -> slice:
+    def cut(frame: CallFrame) -> slice:
         numbers = [None if end is None else end(frame) for end in ends]
         if any(number is not None and type(number) is not int for number in numbers) or numbers[2] == 0:
             raise KernelFault("a slice of something else than whole numbers")
@@ -94,13 +94,13 @@ def _slice(node: Any, scope: Scope, depth: int) -> Run:
     return cut
 
 
-def _binary(node: ast.BinOp, scope: Scope, depth: int) -> Run:
+def _binary(node: ast.BinOp, scope: KernelScope, depth: int) -> Run:
     operation = BINARY.get(type(node.op).__name__)
     if operation is None:
         raise FormFault(f"the operator {type(node.op).__name__}", "+ - * / **", line=node.lineno)
     left, right = expression(node.left, scope, depth), expression(node.right, scope, depth)
 
-    def run(frame: Frame) -> Value:
+    def run(frame: CallFrame) -> Value:
         result = operation(left(frame), right(frame))
         if type(result) is Expanded:
             frame.meter.spend(len(result.terms) ** 2)  # at least as many as were multiplied
@@ -109,7 +109,7 @@ def _binary(node: ast.BinOp, scope: Scope, depth: int) -> Run:
     return run
 
 
-def _unary(node: ast.UnaryOp, scope: Scope, depth: int) -> Run:
+def _unary(node: ast.UnaryOp, scope: KernelScope, depth: int) -> Run:
     of = expression(node.operand, scope, depth)
     if isinstance(node.op, ast.Not):
         return lambda frame: not data.truth(of(frame))
@@ -119,11 +119,11 @@ def _unary(node: ast.UnaryOp, scope: Scope, depth: int) -> Run:
     return lambda frame: operation(of(frame))
 
 
-def _comparison(node: ast.Compare, scope: Scope, depth: int) -> Run:
+def _comparison(node: ast.Compare, scope: KernelScope, depth: int) -> Run:
     sides = [expression(side, scope, depth) for side in (node.left, *node.comparators)]
     tests = [COMPARISONS[type(op).__name__] for op in node.ops]
 
-    def compare(frame: Frame) -> bool:
+    def compare(frame: CallFrame) -> bool:
         left = sides[0](frame)
         for test, side in zip(tests, sides[1:], strict=True):
             right = side(frame)
@@ -135,10 +135,10 @@ def _comparison(node: ast.Compare, scope: Scope, depth: int) -> Run:
     return compare
 
 
-def _boolean(node: ast.BoolOp, scope: Scope, depth: int) -> Run:
+def _boolean(node: ast.BoolOp, scope: KernelScope, depth: int) -> Run:
     parts, stops = [expression(part, scope, depth) for part in node.values], isinstance(node.op, ast.Or)
 
-    def first(frame: Frame) -> Value:
+    def first(frame: CallFrame) -> Value:
         value = None
         for part in parts:
             value = part(frame)
@@ -149,12 +149,12 @@ def _boolean(node: ast.BoolOp, scope: Scope, depth: int) -> Run:
     return first
 
 
-def _choice(node: ast.IfExp, scope: Scope, depth: int) -> Run:
+def _choice(node: ast.IfExp, scope: KernelScope, depth: int) -> Run:
     test, yes, no = (expression(part, scope, depth) for part in (node.test, node.body, node.orelse))
     return lambda frame: yes(frame) if data.truth(test(frame)) else no(frame)
 
 
-def _text(node: ast.JoinedStr, scope: Scope, depth: int) -> Run:
+def _text(node: ast.JoinedStr, scope: KernelScope, depth: int) -> Run:
     parts: list[Run] = []
     for part in node.values:
         if isinstance(part, ast.FormattedValue):
@@ -164,7 +164,7 @@ def _text(node: ast.JoinedStr, scope: Scope, depth: int) -> Run:
         else:
             parts.append(expression(part, scope, depth))
 
-    def join(frame: Frame) -> str:
+    def join(frame: CallFrame) -> str:
         text = "".join(data.text_of(part(frame)) for part in parts)
         checked_length(len(text))
         return text
@@ -172,7 +172,7 @@ def _text(node: ast.JoinedStr, scope: Scope, depth: int) -> Run:
     return join
 
 
-def _row(node: ast.Tuple | ast.List, scope: Scope, depth: int) -> Run:
+def _row(node: ast.Tuple | ast.List, scope: KernelScope, depth: int) -> Run:
     make = tuple if isinstance(node, ast.Tuple) else list
     if not any(isinstance(part, ast.Starred) for part in node.elts):
         parts = [expression(part, scope, depth) for part in node.elts]
@@ -181,12 +181,12 @@ def _row(node: ast.Tuple | ast.List, scope: Scope, depth: int) -> Run:
     return lambda frame: make(spread(frame))
 
 
-def _spread(nodes: Sequence[ast.expr], scope: Scope, depth: int) -> Callable[[Frame], list[Value]]:
+def _spread(nodes: Sequence[ast.expr], scope: KernelScope, depth: int) -> Callable[[CallFrame], list[Value]]:
     """Values of a row in which some have a star."""
     starred = [isinstance(node, ast.Starred) for node in nodes]
     parts = [expression(node.value if isinstance(node, ast.Starred) else node, scope, depth) for node in nodes]
 
-    def collect(frame: Frame) -> list[Value]:
+    def collect(frame: CallFrame) -> list[Value]:
         row: list[Value] = []
         for part, star in zip(parts, starred, strict=True):
             if star:
@@ -199,13 +199,13 @@ def _spread(nodes: Sequence[ast.expr], scope: Scope, depth: int) -> Callable[[Fr
     return collect
 
 
-def _table(node: ast.Dict, scope: Scope, depth: int) -> Run:
+def _table(node: ast.Dict, scope: KernelScope, depth: int) -> Run:
     parts = [
         (None if name is None else expression(name, scope, depth), expression(value, scope, depth))
         for name, value in zip(node.keys, node.values, strict=True)
     ]
 
-    def make(frame: Frame) -> dict[Any, Value]:
+    def make(frame: CallFrame) -> dict[Any, Value]:
         table: dict[Any, Value] = {}
         for name, value in parts:
             if name is None:
@@ -224,14 +224,14 @@ def _as_table(value: Value) -> Mapping[Any, Value]:
     return value
 
 
-def _call(node: ast.Call, scope: Scope, depth: int) -> Run:
+def _call(node: ast.Call, scope: KernelScope, depth: int) -> Run:
     function, spread = _callee(node.func, scope, depth), _arguments(node.args, scope, depth)
     named = [(keyword.arg, expression(keyword.value, scope, depth)) for keyword in node.keywords]
 
     if not named:
         return lambda frame: called(function(frame), spread(frame), NONE, frame.meter)
 
-    def call(frame: Frame) -> Value:
+    def call(frame: CallFrame) -> Value:
         keywords: dict[str, Value] = {}
         for name, value in named:
             for key, part in data.spread(value(frame)) if name is None else ((name, value(frame)),):
@@ -243,7 +243,7 @@ def _call(node: ast.Call, scope: Scope, depth: int) -> Run:
     return call
 
 
-def _callee(node: ast.expr, scope: Scope, depth: int) -> Run:
+def _callee(node: ast.expr, scope: KernelScope, depth: int) -> Run:
     """What is called: methods of lists, texts and tables are looked up here alone."""
     if not isinstance(node, ast.Attribute) or node.attr.startswith("_"):
         return expression(node, scope, depth)
@@ -251,17 +251,17 @@ def _callee(node: ast.expr, scope: Scope, depth: int) -> Run:
     return lambda frame: method(of(frame), name)
 
 
-def _arguments(nodes: list[ast.expr], scope: Scope, depth: int) -> Callable[[Frame], list[Value]]:
+def _arguments(nodes: list[ast.expr], scope: KernelScope, depth: int) -> Callable[[CallFrame], list[Value]]:
     if any(isinstance(node, ast.Starred) for node in nodes):
         return _spread(nodes, scope, depth)
     parts = [expression(node, scope, depth) for node in nodes]
     return lambda frame: [part(frame) for part in parts]
 
 
-def _comprehension(node: ast.GeneratorExp | ast.ListComp, scope: Scope, depth: int) -> Run:
+def _comprehension(node: ast.GeneratorExp | ast.ListComp, scope: KernelScope, depth: int) -> Run:
     make = list if isinstance(node, ast.ListComp) else tuple
 
-    def finish(frame: Frame, loop: Callable[[Frame, Callable[[], None]], None], element: Run) -> Value:
+    def finish(frame: CallFrame, loop: Callable[[CallFrame, Callable[[], None]], None], element: Run) -> Value:
         row: list[Value] = []
 
         def step() -> None:
@@ -274,8 +274,8 @@ def _comprehension(node: ast.GeneratorExp | ast.ListComp, scope: Scope, depth: i
     return _looped(node.generators, [node.elt], scope, depth, lambda frame, loop, of: finish(frame, loop, of[0]))
 
 
-def _table_comprehension(node: ast.DictComp, scope: Scope, depth: int) -> Run:
-    def finish(frame: Frame, loop: Callable[[Frame, Callable[[], None]], None], of: list[Run]) -> Value:
+def _table_comprehension(node: ast.DictComp, scope: KernelScope, depth: int) -> Run:
+    def finish(frame: CallFrame, loop: Callable[[CallFrame, Callable[[], None]], None], of: list[Run]) -> Value:
         table: dict[Any, Value] = {}
 
         def step() -> None:
@@ -291,13 +291,13 @@ def _table_comprehension(node: ast.DictComp, scope: Scope, depth: int) -> Run:
 def _looped(
     generators: list[ast.comprehension],
     elements: list[ast.expr],
-    scope: Scope,
+    scope: KernelScope,
     depth: int,
-    finish: Callable[[Frame, Any, list[Run]], Value],
+    finish: Callable[[CallFrame, Any, list[Run]], Value],
 ) -> Run:
     """The loops of a comprehension, whose names are its own."""
     size = sum(1 for part in elements for _ in ast.walk(part)) + 2
-    opened: list[tuple[Run, Callable[[Frame, Value], None], list[Run]]] = []
+    opened: list[tuple[Run, Callable[[CallFrame, Value], None], list[Run]]] = []
     for generator in generators:
         if generator.is_async:
             raise FormFault("an async loop", FORM, line=elements[0].lineno)
@@ -309,7 +309,7 @@ def _looped(
     of = [expression(part, scope, depth) for part in elements]
     del scope.inner[len(scope.inner) - len(generators) :]
 
-    def loop(frame: Frame, step: Callable[[], None], level: int = 0) -> None:
+    def loop(frame: CallFrame, step: Callable[[], None], level: int = 0) -> None:
         if level == len(opened):
             frame.meter.spend(size)
             step()
@@ -328,14 +328,14 @@ def _targets(node: ast.expr) -> list[str]:
     return [checked_name(name, node.lineno) for name in target_names(node)]
 
 
-def target(node: ast.expr, scope: Scope, depth: int = 0) -> Callable[[Frame, Value], None]:
+def target(node: ast.expr, scope: KernelScope, depth: int = 0) -> Callable[[CallFrame, Value], None]:
     """What gives a value to a name, to a row of names or to an entry of a table."""
     if depth > NESTING:
         raise FormFault("names in one another, too deep", f"at most {NESTING} levels", line=node.lineno)
     if isinstance(node, ast.Name):
         place = scope.named(checked_name(node.id, node.lineno))
 
-        def assign(frame: Frame, value: Value) -> None:
+        def assign(frame: CallFrame, value: Value) -> None:
             frame.values[place] = value
 
         return assign
@@ -351,13 +351,13 @@ def target(node: ast.expr, scope: Scope, depth: int = 0) -> Callable[[Frame, Val
     )
 
 
-def _row_of_targets(nodes: list[ast.expr], scope: Scope, depth: int) -> Callable[[Frame, Value], None]:
+def _row_of_targets(nodes: list[ast.expr], scope: KernelScope, depth: int) -> Callable[[CallFrame, Value], None]:
     stars = [k for k, node in enumerate(nodes) if isinstance(node, ast.Starred)]
     parts = [target(node.value if isinstance(node, ast.Starred) else node, scope, depth + 1) for node in nodes]
     if len(stars) > 1:
         raise FormFault("two stars in a row of names", "one", line=nodes[0].lineno)
 
-    def assign(frame: Frame, value: Value) -> None:
+    def assign(frame: CallFrame, value: Value) -> None:
         given = list(data.entries(value))
         if stars:
             first, rest = stars[0], len(nodes) - stars[0] - 1
@@ -383,7 +383,7 @@ def _put(table: Value, index: Value, value: Value) -> None:
         )
 
 
-_READERS: Mapping[str, Callable[[Any, Scope, int], Run]] = {
+_READERS: Mapping[str, Callable[[Any, KernelScope, int], Run]] = {
     "Constant": _constant, "Name": _name, "Attribute": _attribute, "Subscript": _subscript, "Slice": _slice,
     "BinOp": _binary, "UnaryOp": _unary, "Compare": _comparison, "BoolOp": _boolean, "IfExp": _choice,
     "JoinedStr": _text, "Tuple": _row, "List": _row, "Dict": _table, "Call": _call, "GeneratorExp": _comprehension,

@@ -11,8 +11,8 @@ from assur.errors import MechanismFileError, Problem
 from assur.model.kernels.faults import KernelFault, LimitFault
 from assur.model.kernels.library import numeric
 from assur.model.kernels.limits import Meter
-from assur.model.kernels.programs import Program, Shapeless, program, shape_of
-from assur.model.kernels.values import Function, Named, Value, frozen, kind_of, parts_of
+from assur.model.kernels.programs import KernelProgram, Shapeless, program, shape_of
+from assur.model.kernels.values import Function, OfferedFunction, Value, frozen, kind_of, parts_of
 from assur.numerics.number_types import Extended, Floats, Intervals
 
 UNSET: Any = object()
@@ -29,7 +29,7 @@ MOST_SHAPES = 64
 """Of one kernel's arguments for which there is a program."""
 
 
-class Frame:
+class CallFrame:
     """The names of one call, by their places, and what is left of the budget."""
 
     __slots__ = ("meter", "values")
@@ -39,7 +39,7 @@ class Frame:
         self.meter = meter
 
 
-Run = Callable[[Frame], Value]
+Run = Callable[[CallFrame], Value]
 """What an expression or a statement became: work on a frame. A statement that returns gives its value, else UNSET."""
 
 
@@ -48,7 +48,7 @@ class Use:
     """How often a kernel was called with arguments of one shape, and its program where that is often."""
 
     calls: int = 0
-    program: Program | None = None
+    program: KernelProgram | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,7 +121,7 @@ class KernelFunction(Function):
 
     def run(self, arguments: Sequence[Value], named: Mapping[str, Value], meter: Meter) -> Value:
         """The value at given arguments, within the budget of a call that is under way."""
-        frame = Frame(self.size, meter)
+        frame = CallFrame(self.size, meter)
         self._bind(frame, arguments, named)
         line, meter.calls = meter.line, meter.calls - 1
         if meter.calls < 0:
@@ -130,7 +130,7 @@ class KernelFunction(Function):
         meter.line, meter.calls = line, meter.calls + 1
         return None if value is UNSET else value
 
-    def _bind(self, frame: Frame, arguments: Sequence[Value], named: Mapping[str, Value]) -> None:
+    def _bind(self, frame: CallFrame, arguments: Sequence[Value], named: Mapping[str, Value]) -> None:
         names = self.parameters
         if len(arguments) > len(names):
             raise KernelFault(f"{self.name} is given {len(arguments)} arguments", f"{len(names)}: {', '.join(names)}")
@@ -151,7 +151,7 @@ def called(function: Value, arguments: Sequence[Value], named: Mapping[str, Valu
     """What a call inside a kernel's text gives."""
     if isinstance(function, KernelFunction):
         return function.run(arguments, named, meter)
-    if isinstance(function, Named):
+    if isinstance(function, OfferedFunction):
         if function.takes == "numbers":
             count = sum(map(numeric, arguments)) + sum(map(numeric, named.values()))
             meter.spend(count * count)  # the costliest multiply each number with each

@@ -16,7 +16,7 @@ from assur.model.kernels.operations import plus
 from assur.model.kernels.values import (
     TABLES,
     Module,
-    Named,
+    OfferedFunction,
     Value,
     attribute,
     entries,
@@ -89,11 +89,11 @@ def imported(module: str, name: str) -> Value:
 def _named(module: str, name: str) -> Value:
     """What a name that is offered stands for; of ours no module is loaded that is not asked for."""
     if module == "types":
-        return Named(name, record)
+        return OfferedFunction(name, record)
     if module == "itertools":
-        return Named(name, {"combinations": _combinations, "product": _product}[name])
+        return OfferedFunction(name, {"combinations": _combinations, "product": _product}[name])
     if module == _DECLARED:
-        return Named(name, declaring(name))
+        return OfferedFunction(name, declaring(name))
     if module == _NUMERICS:
         path = f"{_NUMERICS}.{name}"
         return Module(path, {own: _named(path, own) for own in ALGEBRA[name]})
@@ -105,7 +105,7 @@ def _offered(name: str, value: Value) -> Value:
     if not callable(value):
         return frozen(value)
     if name not in COUNTS:
-        return Named(name, value, "numbers")
+        return OfferedFunction(name, value, "numbers")
     place, argument = COUNTS[name]
 
     def counted(*arguments: Value, **named: Value) -> Value:
@@ -114,7 +114,7 @@ def _offered(name: str, value: Value) -> Value:
             raise KernelFault(f"{argument} of {name}", f"a whole number from 0 to {MANY}")
         return value(*arguments, **named)
 
-    return Named(name, counted, "numbers")
+    return OfferedFunction(name, counted, "numbers")
 
 
 def numeric(value: Value, left: int = LENGTH, depth: int = 6) -> int:
@@ -231,5 +231,5 @@ _OF_PYTHON: Mapping[str, Callable[..., Value]] = {
     "tuple": lambda values=(): entries(values),
     "zip": _zip,
 }
-BUILTINS: Mapping[str, Value] = {name: Named(name, function) for name, function in _OF_PYTHON.items()}
+BUILTINS: Mapping[str, Value] = {name: OfferedFunction(name, function) for name, function in _OF_PYTHON.items()}
 """Functions of Python that the form knows; what they make is at once a tuple, a list or a table."""

@@ -77,7 +77,7 @@ def made(shape: Shape, numbers: Iterator[Value]) -> Value:
 
 
 @dataclass(frozen=True, eq=False)
-class Program:
+class KernelProgram:
     """A kernel over numbers of one shape.
 
     Attributes:
@@ -93,7 +93,9 @@ class Program:
         return made(self.answer, iter(self.run(numbers, root)))
 
 
-def program(kernel: Callable[..., Value], shapes: tuple[Shape, ...], named: Mapping[str, Shape]) -> Program | None:
+def program(
+    kernel: Callable[..., Value], shapes: tuple[Shape, ...], named: Mapping[str, Shape]
+) -> KernelProgram | None:
     """The program of a kernel at arguments of these shapes, after the namespace; None where it has none.
 
     Args:
@@ -115,7 +117,7 @@ def program(kernel: Callable[..., Value], shapes: tuple[Shape, ...], named: Mapp
     if not all(isinstance(result, Recorded | float) for result in results):
         return None  # a number type of the kernel's own, as a polynomial
     tape = recorder.tape({str(k): result for k, result in enumerate(results)})
-    return Program(_compiled(tape, len(results)), shape) if len(tape.operations) <= LONGEST else None
+    return KernelProgram(_compiled(tape, len(results)), shape) if len(tape.operations) <= LONGEST else None
 
 
 def _count(shape: Shape) -> int:

@@ -10,10 +10,10 @@ from pathlib import Path
 from assur.model.kernels import values as data
 from assur.model.kernels.expressions import FORM
 from assur.model.kernels.faults import FormFault, KernelFault
-from assur.model.kernels.functions import UNSET, Frame, problem_of
+from assur.model.kernels.functions import UNSET, CallFrame, problem_of
 from assur.model.kernels.library import imported
 from assur.model.kernels.limits import BYTES, NODES, Meter
-from assur.model.kernels.scope import Scope, assigned_names, checked_name, known
+from assur.model.kernels.scope import KernelScope, assigned_names, checked_name, known
 from assur.model.kernels.statements import function, statement
 
 
@@ -36,7 +36,7 @@ def names_of(text: str, file: Path) -> Mapping[str, data.Value]:
     """
     tree = _tree(text, file)
     shared: dict[str, data.Value] = {}
-    scope, meter = Scope(shared), Meter()
+    scope, meter = KernelScope(shared), Meter()
     for node in tree.body:
         meter.line = node.lineno
         try:
@@ -78,23 +78,23 @@ def _tree(text: str, file: Path) -> ast.Module:
     return tree
 
 
-def _defined(node: ast.stmt, scope: Scope, file: Path, meter: Meter) -> Iterator[tuple[str, data.Value]]:
+def _defined(node: ast.stmt, scope: KernelScope, file: Path, meter: Meter) -> Iterator[tuple[str, data.Value]]:
     """What a statement of the file defines: names and values."""
     if isinstance(node, ast.ImportFrom):
         yield from _imports(node)
     elif isinstance(node, ast.Import):
         raise FormFault(f"import {node.names[0].name[:60]}", "from ... import ...", line=node.lineno)
     elif isinstance(node, ast.FunctionDef):
-        yield node.name, function(node, Scope(scope.shared), scope.asked, file, meter)
+        yield node.name, function(node, KernelScope(scope.shared), scope.asked, file, meter)
     elif isinstance(node, ast.Return):
         raise FormFault("return outside a function", FORM, line=node.lineno)
     else:
-        own = Scope(scope.shared)
+        own = KernelScope(scope.shared)
         for name in assigned_names([node]):
             own.named(checked_name(name, node.lineno))
         run = statement(node, own, 0)
         known(own)
-        frame = Frame(own.size, meter)
+        frame = CallFrame(own.size, meter)
         for name, place in own.places.items():  # what the statement may read before it gives it a new value
             if name in scope.shared:
                 frame.values[place] = scope.shared[name]

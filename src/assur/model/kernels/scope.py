@@ -13,7 +13,7 @@ from assur.model.kernels.values import Value
 
 
 @dataclass
-class Scope:
+class KernelScope:
     """The names of one function, or of one statement of the file.
 
     Attributes:
@@ -58,7 +58,7 @@ def checked_name(name: str, line: int) -> str:
     return name
 
 
-def known(scope: Scope) -> None:
+def known(scope: KernelScope) -> None:
     """Check that every name that is asked for is one of the file, so far, or one of Python's that the form has.
 
     Errors:

@@ -10,13 +10,15 @@ from typing import Any
 from assur.model.kernels import values as data
 from assur.model.kernels.expressions import FORM, expression, target
 from assur.model.kernels.faults import FormFault
-from assur.model.kernels.functions import UNSET, Frame, KernelFunction, Run
+from assur.model.kernels.functions import UNSET, CallFrame, KernelFunction, Run
 from assur.model.kernels.limits import NESTING, Meter
 from assur.model.kernels.operations import BINARY
-from assur.model.kernels.scope import Scope, assigned_names, checked_name, known
+from assur.model.kernels.scope import KernelScope, assigned_names, checked_name, known
 
 
-def function(node: ast.FunctionDef, around: Scope, asked: dict[str, int], file: Path, meter: Meter) -> KernelFunction:
+def function(
+    node: ast.FunctionDef, around: KernelScope, asked: dict[str, int], file: Path, meter: Meter
+) -> KernelFunction:
     """A function of the file.
 
     Args:
@@ -34,11 +36,11 @@ def function(node: ast.FunctionDef, around: Scope, asked: dict[str, int], file: 
     names = [checked_name(item.arg, node.lineno) for item in arguments.args]
     given = [expression(default, around) for default in arguments.defaults]
     known(around)
-    frame = Frame(around.size, meter)
+    frame = CallFrame(around.size, meter)
     defaults = {
         name: _default(default(frame)) for name, default in zip(names[len(names) - len(given) :], given, strict=True)
     }
-    scope = Scope(around.shared, asked)
+    scope = KernelScope(around.shared, asked)
     for name in (*names, *assigned_names(node.body)):
         scope.named(checked_name(name, node.lineno))
     body = block(node.body, scope)
@@ -51,13 +53,13 @@ def _default(value: data.Value) -> data.Value:
     return data.frozen(value)
 
 
-def block(nodes: list[ast.stmt], scope: Scope, depth: int = 0) -> Run:
+def block(nodes: list[ast.stmt], scope: KernelScope, depth: int = 0) -> Run:
     """Statements one after the other, up to the first that returns."""
     if depth > NESTING // 3:
         raise FormFault("statements in one another, too deep", f"at most {NESTING // 3} levels", line=nodes[0].lineno)
     steps = [(statement(node, scope, depth), node.lineno, _size(node)) for node in nodes]
 
-    def run(frame: Frame) -> data.Value:
+    def run(frame: CallFrame) -> data.Value:
         meter = frame.meter
         for step, line, size in steps:
             meter.line = line
@@ -70,7 +72,7 @@ def block(nodes: list[ast.stmt], scope: Scope, depth: int = 0) -> Run:
     return run
 
 
-def statement(node: ast.stmt, scope: Scope, depth: int) -> Run:
+def statement(node: ast.stmt, scope: KernelScope, depth: int) -> Run:
     """A statement as work on a frame.
 
     Errors:
@@ -92,14 +94,14 @@ def _size(node: ast.stmt) -> int:
     return count
 
 
-def _return(node: ast.Return, scope: Scope, depth: int) -> Run:
+def _return(node: ast.Return, scope: KernelScope, depth: int) -> Run:
     return (lambda frame: None) if node.value is None else expression(node.value, scope)
 
 
-def _assign(node: ast.Assign, scope: Scope, depth: int) -> Run:
+def _assign(node: ast.Assign, scope: KernelScope, depth: int) -> Run:
     value, targets = expression(node.value, scope), [target(item, scope) for item in node.targets]
 
-    def run(frame: Frame) -> data.Value:
+    def run(frame: CallFrame) -> data.Value:
         result = value(frame)
         for item in targets:
             item(frame, result)
@@ -108,19 +110,19 @@ def _assign(node: ast.Assign, scope: Scope, depth: int) -> Run:
     return run
 
 
-def _annotated(node: ast.AnnAssign, scope: Scope, depth: int) -> Run:
+def _annotated(node: ast.AnnAssign, scope: KernelScope, depth: int) -> Run:
     if node.value is None:
         return lambda frame: UNSET
     value, item = expression(node.value, scope), target(node.target, scope)
 
-    def run(frame: Frame) -> data.Value:
+    def run(frame: CallFrame) -> data.Value:
         item(frame, value(frame))
         return UNSET
 
     return run
 
 
-def _changed(node: ast.AugAssign, scope: Scope, depth: int) -> Run:
+def _changed(node: ast.AugAssign, scope: KernelScope, depth: int) -> Run:
     """`a += b` is `a = a + b`: nothing that another name holds is changed."""
     operation = BINARY.get(type(node.op).__name__)
     if operation is None or not isinstance(node.target, ast.Name):
@@ -128,19 +130,19 @@ def _changed(node: ast.AugAssign, scope: Scope, depth: int) -> Run:
     old = expression(ast.Name(node.target.id, ast.Load(), lineno=node.lineno, col_offset=0), scope)
     value, item = expression(node.value, scope), target(node.target, scope)
 
-    def run(frame: Frame) -> data.Value:
+    def run(frame: CallFrame) -> data.Value:
         item(frame, operation(old(frame), value(frame)))
         return UNSET
 
     return run
 
 
-def _loop(node: ast.For, scope: Scope, depth: int) -> Run:
+def _loop(node: ast.For, scope: KernelScope, depth: int) -> Run:
     if node.orelse:
         raise FormFault("for with else", FORM, line=node.lineno)
     source, item, body = expression(node.iter, scope), target(node.target, scope), block(node.body, scope, depth + 1)
 
-    def run(frame: Frame) -> data.Value:
+    def run(frame: CallFrame) -> data.Value:
         for value in data.entries(source(frame)):
             frame.meter.spend(1)
             item(frame, value)
@@ -152,24 +154,24 @@ def _loop(node: ast.For, scope: Scope, depth: int) -> Run:
     return run
 
 
-def _choice(node: ast.If, scope: Scope, depth: int) -> Run:
+def _choice(node: ast.If, scope: KernelScope, depth: int) -> Run:
     test, yes = expression(node.test, scope), block(node.body, scope, depth + 1)
     no: Run = block(node.orelse, scope, depth + 1) if node.orelse else lambda frame: UNSET
     return lambda frame: yes(frame) if data.truth(test(frame)) else no(frame)
 
 
-def _alone(node: ast.Expr, scope: Scope, depth: int) -> Run:
+def _alone(node: ast.Expr, scope: KernelScope, depth: int) -> Run:
     """A call for what it does to a list, or a docstring."""
     value = expression(node.value, scope)
 
-    def run(frame: Frame) -> data.Value:
+    def run(frame: CallFrame) -> data.Value:
         value(frame)
         return UNSET
 
     return run
 
 
-_READERS: Mapping[str, Callable[[Any, Scope, int], Run]] = {
+_READERS: Mapping[str, Callable[[Any, KernelScope, int], Run]] = {
     "Return": _return, "Assign": _assign, "AnnAssign": _annotated, "AugAssign": _changed, "For": _loop, "If": _choice,
     "Expr": _alone, "Pass": lambda node, scope, depth: lambda frame: UNSET,
 }  # fmt: skip

@@ -20,7 +20,7 @@ Value = Any
 
 
 @dataclass(frozen=True)
-class Named:
+class OfferedFunction:
     """A function of ours that a kernel may call.
 
     Attributes:
@@ -50,7 +50,7 @@ PLAIN = (bool, int, str, type(None))
 """What may be compared, and what a condition may be made of: never a number that a kernel computes with."""
 TABLES = (dict, MappingProxyType)
 RECORDS = (SimpleNamespace, Branch)
-_DATA = (tuple, list, str, type(None), range, *TABLES, *RECORDS, Named, Module, Function, bytes, type)
+_DATA = (tuple, list, str, type(None), range, *TABLES, *RECORDS, OfferedFunction, Module, Function, bytes, type)
 _known: dict[type, bool] = {int: True, float: True}
 known = _known.get
 """Of a type that was met before: whether it is one of numbers. The operations ask it first, being most of the work."""
@@ -80,7 +80,7 @@ def kind_of(value: Value) -> str:
         return words[type(value)]
     if isinstance(value, TABLES):
         return "a table"
-    if isinstance(value, Function | Named):
+    if isinstance(value, Function | OfferedFunction):
         return "a function"
     if isinstance(value, tuple | SimpleNamespace):
         return "a record"
@@ -187,7 +187,7 @@ def attribute(value: Value, name: str) -> Value:
     if isinstance(value, tuple) and name in getattr(type(value), "_fields", ()):
         return getattr(value, name)
     if name == "sqrt" and not isinstance(value, _DATA) and callable(getattr(type(value), "sqrt", None)):
-        return Named("sqrt", value.sqrt)
+        return OfferedFunction("sqrt", value.sqrt)
     raise KernelFault(
         f"the attribute '{name}' of {kind_of(value)}",
         "attributes of p, sign, core and other records, and ns.sqrt",
@@ -205,7 +205,7 @@ def method(value: Value, name: str) -> Value:
     'append'
     """
     function = _METHODS.get((_family(value), name)) if isinstance(value, (list, str, *TABLES)) else None
-    return Named(name, lambda *arguments: function(value, *arguments)) if function else attribute(value, name)
+    return OfferedFunction(name, lambda *arguments: function(value, *arguments)) if function else attribute(value, name)
 
 
 def _entry(names: Mapping[str, Value], name: str) -> Value:

@@ -39,7 +39,7 @@ SHARE = 16384
 
 
 @dataclass(frozen=True, eq=False)
-class Loop:
+class CompiledLoop:
     """A tape as machine code.
 
     Attributes:
@@ -133,7 +133,7 @@ class Loop:
         return _loaded(source(self.tape)).loop
 
 
-def compiled(tape: Tape) -> Loop:
+def compiled(tape: Tape) -> CompiledLoop:
     """A tape as a compiled loop; machine code is made at its first call, or found on disk.
 
     Errors:
@@ -141,7 +141,7 @@ def compiled(tape: Tape) -> Loop:
     """
     if importlib.util.find_spec("numba") is None:
         raise UsageError("compiled loops need numba, which is not installed", hint="pip install numba, or use NumPy")
-    return Loop(tape)
+    return CompiledLoop(tape)
 
 
 def empty_rows(rows: int, count: int) -> FloatArray:

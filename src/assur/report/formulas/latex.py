@@ -138,7 +138,7 @@ class _Reader:
 
     def scripted(self) -> str:
         """One item with its sub- and superscript."""
-        base = "<mrow></mrow>" if self.next in ("_", "^") else self.item(self.take())
+        base = "<mrow></mrow>" if self.next in ("_", "^") else self.atom(self.take())
         scripts: dict[str, str] = {}
         while self.next in ("_", "^") and self.next not in scripts:
             mark = self.take()
@@ -160,9 +160,9 @@ class _Reader:
         if token[0].isdigit() and len(token) > 1:
             self.left += _TOKEN.findall(token[1:])[::-1]
             token = token[0]
-        return self.item(token)
+        return self.atom(token)
 
-    def item(self, token: str) -> str:
+    def atom(self, token: str) -> str:
         """What a token begins."""
         if token == "{":
             return _row(self.group("}"))

@@ -87,7 +87,7 @@ class DraftQuestion:
             record = self._read(drawn, chosen)
             wrong = faults(record)
             if wrong:
-                return Attempt("", None, f"{wrong[0].path}: {wrong[0].found}")
+                return Attempt("", None, f"{wrong[0].path}: {wrong[0].given}")
             return Attempt(document(drawn, chosen), record, clearance=clearance(record))
         except AssurError as error:
             return Attempt("", None, error.message)

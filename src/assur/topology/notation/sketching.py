@@ -36,18 +36,18 @@ def _series(sketch: Sketch, serial: Serial) -> tuple[ElementSketch, ...]:
     return tuple(elements)
 
 
-def _part(sketch: Sketch, item: Part) -> Sketched:
-    if isinstance(item, WrittenJoint):
-        return _joint(sketch, item)
-    if isinstance(item, Diamond):
-        return _diamond(sketch, item)
-    if isinstance(item, WrittenLoop):
-        loop = LoopSketch(tuple(_series(sketch, branch) for branch in item.branches))
+def _part(sketch: Sketch, part: Part) -> Sketched:
+    if isinstance(part, WrittenJoint):
+        return _joint(sketch, part)
+    if isinstance(part, Diamond):
+        return _diamond(sketch, part)
+    if isinstance(part, WrittenLoop):
+        loop = LoopSketch(tuple(_series(sketch, branch) for branch in part.branches))
         end = SketchEnd("nothing", "a loop in braces")
         return (loop,), end, end
-    for joint in item.members:
+    for joint in part.members:
         _note_name(sketch, joint)
-    expanded, first, last = expand(sketch, item)
+    expanded, first, last = expand(sketch, part)
     return (expanded,), first, last
 
 

@@ -30,9 +30,9 @@ class Tagged:
 Part = WrittenJoint | Diamond | WrittenLoop | Tagged
 
 
-def members(item: WrittenJoint | Diamond) -> tuple[WrittenJoint, ...]:
+def members(element: WrittenJoint | Diamond) -> tuple[WrittenJoint, ...]:
     """The joint itself, or the two of a diamond."""
-    return item.members if isinstance(item, Diamond) else (item,)
+    return element.members if isinstance(element, Diamond) else (element,)
 
 
 def parts(source: Source, serial: Serial) -> tuple[tuple[Part, ...], tuple[WrittenSign, ...]]:
@@ -80,11 +80,11 @@ def _check(source: Source, tag: Tag) -> None:
         raise source.error(tag.at, f"the tag {tag}", "that of a planar loop with three freedoms", hint)
 
 
-def _tag(source: Source, item: WrittenJoint | Diamond) -> Tag | None:
+def _tag(source: Source, element: WrittenJoint | Diamond) -> Tag | None:
     """The tag of an element; in a diamond both have one or none."""
-    tags = [joint.tag for joint in members(item)]
+    tags = [joint.tag for joint in members(element)]
     if len({str(tag) for tag in tags}) > 1:
-        raise source.error(item.at, "a diamond of two loops", "one tag at both, or none")
-    if isinstance(item, Diamond) and tags[0] and any(joint.letter != "P" for joint in item.members):
-        raise source.error(item.at, "a tagged diamond with an R", "two P, which span the plane of the loop")
+        raise source.error(element.at, "a diamond of two loops", "one tag at both, or none")
+    if isinstance(element, Diamond) and tags[0] and any(joint.letter != "P" for joint in element.members):
+        raise source.error(element.at, "a tagged diamond with an R", "two P, which span the plane of the loop")
     return tags[0]

@@ -130,10 +130,10 @@ def backwards(items: Sequence[Item]) -> tuple[Item, ...]:
     return tuple(_mirrored(item) for item in reversed(items))
 
 
-def _mirrored(item: Item) -> Item:
-    if isinstance(item, Slide):
-        return item
-    return replace(item, lines=item.lines[::-1], inner=backwards(item.inner))
+def _mirrored(element: Item) -> Item:
+    if isinstance(element, Slide):
+        return element
+    return replace(element, lines=element.lines[::-1], inner=backwards(element.inner))
 
 
 def _first_along(direction: Vector, items: Iterable[Item]) -> Block | None:

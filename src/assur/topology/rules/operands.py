@@ -52,14 +52,14 @@ def joints(operand: Operand) -> tuple[Operand, ...]:
     return tuple(_operand(group, whole) for group in groups)
 
 
-def _belongs(item: Item, group: Sequence[Item]) -> bool:
+def _belongs(element: Item, group: Sequence[Item]) -> bool:
     """Whether an item is of the joint before it, or an axis through the point of those before it."""
     last = group[-1]
-    if isinstance(item, Slide):
+    if isinstance(element, Slide):
         return False
     if isinstance(last, Slide):
-        return last.name == item.name
-    alone = [other for other in (*group, item) if isinstance(other, Block) and len(other.lines) == 1]
+        return last.name == element.name
+    alone = [other for other in (*group, element) if isinstance(other, Block) and len(other.lines) == 1]
     if len(alone) <= len(group):
         return False
     return bool(frozenset.intersection(*(block.lines[0].points for block in alone)))

@@ -23,14 +23,14 @@ from assur.model.pose import is_angle
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.workspace.aspects.path import AspectPath, path_between
 from assur.workspace.aspects.places import Place, place, point_of
-from assur.workspace.aspects.search import Search, search
+from assur.workspace.aspects.search import BoxSearch, search
 from assur.workspace.aspects.turning import ends_of, turned
 from assur.workspace.aspects.volumes import Pair, volumes
 from assur.workspace.bounds import Stroke
 from assur.workspace.certified.boxes import LEAST, Boxes
 from assur.workspace.certified.criteria import criteria
 from assur.workspace.certified.paving import Progress, Stopped
-from assur.workspace.certified.planes import Frame
+from assur.workspace.certified.planes import BoxQuestion
 from assur.workspace.certified.region import HOW, unit
 from assur.workspace.domain import Box, box_of
 from assur.workspace.slices import Slice, slice_at
@@ -90,7 +90,7 @@ class Aspects:
     names: tuple[str, ...]
     turning: tuple[str, ...]
     finest: Mapping[str, float]
-    search: Search = field(repr=False)
+    search: BoxSearch = field(repr=False)
     order: tuple[int, ...] = field(repr=False)
     stopped: Stopped = ""
     how: str = HOW
@@ -240,7 +240,7 @@ def aspects(
     names = tuple(name for name, has in zip(domain.names, used, strict=True) if has)
     looked_at = turned(domain, names)
     extents = _extents(record, looked_at, finest, PARTS[sum(used) - 1])
-    frame = Frame(asked, looked_at, used)
+    frame = BoxQuestion(asked, looked_at, used)
     found = search(frame, extents, progress)
     length = as_interval(1.0)
     for has, low, high in zip(used, domain.low, domain.high, strict=True):

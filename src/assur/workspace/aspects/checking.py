@@ -49,7 +49,7 @@ class PathCheck:
 
 
 def check_path(
-    record: MechanismRecord, found: Aspects, path: AspectPath, samples: int = 16, follow_it: bool = True
+    record: MechanismRecord, aspects: Aspects, path: AspectPath, samples: int = 16, follow_it: bool = True
 ) -> PathCheck:
     """Check a path at so many poses of each piece, and by following it with all joints.
 
@@ -66,15 +66,15 @@ def check_path(
     if path.status != "connected":
         raise UsageError(f"no path to check: {path.why}")
     points = _sampled(path.points, samples)
-    answer = inverse(record, found.slice.poses(points), found.mode)
+    answer = inverse(record, aspects.slice.poses(points), aspects.mode)
     exists = np.asarray(np.any(answer.exists, axis=-1))
     place = np.argmax(answer.exists, axis=-1)[:, None]
     reached = bool(exists.all()) and _within(
-        record, found, np.take_along_axis(answer.inputs, place[..., None], 1)[:, 0]
+        record, aspects, np.take_along_axis(answer.inputs, place[..., None], 1)[:, 0]
     )
-    values = [np.take_along_axis(answer.factors[name], place, 1) for name in found.aspects[0].signs]
+    values = [np.take_along_axis(answer.factors[name], place, 1) for name in aspects.aspects[0].signs]
     kept = all(bool(np.all(row > 0) or np.all(row < 0)) for row in values)
-    followed, stopped = _followed(record, found, path) if follow_it and bool(exists[0]) else (None, "")
+    followed, stopped = _followed(record, aspects, path) if follow_it and bool(exists[0]) else (None, "")
     return PathCheck(covered(path), len(points), reached, kept, followed, stopped)
 
 
@@ -95,19 +95,19 @@ def _sampled(points: FloatArray, count: int) -> FloatArray:
     return np.concatenate([inner.reshape(-1, points.shape[1]), points[-1:]])
 
 
-def _within(record: MechanismRecord, found: Aspects, inputs: FloatArray) -> bool:
+def _within(record: MechanismRecord, aspects: Aspects, inputs: FloatArray) -> bool:
     """Whether inputs (N, n) keep to the strokes that were given."""
     for k, item in enumerate(record.inputs):
-        stroke = (found.strokes or {}).get(item.name)
+        stroke = (aspects.strokes or {}).get(item.name)
         if stroke is not None and not np.all((inputs[:, k] >= stroke[0]) & (inputs[:, k] <= stroke[1])):
             return False
     return True
 
 
-def _followed(record: MechanismRecord, found: Aspects, path: AspectPath) -> tuple[bool, str]:
+def _followed(record: MechanismRecord, aspects: Aspects, path: AspectPath) -> tuple[bool, str]:
     """Whether every joint can be moved along, and what stops it."""
-    poses = found.slice.poses(path.points)
-    start = next(iter(inverse(record, poses[0], found.mode)))
+    poses = aspects.slice.poses(path.points)
+    start = next(iter(inverse(record, poses[0], aspects.mode)))
     values = list(start.joints.values())
-    way = follow(record, values, poses=poses[1:], turns="given", use_limits=found.strokes is None)
+    way = follow(record, values, poses=poses[1:], turns="given", use_limits=aspects.strokes is None)
     return way.stopped is None, "" if way.stopped is None else str(way.stopped)

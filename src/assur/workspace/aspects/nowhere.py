@@ -13,7 +13,7 @@ from assur.workspace.aspects.signs import factor_signs
 from assur.workspace.bounds import Stroke
 from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.criteria import criteria
-from assur.workspace.certified.planes import Frame, judged
+from assur.workspace.certified.planes import BoxQuestion, judged
 from assur.workspace.domain import box_of
 from assur.workspace.slices import slice_at
 
@@ -60,7 +60,7 @@ def nowhere_zero(
         name
         for name in asked.names
         if (names is None or name in names)
-        and _nonzero(Frame(replace(asked, regular=(*asked.regular, name)), domain, used), name)
+        and _nonzero(BoxQuestion(replace(asked, regular=(*asked.regular, name)), domain, used), name)
     )
 
 
@@ -80,7 +80,7 @@ def nothing_reached(
     """
     domain = box_of(record, box, slice_at(record, held).free)
     asked = criteria(record, mode, strokes, held, ())
-    frame = Frame(asked, domain, asked.used if any(asked.used) else (True, *asked.used[1:]))
+    frame = BoxQuestion(asked, domain, asked.used if any(asked.used) else (True, *asked.used[1:]))
     boxes, looked = _whole(frame), 0
     while looked < MOST:
         looked += len(boxes)
@@ -94,7 +94,7 @@ def nothing_reached(
     return False
 
 
-def _nonzero(frame: Frame, factor: str) -> bool:
+def _nonzero(frame: BoxQuestion, factor: str) -> bool:
     """Whether a factor, one of what must not be zero, is proved to be zero at no pose that is reached."""
     column = frame.criteria.names.index(factor)
     boxes, looked = _whole(frame), 0
@@ -109,7 +109,7 @@ def _nonzero(frame: Frame, factor: str) -> bool:
     return False
 
 
-def _whole(frame: Frame) -> Boxes:
+def _whole(frame: BoxQuestion) -> Boxes:
     """The box of a frame, of the coordinates that are used."""
     ends = zip(frame.used, frame.box.intervals, strict=True)
     low, high = np.array([pair for has, pair in ends if has]).T

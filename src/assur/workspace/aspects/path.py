@@ -17,7 +17,7 @@ from scipy.sparse.csgraph import dijkstra
 
 from assur.workspace.aspects.adjacency import shared_faces
 from assur.workspace.aspects.places import Place, place
-from assur.workspace.aspects.search import Search
+from assur.workspace.aspects.search import BoxSearch
 from assur.workspace.aspects.turning import Ends, ends_of, moved, turns
 from assur.workspace.certified.boxes import Boxes, together
 from assur.workspace.certified.planes import judged
@@ -74,7 +74,7 @@ class AspectPath:
 
 
 def path_between(
-    state: Search, labels: Sequence[str], names: tuple[str, ...], first: FloatArray, last: FloatArray
+    state: BoxSearch, labels: Sequence[str], names: tuple[str, ...], first: FloatArray, last: FloatArray
 ) -> AspectPath:
     """The path between two points (free,); labels are those of the components."""
     box = state.frame.box
@@ -105,7 +105,7 @@ def _shifted(boxes: Boxes, count: NDArray[np.int64], ends: Ends) -> Boxes:
     return Boxes(moved(boxes.low, count, ends), moved(boxes.high, count, ends))
 
 
-def _verdict(state: Search, start: Place, end: Place) -> tuple[Verdict, str]:
+def _verdict(state: BoxSearch, start: Place, end: Place) -> tuple[Verdict, str]:
     for word, item in (("from", start), ("to", end)):
         if item.status in ("outside", "beyond"):
             return "outside", f"{word}: {item.why}"
@@ -131,7 +131,7 @@ def _extent(box: Box, used: Sequence[bool]) -> FloatArray:
     return np.asarray(np.subtract(box.high, box.low)[list(used)])
 
 
-def _chain(state: Search, first: int, last: int) -> IntArray:
+def _chain(state: BoxSearch, first: int, last: int) -> IntArray:
     """Numbers of the fewest boxes from one to another, each of which shares a face with the next."""
     own = np.flatnonzero(state.links.component == state.links.component[first])
     boxes = state.certain[own]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.numerics.intervals.interval import Interval
-from assur.workspace.aspects.search import Search
+from assur.workspace.aspects.search import BoxSearch
 from assur.workspace.bounds import not_reached
 from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.planes import judged
@@ -72,7 +72,7 @@ def point_of(box: Box, pose: Mapping[str, float] | Sequence[float] | FloatArray)
     return point
 
 
-def place(state: Search, labels: Sequence[str], point: FloatArray) -> Place:
+def place(state: BoxSearch, labels: Sequence[str], point: FloatArray) -> Place:
     """Where a point (free,) is; labels are those of the components.
 
     A pose in an undecided box is inside an aspect if a straight line to one of its boxes is proved piece by piece.
@@ -119,7 +119,7 @@ def holding(boxes: Boxes, point: FloatArray) -> NDArray[np.int64]:
     return np.flatnonzero(np.all((boxes.low <= column) & (column <= boxes.high), axis=0))
 
 
-def straight(state: Search, start: FloatArray, end: FloatArray) -> tuple[FloatArray, Boxes] | None:
+def straight(state: BoxSearch, start: FloatArray, end: FloatArray) -> tuple[FloatArray, Boxes] | None:
     """Points (n, k) on the straight line between two, and the n - 1 proved boxes about its pieces; None if not proved.
 
     Points are rounded; each piece runs straight between two of them.

@@ -14,7 +14,7 @@ from assur.workspace.aspects.signs import Signs, factor_signs
 from assur.workspace.aspects.turning import ends_of
 from assur.workspace.certified.boxes import Boxes, together
 from assur.workspace.certified.paving import Progress, Stopped, pave
-from assur.workspace.certified.planes import Frame, judged
+from assur.workspace.certified.planes import BoxQuestion, judged
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -35,7 +35,7 @@ STEPS = 1000
 
 
 @dataclass(frozen=True, eq=False)
-class Search:
+class BoxSearch:
     """The boxes found, and how they are linked.
 
     Attributes:
@@ -48,7 +48,7 @@ class Search:
         stopped: why it ended early; "" where it did not.
     """
 
-    frame: Frame
+    frame: BoxQuestion
     signs: Signs
     possible: Signs
     outside: Boxes
@@ -75,7 +75,7 @@ class Search:
         return float(np.sum(self.undecided.sizes.high) / np.prod(extents))
 
 
-def search(frame: Frame, finest: Mapping[str, float], progress: Progress | None = None) -> Search:
+def search(frame: BoxQuestion, finest: Mapping[str, float], progress: Progress | None = None) -> BoxSearch:
     """Pave the box of a frame down to extents by coordinate, and further where components may or may not meet.
 
     Args:
@@ -86,7 +86,7 @@ def search(frame: Frame, finest: Mapping[str, float], progress: Progress | None 
     paving = pave(frame.criteria, frame.box, finest=finest, progress=_part(progress))
     signs, possible = factor_signs(frame, paving.inside), factor_signs(frame, paving.boundary)
     met = neighbours(paving.inside, paving.boundary, ends_of(frame))
-    state = Search(frame, signs, possible, paving.outside, met, links(met, signs, possible), paving.stopped)
+    state = BoxSearch(frame, signs, possible, paving.outside, met, links(met, signs, possible), paving.stopped)
     least = np.array([finest[name] for name in paving.names]) / DEEPER
     room = int(MORE * len(state.undecided)) + SPARE
     try:
@@ -104,7 +104,7 @@ def search(frame: Frame, finest: Mapping[str, float], progress: Progress | None 
     return state
 
 
-def _between(state: Search, least: FloatArray) -> BoolArray:
+def _between(state: BoxSearch, least: FloatArray) -> BoolArray:
     """Undecided boxes (M,) on the shortest chains between components that are not told apart."""
     found, boxes = state.links, state.undecided
     weights = state.certain.sizes.low
@@ -116,13 +116,13 @@ def _between(state: Search, least: FloatArray) -> BoolArray:
     return np.asarray(chosen & np.any(boxes.high - boxes.low > least[:, None], axis=0))
 
 
-def _largest(found: Links, sizes: FloatArray, component: int) -> bool:
+def _largest(links: Links, sizes: FloatArray, component: int) -> bool:
     """Whether a component is the first of the largest of its group."""
-    members = np.flatnonzero(found.group == found.group[component])
+    members = np.flatnonzero(links.group == links.group[component])
     return int(members[np.argmax(sizes[members])]) == component
 
 
-def _cut(state: Search, chosen: BoolArray) -> Search:
+def _cut(state: BoxSearch, chosen: BoolArray) -> BoxSearch:
     """The state with chosen boxes halved once along each coordinate, and what follows from it."""
     frame, parts = state.frame, state.undecided[chosen]
     inside, outside, axes = [], [state.outside], len(parts.low)

@@ -11,12 +11,12 @@ from assur.numerics.intervals import rounding
 from assur.numerics.intervals.interval import Interval
 from assur.numerics.intervals.sloped import ranged
 from assur.workspace.certified.boxes import Boxes
-from assur.workspace.certified.planes import BLOCK, Frame
+from assur.workspace.certified.planes import BLOCK, BoxQuestion
 
 Signs = NDArray[np.int8]
 
 
-def factor_signs(frame: Frame, boxes: Boxes) -> Signs:
+def factor_signs(frame: BoxQuestion, boxes: Boxes) -> Signs:
     """Signs (N, f) of the factors in the order of `frame.criteria.names`; 0 where both, or zero, may occur.
 
     Where a pose of the box is reached, each factor there has the sign that is given.
@@ -25,7 +25,7 @@ def factor_signs(frame: Frame, boxes: Boxes) -> Signs:
     >>> from assur.workspace.certified.criteria import criteria
     >>> from assur.workspace.domain import box_of
     >>> record = load_record("fivebar")
-    >>> frame = Frame(criteria(record, "-+", factors=["parallel"]), box_of(record, None), (True, True))
+    >>> frame = BoxQuestion(criteria(record, "-+", factors=["parallel"]), box_of(record, None), (True, True))
     >>> boxes = Boxes(np.array([[-10.0, -10.0], [150.0, 50.0]]), np.array([[10.0, 10.0], [160.0, 260.0]]))
     >>> factor_signs(frame, boxes).tolist()
     [[1], [0]]
@@ -35,7 +35,7 @@ def factor_signs(frame: Frame, boxes: Boxes) -> Signs:
     return np.concatenate([none, *(_block(frame, boxes[k : k + BLOCK]) for k in range(0, len(boxes), BLOCK))])
 
 
-def _block(frame: Frame, boxes: Boxes) -> Signs:
+def _block(frame: BoxQuestion, boxes: Boxes) -> Signs:
     names = frame.criteria.names
     signs = np.zeros((len(boxes), len(names)), dtype=np.int8)
     _tell(signs, frame.criteria.over(frame.whole(boxes.intervals)), names)
@@ -51,8 +51,8 @@ def _block(frame: Frame, boxes: Boxes) -> Signs:
     return signs
 
 
-def _tell(signs: Signs, found: Mapping[str, Interval], names: Sequence[str]) -> None:
+def _tell(signs: Signs, factors: Mapping[str, Interval], names: Sequence[str]) -> None:
     """Write down the signs (N, f) that intervals (N,) have."""
     for k, name in enumerate(names):
-        value = found[name]
+        value = factors[name]
         signs[:, k] = np.where(value.positive, 1, np.where(value.negative, -1, signs[:, k]))

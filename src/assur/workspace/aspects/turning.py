@@ -16,7 +16,7 @@ from assur.model.pose import is_angle
 from assur.numerics.intervals.functions import TURN
 from assur.numerics.intervals.interval import Interval
 from assur.workspace.certified.boxes import Boxes
-from assur.workspace.certified.planes import Frame
+from assur.workspace.certified.planes import BoxQuestion
 from assur.workspace.domain import Box
 
 FloatArray = NDArray[np.float64]
@@ -41,7 +41,7 @@ def turned(box: Box, names: Sequence[str]) -> Box:
     return replace(box, high=tuple(high))
 
 
-def ends_of(frame: Frame) -> Ends:
+def ends_of(frame: BoxQuestion) -> Ends:
     """Which coordinates of a frame's boxes turn, and where the ends of their turn are."""
     box = frame.box
     return tuple(

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from assur.numerics.intervals import rounding
 from assur.numerics.intervals.interval import as_interval
-from assur.workspace.aspects.search import Search
+from assur.workspace.aspects.search import BoxSearch
 from assur.workspace.aspects.signs import Signs
 from assur.workspace.aspects.turning import ends_of, once
 from assur.workspace.certified import cuts
@@ -20,7 +20,7 @@ FloatArray = NDArray[np.float64]
 Pair = tuple[float, float]
 
 
-def volumes(state: Search) -> list[Pair]:
+def volumes(state: BoxSearch) -> list[Pair]:
     """Bounds (low, high) of the volume of the aspect that holds each component, over the coordinates that are cut.
 
     The lower one counts the component's boxes. The upper one adds the components that are not told apart from it, and
@@ -62,7 +62,7 @@ class _Open:
         return np.minimum(self.reached[boxes], rounding.up(share * self.room[boxes]))
 
 
-def _open(state: Search) -> _Open:
+def _open(state: BoxSearch) -> _Open:
     """Each undecided box that an aspect may reach is looked at once, for all signs."""
     count, names = len(state.undecided), state.frame.criteria.names
     found = _Open(np.zeros(count), np.zeros(count), np.ones((2, len(names), count)))

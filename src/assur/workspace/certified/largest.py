@@ -22,7 +22,7 @@ from assur.workspace.bounds import Stroke
 from assur.workspace.certified.boxes import Boxes, together
 from assur.workspace.certified.criteria import Criteria
 from assur.workspace.certified.paving import Progress
-from assur.workspace.certified.planes import Frame, judged
+from assur.workspace.certified.planes import BoxQuestion, judged
 from assur.workspace.certified.questions import Witness, asked_of, columns_of, violations
 from assur.workspace.certified.shapes import Shape, ShapeName, shape_about
 from assur.workspace.domain import Box
@@ -154,7 +154,7 @@ class _Search:
         low, high = shape.around(farthest)
         box = Box(shape.names, tuple(low.tolist()), tuple(high.tolist()))
         self.used = np.array(asked.used)
-        self.frame, self.shape, self.farthest = Frame(asked, box, asked.used), shape, farthest
+        self.frame, self.shape, self.farthest = BoxQuestion(asked, box, asked.used), shape, farthest
         middle = np.array(shape.centre)[:, None]
         self.at = asked.over([Interval.of(row) for row in middle])
         self.refuted = math.inf
@@ -221,10 +221,10 @@ class _Search:
         self._look(np.hstack([centre, kept.middles, np.clip(centre, kept.low, kept.high)]))
         return kept, found.axis[left]
 
-    def _look(self, found: FloatArray) -> None:
+    def _look(self, middles: FloatArray) -> None:
         """Take the nearest of points (k, N) that certainly fails for a witness, if it is nearer than the last one."""
-        points = np.repeat(np.array(self.shape.centre)[:, None], found.shape[1], axis=1)
-        points[self.used] = found
+        points = np.repeat(np.array(self.shape.centre)[:, None], middles.shape[1], axis=1)
+        points[self.used] = middles
         sizes = self.shape.size(points) * (1 + 1e-14)
         nearer = np.flatnonzero(sizes < self.refuted)
         if not len(nearer):
@@ -244,7 +244,7 @@ class _Search:
         self.boxes, self.axis = self.boxes[left], self.axis[left]
 
 
-def _way(reached: float, wanted: float) -> tuple[int, int]:
+def _way(reached: float, gap: float) -> tuple[int, int]:
     """How far it is to the wanted tolerance, in thousandths of the way on a logarithmic scale."""
-    share = math.log(max(min(reached, 1.0), wanted)) / math.log(wanted)
+    share = math.log(max(min(reached, 1.0), gap)) / math.log(gap)
     return round(1000 * share), 1000

@@ -19,7 +19,7 @@ from assur.numerics.intervals import rounding
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.workspace.certified.boxes import Boxes, together
 from assur.workspace.certified.criteria import Criteria
-from assur.workspace.certified.planes import Frame, Judged, joined, judged
+from assur.workspace.certified.planes import BoxQuestion, JudgedBoxes, joined, judged
 from assur.workspace.domain import Box
 
 FloatArray = NDArray[np.float64]
@@ -76,12 +76,12 @@ class _State:
     """What is done so far: settled boxes and their volume, open boxes and what is known of them."""
 
     boundary: Boxes
-    known: Judged
+    known: JudgedBoxes
     inside: tuple[Boxes, ...] = ()
     outside: tuple[Boxes, ...] = ()
     settled: Interval = field(default_factory=lambda: as_interval(0.0))
 
-    def with_judged(self, boxes: Boxes, known: Judged, rest: BoolArray) -> _State:
+    def with_judged(self, boxes: Boxes, known: JudgedBoxes, rest: BoolArray) -> _State:
         """The state in which only the `rest` of the boundary is left, and new boxes take the place of the others."""
         left = ~known.inside & ~known.outside
         return _State(
@@ -101,7 +101,7 @@ class _State:
 class _Work:
     """A paving on its way. Its state changes in one step, so that Ctrl-C at any moment leaves a valid one."""
 
-    def __init__(self, frame: Frame, boxes: Boxes, shares: bool) -> None:
+    def __init__(self, frame: BoxQuestion, boxes: Boxes, shares: bool) -> None:
         self.frame, self.shares = frame, shares
         none = judged(frame, boxes[:0], shares)
         found = judged(frame, boxes, shares)
@@ -160,7 +160,7 @@ def pave(
     used = criteria.used if any(criteria.used) else (True, *criteria.used[1:])
     names = tuple(name for name, has in zip(box.names, used, strict=True) if has)
     limits = None if finest is None else _finest(names, box.names, finest)
-    frame = Frame(criteria, box, used)
+    frame = BoxQuestion(criteria, box, used)
     work = _begun(frame, limits)
     stopped = _run(work, gap, limits, most, progress)
     length = as_interval(1.0)
@@ -209,7 +209,7 @@ def _run(work: _Work, gap: float, limits: FloatArray | None, most: int, progress
     return ""
 
 
-def _begun(frame: Frame, limits: FloatArray | None) -> _Work:
+def _begun(frame: BoxQuestion, limits: FloatArray | None) -> _Work:
     """The box in equal parts: of the finest size if they are few, else some for a start."""
     low = np.array([value for value, has in zip(frame.box.low, frame.used, strict=True) if has])
     high = np.array([value for value, has in zip(frame.box.high, frame.used, strict=True) if has])
@@ -251,7 +251,7 @@ def _large(boxes: Boxes, axis: NDArray[np.int64], limits: FloatArray | None) -> 
     return np.max(relative, axis=0) > 0, bool(np.any(wide & ~divisible))
 
 
-def _worst(known: Judged) -> BoolArray:
+def _worst(known: JudgedBoxes) -> BoolArray:
     """The boxes (N,) that leave most open: together most of all that is open."""
     gaps = known.most - known.least
     order = np.argsort(-gaps, kind="stable")
@@ -261,15 +261,15 @@ def _worst(known: Judged) -> BoolArray:
     return chosen & (gaps > 0)
 
 
-def _sum(known: Judged) -> Interval:
+def _sum(known: JudgedBoxes) -> Interval:
     """Bounds of the volume in several boxes: a correctly rounded sum of bounds, and that rounding."""
     low, high = math.fsum(known.least), math.fsum(known.most)
     one, two = float(rounding.down_sum(low)), float(rounding.up_sum(high))
     return Interval.of(max(one, 0.0), max(two, 0.0))
 
 
-def _way(reached: float, wanted: float) -> tuple[int, int]:
+def _way(reached: float, gap: float) -> tuple[int, int]:
     """How far it is from all to the wanted gap, in thousandths of the way on a logarithmic scale."""
-    if reached <= wanted or wanted >= 1:
+    if reached <= gap or gap >= 1:
         return 1000, 1000
-    return round(1000 * math.log(max(min(reached, 1.0), wanted)) / math.log(wanted)), 1000
+    return round(1000 * math.log(max(min(reached, 1.0), gap)) / math.log(gap)), 1000

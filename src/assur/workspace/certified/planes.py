@@ -37,7 +37,7 @@ Where only what is certain counts, and no part of a box, it is 1: cuts go across
 
 
 @dataclass(frozen=True, eq=False)
-class Frame:
+class BoxQuestion:
     """The question that boxes are judged by: criteria over a box of which only some coordinates are cut.
 
     Attributes:
@@ -65,7 +65,7 @@ class Frame:
 
 
 @dataclass(frozen=True, eq=False)
-class Judged:
+class JudgedBoxes:
     """What is known of N boxes.
 
     Attributes:
@@ -80,22 +80,26 @@ class Judged:
     most: FloatArray
     axis: NDArray[np.int64]
 
-    def __getitem__(self, index: NDArray[np.bool_]) -> Judged:
-        return Judged(self.inside[index], self.outside[index], self.least[index], self.most[index], self.axis[index])
+    def __getitem__(self, index: NDArray[np.bool_]) -> JudgedBoxes:
+        return JudgedBoxes(
+            self.inside[index], self.outside[index], self.least[index], self.most[index], self.axis[index]
+        )
 
 
-def judged(frame: Frame, boxes: Boxes, shares: bool = True) -> Judged:
+def judged(frame: BoxQuestion, boxes: Boxes, shares: bool = True) -> JudgedBoxes:
     """Judge boxes, block by block; without `shares` nothing is said of parts of boxes."""
     parts = [_block(frame, boxes[k : k + BLOCK], shares) for k in range(0, len(boxes), BLOCK)]
     return joined(parts) if parts else _block(frame, boxes, shares)
 
 
-def joined(parts: Sequence[Judged]) -> Judged:
+def joined(parts: Sequence[JudgedBoxes]) -> JudgedBoxes:
     """The answers of several lots of boxes, one after the other."""
-    return Judged(*(np.concatenate([getattr(part, name) for part in parts]) for name in Judged.__dataclass_fields__))
+    return JudgedBoxes(
+        *(np.concatenate([getattr(part, name) for part in parts]) for name in JudgedBoxes.__dataclass_fields__)
+    )
 
 
-def _block(frame: Frame, boxes: Boxes, shares: bool) -> Judged:
+def _block(frame: BoxQuestion, boxes: Boxes, shares: bool) -> JudgedBoxes:
     count = len(boxes)
     criteria, shape = frame.criteria, (count,)
     found = criteria.over(frame.whole(boxes.intervals))
@@ -118,10 +122,10 @@ def _block(frame: Frame, boxes: Boxes, shares: bool) -> Judged:
         size = sizes[rest]
         least[rest] = rounding.down(closer.least * size.low)
         most[rest] = np.where(closer.outside, 0.0, rounding.up(closer.most * size.high))
-    return Judged(inside, outside, np.maximum(least, 0.0), most, axis)
+    return JudgedBoxes(inside, outside, np.maximum(least, 0.0), most, axis)
 
 
-def _closer(frame: Frame, boxes: Boxes, shares: bool) -> Judged:
+def _closer(frame: BoxQuestion, boxes: Boxes, shares: bool) -> JudgedBoxes:
     """The same with slopes, where `least` and `most` are shares of the boxes' volume."""
     criteria, count = frame.criteria, len(boxes)
     middles = boxes.middles
@@ -155,7 +159,7 @@ def _closer(frame: Frame, boxes: Boxes, shares: bool) -> Judged:
     least = np.where(certain | negligible, np.where(inside, 1.0, least), 0.0)
     most = np.minimum(rounding.up(most * larger), 1.0)
     axis = np.argmax(changes + 1e-6 * reach / np.maximum(np.max(reach, axis=0), LEAST), axis=0)
-    return Judged(inside & certain & ~outside, outside, least, np.where(outside, 0.0, most), axis)
+    return JudgedBoxes(inside & certain & ~outside, outside, least, np.where(outside, 0.0, most), axis)
 
 
 def _cube(boxes: Boxes, reach: FloatArray) -> FloatArray:
@@ -170,7 +174,7 @@ def _cube(boxes: Boxes, reach: FloatArray) -> FloatArray:
 
 
 def _regular(
-    criteria: Criteria, found: dict[str, Sloped], ranges: dict[str, Interval], count: int
+    criteria: Criteria, factors: dict[str, Sloped], ranges: dict[str, Interval], count: int
 ) -> tuple[BoolArray, BoolArray]:
     """Where nothing that the formulas divide by is zero, and where it may be but on a set without volume.
 
@@ -183,7 +187,7 @@ def _regular(
     for name in criteria.regular:
         nonzero = ranges[name].nonzero
         certain &= nonzero
-        negligible &= nonzero | (found[name].centre.nonzero & ranges[name].defined)
+        negligible &= nonzero | (factors[name].centre.nonzero & ranges[name].defined)
     return certain, negligible
 
 

@@ -14,7 +14,7 @@ SECTION = 1e-3
 """How near those of a section shall be at least: it has one coordinate less."""
 
 
-def volume_bounds(record: MechanismRecord, found: Workspace) -> CertifiedWorkspace:
+def volume_bounds(record: MechanismRecord, region: Workspace) -> CertifiedWorkspace:
     """Proved bounds of the volume and the sections of a workspace: of the same mode, box, strokes and cuts.
 
     Errors:
@@ -31,12 +31,12 @@ def volume_bounds(record: MechanismRecord, found: Workspace) -> CertifiedWorkspa
     def bounds(gap: float) -> CertifiedWorkspace:
         return certified_workspace(
             record,
-            found.mode,
-            dict(zip(found.box.names, found.box.intervals, strict=True)),
-            found.strokes,
-            found.slice.held,
+            region.mode,
+            dict(zip(region.box.names, region.box.intervals, strict=True)),
+            region.strokes,
+            region.slice.held,
             gap,
-            [item.value for item in found.sections],
+            [item.value for item in region.sections],
             section_gap=min(gap, SECTION),
         )
 
