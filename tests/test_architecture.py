@@ -14,7 +14,7 @@ import pytest
 from imports import imports, module_files
 from packages import order
 
-from assur.cli.main import COMMANDS
+from assur.cli.application import COMMANDS
 from assur.model.kernels.library import OFFERED
 
 ROOT = Path(__file__).parents[1]

@@ -67,7 +67,7 @@ def test_every_page_is_in_a_table_of_contents():
 
 
 def test_commands_that_are_shown_exist():
-    from assur.cli.main import application
+    from assur.cli.application import application
 
     known = set(application())
     form = re.compile(r"(?:^|^    |`)assur ([a-z]+)", re.MULTILINE)

@@ -144,3 +144,15 @@ def test_leaves_of_a_text_are_judged_anew():
 def test_what_is_no_whole_tree_is_refused(text):
     with pytest.raises(UsageError, match="no whole tree"):
         planted(text, SQUARE, disc)
+
+
+def depth_first(tree, place=0):
+    """The tokens of a subtree, by going down it."""
+    below = (tree.first[place], tree.second[place]) if tree.first[place] >= 0 else ()
+    return tree.tokens[place] + "".join(depth_first(tree, child) for child in below)
+
+
+@pytest.mark.parametrize("most", [1, 2, 3, 40, 400])
+def test_a_text_goes_down_its_tree(most):
+    tree = grow(SQUARE, disc, longest, limits(most=most))
+    assert tree.text == depth_first(tree)

@@ -67,7 +67,7 @@ def test_ctrl_c_ends_it_and_writes_nothing(assur_cli, tmp_path, monkeypatch, whe
     monkeypatch.setattr(f"assur.{where}", interrupted)
     path = tmp_path / "p.json"
     run = assur_cli(*FIVEBAR, "-o", str(path), *WAY)
-    assert (run.code, run.out, run.err) == (130, "", "interrupted\n")
+    assert (run.code, run.out, run.err) == (130, "", "interrupted: there is no answer yet\n")
     assert not path.exists()
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from assur.cli import exit_codes
-from assur.cli.main import HELP, application
+from assur.cli.application import HELP, application
 from assur.errors import UsageError
 
 CONVENTIONS = Path(__file__).parents[2] / "CONVENTIONS.md"

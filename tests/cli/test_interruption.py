@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import signal
+import subprocess
+import sys
 
 import pytest
 
@@ -41,7 +43,7 @@ def at_call(monkeypatch, key):
 
 def told(run):
     assert run.code == INTERRUPTED == 130
-    assert run.err.endswith(f"{interruption.SAID}\n")
+    assert f"{interruption.SAID}\nat: " in run.err
 
 
 def test_a_search_hands_over_the_solutions_that_it_has(assur_cli, at_call, monkeypatch):
@@ -59,7 +61,12 @@ def test_a_search_hands_over_the_solutions_that_it_has(assur_cli, at_call, monke
 def test_before_anything_is_found_nothing_is_printed(assur_cli, at_call):
     at_call("assur.kinematics.search.assemble", 1)
     run = assur_cli("direct", "fivebar", "127", "53", "--method", "search")
-    assert (run.code, run.out, run.err) == (130, "", "interrupted\n")
+    assert (run.code, run.out) == (130, "")
+    assert run.err == (
+        "interrupted: there is no answer yet\n"
+        "at: direct: search of assemblies from many starts (0 of 1536)\n"
+        "done before: reading the file, soundness of the joint graph\n"
+    )
 
 
 PAVING = "assur.workspace.certified.paving._worst"
@@ -141,6 +148,120 @@ def test_what_was_compared_with_the_engine_is_printed(assur_cli, at_call):
     run = assur_cli("crosscheck", "fivebar", "--samples", "3", "--json")
     told(run)
     assert next(item for item in run.json["differences"] if item["kind"] == "frames of links")["count"] == 3
+
+
+def test_a_path_is_printed_as_far_as_it_was_followed(assur_cli, at_call):
+    at_call("assur.kinematics.paths.following.step_on", 4)
+    run = assur_cli("follow", "fivebar", "--from", "0", "200", "--to", "60", "220", "--json")
+    told(run)
+    assert len(run.json["shares"]) == 4
+    assert 0 < run.json["shares"][-1] < 1
+    assert run.json["stopped"]["kind"] == "interrupted"
+
+
+@pytest.mark.parametrize(
+    ("place", "at"),
+    [
+        ("assur.kinematics.contract.held.of_formulas", "check: closed form"),
+        ("assur.kinematics.contract.held.solutions", "check: closed form: closed form against the joint graph"),
+    ],
+)
+def test_a_check_says_which_parts_were_without_fault(assur_cli, at_call, tmp_path, monkeypatch, place, at):
+    import shutil
+
+    from assur.model.registry import load_record
+
+    monkeypatch.setenv("ASSUR_CACHE", str(tmp_path / "cache"))
+    shutil.copytree(load_record("fivebar").file.parent, tmp_path / "own")
+    at_call(place.replace("held.of_formulas", "check.of_formulas"), 1)
+    run = assur_cli("check", str(tmp_path / "own/mechanism.toml"))
+    assert (run.code, run.out) == (130, "")
+    assert f"\nat: {at}\n" in run.err
+    assert "text of the files (0 faults)" in run.err
+    assert "joint graph and labels (0 faults)" in run.err
+
+
+def test_files_that_were_written_by_then_are_named(assur_cli, at_call, tmp_path):
+    at_call("assur.results.files.replace_file", 3)
+    run = assur_cli("export", "fivebar", "--format", "stl", "-o", str(tmp_path / "parts"))
+    assert run.code == 130
+    names = sorted(path.name for path in (tmp_path / "parts").iterdir())
+    assert len(names) == 2
+    assert all(name in run.err.rpartition("written before: ")[2] for name in names)
+
+
+def test_an_answer_that_was_broken_off_says_where(assur_cli, at_call):
+    at_call(PAVING, 3)
+    run = assur_cli("workspace", "zeng2019", "--certify", "--gap", "1e-6", "--json")
+    assert run.json["interrupted_at"].startswith("workspace: ")
+
+
+def test_a_module_is_loaded_to_its_end(key, tmp_path, monkeypatch):
+    """Half a module of compiled code cannot be loaded again, when the part that was done is printed."""
+    (tmp_path / "slow_to_load.py").write_text("import signal\nsignal.raise_signal(signal.SIGINT)\nLOADED = True\n")
+    monkeypatch.syspath_prepend(tmp_path)
+
+    def loading():
+        import slow_to_load
+
+        assert slow_to_load.LOADED
+        while True:
+            pass
+
+    with interruption.watched(), pytest.raises(KeyboardInterrupt):
+        loading()
+
+
+@pytest.mark.filterwarnings("error")
+def test_what_is_called_back_does_not_swallow_it(key, capfd):
+    class Kept:
+        def __del__(self):
+            key()
+
+    def calling_back():
+        kept = Kept()
+        del kept
+        while True:
+            pass
+
+    with interruption.watched(), pytest.raises(KeyboardInterrupt):
+        calling_back()
+    assert capfd.readouterr().err == ""
+
+
+def test_an_error_that_a_library_makes_of_it_is_no_bug_of_ours(assur_cli, key, monkeypatch):
+    def converting(*_, **__):
+        try:
+            key()
+        except KeyboardInterrupt:
+            raise SystemError("a callback failed") from None
+
+    monkeypatch.setattr("assur.mechanism.Mechanism.direct", converting)
+    run = assur_cli("direct", "fivebar", "127", "53")
+    assert (run.code, run.out) == (130, "")
+    assert run.err.startswith("interrupted: there is no answer yet\nat: direct\n")
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.05, 0.1])
+def test_while_it_is_loaded_it_ends_by_a_word(delay):
+    """From the moment at which assur's own code runs; before that it is Python that is started."""
+    code = f"""
+import signal, sys, threading, time
+signal.signal(signal.SIGINT, signal.default_int_handler)
+from assur.cli.main import main
+def press():
+    while signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        time.sleep(0.001)
+    time.sleep({delay})
+    signal.raise_signal(signal.SIGINT)
+threading.Thread(target=press, daemon=True).start()
+sys.exit(main(["direct", "h4_robot", "0", "0", "0", "0", "--method", "search"]))
+"""
+    call = [sys.executable, "-c", code]
+    done = subprocess.run(call, capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == INTERRUPTED
+    assert done.stderr.startswith("interrupted")
+    assert "Traceback" not in done.stderr
 
 
 def test_a_stage_that_answered_with_what_it_had_ends_the_work(key):

@@ -190,6 +190,6 @@ def test_an_interrupt_exits_130(assur_cli, monkeypatch):
 
     monkeypatch.setattr("assur.mechanism.Mechanism.direct", interrupted)
     run = assur_cli("direct", "zeng2019", "1", "2", "3")
-    assert (run.code, run.out, run.err) == (130, "", "interrupted\n")
+    assert (run.code, run.out, run.err) == (130, "", "interrupted: there is no answer yet\n")
     run = assur_cli("direct", "zeng2019", "1", "2", "3", "--json")
     assert run.code == run.json["error"]["exit_code"] == 130

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 import assur
-from assur.cli.main import application
+from assur.cli.application import application
 
 COMMANDS = (
     *("list", "show", "check", "topology", "direct", "inverse", "follow", "singularity", "workspace", "certify"),

@@ -6,7 +6,7 @@ import pytest
 from cyclopts import CycloptsError
 
 from assur.cli import parsing
-from assur.cli.main import application
+from assur.cli.application import application
 
 WRONG = {
     "sweep zeng2019 --alng x=3": ("unknown option --alng of assur sweep", "did you mean --along"),

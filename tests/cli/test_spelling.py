@@ -11,7 +11,7 @@ import pytest
 
 import assur
 from assur.cli import parsing
-from assur.cli.main import application
+from assur.cli.application import application
 from assur.cli.spelling import as_typed
 from assur.errors import MechanismFileError, Problem, UsageError
 

@@ -8,7 +8,7 @@ import shlex
 import pytest
 
 import assur
-from assur.cli.main import application
+from assur.cli.application import application
 from assur.derived_topology import topology as derive
 from assur.model.registry import topology_names
 from assur.topology.answers import answers

@@ -20,6 +20,7 @@ from assur.audit.topology import PrintedDecomposition, PrintedPocSet, decomposit
 from assur.errors import UnknownNameError
 from assur.model.file.schema import Entry
 from assur.model.mechanism import MechanismRecord
+from assur.work import stage
 
 
 @dataclass(frozen=True)
@@ -70,7 +71,8 @@ def audit(record: MechanismRecord) -> Audit:
         ('-128.8290', -83.0873, 'wrong', 'E3')
     """
     reference = reference_of(record)
-    checked = errata(record)
+    with stage("evidence of errata"):
+        checked = errata(record)
     rows = rows_of(record, tuple(KINDS))
     for entry in reference.entries["statement"]:
         rows += statement_rows(record, entry, checked)
@@ -81,9 +83,12 @@ def audit(record: MechanismRecord) -> Audit:
 def rows_of(record: MechanismRecord, kinds: Sequence[str]) -> list[Row]:
     """The rows of some kinds of reference entry only (names of `KINDS`), without errata and statements."""
     reference = reference_of(record)
-    return [
-        row for name in kinds for entry in reference.entries[name] for row in KINDS[name].rows(record, reference, entry)
-    ]
+    rows: list[Row] = []
+    for name in kinds:
+        with stage(f"printed values of kind {name}") as work:
+            rows += [row for entry in reference.entries[name] for row in KINDS[name].rows(record, reference, entry)]
+            work.result = f"{len(rows)} rows so far"
+    return rows
 
 
 @lru_cache(maxsize=8)

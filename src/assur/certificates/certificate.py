@@ -28,6 +28,7 @@ from assur.workspace.domain import box_of
 
 FORMAT, VERSION = "assur certificate", 1
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
 Kind = Literal["workspace", "box", "path"]
 CLAIMS = {
     "workspace": ("leaves", "volume", "regular_volume"),
@@ -240,11 +241,27 @@ def proved_by(leaves: Leaves, trees: Sequence[Tree]) -> dict[str, Any]:
 
 
 def _volume(boxes: Boxes) -> Fraction:
-    """Exact volume of boxes together."""
-    total = Fraction(0)
-    for low, high in zip(boxes.low.T.tolist(), boxes.high.T.tolist(), strict=True):
-        total += math.prod((Fraction(b) - Fraction(a) for a, b in zip(low, high, strict=True)), start=Fraction(1))
-    return total
+    """Exact volume of boxes together; those of the same sides, of which a tree has many, are counted."""
+    kind = np.zeros(len(boxes), dtype=np.int64)
+    lengths: list[list[Fraction]] = [[]]  # of no side so far
+    for low, high in zip(boxes.low, boxes.high, strict=True):
+        axis, which = _lengths(low, high)
+        kinds, kind = np.unique(kind * len(axis) + which, return_inverse=True)
+        lengths = [[*lengths[k // len(axis)], axis[k % len(axis)]] for k in kinds.tolist()]
+    counts = np.bincount(kind, minlength=len(lengths)).tolist()
+    return sum((count * math.prod(sides) for count, sides in zip(counts, lengths, strict=True)), Fraction(0))
+
+
+def _lengths(low: FloatArray, high: FloatArray) -> tuple[list[Fraction], IntArray]:
+    """The different exact lengths of intervals (N,), and which of them (N,) each has."""
+    length = high - low
+    back = length - high
+    lost = (high - (length - back)) - (low + back)  # by rounding, exactly: Knuth's sum of two numbers
+    main, first = np.unique(length, return_inverse=True)
+    rest, second = np.unique(lost, return_inverse=True)
+    pairs, which = np.unique(first * len(rest) + second, return_inverse=True)
+    exact_ones = [Fraction(main[k // len(rest)]) + Fraction(rest[k % len(rest)]) for k in pairs.tolist()]
+    return exact_ones, which
 
 
 def _below(value: Fraction) -> float:

@@ -54,14 +54,19 @@ class Tree:
     @property
     def text(self) -> str:
         """The tree, depth first."""
-        tokens, first, second = self.tokens.tolist(), self.first.tolist(), self.second.tolist()
-        parts, stack = [], [0]
-        while stack:
-            place = stack.pop()
-            parts.append(tokens[place])
-            if first[place] >= 0:
-                stack += (second[place], first[place])
-        return "".join(parts)
+        levels, size = [np.array([0])], np.ones(len(self.tokens), dtype=np.int64)
+        while len(cut := levels[-1][self.first[levels[-1]] >= 0]):
+            levels.append(np.concatenate([self.first[cut], self.second[cut]]))
+        cuts = [level[self.first[level] >= 0] for level in levels]
+        for cut in reversed(cuts):  # how many tokens each subtree has, from its leaves
+            size[cut] += size[self.first[cut]] + size[self.second[cut]]
+        place = np.zeros_like(size)
+        for cut in cuts:
+            place[self.first[cut]] = place[cut] + 1
+            place[self.second[cut]] = place[cut] + 1 + size[self.first[cut]]
+        ordered = np.empty_like(self.tokens)
+        ordered[place] = self.tokens
+        return "".join(ordered.tolist())
 
 
 @dataclass(frozen=True, eq=False)

@@ -56,19 +56,21 @@ def outcome(
         made = path_certificate(record, found, path, most, step)
     if made.claims["regular"] != "yes":
         return _none("undecided", "a box of the path is not proved with so few leaves", exit_codes.UNDECIDED)
-    return written(made, target, record)
+    return written(made, target, record, shared)
 
 
-def written(found: Certificate, target: Path, record: Mechanism) -> Outcome:
+def written(found: Certificate, target: Path, record: Mechanism, shared: Shared) -> Outcome:
     """Write a certificate, and say what it claims; of a box or a path the exit code is that of the answer."""
     from assur.certificates.summary import claim_lines, shares, statement_lines
 
-    found.write(target)
-    document = found.to_json()
-    first, *rest = [*statement_lines(document, record), *claim_lines(document, record)]
+    with progress("writing the certificate", shared):  # some seconds for millions of leaves
+        found.write(target)
+        document = found.to_json()
+        first, *rest = [*statement_lines(document, record), *claim_lines(document, record)]
+        part = shares(document["proof"])
     lines = [*rest, "how: interval arithmetic, not yet checked by `assur verify`", f"written: {target}"]
     data = {key: value for key, value in document.items() if key not in ("program", "proof")}
-    data |= {"shares": shares(document["proof"]), "written": str(target)}
+    data |= {"shares": part, "written": str(target)}
     asked = [found.claims[name] for name in ("reached", "regular") if name in found.claims]
     return Outcome(data, lambda: [heading(first), *lines], exit_codes.of_answers(asked))
 

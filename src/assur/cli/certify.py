@@ -105,7 +105,7 @@ def certify(
             progress=step,
             start=_earlier(target) if resume and target.exists() else None,
         )
-    return written(found, target, record)
+    return written(found, target, record, shared)
 
 
 def _compatible(kind: str, start: str | None, end: str | None, gap: str | None, resume: bool) -> None:

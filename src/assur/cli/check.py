@@ -12,6 +12,7 @@ from assur.cli.called import called
 from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
 from assur.cli.output import Verbatim, heading
 from assur.cli.quantities import count
+from assur.work import stage
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -50,13 +51,20 @@ def check(
     from assur.model.registry import load_record
     from assur.report.labels import label_faults
 
-    known, problems = examine(mechanism)
+    with stage("text of the files") as text:
+        known, problems = examine(mechanism)
+        text.result = count(len(problems), "fault")
     if problems:
         every = [*problems, *((*faults(known), *label_faults(known)) if known else ())]
         every.sort(key=lambda item: (not item.file.endswith(".toml"), item.file, item.line or 0))
         return _outcome(mechanism, every, (), None)
     record = load_record(mechanism, **shared.dimensions)
-    found = [*faults(record), *label_faults(record)] or _of_closed_form(record, deep)
+    with stage("joint graph and labels") as work:
+        found: tuple[Problem, ...] = (*faults(record), *label_faults(record))
+        work.result = count(len(found), "fault")
+    with stage("closed form") as work:
+        found = found or _of_closed_form(record, deep)
+        work.result = count(len(found), "fault")
     facts = None if found else _summary(record)
     return _outcome(record.name, found, () if found else doubts(record), facts, _next(mechanism))
 

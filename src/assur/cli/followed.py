@@ -78,10 +78,17 @@ def _from_home_mode(
 def _followed(
     record: Mechanism, joints: NDArray[Any], along: Along, goal: NDArray[Any], *, turns: Turns, use_limits: bool
 ) -> Outcome:
+    from assur.cli.interruption import handing_over
     from assur.kinematics.paths.following import follow
+    from assur.kinematics.paths.path import Path
 
     options: dict[str, Any] = {"poses" if along == "pose" else "inputs": goal}
-    path = follow(record, joints, **options, turns=turns, use_limits=use_limits)
+    with handing_over(Path, lambda path: _outcome(record, path)):
+        path = follow(record, joints, **options, turns=turns, use_limits=use_limits)
+    return _outcome(record, path)
+
+
+def _outcome(record: Mechanism, path: Path) -> Outcome:
     code = exit_codes.FINE
     if path.stopped is not None:  # "undecided" where nothing is seen that would stop it
         code = exit_codes.UNDECIDED if path.stopped.kind == "undecided" else exit_codes.STOPPED

@@ -1,34 +1,51 @@
-"""Ctrl-C: whatever a command has so far is printed, and the exit code says that it was ended.
+"""Ctrl-C: whatever a command has so far is printed, and where it was; the exit code says that it was ended.
 
 A long work of the library ends in one of two ways. It answers with what it has, and says that it was interrupted; or it
 raises `assur.errors.Interrupted` with that, of which the command makes its outcome (`handing_over`). A command of
-several stages asks `go_on` between them, so that none begins after Ctrl-C.
+several stages asks `go_on` between them, so that none begins after Ctrl-C. Where there is nothing to hand over,
+`where` says at which stage of `assur.work` the command was.
+
+A module that is half loaded cannot be loaded again, and what Python calls back from elsewhere swallows an exception: so
+Ctrl-C waits for the end of an import, and is pressed once more where it was swallowed.
 """
 
 from __future__ import annotations
 
+import _thread
 import signal
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from types import FrameType
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
+from assur import work
 from assur.cli.exit_codes import INTERRUPTED
-from assur.cli.options import Outcome
 from assur.errors import Interrupted
+
+if TYPE_CHECKING:
+    from assur.cli.options import Outcome
 
 Answer = TypeVar("Answer")
 
 SAID = "interrupted: this is what was found so far"
+NOTHING = "interrupted: there is no answer yet"
+LOADING = "importlib._bootstrap>"
+"""What the names of Python's own files end in that load modules."""
+
+AGAIN = 0.02
+"""Seconds after which Ctrl-C is pressed once more that could not end the command; an import takes as long."""
 
 
 @dataclass
 class _Key:
-    """Whether Ctrl-C was pressed since the command began."""
+    """Whether Ctrl-C was pressed since the command began, at which stages that was, and what was done."""
 
     pressed: bool = False
+    where: str = ""
+    before: str = ""
 
 
 _KEY = _Key()
@@ -45,15 +62,17 @@ class PartialOutcomeInterrupt(KeyboardInterrupt):
 @contextmanager
 def watched() -> Iterator[None]:
     """Note whether Ctrl-C is pressed inside; whoever ignores it, as a job in the background of a shell, still does."""
-    _KEY.pressed = False
-    before = signal.getsignal(signal.SIGINT)
+    _KEY.pressed, _KEY.where, _KEY.before = False, "", ""
+    before, unraisable = signal.getsignal(signal.SIGINT), sys.unraisablehook
     if before is not signal.default_int_handler or threading.current_thread() is not threading.main_thread():
         yield
         return
     signal.signal(signal.SIGINT, _noted)
+    sys.unraisablehook = lambda lost: _press_again() if lost.exc_type is KeyboardInterrupt else unraisable(lost)
     try:
         yield
     finally:
+        sys.unraisablehook = unraisable
         signal.signal(signal.SIGINT, before)
 
 
@@ -93,9 +112,36 @@ def ended(command: Callable[[], Outcome]) -> Outcome:
     else:
         if not _KEY.pressed:
             return outcome
-    return replace(outcome, interrupted=True, exit_code=INTERRUPTED)
+    return replace(outcome, interrupted=True, interrupted_at=_KEY.where, exit_code=INTERRUPTED)
+
+
+def said(*, handed_over: bool = True) -> str:
+    """What is said of a command that Ctrl-C ended: whether its answer is printed, where it was, what was done."""
+    head = SAID if handed_over else NOTHING
+    at = f"at: {_KEY.where}" if _KEY.where else ""
+    return "\n".join(line for line in (head, at, _KEY.before) if line)
 
 
 def _noted(number: int, frame: FrameType | None) -> None:
-    _KEY.pressed = True
-    signal.default_int_handler(number, frame)
+    if not _KEY.pressed:
+        at = ": loading what it needs" if _loading(frame) else ""
+        _KEY.pressed, _KEY.where, _KEY.before = True, work.where() + at, work.before()
+    if _loading(frame):
+        _press_again()
+    else:
+        signal.default_int_handler(number, frame)
+
+
+def _loading(frame: FrameType | None) -> bool:
+    """Whether a module is being loaded."""
+    while frame is not None:
+        if frame.f_code.co_filename.endswith(LOADING):
+            return True
+        frame = frame.f_back
+    return False
+
+
+def _press_again() -> None:
+    timer = threading.Timer(AGAIN, _thread.interrupt_main)
+    timer.daemon = True
+    timer.start()

@@ -136,4 +136,5 @@ class Outcome:
     shown: Callable[[], Iterable[RenderableType]]
     exit_code: int = 0
     interrupted: bool = False
+    interrupted_at: str = ""
     not_run: tuple[NotRun, ...] = ()

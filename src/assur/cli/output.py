@@ -57,7 +57,8 @@ def _circumstances(outcome: Outcome) -> Circumstances:
     from assur.results.answers.answer import ABSENT, Circumstances, CodeNotRun
 
     codes = tuple(CodeNotRun(code.file, code.line, code.reason, code.instead) for code in outcome.not_run)
-    return Circumstances(True if outcome.interrupted else ABSENT, codes or ABSENT)
+    at = outcome.interrupted_at if outcome.interrupted else ABSENT
+    return Circumstances(True if outcome.interrupted else ABSENT, at, codes or ABSENT)
 
 
 class Verbatim(str):

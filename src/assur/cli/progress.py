@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from assur.cli.interruption import go_on
 from assur.cli.output import console
+from assur.work import WorkStage, stage
 
 if TYPE_CHECKING:
     from assur.cli.options import Plain
@@ -25,15 +26,21 @@ LONG = 20.0
 def progress(label: str, shared: Plain) -> Iterator[Step]:
     """A bar while the block runs, the time so far, and that left once it can be told; all goes when the block ends.
 
-    The bar pulses until the first step is reported.
+    The bar pulses until the first step is reported. How far it is is noted as a stage, whoever looks.
     """
-    if shared.json:
-        yield _nothing
-        return
-    if not sys.stderr.isatty():
-        with _line(f"{label}: still at work after {LONG:g} s\n"):
-            yield _nothing
-        return
+    with stage(label) as work:
+        if shared.json:
+            yield work.at
+        elif not sys.stderr.isatty():
+            with _line(f"{label}: still at work after {LONG:g} s\n"):
+                yield work.at
+        else:
+            with _bar(label, work) as step:
+                yield step
+
+
+@contextmanager
+def _bar(label: str, work: WorkStage) -> Iterator[Step]:
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
     left = (TextColumn("left"), TimeRemainingColumn())
@@ -42,6 +49,7 @@ def progress(label: str, shared: Plain) -> Iterator[Step]:
         bar = bars.add_task(label, total=None)
 
         def step(done: int, total: int) -> None:
+            work.at(done, total)
             bars.update(bar, completed=done, total=total)
 
         yield step
@@ -67,7 +75,3 @@ def _line(text: str) -> Iterator[None]:
         yield
     finally:
         timer.cancel()
-
-
-def _nothing(done: int, total: int) -> None:
-    """Nobody looks."""

@@ -31,6 +31,7 @@ from assur.figures.style import styled
 from assur.model.mechanism import MechanismRecord
 from assur.results.files import write_whole
 from assur.results.json_text import json_text
+from assur.work import stage
 
 ENTRIES: tuple[FigureKind, ...] = (
     STRUCTURE,
@@ -117,7 +118,7 @@ def drawing(record: MechanismRecord, name: str, context: Context | None = None) 
     shared = context or Context(record)
     entry = _entry(record, name, shared)
     if name not in shared.drawings:
-        with styled():
+        with stage(f"figure {name}"), styled():
             shared.drawings[name] = entry.draw(shared)
     made: Drawing = shared.drawings[name]
     return made

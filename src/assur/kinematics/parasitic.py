@@ -18,6 +18,7 @@ from assur.kinematics.position import inverse
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, has_quaternion, is_angle
 from assur.numerics import rotations
+from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 STEPS = (0.05, 0.05 / 16)
@@ -42,6 +43,7 @@ def left_out(record: MechanismRecord) -> tuple[str, ...]:
 
 
 @lru_cache(maxsize=64)
+@stage("parasitic motions")
 def moving(record: MechanismRecord) -> tuple[str, ...]:
     """Names of those coordinates that the pose leaves out and that change when the platform leaves home.
 

@@ -25,6 +25,7 @@ from assur.kinematics.turns import (
 )
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
+from assur.work import WorkStage, stage
 
 FloatArray = NDArray[np.float64]
 STARTS = 192
@@ -69,7 +70,13 @@ def search(record: MechanismRecord, problem: Problem, given: FloatArray, seed: i
     >>> len(search(load_record("fivebar"), "direct", np.radians([127.0, 53.0])).joints)
     2
     """
-    rng = np.random.default_rng(seed)
+    with stage("search of assemblies from many starts", MOST) as work:
+        return _searched(record, problem, given, np.random.default_rng(seed), work)
+
+
+def _searched(
+    record: MechanismRecord, problem: Problem, given: FloatArray, rng: np.random.Generator, work: WorkStage
+) -> Search:
     known = np.empty((0, len(record.coordinates)))
     starts, last, nearest, again = 0, 0, np.inf, 0
     while starts < MOST and again < AGAIN * max(len(known), 1):
@@ -91,6 +98,7 @@ def search(record: MechanismRecord, problem: Problem, given: FloatArray, seed: i
             newest = int(kept[-1]) - len(known)
             last, again = starts + int(closed[newest]) + 1, len(closed) - newest - 1
         known, nearest, starts = joints[kept], min(nearest, float(np.min(found.residual))), starts + STARTS
+        work.at(starts, MOST, f"{len(known)} assemblies so far")
     return Search(known, starts, last, nearest, again >= AGAIN * max(len(known), 1))
 
 

@@ -18,6 +18,7 @@ from assur.model.file.description import description_text, with_ending
 from assur.model.kept_readings import keep_reading, kept_reading
 from assur.model.mechanism import MechanismRecord
 from assur.results.reading import file_text
+from assur.work import stage
 
 FILE = "mechanism.toml"
 TOPOLOGY = "topology.toml"
@@ -74,6 +75,7 @@ def left_out() -> tuple[LeftOut, ...]:
     return tuple(LeftOut(name, **entry) for name, entry in sorted(entries.items()))
 
 
+@stage("reading the file")
 def load_record(name_or_path: str | Path, /, **overrides: Any) -> MechanismRecord:
     """The record of a built-in mechanism or of a file, with its closed form, if there is one beside it.
 

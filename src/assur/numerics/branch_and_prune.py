@@ -18,6 +18,7 @@ from assur.numerics.intervals.interval import Interval, as_interval, common
 from assur.numerics.intervals.shapes import concatenate, empty
 from assur.numerics.krawczyk import image, inflated, parts, proves, refutes, tightened
 from assur.numerics.number_types import Intervals
+from assur.work import WorkStage, stage
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
@@ -94,11 +95,26 @@ def zeros(
     >>> sorted(answer.isolated.middle.round(6).tolist()), len(answer.undecided.low)
     ([[-1.414214, -0.707107], [1.414214, 0.707107]], 0)
     """
+    with stage("boxes") as work:
+        return _zeros(conditions, boxes, labels, scale, smallest, most, total, work)
+
+
+def _zeros(
+    conditions: Conditions,
+    boxes: Interval,
+    labels: IntArray,
+    scale: ArrayLike,
+    smallest: float,
+    most: int,
+    total: int,
+    work: WorkStage,
+) -> Zeros:
     size = np.broadcast_to(np.asarray(scale, dtype=float), boxes.shape[-1:])
     proved: list[tuple[Interval, Interval, IntArray]] = []
     left: list[tuple[Interval, IntArray]] = []
     examined = 0
     while len(boxes.low):
+        work.at(examined, result=f"{len(boxes.low)} open, {sum(len(known[0].low) for known in proved)} proved so far")
         examined += len(boxes.low)
         if len(boxes.low) > most or examined > total:
             left.append((boxes, labels))

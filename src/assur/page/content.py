@@ -26,6 +26,7 @@ from assur.scene.layers import Layer
 from assur.scene.letters import letters
 from assur.scene.parts import parts
 from assur.scene.skeleton import Skeleton, skeleton
+from assur.work import stage
 
 VERSION = 1
 """Of the form of the scene; a page and its program belong together."""
@@ -34,6 +35,7 @@ DIGITS = 6
 """Significant digits, of the size of the mechanism, of what is only drawn."""
 
 
+@stage("numbers of the page")
 def content(record: MechanismRecord, layers: Sequence[Layer], layers_note: str = "") -> dict[str, Any]:
     """The scene at home, with layers as `assur.scene.layers` gives them; lengths in the unit, angles in rad.
 

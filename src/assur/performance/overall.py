@@ -21,6 +21,7 @@ from assur.performance.indices import INDICES, Indices, indices, indices_at
 from assur.performance.scaling import Length
 from assur.performance.transmission import GOOD
 from assur.results.json_text import plain
+from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 POINTS = 2**12
@@ -109,6 +110,7 @@ class OverallIndices:
         }
 
 
+@stage("indices over the workspace")
 def overall(
     record: MechanismRecord,
     region: MeasuredRegion,

@@ -31,6 +31,7 @@ from assur.results.answers.files import ReportNumber
 from assur.results.attempt import REFUSED, reason
 from assur.results.files import write_whole
 from assur.results.kinds import Facts, Picture, Result, Scalar, Section
+from assur.work import stage
 from assur.workspace.region import default_resolution
 
 Progress = Callable[[int, int], None]
@@ -104,12 +105,13 @@ def report_page(findings: Findings, progress: Progress | None = None) -> Page:
 def _make(findings: Findings, sections: dict[str, Section], refused: dict[str, str], tick: Callable[[], None]) -> None:
     """Make the sections one by one, or note why there is none."""
     for analysis in ANALYSES:
-        with contextlib.suppress(*REFUSED):  # the sections that need it say why
+        with stage(analysis), contextlib.suppress(*REFUSED):  # the sections that need it say why
             getattr(findings, analysis)
         tick()
     for title, make in SECTIONS:
         try:
-            made = make(findings)
+            with stage(title):
+                made = make(findings)
         except REFUSED as error:
             refused[title] = reason(error)
         else:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from assur.errors import OutputError
 from assur.storage import replace_file
+from assur.work import written
 
 
 def write_whole(path: str | Path, content: str | bytes) -> Path:
@@ -24,4 +25,5 @@ def write_whole(path: str | Path, content: str | bytes) -> Path:
         replace_file(target, content.encode() if isinstance(content, str) else content)
     except OSError as error:
         raise OutputError(f"cannot write {target}: {error.strerror}", hint="choose another place") from error
+    written(str(target))
     return target

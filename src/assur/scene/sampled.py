@@ -13,6 +13,7 @@ from assur.kinematics.home import home_values
 from assur.kinematics.limits import limits
 from assur.kinematics.position import inverse
 from assur.model.mechanism import MechanismRecord
+from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 ROUNDS = 40
@@ -32,6 +33,7 @@ def from_box(record: MechanismRecord) -> bool:
     return record.closed_form is not None and all(name in record.box for name in record.platform.pose)
 
 
+@stage("poses to look at")
 def sampled(record: MechanismRecord, count: int, mode: str | None = None, seed: int = 0) -> FloatArray:
     """Joint values (k, n), k at most `count`, of a working mode (the file's default) within strokes and limits.
 

@@ -21,6 +21,7 @@ from assur.kinematics.rates.motions import general
 from assur.kinematics.rates.velocity import VelocityMap, velocity_map
 from assur.kinematics.status import Status, closed_form_of, relative_factors
 from assur.model.mechanism import MechanismRecord
+from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 SAMPLES = 40
@@ -88,6 +89,7 @@ def generic_rank(record: MechanismRecord) -> int:
     return int(general(record).closure)
 
 
+@stage("verdict on the pose")
 def verdict(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) -> Verdict:
     """Judge one pose (m,) in a working mode (the file's default where none is given).
 

@@ -35,6 +35,7 @@ from assur.topology.poc import PocSet
 from assur.topology.routes import KnownLimb, Rules, as_the_limbs_are, both, by_rules, check_xi, limb_known
 from assur.topology.rules.motion import Motion
 from assur.topology.rules.refusals import Refusal
+from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 Mode = Literal["home", "translation"]
@@ -81,6 +82,7 @@ class Sample:
         return self.poc[1] == 0 < self.poc[2]
 
 
+@stage("twists at home and on the way")
 def sample(linkage: Linkage, mode: Mode = "home") -> Sample:
     """A linkage at configurations displaced from home, the platform kept from turning in translation mode.
 
@@ -108,6 +110,7 @@ def held_in(linkage: Linkage, mode: Mode) -> Hold | None:
     return "parallelograms" if skewing else None
 
 
+@stage("topology")
 def analyse(
     linkage: Linkage,
     chains: Sequence[Chain] | None = None,

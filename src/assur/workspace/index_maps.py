@@ -24,6 +24,7 @@ from assur.performance.indices import INDICES, Indices, indices_at, indices_wher
 from assur.performance.scaling import Length
 from assur.results.json_text import plain
 from assur.singularity.distance import distance
+from assur.work import stage
 from assur.workspace.fields import inside_at, none_negative
 from assur.workspace.region import Workspace
 
@@ -168,6 +169,7 @@ class IndexMaps:
             yield [*point, status, *("" if np.isnan(value) else value for value in row)]
 
 
+@stage("maps of indices")
 def index_maps(
     record: MechanismRecord,
     region: Workspace,

@@ -31,6 +31,7 @@ from assur.kinematics.turns import in_one_turn, periodic
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.krawczyk import Equations, image, parts, proves, stacked
+from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -128,6 +129,7 @@ class _Proof:
         return bool(np.all(np.abs(apart) <= self.width + other.width + slack))
 
 
+@stage("proof of each assembly")
 def certified_assemblies(
     record: MechanismRecord, problem: Problem, given: FloatArray, method: Method = "auto"
 ) -> CertifiedSolutions:

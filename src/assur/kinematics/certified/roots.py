@@ -29,12 +29,14 @@ from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.intervals.shapes import concatenate, empty, stack
 from assur.numerics.number_types import Intervals
 from assur.numerics.root_discs import RootDiscs, root_discs
+from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 TURNS = ((1, 0), (4, 3), (3, -4), (12, 5))
 """Turns by twice the angle of (c, s): in t = tan(angle/2) a root at infinity is at a finite place after one of them."""
 
 
+@stage("proof by roots of the polynomial")
 def direct_by_roots(record: MechanismRecord, eliminant: Eliminant, inputs: FloatArray) -> CertifiedSolutions:
     """Every pose at printed inputs (n,), from the real roots of one polynomial for each choice of its signs."""
     given, p = joint_inputs(record, inputs), parameters(record)

@@ -27,6 +27,7 @@ from assur.numerics.intervals.interval import Interval, as_interval, common
 from assur.numerics.intervals.shapes import empty
 from assur.numerics.krawczyk import image, parts, proves, stacked
 from assur.numerics.number_types import Intervals
+from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -62,6 +63,7 @@ class _Scaled:
         return tuple(Complex(*pair) for pair in zip(numbers[::2], numbers[1::2], strict=True))
 
 
+@stage("proof by the polynomial system")
 def direct_by_system(record: MechanismRecord, system: PolynomialSystem, inputs: FloatArray) -> CertifiedSolutions:
     """Every pose at printed inputs (n,): complete where as many solutions are proved as `system.degree`.
 

@@ -25,6 +25,7 @@ from assur.model.mechanism import MechanismRecord
 from assur.numerics.degrees import Degree, Degrees
 from assur.numerics.prime_field import LARGE, PrimeField
 from assur.numerics.residues import Draws, Residues, inverted
+from assur.work import stage
 
 IntArray = NDArray[np.int64]
 DRAWS = 128
@@ -69,6 +70,7 @@ class Exactness:
 
 
 @lru_cache(maxsize=64)
+@stage("closed form in exact arithmetic")
 def exactness(record: MechanismRecord) -> Exactness:
     """Whether the formulas close the joint graph, with any dimensions or with those of the record.
 

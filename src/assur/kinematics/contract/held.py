@@ -30,6 +30,7 @@ from assur.kinematics.contract.zeros import false_zeros
 from assur.kinematics.modes import Problem
 from assur.kinematics.rates.motions import motions
 from assur.model.mechanism import MechanismRecord
+from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 
@@ -43,6 +44,7 @@ JOINTS = 24
 """The same for solutions, of which each takes as long as there are joint values."""
 
 
+@stage("closed form against the joint graph")
 def at_places(record: MechanismRecord, extent: Extent, seed: int = 0) -> list[Mismatch]:
     """What of a closed form does not hold at so many places; the laws in their order, the first that is broken alone.
 
@@ -80,6 +82,7 @@ def at_places(record: MechanismRecord, extent: Extent, seed: int = 0) -> list[Mi
     return broken or lacking(there, extent.problems, random)
 
 
+@stage("divisors, radicands and factors of the closed form")
 def of_formulas(record: MechanismRecord, extent: Extent, seed: int = 0) -> list[Mismatch]:
     """Divisors and radicands that nothing declares, and zeros of factors at which nothing is singular.
 
@@ -99,6 +102,7 @@ def of_formulas(record: MechanismRecord, extent: Extent, seed: int = 0) -> list[
     return found or false_zeros(kernel, there)
 
 
+@stage("closed form with other dimensions")
 def at_other_dimensions(record: MechanismRecord, extent: Extent, seed: int = 1) -> tuple[list[Mismatch], bool]:
     """What does not hold with other dimensions, and whether there are any: else each choice is a question of its own.
 

@@ -25,6 +25,7 @@ from assur.kinematics.turns import told_by_turns, with_turns_of_home
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion
 from assur.numerics import rotations
+from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 
@@ -46,6 +47,7 @@ class LoopSolutions:
     searched: int
 
 
+@stage("loops solved in turn")
 def solve_by_loops(
     record: MechanismRecord, inputs: ArrayLike | None = None, *, pose: ArrayLike | None = None, crossed: bool = False
 ) -> LoopSolutions:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from assur.errors import UsageError
+from assur.errors import Interrupted, UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.points import quantity
 from assur.kinematics.border import checked, inputs_of
@@ -23,6 +23,7 @@ from assur.kinematics.paths.stepping import Blocked, Point, Task, outside, point
 from assur.kinematics.paths.stopping import SINGULAR, stop_at
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
+from assur.work import WorkStage, stage
 
 FloatArray = NDArray[np.float64]
 TOLERANCE = 1e-9
@@ -96,7 +97,15 @@ def follow(
     bounds = limits(record, start) if use_limits else ()
     known = general_ranks(record, start) if ranks is None else ranks
     task = Task(record, way, bounds, known, tolerance, largest_step)
-    return _path(task, *_walk(task, start))
+    points: list[Point] = []
+    try:
+        with stage("path") as work:
+            blocked = _walk(task, start, points, work)
+    except KeyboardInterrupt:
+        if not points:
+            raise
+        raise Interrupted(_path(task, points, Blocked("interrupted", 0))) from None
+    return _path(task, points, blocked)
 
 
 def _checked_start(record: MechanismRecord, joints: ArrayLike) -> FloatArray:
@@ -113,9 +122,9 @@ def _checked_start(record: MechanismRecord, joints: ArrayLike) -> FloatArray:
     return start
 
 
-def _walk(task: Task, start: FloatArray) -> tuple[list[Point], Blocked | None]:
-    """Points from the start to the end of the way, or to what blocks it."""
-    points = [point_at(task, 0.0, start)]
+def _walk(task: Task, start: FloatArray, points: list[Point], work: WorkStage) -> Blocked | None:
+    """Add points from the start to the end of the way, or to what blocks it, which is the answer."""
+    points.append(point_at(task, 0.0, start))
     blocked = _blocked_at_once(task, points[0])
     step = task.largest_step
     for segment, end in enumerate(task.way.shares[1:]):
@@ -131,7 +140,8 @@ def _walk(task: Task, start: FloatArray) -> tuple[list[Point], Blocked | None]:
                 blocked = taken
             else:
                 points.append(taken)
-    return points, blocked
+                work.at(len(points), result=f"{taken.share:.0%} of the way")
+    return blocked
 
 
 def _blocked_at_once(task: Task, start: Point) -> Blocked | None:

@@ -32,6 +32,7 @@ from assur.kinematics.search import SAME, places
 from assur.kinematics.status import Status
 from assur.kinematics.turns import periodic_inputs
 from assur.model.mechanism import MechanismRecord
+from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 DETOURS = 6
@@ -112,6 +113,7 @@ class HomeMode:
         return bool(np.max(np.abs(here - there)) <= 10 * SAME)
 
 
+@stage("way of home's mode to the pose")
 def home_mode_at(
     record: MechanismRecord,
     target: ArrayLike,

@@ -30,6 +30,7 @@ WORDS = {
     "limit": "a limit",
     "unreachable": "what no motion of the mechanism does",
     "undecided": "a place where the steps became too small",
+    "interrupted": "Ctrl-C ended it",
 }
 
 
@@ -40,7 +41,7 @@ class Stop:
     Attributes:
         kind: serial, parallel, comprehensive, constraint or self_motion: a singularity lies ahead; limit: a stroke or
             a joint limit of the file; unreachable: the wanted rates are those of no motion; undecided: none of these
-            is seen, but no step can be taken.
+            is seen, but no step can be taken; interrupted: by Ctrl-C, nothing is said of what lies ahead.
         share, joints, pose, inputs: the place: share of the way, joint values (n,), pose (m,) and inputs (n,).
         quantity: what goes to zero: the smallest singular value with something locked, or the room to a limit.
         value: its value at the place; singular values without a dimension, rooms in rad or lengths.

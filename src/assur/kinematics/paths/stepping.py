@@ -82,11 +82,11 @@ class Blocked:
 
     Attributes:
         why: open (the loops did not close), far (the correction was large against the step), lost (a rank would be
-            lost on the way), missed (no motion has these rates), limit.
+            lost on the way), missed (no motion has these rates), limit, interrupted (by Ctrl-C).
         segment: of the way.
     """
 
-    why: Literal["open", "far", "lost", "missed", "limit"]
+    why: Literal["open", "far", "lost", "missed", "limit", "interrupted"]
     segment: int
     limit: Limit | None = None
 

@@ -63,6 +63,9 @@ def stop_at(
     if blocked.limit is not None:
         name, room = blocked.limit.name, float(blocked.limit.margin(last.joints))
         return Stop("limit", **place, quantity=f"the room to the {name}", value=room)
+    if blocked.why == "interrupted":
+        name = own(way.prescribed)[0]
+        return Stop("interrupted", **place, quantity=NAMES[name], value=float(sizes[name][-1]))
     if blocked.why == "missed":
         kind, name, mine = "unreachable", own(way.prescribed)[0], False
     else:

@@ -20,6 +20,7 @@ from assur.model.file.key_path import KeyPath
 from assur.model.file.place import input_place, place, problem, table_place
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
+from assur.work import stage
 
 SMALLEST, LARGEST = 1e-3, 50.0
 """A mechanism smaller or larger than this, in metres, has probably its lengths in another unit."""
@@ -40,6 +41,7 @@ ROUND = 1e-7
 
 
 @lru_cache(maxsize=64)
+@stage("soundness of the joint graph")
 def faults(record: MechanismRecord) -> tuple[Problem, ...]:
     """Faults of a mechanism whose file reads well: loops that do not close, no freedom, too few or too many inputs,
     inputs or a pose that say the same twice, a constant orientation that turns, a home beyond its limits.

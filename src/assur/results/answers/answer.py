@@ -76,6 +76,7 @@ class Circumstances:
     """What may stand in every answer of how it came about."""
 
     interrupted: Literal[True] | Absent = ABSENT
+    interrupted_at: str | Absent = ABSENT
     code_not_run: tuple[CodeNotRun, ...] | Absent = ABSENT
 
 

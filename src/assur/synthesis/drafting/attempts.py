@@ -33,6 +33,7 @@ from assur.topology.analysis import Mode, analyse, counted
 from assur.topology.chains import Chain
 from assur.topology.facts import Topology
 from assur.topology.notation import plain_text
+from assur.work import stage
 
 STRAIGHT = 1.0
 """A knee whose formula is smaller, in mm^2, is stretched."""
@@ -61,6 +62,7 @@ class DraftQuestion:
     topology: Topology
     mode: Mode
 
+    @stage("draft of one layout")
     def attempt(self, layout: DraftLayout, *, moved: bool) -> Attempt:
         """A layout as a file; `moved`: its home is not as drawn, but the platform a little away from there."""
         drawn = draft(self.chains, layout)
