@@ -21,7 +21,7 @@ STOREYS = {
     "a mechanism with its analyses": "mechanism derived_topology",
     "analyses": "synthesis certificates workspace singularity performance kinematics",
     "a mechanism as data": "joint_graph model topology joints",
-    "tools": "results numerics cache storage errors verifier version",
+    "tools": "results numerics cache storage errors verifier version work",
 }
 """Folders by what they are for; a test compares them with the order of imports."""
 
