@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-
 import pytest
 
 import assur
@@ -16,7 +14,12 @@ FOUND = aspects(assur.load("fivebar"), "-+", {"x": (-300, 300), "y": (-300, 300)
 def test_the_numbers_are_those_of_the_library(assur_cli):
     run = assur_cli("aspects", "fivebar", "--mode=-+", *WIDE, "--json")
     assert (run.code, run.err) == (0, "")
-    assert run.json == json.loads(json.dumps(FOUND.to_json()))
+    data = run.json
+    assert (data["coordinates"], data["box"]) == (["x", "y"], [[-300.0, 300.0], [-300.0, 300.0]])
+    assert [item["label"] for item in data["aspects"]] == [item.label for item in FOUND.aspects]
+    assert [item["volume"] for item in data["aspects"]] == [list(item.volume) for item in FOUND.aspects]
+    assert [item["boxes"] for item in data["aspects"]] == [len(item.boxes) for item in FOUND.aspects]
+    assert (data["undecided"], data["how"]) == (len(FOUND.search.undecided), FOUND.how)
 
 
 def test_a_person_sees_bounds_and_how_they_are_known(assur_cli):

@@ -11,6 +11,7 @@ from assur.errors import UsageError
 from assur.figures.index_maps import INDEX_MAPS, drawn, whole
 from assur.figures.style import styled
 from assur.performance.indices import INDICES, Index
+from assur.results.json_text import plain
 from assur.workspace.index_maps import index_maps
 from assur.workspace.region import workspace
 
@@ -27,7 +28,7 @@ def test_every_index_has_a_map_on_the_same_axes(name):
     drawing = figures.drawing(context.record, "indices", context)
     found = whole(context)
     assert found is whole(context)
-    assert drawing.data == found.to_json()
+    assert drawing.data == plain(found.answer())
     maps = [axes for axes in drawing.figure.axes if axes.get_xlabel()]
     assert len(maps) == len(found.maps) == len(INDICES) + 1
     assert len({(axes.get_xlim(), axes.get_ylim(), axes.get_xlabel(), axes.get_ylabel()) for axes in maps}) == 1

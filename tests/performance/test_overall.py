@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -119,15 +118,6 @@ def test_an_empty_region_says_nothing():
     mechanism = assur.load("zeng2019")
     found = overall(mechanism, workspace(mechanism, box={"x": (200, 300)}, resolution=8), 256)
     assert (found.points, found.values, found.good) == (0, {}, None)
-    assert json.loads(json.dumps(found.to_json(), allow_nan=False))["good_transmission"] is None
-
-
-def test_json_has_every_index():
-    mechanism, cube = orthoglide_cube()
-    read = json.loads(json.dumps(overall(mechanism, cube, 256).to_json(), allow_nan=False))
-    assert set(read["indices"]) == set(INDICES)
-    assert read["good_from"] == 0.7
-    assert len(read["indices"]["transmission"]["least_at"]) == 3
 
 
 @pytest.mark.parametrize("count", [0, 100, 1e5, True])

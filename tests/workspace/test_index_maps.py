@@ -15,6 +15,7 @@ import assur
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.status import Status
 from assur.performance.indices import INDICES, indices, indices_at
+from assur.results.json_text import json_text
 from assur.singularity.distance import distance
 from assur.workspace.index_maps import index_maps
 from assur.workspace.region import workspace
@@ -104,7 +105,7 @@ def test_json_csv_and_arrays_hold_the_same_numbers():
     found = case("planar_3rrr", ("x", "phi"))[2].in_degrees()
     assert found.angle == "deg"
     assert found.axes[1][1][-1] == pytest.approx(180.0)
-    data = json.loads(json.dumps(found.to_json(), allow_nan=False))
+    data = json.loads(json_text(found.answer()))
     rows = list(csv.DictReader(io.StringIO(found.csv())))
     stream = io.BytesIO()
     np.savez(stream, **found.arrays())

@@ -39,7 +39,7 @@ def test_a_way_leads_from_one_sign_of_the_determinant_to_the_other(drafted):
 def test_a_sign_change_on_the_map_has_its_example(drafted):
     """Paths from home to poses by chance meet none; the map shows a surface, and the example lies on it."""
     record, found = drafted
-    assert found.parallel_singular["factors"]["output"]["faces"] > 0
+    assert found.parallel_singular.factors["output"].faces > 0
     assert "output" not in {item.factor.name for item in singular_examples(record)}
     example = next(
         item for item in singular_examples(record, ways=lambda: ways_across(found)) if item.factor.name == "output"

@@ -3,7 +3,13 @@
 from __future__ import annotations
 
 from assur.audit.rows import Audit
-from assur.results.answers.catalogue import CatalogueAnswer, MechanismAnswer
+from assur.results.answers.catalogue import CatalogueAnswer, MechanismAnswer, SchemaAnswer
+from assur.results.answers.certificate import (
+    NoCertificate,
+    RefusedCertificate,
+    VerifiedCertificate,
+    WrittenCertificate,
+)
 from assur.results.answers.certified import CertifiedDirect, CertifiedInverse
 from assur.results.answers.check import CheckAnswer
 from assur.results.answers.comparison import CrossCheckAnswer
@@ -16,28 +22,51 @@ from assur.results.answers.files import (
     WrittenPage,
     WrittenReport,
 )
+from assur.results.answers.indices import IndicesAnswer, MapsAnswer, OverallAnswer
 from assur.results.answers.installation import CacheAnswer, DemonstrationAnswer, InstallationAnswer
+from assur.results.answers.path import NoPath, PathAnswer
 from assur.results.answers.position import DirectAnswer, InverseAnswer
+from assur.results.answers.region import (
+    AspectsAnswer,
+    AspectsOfModes,
+    CertifiedBox,
+    CertifiedShape,
+    CertifiedVolume,
+    CollisionsAnswer,
+    WorkspaceAnswer,
+)
+from assur.results.answers.singularity import ConfigurationAnswer, SingularityAnswer
+from assur.results.answers.sweep import SweepAnswer
 from assur.results.answers.topology import SynthesisAnswer, TopologyAnswer
 
 ANSWERS: dict[str, tuple[type, ...]] = {
+    "aspects": (AspectsAnswer, AspectsOfModes),
     "audit": (Audit,),
     "cache": (CacheAnswer,),
+    "certify": (WrittenCertificate, NoCertificate),
     "check": (CheckAnswer,),
+    "collisions": (CollisionsAnswer,),
     "crosscheck": (CrossCheckAnswer,),
     "demo": (DemonstrationAnswer,),
     "direct": (DirectAnswer, CertifiedDirect),
     "doctor": (InstallationAnswer,),
     "export": (WrittenExport,),
     "figures": (WrittenFigures,),
+    "follow": (PathAnswer, NoPath, DirectAnswer, InverseAnswer),
+    "indices": (IndicesAnswer, OverallAnswer, MapsAnswer),
     "inverse": (InverseAnswer, CertifiedInverse),
     "list": (CatalogueAnswer,),
     "motion": (WrittenMotion,),
     "new": (WrittenMechanism,),
     "page": (WrittenPage,),
     "report": (WrittenReport,),
+    "schema": (SchemaAnswer,),
     "show": (MechanismAnswer,),
+    "singularity": (ConfigurationAnswer, SingularityAnswer),
+    "sweep": (SweepAnswer,),
     "synthesize": (SynthesisAnswer,),
     "topology": (TopologyAnswer,),
+    "verify": (VerifiedCertificate, RefusedCertificate),
     "view": (EndedView,),
+    "workspace": (WorkspaceAnswer, CertifiedVolume, CertifiedBox, CertifiedShape),
 }

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from assur.cli import exit_codes, region_question
 from assur.cli.interruption import pressed
@@ -23,6 +22,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from assur.mechanism import Mechanism
+    from assur.results.answers.region import AspectsAnswer, AspectsOfMode, AspectsOfModes, ListedPath
     from assur.workspace.aspects.aspects import Aspects
     from assur.workspace.aspects.checking import PathCheck
     from assur.workspace.aspects.path import AspectPath
@@ -68,7 +68,7 @@ def outcome(record: Mechanism, asked: Asked, shared: Shared) -> Outcome:
     """The aspects, as data and for a person; drawn or written where a file is named."""
     written = _target(asked)
     answer = _answer(record, asked, shared)
-    data = _data(record, answer)
+    data = _said(record, answer)
     if written is not None:
         _write(written, record, answer, data)
     return Outcome(data, lambda: _shown(record, answer, data, written), exit_code=_exit_code(answer))
@@ -115,6 +115,8 @@ def _answer(record: Mechanism, asked: Asked, shared: Shared) -> Explored:
 
 def pose(record: Mechanism, text: str, option: str, names: Sequence[str]) -> list[float]:
     """The pose that is meant, in lengths and rad: values in the order of the names, or NAME=VALUE."""
+    from assur.kinematics.answers.at_border import coordinate_unit
+
     parts = text.split(",")
     if "=" in text:
         given = assignments(parts, option, ",".join(f"{name}=0" for name in names))
@@ -123,7 +125,7 @@ def pose(record: Mechanism, text: str, option: str, names: Sequence[str]) -> lis
             raise UsageError(f"{option}: {', '.join(given)} given, {', '.join(names)} wanted")
         parts = [given[name] for name in names]
     values = numbers(parts, names, option)
-    return [value * _factor(record, name) for name, value in zip(names, values, strict=True)]
+    return [value * coordinate_unit(record, name) for name, value in zip(names, values, strict=True)]
 
 
 def _exit_code(answer: Explored) -> int:
@@ -136,52 +138,67 @@ def _exit_code(answer: Explored) -> int:
     return exit_codes.of_answers([ANSWERS.get(answer.path.status, "no")])
 
 
-def _data(record: Mechanism, answer: Explored) -> dict[str, Any]:
-    if len(answer.modes) > 1:
-        return {"mechanism": record.name, "modes": [_outside(record, item.to_json()) for item in answer.modes]}
-    data = _outside(record, answer.modes[0].to_json())
-    if answer.path is not None:
-        data["path"] = _path_outside(record, answer.path.to_json())
-        data["path"]["check"] = None if answer.check is None else answer.check.to_json()
-    if answer.place is not None:
-        place = answer.place
-        data["place"] = {
-            "status": place.status,
-            "aspect": place.aspect,
-            "signs": dict(place.signs),
-            "why": place.why,
-        }
-    return data
+def _said(record: Mechanism, explored: Explored) -> AspectsAnswer | AspectsOfModes:
+    from assur.results.answers.answer import ABSENT
+    from assur.results.answers.region import AspectsAnswer, AspectsOfModes, PlacedPose
+
+    if len(explored.modes) > 1:
+        return AspectsOfModes(record.name, tuple(_of_mode(record, item) for item in explored.modes))
+    path, place = explored.path, explored.place
+    return AspectsAnswer(
+        **vars(_of_mode(record, explored.modes[0])),
+        path=ABSENT if path is None else _listed_path(record, path, explored.check),
+        place=ABSENT if place is None else PlacedPose(place.status, place.aspect, place.signs, place.why),
+    )
 
 
-def _outside(record: Mechanism, data: dict[str, Any]) -> dict[str, Any]:
-    """The same with angles of poses in the mechanism's angle unit; volumes keep their unit, which they say."""
-    pairs = zip(data["coordinates"], data["box"], strict=True)
-    return {
-        **data,
-        "box": [[end / _factor(record, name) for end in pair] for name, pair in pairs],
-        "held": {name: value / _factor(record, name) for name, value in data["held"].items()},
-        "finest": {name: value / _factor(record, name) for name, value in data["finest"].items()},
-    }
+def _of_mode(record: Mechanism, found: Aspects) -> AspectsOfMode:
+    """What is said of a mode, angles of poses in the mechanism's angle unit."""
+    from assur.kinematics.answers.at_border import box_at_border, coordinates_at_border
+    from assur.results.answers.region import AspectsOfMode, ListedAspect
+
+    aspects = (
+        ListedAspect(item.label, item.signs, item.volume, len(item.boxes), item.perhaps) for item in found.aspects
+    )
+    return AspectsOfMode(
+        mechanism=found.mechanism,
+        mode=found.mode,
+        how=found.how,
+        coordinates=found.box.names,
+        box=box_at_border(record, found.box.names, found.box.intervals),
+        held=coordinates_at_border(record, found.slice.held),
+        unit=found.unit,
+        naming=tuple(found.naming),
+        aspects=tuple(aspects),
+        told_apart=found.told_apart,
+        paved=found.names,
+        turning=tuple(found.turning),
+        finest=coordinates_at_border(record, found.finest),
+        undecided=len(found.search.undecided),
+        stopped=found.stopped,
+        note=found.note,
+    )
 
 
-def _path_outside(record: Mechanism, data: dict[str, Any]) -> dict[str, Any]:
-    def row(names: Sequence[str], values: Sequence[float]) -> list[float]:
-        return [value / _factor(record, name) for name, value in zip(names, values, strict=True)]
+def _listed_path(record: Mechanism, path: AspectPath, check: PathCheck | None) -> ListedPath:
+    from assur.kinematics.answers.at_border import box_at_border, coordinate_unit
+    from assur.results.answers.region import CheckedPath, ListedPath
 
-    names, paved = data["coordinates"], data["paved"]
-    boxes = [
-        [[end / _factor(record, name) for end in pair] for name, pair in zip(paved, box, strict=True)]
-        for box in data["boxes"]
-    ]
-    return {**data, "points": [row(names, values) for values in data["points"]], "boxes": boxes}
+    units = [coordinate_unit(record, name) for name in path.coordinates]
+    ends = zip(path.boxes.low.T.tolist(), path.boxes.high.T.tolist(), strict=True)
+    return ListedPath(
+        path.status,
+        path.why,
+        (path.start.aspect, path.end.aspect),
+        path.coordinates,
+        tuple([value / unit for value, unit in zip(row, units, strict=True)] for row in path.points.tolist()),
+        path.names,
+        tuple(box_at_border(record, path.names, list(zip(low, high, strict=True))) for low, high in ends),
+        None if check is None else CheckedPath(**vars(check), passed=check.passed),
+    )
 
 
-def _factor(record: Mechanism, name: str) -> float:
-    return math.pi / 180 if record.angle == "deg" and not is_length(name) else 1.0
-
-
-def _write(path: Path, record: Mechanism, answer: Explored, data: Mapping[str, Any]) -> None:
+def _write(path: Path, record: Mechanism, answer: Explored, data: AspectsAnswer | AspectsOfModes) -> None:
     from assur.results.files import write_whole
     from assur.results.json_text import json_text
 
@@ -201,19 +218,22 @@ def _write(path: Path, record: Mechanism, answer: Explored, data: Mapping[str, A
 
 
 def _shown(
-    record: Mechanism, answer: Explored, data: Mapping[str, Any], written: Path | None
+    record: Mechanism, answer: Explored, data: AspectsAnswer | AspectsOfModes, written: Path | None
 ) -> Iterable[RenderableType]:
-    if len(answer.modes) > 1:
-        yield from _modes(record, answer.modes)
-    else:
+    from assur.results.answers.answer import ABSENT
+    from assur.results.answers.region import AspectsAnswer
+
+    if isinstance(data, AspectsAnswer):
         yield from _mode(record, answer.modes[0], data)
-    if answer.place is not None:
-        place = answer.place
-        yield ""
-        yield f"the pose lies in aspect {place.aspect}" if place.status == "inside" else f"the pose: {place.why}"
-    if answer.path is not None:
-        yield ""
-        yield from _way(record, answer.path, answer.check, data["path"])
+        if data.place is not ABSENT:
+            place = data.place
+            yield ""
+            yield f"the pose lies in aspect {place.aspect}" if place.status == "inside" else f"the pose: {place.why}"
+        if data.path is not ABSENT:
+            yield ""
+            yield from _way(record, data.path)
+    else:
+        yield from _modes(record, answer.modes)
     if written is not None:
         yield f"written: {written}"
 
@@ -228,18 +248,18 @@ def _modes(record: Mechanism, found: Sequence[Aspects]) -> Iterable[RenderableTy
     yield f"labels: signs of {', '.join(found[0].naming)}"
 
 
-def _mode(record: Mechanism, found: Aspects, data: Mapping[str, Any]) -> Iterable[RenderableType]:
+def _mode(record: Mechanism, found: Aspects, data: AspectsAnswer) -> Iterable[RenderableType]:
     from assur.kinematics.limits import limits_note
 
     of_mode = f" of working mode {found.mode}" if found.mode else ""
     yield heading(f"{record.name}, aspects{of_mode}: {len(found)}")
     parts = [
         f"{name} {low:g} .. {high:g} {_unit(record, name)}"
-        for name, (low, high) in zip(data["coordinates"], data["box"], strict=True)
+        for name, (low, high) in zip(data.coordinates, data.box, strict=True)
     ]
     yield f"box: {', '.join(parts)}"
-    if data["held"]:
-        held = (f"{name} = {value:g} {_unit(record, name)}" for name, value in data["held"].items())
+    if data.held:
+        held = (f"{name} = {value:g} {_unit(record, name)}" for name, value in data.held.items())
         yield f"held: {', '.join(held)}"
     if limits := limits_note(record, found.strokes):
         yield f"limits: {limits}"
@@ -255,28 +275,26 @@ def _mode(record: Mechanism, found: Aspects, data: Mapping[str, Any]) -> Iterabl
         if len(found) > LISTED:
             yield f"and {len(found) - LISTED} smaller ones"
         yield f"aspect: signs of {', '.join(found.naming)}"
-    yield f"how: {found.how}, over {', '.join(found.names)}; {data['undecided']} boxes are undecided"
+    yield f"how: {found.how}, over {', '.join(found.names)}; {data.undecided} boxes are undecided"
     if found.note:
         yield f"note: {found.note}"
 
 
-def _way(
-    record: Mechanism, path: AspectPath, check: PathCheck | None, data: Mapping[str, Any]
-) -> Iterable[RenderableType]:
+def _way(record: Mechanism, path: ListedPath) -> Iterable[RenderableType]:
     word = {"connected": "one aspect", "separated": "two aspects", "undecided": "undecided", "outside": "no"}
-    label = f", {path.start.aspect}" if path.status == "connected" else ""
+    label = f", {path.aspects[0]}" if path.status == "connected" else ""
     yield heading(f"from one pose to the other: {word[path.status]}{label}")
     if path.why:
         yield path.why
     if path.status != "connected":
         return
-    points = data["points"]
+    points = path.points
     step = max(1, -(-(len(points) - 1) // (VERTICES - 1)))
     shown = [*range(0, len(points) - 1, step), len(points) - 1]
     titles = [f"{name} [{_unit(record, name)}]" for name in path.coordinates]
     yield table(("vertex", *titles), [(str(k + 1), *(f"{value:.7g}" for value in points[k])) for k in shown])
     yield f"certificate: each of the {len(path.boxes)} pieces lies in a box that is proved"
-    if check is not None:
+    if (check := path.check) is not None:
         moved = {True: "; followed on the joint graph", False: f"; not followed: {check.stopped}", None: ""}
         holds = "reached, with the same signs, " if check.reached and check.kept else "NOT so "
         yield f"check: {holds}at {check.samples} poses by the closed form{moved[check.followed]}"

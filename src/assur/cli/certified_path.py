@@ -62,6 +62,7 @@ def outcome(
 def written(found: Certificate, target: Path, record: Mechanism, shared: Shared) -> Outcome:
     """Write a certificate, and say what it claims; of a box or a path the exit code is that of the answer."""
     from assur.certificates.summary import claim_lines, shares, statement_lines
+    from assur.results.answers.certificate import WrittenCertificate
 
     with progress("writing the certificate", shared):  # some seconds for millions of leaves
         found.write(target)
@@ -69,12 +70,13 @@ def written(found: Certificate, target: Path, record: Mechanism, shared: Shared)
         first, *rest = [*statement_lines(document, record), *claim_lines(document, record)]
         part = shares(document["proof"])
     lines = [*rest, "how: interval arithmetic, not yet checked by `assur verify`", f"written: {target}"]
-    data = {key: value for key, value in document.items() if key not in ("program", "proof")}
-    data |= {"shares": part, "written": str(target)}
+    stated = {key: value for key, value in document.items() if key not in ("program", "proof")}
+    answer = WrittenCertificate(**stated, shares=part, written=str(target))
     asked = [found.claims[name] for name in ("reached", "regular") if name in found.claims]
-    return Outcome(data, lambda: [heading(first), *lines], exit_codes.of_answers(asked))
+    return Outcome(answer, lambda: [heading(first), *lines], exit_codes.of_answers(asked))
 
 
 def _none(status: str, why: str, code: int) -> Outcome:
-    data = {"status": status, "why": why, "written": None}
-    return Outcome(data, lambda: [heading(f"no path written: {status}"), why], code)
+    from assur.results.answers.certificate import NoCertificate
+
+    return Outcome(NoCertificate(status, why), lambda: [heading(f"no path written: {status}"), why], code)

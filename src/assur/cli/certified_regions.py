@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from assur.cli import exit_codes
 from assur.cli.numbers import assignments, interval, number, whole_number
@@ -21,8 +21,10 @@ if TYPE_CHECKING:
 
     from assur.cli.region_question import Question
     from assur.mechanism import Mechanism
+    from assur.results.answers.region import CertifiedBox, CertifiedShape, CertifiedVolume, FailingPose, RegionProof
     from assur.workspace.certified.largest import LargestShape
     from assur.workspace.certified.proving import ProvedBox
+    from assur.workspace.certified.questions import Witness
     from assur.workspace.certified.region import CertifiedWorkspace
     from assur.workspace.certified.shapes import ShapeName
 
@@ -94,24 +96,24 @@ def _volume(record: Mechanism, question: Question, asked: Asked, shared: Shared)
             *(record, question.mode, question.box, question.strokes, question.held, gap, sections, finest, step),
             most=most,
         )
-    data = _data(record, question, found.to_json())
+    data = _certified_volume(record, question, found)
     return Outcome(data, lambda: _shown_volume(record, found, data))
 
 
-def _shown_volume(record: Mechanism, found: CertifiedWorkspace, data: Mapping[str, Any]) -> Iterable[RenderableType]:
+def _shown_volume(record: Mechanism, found: CertifiedWorkspace, data: CertifiedVolume) -> Iterable[RenderableType]:
     yield heading(f"{record.name}, certified workspace of {mode_words(record, found.mode)}")
-    yield f"box: {_pairs(record, data['coordinates'], data['box'])}"
-    if data["held"]:
-        yield f"held: {_values(record, data['held'])}"
+    yield f"box: {_pairs(record, data.coordinates, data.box)}"
+    if data.held:
+        yield f"held: {_values(record, data.held)}"
     yield from _limits(data)
     what = ("length", "area", "volume")[len(found.box.names) - 1]
     low, high = outward(*found.volume)
     yield f"{what}: {low} .. {high} {found.unit}"
     gap = "" if found.gap_reached is None else f", gap {found.gap_reached:.2g}"
     yield f"how: {found.how}{gap}"
-    boxes = data["boxes"]
-    along = ", ".join(boxes["coordinates"])
-    yield f"boxes over {along}: {boxes['inside']} inside, {boxes['outside']} outside, {boxes['boundary']} boundary"
+    boxes = data.boxes
+    along = ", ".join(boxes.coordinates)
+    yield f"boxes over {along}: {boxes.inside} inside, {boxes.outside} outside, {boxes.boundary} boundary"
     if found.note:
         yield f"note: {found.note}"
     if found.sections:
@@ -119,14 +121,15 @@ def _shown_volume(record: Mechanism, found: CertifiedWorkspace, data: Mapping[st
         yield ""
         yield table(
             (f"section at {last}", f"least [{found.sections[0].unit}]", f"most [{found.sections[0].unit}]"),
-            [(f"{item[last]:g}", *outward(*item["area"])) for item in data["sections"]],
+            [(f"{item.at[last]:g}", *outward(*item.area)) for item in data.sections],
         )
-        for item in data["sections"]:
-            if item["stopped"]:
-                yield f"note: section at {item[last]:g}: {item['stopped']}"
+        for item in data.sections:
+            if item.stopped:
+                yield f"note: section at {item.at[last]:g}: {item.stopped}"
 
 
 def _box(record: Mechanism, question: Question, text: str, most: int, shared: Shared) -> Outcome:
+    from assur.kinematics.answers.at_border import coordinate_unit
     from assur.workspace.certified.proving import prove_box
 
     example = f"{record.platform.pose[0]}=-20:20"
@@ -134,11 +137,11 @@ def _box(record: Mechanism, question: Question, text: str, most: int, shared: Sh
     for name, pair in assignments([text], "--prove", example).items():
         low, high = interval(pair, f"--prove {name}", example)
         _known(record, name)
-        box[name] = (low * _factor(record, name), high * _factor(record, name))
+        box[name] = (low * coordinate_unit(record, name), high * coordinate_unit(record, name))
     box = outer_box(record, box, question.held)
     with progress("proof", shared) as step:
         found = prove_box(record, box, question.mode, question.strokes, held=question.held, progress=step, most=most)
-    data = _data(record, question, found.to_json())
+    data = _certified_box(record, question, found)
     code = exit_codes.of_answers([{"proved": "yes", "refuted": "no", "undecided": "open"}[found.status]])
     return Outcome(data, lambda: _shown_box(record, found, data), exit_code=code)
 
@@ -153,38 +156,39 @@ def outer_box(
     >>> low, math.pi < 3.1415926535897936 <= high
     (0.0, True)
     """
+    from assur.kinematics.answers.at_border import coordinate_unit
     from assur.numerics.intervals.functions import from_degrees
     from assur.workspace.slices import slice_at
 
     found = {**{name: record.box[name] for name in slice_at(record, held).free if name in record.box}, **box}
     for name, ends in found.items():
-        if _factor(record, name) != 1.0:
+        if coordinate_unit(record, name) != 1.0:
             wide = from_degrees(ends)
             found[name] = (float(wide.low[0]), float(wide.high[1]))
     return found
 
 
-def _shown_box(record: Mechanism, found: ProvedBox, data: Mapping[str, Any]) -> Iterable[RenderableType]:
+def _shown_box(record: Mechanism, found: ProvedBox, data: CertifiedBox) -> Iterable[RenderableType]:
     yield heading(f"{record.name}, a box in {mode_words(record, found.mode)}")
-    yield f"box: {_pairs(record, data['coordinates'], data['box'])}"
-    if data["held"]:
-        yield f"held: {_values(record, data['held'])}"
+    yield f"box: {_pairs(record, data.coordinates, data.box)}"
+    if data.held:
+        yield f"held: {_values(record, data.held)}"
     yield from _limits(data)
     yield f"question: is every pose {_reached(data)}, and none singular?"
     yield f"answer: {found.status}"
     if found.status != "proved":
         yield f"proved for {_floored(100 * found.share)} % of it"
-    if found.witness is not None:
-        yield f"fails at: {_values(record, data['witness']['pose'])}"
-        yield f"because: {found.witness.why}"
-    boxes = data["boxes"]
-    if boxes["failed"] or boxes["doubtful"]:
-        yield f"parts: {boxes['proved']} proved, {boxes['failed']} not reached at all, {boxes['doubtful']} undecided"
+    if data.witness is not None:
+        yield f"fails at: {_values(record, data.witness.pose)}"
+        yield f"because: {data.witness.why}"
+    boxes = data.boxes
+    if boxes.failed or boxes.doubtful:
+        yield f"parts: {boxes.proved} proved, {boxes.failed} not reached at all, {boxes.doubtful} undecided"
         yield ""
-        rows = [("not reached", item) for item in boxes["largest_failed"][:5]]
-        rows += [("undecided", item) for item in boxes["largest_doubtful"][:5]]
+        rows = [("not reached", item) for item in boxes.largest_failed[:5]]
+        rows += [("undecided", item) for item in boxes.largest_doubtful[:5]]
         yield table(
-            ("the largest parts", *boxes["coordinates"]),
+            ("the largest parts", *boxes.coordinates),
             [(word, *(f"{low:.5g} .. {high:.5g}" for low, high in item)) for word, item in rows],
             left=("the largest parts",),
         )
@@ -193,38 +197,39 @@ def _shown_box(record: Mechanism, found: ProvedBox, data: Mapping[str, Any]) -> 
 
 
 def _largest(record: Mechanism, question: Question, asked: Asked, shape: ShapeName, shared: Shared) -> Outcome:
+    from assur.kinematics.answers.at_border import coordinate_unit
     from assur.workspace.certified.largest import largest
 
     example = "x=0,y=0,z=400"
     centre = {}
     for name, text in assignments([asked.around or ""], "--around", example).items():
         _known(record, name)
-        centre[name] = number(text, f"--around {name}") * _factor(record, name)
+        centre[name] = number(text, f"--around {name}") * coordinate_unit(record, name)
     ratio = 1.0 if asked.ratio is None else number(asked.ratio, "--ratio")
     with progress(f"largest {shape}", shared) as step:
         found = largest(
             record, shape, centre, ratio, question.mode, question.strokes, held=question.held, progress=step
         )
-    data = _data(record, question, found.to_json())
+    data = _certified_shape(record, question, found)
     code = exit_codes.of_answers(["yes" if found.size > 0 else "no" if found.witness is not None else "open"])
     return Outcome(data, lambda: _shown_largest(record, found, data), exit_code=code)
 
 
-def _shown_largest(record: Mechanism, found: LargestShape, data: Mapping[str, Any]) -> Iterable[RenderableType]:
+def _shown_largest(record: Mechanism, found: LargestShape, data: CertifiedShape) -> Iterable[RenderableType]:
     name = found.shape.name
     yield heading(f"{record.name}, the largest {name} in {mode_words(record, found.mode)}")
-    yield f"around: {_values(record, data['centre'])}"
-    if data["held"]:
-        yield f"held: {_values(record, data['held'])}"
+    yield f"around: {_values(record, data.centre)}"
+    if data.held:
+        yield f"held: {_values(record, data.held)}"
     yield from _limits(data)
     yield f"inside: every pose is {_reached(data)}, and none is singular"
     side = "edge" if name == "cube" else "diameter"
     more = "" if found.height is None else f", height {_floored(found.height)} {record.unit}"
     yield f"proved up to: {side} {_floored(found.size)} {record.unit}{more}"
-    if found.witness is not None:
+    if data.witness is not None:
         yield f"not beyond: {side} {outward(found.size, found.refuted)[1]} {record.unit}"
-        yield f"fails at: {_values(record, data['witness']['pose'])}"
-        yield f"because: {found.witness.why}"
+        yield f"fails at: {_values(record, data.witness.pose)}"
+        yield f"because: {data.witness.why}"
     if found.stopped:
         yield f"note: {NOTES[found.stopped]}"
 
@@ -257,63 +262,107 @@ def _known(record: Mechanism, name: str) -> None:
         raise UnknownNameError(f"pose coordinate of {record.name}", name, coordinates(record))
 
 
-def _data(record: Mechanism, question: Question, found: dict[str, Any]) -> dict[str, Any]:
+def _said(record: Mechanism, question: Question, found: CertifiedWorkspace | ProvedBox | LargestShape) -> RegionProof:
+    """What is said of every proof."""
+    from assur.kinematics.answers.at_border import coordinates_at_border
     from assur.kinematics.limits import joint_limits, limits_stated
+    from assur.results.answers.region import RegionProof
 
-    stated = limits_stated(record, question.strokes)
-    return {
-        "mechanism": record.name,
-        **_outside(record, found),
-        "limits_stated": stated,
-        "joint_limits": joint_limits(record),
-    }
+    return RegionProof(
+        mechanism=record.name,
+        mode=found.mode,
+        held=coordinates_at_border(record, found.held),
+        stopped=found.stopped,
+        limits_stated=limits_stated(record, question.strokes),
+        joint_limits=tuple(joint_limits(record)),
+    )
 
 
-def _limits(data: Mapping[str, Any]) -> Iterable[str]:
+def _certified_volume(record: Mechanism, question: Question, found: CertifiedWorkspace) -> CertifiedVolume:
+    from assur.kinematics.answers.at_border import box_at_border, coordinate_unit
+    from assur.results.answers.region import CertifiedVolume, PavedBoxes, SectionBounds
+
+    names, paving = found.box.names, found.paving
+    unit = coordinate_unit(record, names[-1])
+    return CertifiedVolume(
+        **vars(_said(record, question, found)),
+        volume=found.volume,
+        unit=found.unit,
+        how=found.how,
+        gap=found.gap,
+        gap_reached=found.gap_reached,
+        coordinates=names,
+        box=box_at_border(record, names, found.box.intervals),
+        sections=tuple(
+            SectionBounds(item.area, item.unit, item.stopped, {item.coordinate: item.value / unit})
+            for item in found.sections
+        ),
+        boxes=PavedBoxes(paving.names, len(paving.inside), len(paving.outside), len(paving.boundary)),
+        note=found.note,
+    )
+
+
+def _certified_box(record: Mechanism, question: Question, found: ProvedBox) -> CertifiedBox:
+    from assur.kinematics.answers.at_border import box_at_border
+    from assur.results.answers.region import CertifiedBox, ProvedParts
+    from assur.workspace.certified.proving import largest_of
+
+    failed, doubtful = (
+        tuple(box_at_border(record, found.names, box) for box in largest_of(boxes))
+        for boxes in (found.failed, found.doubtful)
+    )
+
+    return CertifiedBox(
+        **vars(_said(record, question, found)),
+        what=found.what,
+        status=found.status,
+        coordinates=found.box.names,
+        box=box_at_border(record, found.box.names, found.box.intervals),
+        share_proved=found.share,
+        witness=_witness(record, found.witness),
+        boxes=ProvedParts(
+            *(found.names, len(found.proved), len(found.failed), len(found.doubtful)),
+            largest_failed=failed,
+            largest_doubtful=doubtful,
+        ),
+    )
+
+
+def _certified_shape(record: Mechanism, question: Question, found: LargestShape) -> CertifiedShape:
+    from assur.kinematics.answers.at_border import coordinates_at_border
+    from assur.results.answers.region import CertifiedShape
+
+    return CertifiedShape(
+        **vars(_said(record, question, found)),
+        what=found.what,
+        shape=found.shape.name,
+        centre=coordinates_at_border(record, dict(zip(found.shape.names, found.shape.centre, strict=True))),
+        size=found.size,
+        height=found.height,
+        refuted=found.refuted if math.isfinite(found.refuted) else None,
+        witness=_witness(record, found.witness),
+    )
+
+
+def _witness(record: Mechanism, found: Witness | None) -> FailingPose | None:
+    from assur.kinematics.answers.at_border import coordinates_at_border
+    from assur.results.answers.region import FailingPose
+
+    return None if found is None else FailingPose(coordinates_at_border(record, found.pose), found.why)
+
+
+def _limits(data: RegionProof) -> Iterable[str]:
     """What is to be said beside a claim of reach where there are no limits."""
     from assur.kinematics.limits import NO_LIMITS
 
-    if not data["limits_stated"]:
+    if not data.limits_stated:
         yield f"limits: {NO_LIMITS}"
-    if data["joint_limits"]:
-        yield f"limits of the file: {', '.join(data['joint_limits'])}"
+    if data.joint_limits:
+        yield f"limits of the file: {', '.join(data.joint_limits)}"
 
 
-def _reached(data: Mapping[str, Any]) -> str:
-    return "reached within limits" if data["limits_stated"] else "reached"
-
-
-def _factor(record: Mechanism, name: str) -> float:
-    return math.pi / 180 if record.angle == "deg" and not is_length(name) else 1.0
-
-
-def _outside(record: Mechanism, data: dict[str, Any]) -> dict[str, Any]:
-    """The same with angles of poses in the mechanism's angle unit; volumes keep their unit, which they say."""
-
-    def pair(name: str, ends: Sequence[float]) -> list[float]:
-        return [end / _factor(record, name) for end in ends]
-
-    def pose(values: Mapping[str, float]) -> dict[str, float]:
-        return {name: value / _factor(record, name) for name, value in values.items()}
-
-    changed = dict(data)
-    if "box" in data:
-        changed["box"] = [pair(*item) for item in zip(data["coordinates"], data["box"], strict=True)]
-    for key in ("held", "centre"):
-        if key in data:
-            changed[key] = pose(data[key])
-    if data.get("witness"):
-        changed["witness"] = {**data["witness"], "pose": pose(data["witness"]["pose"])}
-    boxes = dict(data.get("boxes", {}))
-    for key in ("largest_failed", "largest_doubtful"):
-        if key in boxes:
-            boxes[key] = [[pair(*item) for item in zip(boxes["coordinates"], box, strict=True)] for box in boxes[key]]
-    if boxes:
-        changed["boxes"] = boxes
-    if "sections" in data:
-        last = data["coordinates"][-1]
-        changed["sections"] = [{**item, last: item[last] / _factor(record, last)} for item in data["sections"]]
-    return changed
+def _reached(data: RegionProof) -> str:
+    return "reached within limits" if data.limits_stated else "reached"
 
 
 def _pairs(record: Mechanism, names: Sequence[str], pairs: Sequence[Sequence[float]]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -119,7 +120,7 @@ def _compatible(kind: str, start: str | None, end: str | None, gap: str | None, 
         raise UsageError("--kind path has no --gap and no --resume", hint="leave them out: a path is proved whole")
 
 
-def _earlier(path: Path) -> dict[str, Any]:
+def _earlier(path: Path) -> Mapping[str, Any]:
     """The certificate of a file; one that proves nothing is refused before it is carried on."""
     from assur.results.reading import MOST_CERTIFICATE, file_content
     from assur.verifier.reading import RefusedError, read

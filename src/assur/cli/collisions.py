@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
 from assur.cli.options import DRAWN_DEFAULTS, Drawn, MechanismName, Outcome, WorkingMode
+from assur.results.answers.answer import ABSENT
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -15,6 +17,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from assur.mechanism import Mechanism
+    from assur.results.answers.region import CollisionsAnswer, NearestLinks
     from assur.scene.collisions import Collisions, Nearest
 
 MEET = 1
@@ -80,9 +83,9 @@ def collisions(
     with progress("collisions", shared) as step:
         joints = sampled(record, count, mode, start) if over == "workspace" else closed_motion(record, count)[:-1]
         found = collisions(record, joints, step)
-    data = _data(record, found, over, mode or record.modes.default_working or None)
+    data = _answer(record, found, over, mode or record.modes.default_working or None)
     if path is not None:
-        data["file"] = str(_written(record, found, path))
+        data = replace(data, file=str(_written(record, found, path)))
     return Outcome(data, lambda: _shown(record, found, data), MEET if found.meeting else 0)
 
 
@@ -101,72 +104,68 @@ def _written(record: Mechanism, found: Collisions, path: Path) -> Path:
     return write_whole(path, encoded(figure, path.suffix.lower()[1:]))
 
 
-def _data(record: Mechanism, found: Collisions, over: str, mode: str | None) -> dict[str, Any]:
+def _answer(record: Mechanism, found: Collisions, over: str, mode: str | None) -> CollisionsAnswer:
+    from assur.results.answers.region import CollisionsAnswer
     from assur.scene.companion import companion
     from assur.scene.sampled import from_box
     from assur.scene.sizes import thickness
 
     reasons = {frozenset(item.links): item.because for item in companion(record).meets}
     drawn = over if over == "motion" else "box" if from_box(record) else "home"
-    return {
-        "mechanism": record.name,
-        "unit": record.unit,
-        "over": over,
-        "drawn_from": drawn,
-        "mode": mode if drawn == "box" else None,
-        "poses": found.poses,
-        "known": "sampled",
-        "thickness": thickness(record),
-        "coordinates": list(record.platform.pose),
-        "pairs": [_pair(record, item, reasons.get(frozenset(item.links))) for item in found.pairs],
-    }
+    return CollisionsAnswer(
+        mechanism=record.name,
+        unit=record.unit,
+        over=over,
+        drawn_from=drawn,
+        mode=mode if drawn == "box" else None,
+        poses=found.poses,
+        known="sampled",
+        thickness=thickness(record),
+        coordinates=record.platform.pose,
+        pairs=tuple(_pair(record, item, reasons.get(frozenset(item.links))) for item in found.pairs),
+    )
 
 
-def _pair(record: Mechanism, item: Nearest, because: str | None) -> dict[str, Any]:
+def _pair(record: Mechanism, item: Nearest, because: str | None) -> NearestLinks:
     from assur.kinematics.answers.at_border import pose_at_border
     from assur.kinematics.pose import pose_of
-    from assur.results.json_text import plain
+    from assur.results.answers.region import NearestLinks
 
-    return {
-        "links": list(item.links),
-        "clearance": item.clearance,
-        "parts": list(item.parts),
-        "meeting": item.meeting,
-        "because": because if item.meeting else None,
-        "pose": plain(pose_at_border(record, pose_of(record, item.joints[None])[0])),
-    }
+    pose = pose_at_border(record, pose_of(record, item.joints[None])[0]).tolist()
+    reason = because if item.meeting else None
+    return NearestLinks(item.links, item.clearance, item.parts, item.meeting, reason, pose)
 
 
-def _shown(record: Mechanism, found: Collisions, data: dict[str, Any]) -> Iterable[RenderableType]:
+def _shown(record: Mechanism, found: Collisions, data: CollisionsAnswer) -> Iterable[RenderableType]:
     from assur.cli.output import heading, table
     from assur.cli.quantities import count, point_text, point_title, style_of
 
-    style, names = style_of(record), data["coordinates"]
+    style, names = style_of(record), data.coordinates
     said = f"{count(len(found.meeting), 'pair')} of links meet" if found.meeting else "no links meet"
     yield heading(f"{record.name}, collisions: {said}")
-    mode = f", mode {data['mode']}" if data["mode"] else ""
-    yield f"known at {found.poses} {WHERE[data['drawn_from']]}{mode}; between them links may come nearer"
-    yield f"flat bars are drawn {data['thickness']:.3g} {record.unit} thick; --thickness says otherwise"
-    if not data["pairs"]:
+    mode = f", mode {data.mode}" if data.mode else ""
+    yield f"known at {found.poses} {WHERE[data.drawn_from]}{mode}; between them links may come nearer"
+    yield f"flat bars are drawn {data.thickness:.3g} {record.unit} thick; --thickness says otherwise"
+    if not data.pairs:
         yield "every two links share a joint: nothing to ask"
         return
     rows = [
         (
-            " - ".join(item["links"]),
-            f"meet at {item['meeting']} of {found.poses}" if item["meeting"] else f"{item['clearance']:.4g}",
-            " - ".join(item["parts"]),
-            point_text(style, names, item["pose"]),
+            " - ".join(item.links),
+            f"meet at {item.meeting} of {found.poses}" if item.meeting else f"{item.clearance:.4g}",
+            " - ".join(item.parts),
+            point_text(style, names, item.pose),
         )
-        for item in data["pairs"][:SHOWN]
+        for item in data.pairs[:SHOWN]
     ]
     yield ""
     columns = ("links", f"clearance ({record.unit})", "nearest parts", f"there, {point_title(style, names)}")
-    styles = ["bold red" if item["meeting"] else "" for item in data["pairs"][:SHOWN]]
+    styles = ["bold red" if item.meeting else "" for item in data.pairs[:SHOWN]]
     yield table(columns, rows, left=("links", "nearest parts"), wrap=("links", "nearest parts"), styles=styles)
-    if len(data["pairs"]) > SHOWN:
-        yield f"{len(data['pairs']) - SHOWN} more pairs are farther apart: --json"
-    for item in data["pairs"]:
-        if item["because"]:
-            yield f"{' - '.join(item['links'])}: {item['because']}"
-    if "file" in data:
-        yield f"written: {data['file']}"
+    if len(data.pairs) > SHOWN:
+        yield f"{len(data.pairs) - SHOWN} more pairs are farther apart: --json"
+    for item in data.pairs:
+        if item.because:
+            yield f"{' - '.join(item.links)}: {item.because}"
+    if data.file is not ABSENT:
+        yield f"written: {data.file}"

@@ -9,83 +9,84 @@ from assur.cli import exit_codes
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
 from assur.cli.positions import failures
-from assur.cli.quantities import count, mode_words, pose_text, short, style_of
+from assur.cli.quantities import count, fixed, mode_words, pose_text, short, style_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
     from rich.console import RenderableType
 
     from assur.mechanism import Mechanism
+    from assur.results.answers.indices import IndicesAnswer
+    from assur.results.answers.singularity import ConfigurationAnswer
 
 
 def outcome(record: Mechanism, pose: NDArray[Any], mode: str) -> Outcome:
     """The outcome for one pose (m,) in a working mode."""
-    data = verdict_data(record, pose, mode)
-    return Outcome(data, lambda: _shown(record, data), exit_codes.of_status(data["kind"]))
+    data = verdict_answer(record, pose, mode)
+    return Outcome(data, lambda: _shown(record, data), exit_codes.of_status(data.kind))
 
 
-def verdict_data(record: Mechanism, pose: NDArray[Any], mode: str) -> dict[str, Any]:
-    """The verdict as plain data; for a pose that the mode does not reach, which quantity is negative."""
-    from assur.kinematics.answers.answer import answer
+def verdict_answer(record: Mechanism, pose: NDArray[Any], mode: str) -> ConfigurationAnswer:
+    """The verdict at the border; for a pose that the mode does not reach, which quantity is negative."""
+    from assur.kinematics.answers.answer import missing
     from assur.kinematics.answers.at_border import pose_at_border
     from assur.kinematics.rates.units import unit_length
-    from assur.results.json_text import plain
+    from assur.results.answers.singularity import ConfigurationAnswer
 
     verdict = record.singularity(pose, mode)
     # of home's mode without a closed form `home_by` says what stops the paths
     of_home = record.closed_form is None and (not mode or mode == record.modes.default_working)
     lost = not of_home and verdict.kind in ("unreachable", "undecided")
-    why_not = answer(record.inverse(pose, mode)).failures if lost else []
-    return {
-        "mechanism": record.name,
-        "unit": record.unit,
-        "angle": record.angle,
-        "coordinates": list(record.platform.pose),
-        "pose": plain(pose_at_border(record, pose)),
-        "mode": mode,
-        **plain(verdict),
-        "characteristic_length": unit_length(record),
-        "failures": why_not,
-    }
+    return ConfigurationAnswer(
+        mechanism=record.name,
+        unit=record.unit,
+        angle=record.angle,
+        coordinates=record.platform.pose,
+        pose=pose_at_border(record, pose).tolist(),
+        mode=mode,
+        **vars(verdict),
+        characteristic_length=unit_length(record),
+        failures=missing(record, record.inverse(pose, mode).failures) if lost else (),
+    )
 
 
-def _shown(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
-    near = ", near_singular" if data["near"] else ""
-    yield heading(f"{data['mechanism']}, singularity: {data['kind']}{near}")
-    yield f"at {pose_text(style_of(record), data['coordinates'], data['pose'])}, {mode_words(record, data['mode'])}"
+def _shown(record: Mechanism, data: ConfigurationAnswer) -> Iterable[RenderableType]:
+    near = ", near_singular" if data.near else ""
+    yield heading(f"{data.mechanism}, singularity: {data.kind}{near}")
+    yield f"at {pose_text(style_of(record), data.coordinates, data.pose)}, {mode_words(record, data.mode)}"
     yield from of_modes(data)
     yield ""
-    if data["failures"]:
-        yield failures(data["failures"])
-    if data["factors"]:
+    if data.failures:
+        yield failures(data.failures)
+    if data.factors:
         yield from _factors(record, data) if record.closed_form else _measures(data)
 
 
-def of_modes(data: dict[str, Any]) -> Iterable[str]:
+def of_modes(data: ConfigurationAnswer | IndicesAnswer) -> Iterable[str]:
     """By what it is home's mode or is not; else, where a mode does not reach the pose, which others do."""
-    if data["home_by"]:
-        yield data["home_by"]
-    elif data["known_modes"]:
-        yield f"in other modes there are solutions: {', '.join(data['known_modes'])}"
+    if data.home_by:
+        yield data.home_by
+    elif data.known_modes:
+        yield f"in other modes there are solutions: {', '.join(data.known_modes)}"
 
 
-def _measures(data: dict[str, Any]) -> Iterable[RenderableType]:
+def _measures(data: ConfigurationAnswer) -> Iterable[RenderableType]:
     """How far the joint graph is from being singular, where there is no closed form with factors."""
-    rows = [(name, f"{value:.6f}") for name, value in data["factors"].items()]
+    rows = [(name, fixed(value, 6)) for name, value in data.factors.items()]
     yield table(("measure", "0 where singular, 1 at most"), rows, left=("measure",))
 
 
-def _factors(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
+def _factors(record: Mechanism, data: ConfigurationAnswer) -> Iterable[RenderableType]:
     from assur.kinematics.answers.at_border import power
     from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of
 
     listed = closed_form_of(record).factor_list
-    zero = {name: abs(size) <= FACTOR_TOLERANCE for name, size in data["relative"].items()}
+    zero = {name: size is not None and abs(size) <= FACTOR_TOLERANCE for name, size in data.relative.items()}
     rows = [
         (
             item.name,
-            f"{short(data['factors'][item.name])} {power(record.unit, item.unit)}".strip(),
-            "= 0" if zero[item.name] else f"{data['relative'][item.name]:.4f}",
+            f"{short(data.factors[item.name])} {power(record.unit, item.unit)}".strip(),
+            "= 0" if zero[item.name] else fixed(data.relative[item.name], 4),
             item.kind,
             item.meaning,
         )
@@ -96,13 +97,13 @@ def _factors(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType
     yield table(columns, rows, left=("factor", "kind", "zero where"), styles=styles)
     units = {kind: power(record.unit, sum(f.unit for f in listed if f.kind == kind)) for kind in ("parallel", "serial")}
     yield f"share: of the factor's scale; zero within {FACTOR_TOLERANCE:g}"
-    yield f"det Jp = {short(data['det_jp'])} {units['parallel']}, det Jq = {short(data['det_jq'])} {units['serial']}"
-    exists = data["condition"] is not None
-    length = data["characteristic_length"]
+    yield f"det Jp = {short(data.det_jp)} {units['parallel']}, det Jq = {short(data.det_jq)} {units['serial']}"
+    exists = data.condition is not None
+    length = data.characteristic_length
     over = f", lengths over the characteristic length {short(length)} {record.unit}" if length else ""
-    yield f"condition number of J = Jp^-1 Jq{over}: {short(data['condition']) if exists else 'none, singular'}"
-    yield f"by det Jp and det Jq alone: {data['reduced_kind']}"
-    freedoms = count(data["freedoms"], "freedom")
-    yield f"joint graph: rank {data['rank']} here, {data['generic_rank']} in general; {freedoms}"
-    if data["kind"] != "regular" or data["near"]:
-        yield f"closest to zero: {data['closest']}"
+    yield f"condition number of J = Jp^-1 Jq{over}: {short(data.condition) if exists else 'none, singular'}"
+    yield f"by det Jp and det Jq alone: {data.reduced_kind}"
+    freedoms = count(data.freedoms or 0, "freedom")
+    yield f"joint graph: rank {data.rank} here, {data.generic_rank} in general; {freedoms}"
+    if data.kind != "regular" or data.near:
+        yield f"closest to zero: {data.closest}"

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from assur.kinematics.paths.course import Turns
     from assur.kinematics.paths.path import Path, Stop
     from assur.mechanism import Mechanism
+    from assur.results.answers.path import PathAnswer
 
 Along = Literal["pose", "inputs"]
 ROWS = 12
@@ -65,13 +66,17 @@ def _from_home_mode(
 ) -> Outcome:
     """The path from where home's mode is at --from; without a closed form that is followed from home."""
     from assur.kinematics.paths.home_mode import home_mode_at
+    from assur.results.answers.path import NoPath
 
     start = home_mode_at(record, place, "poses" if along == "pose" else "inputs")
     if start.joints is None:
         said = f"{record.name}, no path: --from is not reached in home's mode: {start.words}"
-        data = {"mechanism": record.name, "status": start.status.name, "why": said}
         code = exit_codes.of_status(start.status.name)
-        return Outcome(data, lambda: [said, "hint: name another mode at --from by --mode"], code)
+        return Outcome(
+            NoPath(record.name, start.status.name, said),
+            lambda: [said, "hint: name another mode at --from by --mode"],
+            code,
+        )
     return _followed(record, start.joints, along, goal, turns=turns, use_limits=use_limits)
 
 
@@ -82,9 +87,9 @@ def _followed(
     from assur.kinematics.paths.following import follow
     from assur.kinematics.paths.path import Path
 
-    options: dict[str, Any] = {"poses" if along == "pose" else "inputs": goal}
+    poses, inputs = (goal, None) if along == "pose" else (None, goal)
     with handing_over(Path, lambda path: _outcome(record, path)):
-        path = follow(record, joints, **options, turns=turns, use_limits=use_limits)
+        path = follow(record, joints, poses=poses, inputs=inputs, turns=turns, use_limits=use_limits)
     return _outcome(record, path)
 
 
@@ -92,7 +97,8 @@ def _outcome(record: Mechanism, path: Path) -> Outcome:
     code = exit_codes.FINE
     if path.stopped is not None:  # "undecided" where nothing is seen that would stop it
         code = exit_codes.UNDECIDED if path.stopped.kind == "undecided" else exit_codes.STOPPED
-    return Outcome(path.to_json(), lambda: _shown(record, path), code)
+    data = path.answer()
+    return Outcome(data, lambda: _shown(record, path, data), code)
 
 
 def _points(record: Mechanism, along: Along, texts: Sequence[str], option: str = "--to") -> NDArray[Any]:
@@ -123,10 +129,10 @@ def _nearest_home(record: Mechanism, found: SolutionSet, default: str) -> int | 
     return int(rows[int(np.argmin(np.sum(turned, axis=-1)))])
 
 
-def _shown(record: Mechanism, path: Path) -> Iterable[RenderableType]:
+def _shown(record: Mechanism, path: Path, data: PathAnswer) -> Iterable[RenderableType]:
     from assur.joint_graph.geometry import characteristic_length
 
-    style, data = style_of(record), path.to_json()
+    style = style_of(record)
     stop = path.stopped
     along = "poses" if path.prescribed == "poses" else "inputs"
     end = "the end was reached" if stop is None else f"stopped, {stop.kind}"
@@ -142,13 +148,13 @@ def _shown(record: Mechanism, path: Path) -> Iterable[RenderableType]:
         yield f"At the end {path.remark}."
     yield ""
     kinds = [item.coordinate.kind for item in record.inputs]
-    titles = [f"{name} [{style.coordinate_unit(name)}]" for name in data["coordinates"]]
-    titles += [f"{name} [{style.kind_unit(kind)}]" for name, kind in zip(data["input_names"], kinds, strict=True)]
+    titles = [f"{name} [{style.coordinate_unit(name)}]" for name in data.coordinates]
+    titles += [f"{name} [{style.kind_unit(kind)}]" for name, kind in zip(data.input_names, kinds, strict=True)]
     rows = []
-    for k in _picked(data["shares"]):
-        pose = [style.coordinate(*pair) for pair in zip(data["coordinates"], data["poses"][k], strict=True)]
-        inputs = [style.kind(*pair) for pair in zip(kinds, data["inputs"][k], strict=True)]
-        rows.append((fixed(100 * data["shares"][k], 2), *pose, *inputs))
+    for k in _picked(data.shares):
+        pose = [style.coordinate(*pair) for pair in zip(data.coordinates, data.poses[k], strict=True)]
+        inputs = [style.kind(*pair) for pair in zip(kinds, data.inputs[k], strict=True)]
+        rows.append((fixed(100 * data.shares[k], 2), *pose, *inputs))
     yield table(("share [%]", *titles), rows)
     least = min(float(path.smallest[name].min()) for name in ("inputs", "poses"))
     yield f"{count(len(path), 'point')}; smallest singular value on the way, inputs or platform locked: {short(least)}"

@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from assur.kinematics.answers.solution_set import SolutionSet
     from assur.kinematics.paths.home_mode import HomeMode
     from assur.mechanism import Mechanism
-    from assur.performance.overall import OverallIndices
+    from assur.performance.overall import Overall
+    from assur.results.answers.indices import IndicesAnswer, NearestSingularity, OverallAnswer, OverallIndex
 
 Length = float | Literal["isotropic"] | None
 
@@ -47,37 +48,46 @@ def length_asked(text: str | None) -> Length:
 
 def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) -> Outcome:
     """Every index at one pose (m,) in a working mode."""
-    from assur.kinematics.answers.answer import answer
+    from assur.kinematics.answers.answer import missing
     from assur.kinematics.answers.at_border import pose_at_border
+    from assur.kinematics.border import input_names
     from assur.kinematics.paths.home_mode import home_mode_at
-    from assur.performance.indices import indices
+    from assur.kinematics.status import Status
+    from assur.performance.indices import INDICES, indices
+    from assur.results.answers.indices import IndicesAnswer
     from assur.results.json_text import plain
     from assur.singularity.verdict import modes_at
 
     of_home = record.closed_form is None and (not mode or mode == record.modes.default_working)
     home = home_mode_at(record, pose) if record.closed_form is None else None
     solved = None if of_home else record.inverse(pose, mode)
-    lost = [] if solved is None else answer(solved).failures
+    lost = () if solved is None else missing(record, solved.failures)
     there = not lost and (home is None or not of_home or home.reached)
     found = indices(record, pose, mode, length if there or length != "isotropic" else None)
-    data = {
-        "mechanism": record.name,
-        "unit": record.unit,
-        "angle": record.angle,
-        "coordinates": list(record.platform.pose),
-        "pose": plain(pose_at_border(record, pose)),
-        "mode": mode,
-        "input_names": [item.name for item in record.inputs],
-        **found.to_json(),
-        **_distance(record, pose, mode),
-        "failures": lost,
-        "home_by": "" if home is None else home.words if solved is None else _other(record, solved, home),
-        "known_modes": list(home.others) if of_home and home is not None else [],
-    }
-    if not of_home and data["status"] == "unreachable":
-        data["known_modes"] = list(modes_at(record, pose))
-    units = _units(found)
-    return Outcome(data, lambda: _pose_shown(record, data, units), exit_codes.of_status(data["status"]))
+    unreached = not of_home and Status(int(found.status)) == Status.unreachable
+    answer = IndicesAnswer(
+        mechanism=record.name,
+        unit=record.unit,
+        angle=record.angle,
+        coordinates=record.platform.pose,
+        pose=pose_at_border(record, pose).tolist(),
+        mode=mode,
+        input_names=input_names(record),
+        status=Status(int(found.status)).name,
+        characteristic_length=found.length,
+        velocity_factor_unit=found.unit,
+        velocity_factors=plain(found.velocity_factors),
+        input_transmission_indices=plain(found.transmission.inputs),
+        output_transmission_indices=plain(found.transmission.outputs),
+        condition_number=plain(found.condition_number),
+        **vars(_distance(record, pose, mode)),
+        failures=lost,
+        home_by="" if home is None else home.words if solved is None else _other(record, solved, home),
+        known_modes=modes_at(record, pose) if unreached else home.others if of_home and home is not None else (),
+        indices={name: plain(found[name]) for name in INDICES},
+    )
+    units = {name: index.unit(found) for name, index in INDICES.items()}
+    return Outcome(answer, lambda: _pose_shown(record, answer, units), exit_codes.of_status(answer.status))
 
 
 def _other(record: Mechanism, found: SolutionSet, home: HomeMode) -> str:
@@ -88,30 +98,28 @@ def _other(record: Mechanism, found: SolutionSet, home: HomeMode) -> str:
     return home.words if same else f"another assembly than that of home, as far as {home.paths} paths from home tell"
 
 
-def _distance(record: Mechanism, pose: NDArray[Any], mode: str) -> dict[str, Any]:
+def _distance(record: Mechanism, pose: NDArray[Any], mode: str) -> NearestSingularity:
     """The distance from the nearest parallel singularity, where there is a closed form and a length in the pose."""
     from assur.kinematics.answers.at_border import pose_at_border
     from assur.model.pose import LENGTHS
+    from assur.results.answers.indices import NearestSingularity
     from assur.results.json_text import plain
     from assur.singularity.distance import distance
 
     if record.closed_form is None or not set(record.platform.pose) & set(LENGTHS):
-        return {"distance": None, "nearest_factor": None, "nearest": None, "distance_reach": None}
+        return NearestSingularity(None, None, None, None)
     found = distance(record, pose, mode)
-    there = str(found.factor)
-    return {
-        "distance": plain(float(found.value)),
-        "nearest_factor": there or None,
-        "nearest": plain(pose_at_border(record, found.nearest)) if there else None,
-        "distance_reach": found.reach,
-    }
+    factor = str(found.factor) or None
+    nearest = plain(pose_at_border(record, found.nearest)) if factor else None
+    return NearestSingularity(plain(found.value), factor, nearest, found.reach)
 
 
 def over_workspace(record: Mechanism, asked: Question, points: str, length: Length, shared: Shared) -> Outcome:
     """Means and extremes of every index over the workspace of a working mode."""
-    from assur.kinematics.answers.at_border import angle_at_border, pose_at_border
+    from assur.kinematics.answers.at_border import coordinates_at_border
     from assur.performance.overall import overall
-    from assur.results.json_text import plain
+    from assur.performance.transmission import GOOD
+    from assur.results.answers.indices import GoodTransmission, OverallAnswer
     from assur.workspace.region import workspace
 
     count = whole_number(points, "--points")
@@ -121,101 +129,108 @@ def over_workspace(record: Mechanism, asked: Question, points: str, length: Leng
         )
     with progress("indices", shared):
         found = overall(record, region, count, length)
-    data = {
-        "mechanism": record.name,
-        "unit": record.unit,
-        "angle": record.angle,
-        "coordinates": list(record.platform.pose),
-        **found.to_json(),
-        "held": {
-            name: plain(value if name in ("x", "y", "z") else angle_at_border(record, value))
-            for name, value in region.slice.held.items()
-        },
-        "volume": region.volume,
-        "volume_error": region.volume_error,
-        "volume_unit": region.unit,
-    }
-    for item in data["indices"].values():
-        for key in ("least_at", "most_at"):
-            item[key] = plain(pose_at_border(record, item[key]))
-    return Outcome(data, lambda: _overall_shown(record, data, found))
+    good = found.good
+    answer = OverallAnswer(
+        mechanism=record.name,
+        unit=record.unit,
+        angle=record.angle,
+        coordinates=record.platform.pose,
+        mode=found.mode,
+        points=found.points,
+        singular=found.singular,
+        characteristic_length=found.length,
+        velocity_factor_unit=found.factor_unit,
+        good_from=GOOD,
+        good_transmission=None if good is None else GoodTransmission(**vars(good)),
+        indices={name: _overall_index(record, item) for name, item in found.values.items()},
+        held=coordinates_at_border(record, region.slice.held),
+        volume=region.volume,
+        volume_error=region.volume_error,
+        volume_unit=region.unit,
+    )
+    return Outcome(answer, lambda: _overall_shown(record, answer))
 
 
-def _units(found: Any) -> dict[str, str]:
+def _overall_index(record: Mechanism, item: Overall) -> OverallIndex:
+    from assur.kinematics.answers.at_border import pose_at_border
+    from assur.results.answers.indices import OverallIndex
+
+    places = {"least_at": item.least_at, "most_at": item.most_at}
+    at_border = {name: pose_at_border(record, pose).tolist() for name, pose in places.items()}
+    return OverallIndex(**{**vars(item), **at_border})
+
+
+def _pose_shown(record: Mechanism, data: IndicesAnswer, units: dict[str, str]) -> Iterable[RenderableType]:
     from assur.performance.indices import INDICES
 
-    return {name: index.unit(found) for name, index in INDICES.items()}
-
-
-def _pose_shown(record: Mechanism, data: dict[str, Any], units: dict[str, str]) -> Iterable[RenderableType]:
-    from assur.performance.indices import INDICES
-
-    yield heading(f"{data['mechanism']}, indices: {data['status']}")
-    of_mode = f", working mode {data['mode']}" if data["mode"] else ""
-    yield f"at {pose_text(style_of(record), data['coordinates'], data['pose'])}{of_mode}"
+    yield heading(f"{data.mechanism}, indices: {data.status}")
+    of_mode = f", working mode {data.mode}" if data.mode else ""
+    yield f"at {pose_text(style_of(record), data.coordinates, data.pose)}{of_mode}"
     yield from of_modes(data)
     yield ""
-    if data["failures"]:
-        yield failures(data["failures"])
+    if data.failures:
+        yield failures(data.failures)
         return
-    if data["transmission"] is None:
+    if data.indices["transmission"] is None:
         return
-    rows = [(name, f"{short(data[name])} {units[name]}".strip(), index.meaning) for name, index in INDICES.items()]
-    if data["distance"] is not None:
-        what = f"distance from {data['nearest_factor']} = 0, the nearest parallel singularity found"
-        rows.append(("distance", f"{short(data['distance'])} {record.unit}", what))
-    elif data["distance_reach"] is not None:
-        what = f"no parallel singularity was found within {short(data['distance_reach'])} {record.unit}"
+    rows = [
+        (name, f"{short(data.indices[name])} {units[name]}".strip(), index.meaning) for name, index in INDICES.items()
+    ]
+    if data.distance is not None:
+        what = f"distance from {data.nearest_factor} = 0, the nearest parallel singularity found"
+        rows.append(("distance", f"{short(data.distance)} {record.unit}", what))
+    elif data.distance_reach is not None:
+        what = f"no parallel singularity was found within {short(data.distance_reach)} {record.unit}"
         rows.append(("distance", "", what))
     yield table(("index", "value", "what it is"), rows, left=("index", "what it is"))
     yield ""
     yield heading("transmission, input by input: 0 none, 1 all")
-    parts = (data["input_names"], data["input_transmission_indices"], data["output_transmission_indices"])
+    parts = (data.input_names, data.input_transmission_indices, data.output_transmission_indices)
     yield table(
         ("input", "drives its limb", "drives the platform"),
         [(name, short(first), short(second)) for name, first, second in zip(*parts, strict=True)],
         left=("input",),
     )
-    factors = ", ".join(map(short, data["velocity_factors"]))
-    if data["status"] == "undecided":
+    factors = ", ".join(map(short, data.velocity_factors))
+    if data.status == "undecided":
         yield "theta is a right angle: phi and psi have no rates of their own, so that J does not exist here"
-    yield f"condition number of J = Jp^-1 Jq, one over the local condition index: {short(data['condition_number'])}"
-    yield f"velocity factors of J = Jp^-1 Jq: {factors} {data['velocity_factor_unit']}".rstrip()
-    yield length_words(record, data["characteristic_length"])
+    yield f"condition number of J = Jp^-1 Jq, one over the local condition index: {short(data.condition_number)}"
+    yield f"velocity factors of J = Jp^-1 Jq: {factors} {data.velocity_factor_unit}".rstrip()
+    yield length_words(record, data.characteristic_length)
 
 
-def _overall_shown(record: Mechanism, data: dict[str, Any], found: OverallIndices) -> Iterable[RenderableType]:
+def _overall_shown(record: Mechanism, data: OverallAnswer) -> Iterable[RenderableType]:
     style = style_of(record)
-    of_mode = f" of working mode {data['mode']}" if data["mode"] else ""
-    yield heading(f"{data['mechanism']}, indices over the workspace{of_mode}")
-    if data["held"]:
-        yield f"held: {', '.join(f'{name} = {value:g}' for name, value in data['held'].items())}"
-    volume = with_error(data["volume"], data["volume_error"])
-    yield f"workspace: {volume} {data['volume_unit']}, seen at {data['points']} points"
-    if not found.values or found.good is None:
+    of_mode = f" of working mode {data.mode}" if data.mode else ""
+    yield heading(f"{data.mechanism}, indices over the workspace{of_mode}")
+    if data.held:
+        yield f"held: {', '.join(f'{name} = {value:g}' for name, value in data.held.items())}"
+    volume = with_error(data.volume, data.volume_error)
+    yield f"workspace: {volume} {data.volume_unit}, seen at {data.points} points"
+    good = data.good_transmission
+    if not data.indices or good is None:
         yield "nothing is reached"
         return
     yield ""
     rows = [
         (name, with_error(item.mean, item.mean_error), short(item.least), short(item.most))
-        for name, item in found.values.items()
+        for name, item in data.indices.items()
     ]
     yield table(("index", "mean", "least", "most"), rows, left=("index",))
-    unit = data["velocity_factor_unit"]
+    unit = data.velocity_factor_unit
     if unit:
         yield f"largest and smallest are velocity factors in {unit}; manipulability is their product"
-    yield length_words(record, found.length)
+    yield length_words(record, data.characteristic_length)
     yield ""
-    good = found.good
     size = f"{with_error(good.volume, good.volume_error)} {good.unit}"
     share = f"{100 * good.share:.1f} ± {100 * good.share_error:.1f} %"
-    yield f"good transmission (local index at least {data['good_from']}): {share}, {size}"
-    worst = data["indices"]["transmission"]
-    where = point_text(style, data["coordinates"], worst["least_at"])
-    title = point_title(style, data["coordinates"])
-    yield f"worst transmission seen: {short(worst['least'])} at {title} = {where}"
-    if data["singular"]:
-        yield f"{data['singular']} points are singular and left out of the means of J's indices"
+    yield f"good transmission (local index at least {data.good_from}): {share}, {size}"
+    worst = data.indices["transmission"]
+    where = point_text(style, data.coordinates, worst.least_at)
+    title = point_title(style, data.coordinates)
+    yield f"worst transmission seen: {short(worst.least)} at {title} = {where}"
+    if data.singular:
+        yield f"{data.singular} points are singular and left out of the means of J's indices"
 
 
 def length_words(record: Mechanism, length: float | None) -> str:

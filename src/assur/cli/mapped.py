@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from assur.cli import region_question
 from assur.cli.indexed import Length, length_words
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from assur.mechanism import Mechanism
+    from assur.results.answers.indices import MapsAnswer
     from assur.workspace.index_maps import IndexMaps
     from assur.workspace.region import Workspace
 
@@ -65,9 +66,10 @@ def over_plane(
     with progress("index maps", shared):
         found = index_maps(record, region, names, nodes=count, characteristic_length=length)
     shown = found.in_degrees() if record.angle == "deg" else found
+    answer = shown.answer()
     if written is not None:
-        _write(written, record, region, found, shown)
-    return Outcome(shown.to_json(), lambda: _shown(record, shown, written))
+        _write(written, record, region, found, shown, answer)
+    return Outcome(answer, lambda: _shown(record, shown, written))
 
 
 def _names(record: Mechanism, plane: str) -> tuple[str, ...]:
@@ -105,7 +107,9 @@ def _rest(record: Mechanism, names: Sequence[str], at: Sequence[str]) -> list[st
     return texts
 
 
-def _write(path: Path, record: Mechanism, region: Workspace, found: IndexMaps, shown: IndexMaps) -> None:
+def _write(
+    path: Path, record: Mechanism, region: Workspace, found: IndexMaps, shown: IndexMaps, answer: MapsAnswer
+) -> None:
     from assur.results.files import write_whole
     from assur.results.json_text import json_text
 
@@ -122,11 +126,11 @@ def _write(path: Path, record: Mechanism, region: Workspace, found: IndexMaps, s
     elif ending == ".npz":
         import numpy as np
 
-        stream, arrays = io.BytesIO(), dict[str, Any](shown.arrays())
+        stream, arrays = io.BytesIO(), cast("Mapping[str, Any]", shown.arrays())
         np.savez_compressed(stream, **arrays)
         write_whole(path, stream.getvalue())
     else:
-        write_whole(path, shown.csv() if ending == ".csv" else json_text(shown.to_json()) + "\n")
+        write_whole(path, shown.csv() if ending == ".csv" else json_text(answer) + "\n")
 
 
 def _shown(record: Mechanism, found: IndexMaps, written: Path | None) -> Iterable[RenderableType]:

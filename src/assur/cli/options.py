@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Group, Parameter
 
@@ -132,7 +132,7 @@ DRAWN_DEFAULTS = Drawn()
 class Outcome:
     """What a command found: an answer for `--json`, what a person sees, the exit code, and how it came about."""
 
-    data: Answer | dict[str, Any]
+    data: Answer
     shown: Callable[[], Iterable[RenderableType]]
     exit_code: int = 0
     interrupted: bool = False

@@ -7,7 +7,7 @@ import os
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from assur.cli.exit_codes import INTERRUPTED
 from assur.errors import AssurError, FileError, OutputError, visible
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from rich.text import Text
 
     from assur.cli.options import Outcome
-    from assur.results.answers.answer import Answer, Circumstances
+    from assur.results.answers.answer import Circumstances
 
 
 def console(*, error: bool = False) -> Console:
@@ -40,17 +40,11 @@ def emit(outcome: Outcome, *, json: bool) -> None:
         from assur.results.answers.answer import entries
         from assur.results.json_text import json_text
 
-        text = json_text({**_entries(outcome.data), **entries(_circumstances(outcome))}) + "\n"
+        text = json_text({**entries(outcome.data), **entries(_circumstances(outcome))}) + "\n"
         with written():
             sys.stdout.write(text)
     else:
         show(outcome.shown())
-
-
-def _entries(data: Answer | dict[str, Any]) -> dict[str, Any]:
-    from assur.results.answers.answer import entries
-
-    return data if isinstance(data, dict) else entries(data)
 
 
 def _circumstances(outcome: Outcome) -> Circumstances:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from assur.cli.output import heading, table
 from assur.cli.quantities import is_length, short
@@ -13,30 +13,30 @@ if TYPE_CHECKING:
 
     from assur.mechanism import Mechanism
     from assur.results.answers.position import InputsSolution, PoseSolution
+    from assur.results.answers.region import LargestCoordinate
     from assur.workspace.region import Workspace
 
 
-def largest(record: Mechanism, found: Workspace) -> dict[str, Any]:
+def largest(record: Mechanism, found: Workspace) -> dict[str, LargestCoordinate]:
     """Coordinate -> its largest value in size over a workspace and where; angles in the mechanism's angle unit."""
+    from assur.kinematics.answers.at_border import coordinate_unit, coordinates_at_border
+    from assur.results.answers.region import LargestCoordinate
     from assur.workspace.parasitic import largest_parasitic
 
     return {
-        name: {
-            "value": _outside(record, name, item.value),
-            "at": {key: _outside(record, key, value) for key, value in item.at.items()},
-        }
+        name: LargestCoordinate(item.value / coordinate_unit(record, name), coordinates_at_border(record, item.at))
         for name, item in largest_parasitic(record, found).items()
     }
 
 
-def shown_largest(record: Mechanism, data: Mapping[str, Any]) -> Iterable[RenderableType]:
+def shown_largest(record: Mechanism, data: Mapping[str, LargestCoordinate]) -> Iterable[RenderableType]:
     """The same for a person."""
     yield heading("largest parasitic motion, of the coordinates that the pose leaves out")
     rows = [
         (
             name,
-            f"{short(item['value'])} {_unit(record, name)}",
-            ", ".join(_at(record, *pair) for pair in item["at"].items()),
+            f"{short(item.value)} {_unit(record, name)}",
+            ", ".join(f"{key} = {value:.5g} {_unit(record, key)}" for key, value in item.at.items()),
         )
         for name, item in data.items()
     ]
@@ -56,15 +56,5 @@ def shown_solutions(record: Mechanism, solutions: Iterable[PoseSolution | Inputs
     )
 
 
-def _outside(record: Mechanism, name: str, value: float) -> float:
-    from assur.kinematics.answers.at_border import angle_at_border
-
-    return value if is_length(name) else float(angle_at_border(record, value))
-
-
 def _unit(record: Mechanism, name: str) -> str:
     return record.unit if is_length(name) else record.angle
-
-
-def _at(record: Mechanism, name: str, value: float) -> str:
-    return f"{name} = {value:.5g} {_unit(record, name)}"

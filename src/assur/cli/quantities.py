@@ -62,14 +62,14 @@ def style_of(record: MechanismRecord) -> Style:
     return Style(record.unit, record.angle, decimals)
 
 
-def pose_text(style: Style, names: Sequence[str], pose: Sequence[float]) -> str:
+def pose_text(style: Style, names: Sequence[str], pose: Sequence[float | None]) -> str:
     """A pose with names and units: x = 1.0000 mm, y = .."""
     pairs = zip(names, pose, strict=True)
     parts = (f"{name} = {style.coordinate(name, value)} {style.coordinate_unit(name)}" for name, value in pairs)
     return ", ".join(part.rstrip() for part in parts)
 
 
-def point_text(style: Style, names: Sequence[str], pose: Sequence[float]) -> str:
+def point_text(style: Style, names: Sequence[str], pose: Sequence[float | None]) -> str:
     """A pose without names: (1.0000, 2.0000)."""
     return f"({', '.join(style.coordinate(name, value) for name, value in zip(names, pose, strict=True))})"
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from assur.cli.numbers import assignments, interval, number, parts, whole_number
-from assur.cli.quantities import is_length
 from assur.errors import UnknownNameError, UsageError
 
 if TYPE_CHECKING:
@@ -41,11 +39,12 @@ def question(
     at: Sequence[str] = (),
 ) -> Question:
     """What was asked for, with every word checked."""
+    from assur.kinematics.answers.at_border import coordinate_unit
     from assur.workspace.slices import slice_at
 
     held = _held(record, at)
     last = slice_at(record, held).free[-1]
-    cuts = tuple(number(text, "--section") * unit_factor(record, is_length(last)) for text in section)
+    cuts = tuple(number(text, "--section") * coordinate_unit(record, last) for text in section)
     distance = None if near is None else number(near, "--near")
     if near is not None and distance is not None and distance <= 0:
         raise UsageError(f"--near: {near.strip()} is not a positive length")
@@ -61,6 +60,7 @@ def question(
 
 
 def _box(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
+    from assur.kinematics.answers.at_border import coordinate_unit
     from assur.workspace.slices import coordinates
 
     example = f"{record.platform.pose[0]}=-110:90"
@@ -68,15 +68,17 @@ def _box(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
     for name, text in assignments(texts, "--box", example).items():
         if name not in coordinates(record):
             raise UnknownNameError(f"pose coordinate of {record.name}", name, coordinates(record))
-        found[name] = _inside(record, interval(text, f"--box {name}", example), is_length(name))
+        found[name] = _scaled(interval(text, f"--box {name}", example), coordinate_unit(record, name))
     return found
 
 
 def _held(record: Mechanism, texts: Sequence[str]) -> dict[str, float] | None:
     """What is held, None where nothing was said."""
+    from assur.kinematics.answers.at_border import coordinate_unit
+
     example = f"{record.platform.pose[-1]}=0"
     found = {
-        name: number(text, f"--at {name}") * unit_factor(record, is_length(name))
+        name: number(text, f"--at {name}") * coordinate_unit(record, name)
         for name, text in assignments(texts, "--at", example).items()
     }
     return found or None
@@ -84,7 +86,9 @@ def _held(record: Mechanism, texts: Sequence[str]) -> dict[str, float] | None:
 
 def _strokes(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
     """Strokes by input; one without a name is for every input that has none of its own."""
-    lengths = {item.name: item.coordinate.kind == "length" for item in record.inputs}
+    from assur.kinematics.answers.at_border import input_unit
+
+    units = {item.name: input_unit(record, item) for item in record.inputs}
     example = f"{record.inputs[0].name}=-300:300"
     given = parts(texts, "--stroke")
     common = [text for text in given if "=" not in text]
@@ -93,24 +97,13 @@ def _strokes(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
     found = {}
     for text in common:
         pair = interval(text, "--stroke", example)
-        found = {name: _inside(record, pair, length) for name, length in lengths.items()}
+        found = {name: _scaled(pair, unit) for name, unit in units.items()}
     for name, text in assignments([text for text in given if "=" in text], "--stroke", example).items():
-        if name not in lengths:
-            raise UnknownNameError(f"input of {record.name}", name, lengths)
-        found[name] = _inside(record, interval(text, f"--stroke {name}", example), lengths[name])
+        if name not in units:
+            raise UnknownNameError(f"input of {record.name}", name, units)
+        found[name] = _scaled(interval(text, f"--stroke {name}", example), units[name])
     return found
 
 
-def _inside(record: Mechanism, pair: Interval, length: bool) -> Interval:
-    factor = unit_factor(record, length)
-    return pair[0] * factor, pair[1] * factor
-
-
-def unit_factor(record: Mechanism, length: bool) -> float:
-    """What a printed value is multiplied by inside: rad per degree for an angle of a file in degrees, 1 otherwise.
-
-    >>> from assur.model.registry import load_record
-    >>> unit_factor(load_record("fivebar"), length=True)
-    1.0
-    """
-    return math.pi / 180 if record.angle == "deg" and not length else 1.0
+def _scaled(pair: Interval, unit: float) -> Interval:
+    return pair[0] * unit, pair[1] * unit

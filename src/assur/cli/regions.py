@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from assur.cli import parasitic
 from assur.cli.options import Outcome, Shared
@@ -13,12 +13,13 @@ from assur.cli.output import heading, table
 from assur.cli.paths import output_file
 from assur.cli.progress import progress
 from assur.cli.quantities import is_length, mode_words, short
-from assur.cli.region_question import Question, unit_factor
+from assur.cli.region_question import Question
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from assur.mechanism import Mechanism
+    from assur.results.answers.region import WorkspaceAnswer
     from assur.workspace.region import Workspace
 
 ENDINGS = (".json", ".obj")
@@ -48,47 +49,60 @@ def outcome(record: Mechanism, asked: Question, written: Path | None, shared: Sh
             asked.held,
             step,
         )
-    data = _data(record, asked, found)
+    data = _answer(record, asked, found)
     if written is not None:
         write_whole(written, _content(written, found, data))
     return Outcome(data, lambda: _shown(record, data, written))
 
 
-def _data(record: Mechanism, asked: Question, found: Workspace) -> dict[str, Any]:
-    """The answer as plain data; angles in the mechanism's angle unit."""
+def _answer(record: Mechanism, asked: Question, found: Workspace) -> WorkspaceAnswer:
+    """The answer, with angles in the mechanism's angle unit."""
+    from assur.kinematics.answers.at_border import (
+        box_at_border,
+        coordinate_unit,
+        coordinates_at_border,
+        input_unit,
+    )
     from assur.kinematics.limits import joint_limits, limits_stated
+    from assur.results.answers.region import SectionArea, WorkspaceAnswer
     from assur.workspace.region import default_resolution
 
-    names = found.box.names
-    lengths = {item.name: item.coordinate.kind == "length" for item in record.inputs}
-    data = found.to_json()
+    names, last = found.box.names, found.box.names[-1]
     limits = {item.name: item.stroke for item in record.inputs if item.stroke is not None} | asked.strokes
-    box = [_outside(record, pair, is_length(name)) for name, pair in zip(names, data["box"], strict=True)]
-    last, factor = names[-1], unit_factor(record, is_length(names[-1]))
-    return {
-        "mechanism": record.name,
-        **data,
-        "held": {name: value / unit_factor(record, is_length(name)) for name, value in data["held"].items()},
-        "box": box,
-        "sections": [{**item, last: item[last] / factor} for item in data["sections"]],
-        "resolution": asked.resolution or default_resolution(record, found.slice),
-        "strokes": {name: _outside(record, pair, lengths[name]) for name, pair in limits.items()},
-        "limits_stated": limits_stated(record, asked.strokes),
-        "joint_limits": joint_limits(record),
-        "parasitic": parasitic.largest(record, found),
-        "nowhere": _nowhere(record, asked, found),
-        "empty": _empty(record, asked, found),
-    }
+    units = {item.name: input_unit(record, item) for item in record.inputs}
+    return WorkspaceAnswer(
+        mechanism=record.name,
+        volume=found.volume,
+        volume_error=found.volume_error,
+        unit=found.unit,
+        mode=found.mode,
+        how=found.how,
+        coordinates=names,
+        box=box_at_border(record, names, found.box.intervals),
+        held=coordinates_at_border(record, found.slice.held),
+        parallel_singular=found.parallel_singular,
+        sections=tuple(
+            SectionArea(item.area, item.area_error, {last: item.value / coordinate_unit(record, last)})
+            for item in found.sections
+        ),
+        resolution=asked.resolution or default_resolution(record, found.slice),
+        strokes={name: (low / units[name], high / units[name]) for name, (low, high) in limits.items()},
+        limits_stated=limits_stated(record, asked.strokes),
+        joint_limits=tuple(joint_limits(record)),
+        parasitic=parasitic.largest(record, found),
+        nowhere=_nowhere(record, asked, found),
+        empty=_empty(record, asked, found),
+    )
 
 
-def _nowhere(record: Mechanism, asked: Question, found: Workspace) -> list[str]:
+def _nowhere(record: Mechanism, asked: Question, found: Workspace) -> tuple[str, ...]:
     """Of the parallel factors without a locus inside those that are proved to have none."""
     from assur.workspace.aspects.nowhere import nowhere_zero
 
     unseen = [item.factor for item in found.loci if not item.area and not item.everywhere]
     if record.closed_form is None or not unseen or found.volume == 0:
-        return []
-    return sorted(nowhere_zero(record, unseen, asked.mode, asked.box, asked.strokes, asked.held))
+        return ()
+    return tuple(sorted(nowhere_zero(record, unseen, asked.mode, asked.box, asked.strokes, asked.held)))
 
 
 def _empty(record: Mechanism, asked: Question, found: Workspace) -> Literal["proved", "sampled"] | None:
@@ -103,12 +117,8 @@ def _empty(record: Mechanism, asked: Question, found: Workspace) -> Literal["pro
     return "proved" if proved else "sampled"
 
 
-def _outside(record: Mechanism, pair: Sequence[float], length: bool) -> list[float]:
-    factor = unit_factor(record, length)
-    return [pair[0] / factor, pair[1] / factor]
-
-
-def _content(path: Path, found: Workspace, data: dict[str, Any]) -> str:
+def _content(path: Path, found: Workspace, data: WorkspaceAnswer) -> str:
+    from assur.results.answers.answer import entries
     from assur.results.json_text import json_text
 
     if path.suffix.lower() == ".obj":
@@ -116,59 +126,61 @@ def _content(path: Path, found: Workspace, data: dict[str, Any]) -> str:
         faces = [f"f {' '.join(str(index + 1) for index in face)}" for face in found.faces.tolist()]
         return "\n".join([f"# {found.mechanism}, working mode {found.mode}", *points, *faces, ""])
     polygons = [[polygon.tolist() for polygon in section.polygons] for section in found.sections]
-    return json_text({**data, "section_polygons": polygons}) + "\n"
+    return json_text({**entries(data), "section_polygons": polygons}) + "\n"
 
 
-def _shown(record: Mechanism, data: dict[str, Any], written: Path | None) -> Iterable[RenderableType]:
+def _shown(record: Mechanism, data: WorkspaceAnswer, written: Path | None) -> Iterable[RenderableType]:
     from assur.kinematics.limits import NO_LIMITS
 
-    dimension = len(data["coordinates"])
-    yield heading(f"{data['mechanism']}, workspace of {mode_words(record, data['mode'])}")
-    yield f"how: {data['how']}"
-    yield f"box: {_intervals(record, dict(zip(data['coordinates'], data['box'], strict=True)))}"
-    if data["held"]:
-        yield f"held: {', '.join(_value(record, name, value) for name, value in data['held'].items())}"
-    if data["strokes"]:
-        yield f"strokes: {_intervals(record, data['strokes'])}"
-    if not data["limits_stated"]:
+    dimension = len(data.coordinates)
+    yield heading(f"{data.mechanism}, workspace of {mode_words(record, data.mode)}")
+    yield f"how: {data.how}"
+    yield f"box: {_intervals(record, dict(zip(data.coordinates, data.box, strict=True)))}"
+    if data.held:
+        yield f"held: {', '.join(_value(record, name, value) for name, value in data.held.items())}"
+    if data.strokes:
+        yield f"strokes: {_intervals(record, data.strokes)}"
+    if not data.limits_stated:
         yield f"limits: {NO_LIMITS}"
-    if data["joint_limits"]:
-        yield f"limits of the file: {', '.join(data['joint_limits'])}"
+    if data.joint_limits:
+        yield f"limits of the file: {', '.join(data.joint_limits)}"
     what = ("length", "area", "volume")[dimension - 1]
-    size = f"{with_error(data['volume'], data['volume_error'])} {data['unit']}"
-    if data["empty"] == "proved":
-        yield f"{what}: 0 {data['unit']}: nothing is reached, proved"
-    elif data["empty"]:
-        yield f"{what}: 0 {data['unit']}: nothing is reached on {data['resolution']} cells along each coordinate"
+    size = f"{with_error(data.volume, data.volume_error)} {data.unit}"
+    if data.empty == "proved":
+        yield f"{what}: 0 {data.unit}: nothing is reached, proved"
+    elif data.empty:
+        yield f"{what}: 0 {data.unit}: nothing is reached on {data.resolution} cells along each coordinate"
     elif _whole(record, data):
-        yield f"{what}: {data['volume']:.10g} {data['unit']}, all of the box: {_unlimited(data)}"
+        yield f"{what}: {data.volume:.10g} {data.unit}, all of the box: {_unlimited(data)}"
     else:
         yield f"{what}: {size} (error: difference to half the resolution)"
     yield ""
     yield from _sections(record, data)
     yield from _singular(record, data)
-    if data["parasitic"]:
+    if data.parasitic:
         yield ""
-        yield from parasitic.shown_largest(record, data["parasitic"])
+        yield from parasitic.shown_largest(record, data.parasitic)
     if written is not None:
         yield f"written: {written}"
 
 
-def _whole(record: Mechanism, data: dict[str, Any]) -> bool:
+def _whole(record: Mechanism, data: WorkspaceAnswer) -> bool:
     """Whether the region is the box, as far as its grid can tell."""
-    factors = [unit_factor(record, is_length(name)) for name in data["coordinates"]]
-    box = math.prod((high - low) * factor for (low, high), factor in zip(data["box"], factors, strict=True))
-    return bool(data["volume_error"] <= SAME * box and abs(data["volume"] - box) <= SAME * box)
+    from assur.kinematics.answers.at_border import coordinate_unit
+
+    units = [coordinate_unit(record, name) for name in data.coordinates]
+    box = math.prod((high - low) * unit for (low, high), unit in zip(data.box, units, strict=True))
+    return bool(data.volume_error <= SAME * box and abs(data.volume - box) <= SAME * box)
 
 
-def _unlimited(data: dict[str, Any]) -> str:
+def _unlimited(data: WorkspaceAnswer) -> str:
     """What limits a region that fills its box."""
-    if not data["limits_stated"]:
+    if not data.limits_stated:
         return "no stroke limits it; --stroke LOW:HIGH does"
     return "no limit was seen in it; a larger --box may show one"
 
 
-def _intervals(record: Mechanism, pairs: dict[str, Sequence[float]]) -> str:
+def _intervals(record: Mechanism, pairs: Mapping[str, Sequence[float]]) -> str:
     lengths = {item.name: item.coordinate.kind == "length" for item in record.inputs}
     parts = []
     for name, (low, high) in pairs.items():
@@ -200,40 +212,40 @@ def area_title(record: Mechanism, names: Sequence[str]) -> str:
     return f"area [{unit}]" if unit else "area"
 
 
-def _sections(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
-    if not data["sections"]:
+def _sections(record: Mechanism, data: WorkspaceAnswer) -> Iterable[RenderableType]:
+    if not data.sections:
         return
     from assur.kinematics.answers.at_border import power
 
-    *others, last = data["coordinates"]
+    *others, last = data.coordinates
     angles = sum(not is_length(name) for name in others)
     powers = ((record.unit, len(others) - angles), ("rad", angles))
     unit = " ".join(power(name, exponent) for name, exponent in powers if exponent)
     yield table(
         (f"section at {last}", f"area [{unit}]" if unit else "area"),
-        [(f"{item[last]:g}", with_error(item["area"], item["area_error"])) for item in data["sections"]],
+        [(f"{item.at[last]:g}", with_error(item.area, item.area_error)) for item in data.sections],
     )
     yield ""
 
 
-def _singular(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
-    singular = data["parallel_singular"]
-    unseen = "nothing is reached" if data["empty"] else "none found"
-    none = {name: "none, proved" if name in data["nowhere"] else unseen for name in singular["factors"]}
+def _singular(record: Mechanism, data: WorkspaceAnswer) -> Iterable[RenderableType]:
+    singular = data.parallel_singular
+    unseen = "nothing is reached" if data.empty else "none found"
+    none = {name: "none, proved" if name in data.nowhere else unseen for name in singular.factors}
     rows = [
         (
             name,
-            "the whole mode" if item["everywhere"] else short(item["area"]) if item["faces"] else none[name],
-            item["meaning"],
+            "the whole mode" if item.everywhere else short(item.area) if item.faces else none[name],
+            item.meaning,
         )
-        for name, item in singular["factors"].items()
+        for name, item in singular.factors.items()
     ]
     yield heading("parallel singularities inside")
-    yield table(("factor", area_title(record, data["coordinates"]), "zero where"), rows, left=("factor", "zero where"))
+    yield table(("factor", area_title(record, data.coordinates), "zero where"), rows, left=("factor", "zero where"))
     if "none found" in {row[1] for row in rows}:
-        yield f"none found: on {data['resolution']} cells along each coordinate, which is no proof"
-    share, near = singular["share"], f"{singular['near']:g} {record.unit}"
-    if not all(is_length(name) for name in data["coordinates"]):
+        yield f"none found: on {data.resolution} cells along each coordinate, which is no proof"
+    share, near = singular.share, f"{singular.near:g} {record.unit}"
+    if not all(is_length(name) for name in data.coordinates):
         return  # no distance where angles vary
     if share is None:
         yield f"share within {near} of one: not known"

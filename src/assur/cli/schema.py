@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
@@ -10,7 +10,7 @@ from assur.cli.options import PLAIN, Outcome, Plain
 from assur.errors import UnknownNameError, UsageError
 
 if TYPE_CHECKING:
-    from rich.console import RenderableType
+    from assur.results.answers.schema import Schema
 
 
 def schema(
@@ -31,31 +31,21 @@ def schema(
         assur schema > mechanism.schema.json
         assur schema --answers direct > direct.schema.json
     """
-    if answers:
-        return _printed(_of_answers(command))
-    if command is not None:
+    if command is not None and not answers:
         raise UsageError(f"schema {command}: a mechanism's file is of no command", hint="add --answers")
     from assur.cli.output import Verbatim
-    from assur.model.file.json_schema import json_schema, schema_text
+    from assur.model.file.json_schema import json_schema
+    from assur.results.answers.catalogue import SchemaAnswer
+    from assur.results.json_text import indented
 
-    return Outcome(json_schema(), lambda: [Verbatim(schema_text().rstrip("\n"))])
+    answer = SchemaAnswer(_of_answers(command) if answers else json_schema())
+    return Outcome(answer, lambda: [Verbatim(indented(answer.schema))])
 
 
-def _of_answers(command: str | None) -> dict[str, Any]:
+def _of_answers(command: str | None) -> Schema:
     from assur.cli.answers import ANSWERS
     from assur.results.answers.schema import schema_of
 
     if command is not None and command not in ANSWERS:
         raise UnknownNameError("command", command, ANSWERS)
     return schema_of(ANSWERS if command is None else {command: ANSWERS[command]})
-
-
-def _printed(found: dict[str, Any]) -> Outcome:
-    def shown() -> list[RenderableType]:
-        import json
-
-        from assur.cli.output import Verbatim
-
-        return [Verbatim(json.dumps(found, indent=2, ensure_ascii=False))]
-
-    return Outcome(found, shown)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
@@ -15,7 +15,11 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from assur.mechanism import Mechanism
+    from assur.results.answers.singularity import ListedExample, ListedFactor, SingularityAnswer, SingularLocus
+    from assur.singularity.examples import SingularExample
     from assur.workspace.region import Workspace
+
+    Groups = tuple[tuple[str, ...], ...]
 
 RESOLUTION = 48
 """Cells along each coordinate of the box in which loci are looked for."""
@@ -23,6 +27,7 @@ RESOLUTION = 48
 
 def outcome(record: Mechanism, mode: str, shared: Shared) -> Outcome:
     """The outcome for a whole mechanism, its loci being those of one working mode."""
+    from assur.results.answers.singularity import SingularityAnswer
     from assur.singularity.examples import singular_examples
     from assur.workspace.region import workspace
     from assur.workspace.sign_changes import ways_across
@@ -31,109 +36,103 @@ def outcome(record: Mechanism, mode: str, shared: Shared) -> Outcome:
         region = workspace(record, mode, resolution=RESOLUTION if record.closed_form else None, progress=step)
     with progress("example configurations", shared) as step:
         examples = [_example(record, item) for item in singular_examples(record, 0, step, lambda: ways_across(region))]
-    data = {
-        "mechanism": record.name,
-        "unit": record.unit,
-        "angle": record.angle,
-        "coordinates": list(record.platform.pose),
-        "mode": mode,
-        "factors": _factors(record),
-        **_groups(record),
-        "loci": _loci(region),
-        "examples": examples,
-    }
-    return Outcome(data, lambda: _shown(record, data))
+    constraint, self_motion = _groups(record)
+    answer = SingularityAnswer(
+        mechanism=record.name,
+        unit=record.unit,
+        angle=record.angle,
+        coordinates=record.platform.pose,
+        mode=mode,
+        factors=_factors(record),
+        constraint=constraint,
+        self_motion=self_motion,
+        loci=_loci(region),
+        examples=tuple(examples),
+    )
+    return Outcome(answer, lambda: _shown(record, answer))
 
 
-def _factors(record: Mechanism) -> list[dict[str, Any]]:
+def _factors(record: Mechanism) -> tuple[ListedFactor, ...]:
     from assur.kinematics.answers.at_border import power
     from assur.kinematics.status import closed_form_of, scale
+    from assur.results.answers.singularity import ListedFactor
 
-    return (
-        [
-            {
-                "name": item.name,
-                "kind": item.kind,
-                "meaning": item.meaning,
-                "unit": power(record.unit, item.unit),
-                "scale": scale(record, item.scale),
-            }
-            for item in closed_form_of(record).factor_list
-        ]
-        if record.closed_form
-        else []
+    if record.closed_form is None:
+        return ()
+    return tuple(
+        ListedFactor(item.name, item.kind, item.meaning, power(record.unit, item.unit), scale(record, item.scale))
+        for item in closed_form_of(record).factor_list
     )
 
 
-def _groups(record: Mechanism) -> dict[str, list[list[str]]]:
+def _groups(record: Mechanism) -> tuple[Groups, Groups]:
+    """Names of factors that are zero together where the joint graph loses rank, and where the platform moves alone."""
     from assur.kinematics.status import closed_form_of
 
     if record.closed_form is None:
-        return {"constraint": [], "self_motion": []}
+        return (), ()
     form = closed_form_of(record)
-    return {
-        "constraint": [list(group) for group in form.constraint_singular],
-        "self_motion": [list(group) for group in form.self_motion_singular],
-    }
+    return tuple(map(tuple, form.constraint_singular)), tuple(map(tuple, form.self_motion_singular))
 
 
-def _loci(region: Workspace) -> list[dict[str, Any]]:
-    found = region.parallel_singular["factors"]
-    return [
-        {"factor": name, "area": item["area"], "everywhere": item["everywhere"], "meaning": item["meaning"]}
-        for name, item in found.items()
-    ]
+def _loci(region: Workspace) -> tuple[SingularLocus, ...]:
+    from assur.results.answers.singularity import SingularLocus
+
+    surfaces = region.parallel_singular.factors.items()
+    return tuple(SingularLocus(name, item.area, item.everywhere, item.meaning) for name, item in surfaces)
 
 
-def _example(record: Mechanism, example: Any) -> dict[str, Any]:
+def _example(record: Mechanism, example: SingularExample) -> ListedExample:
     from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border
-    from assur.results.json_text import plain
+    from assur.results.answers.singularity import ListedExample
 
-    return {
-        "factor": example.factor.name,
-        "kind": example.status.name,
-        "mode": example.mode,
-        "pose": plain(pose_at_border(record, example.pose)),
-        "inputs": plain(inputs_at_border(record, example.inputs)),
-        "in_box": example.in_box,
-    }
+    return ListedExample(
+        example.factor.name,
+        example.status.name,
+        example.mode,
+        pose_at_border(record, example.pose).tolist(),
+        inputs_at_border(record, example.inputs).tolist(),
+        example.in_box,
+    )
 
 
-def _shown(record: Mechanism, data: dict[str, Any]) -> Iterable[RenderableType]:
+def _shown(record: Mechanism, data: SingularityAnswer) -> Iterable[RenderableType]:
     style = style_of(record)
-    if data["factors"]:
-        yield heading(f"{data['mechanism']}, singularities: where one of these is zero")
+    if data.factors:
+        yield heading(f"{data.mechanism}, singularities: where one of these is zero")
         yield table(
             ("factor", "kind", "zero where"),
-            [(item["name"], item["kind"], item["meaning"]) for item in data["factors"]],
+            [(item.name, item.kind, item.meaning) for item in data.factors],
             left=("factor", "kind", "zero where"),
         )
     else:
-        yield heading(f"{data['mechanism']}, singularities: no closed form, so no factors")
-    for kind, what in (("constraint", "the joint graph loses rank"), ("self_motion", "the platform moves alone")):
-        for group in data[kind]:
+        yield heading(f"{data.mechanism}, singularities: no closed form, so no factors")
+    for kind, groups, what in (
+        ("constraint", data.constraint, "the joint graph loses rank"),
+        ("self_motion", data.self_motion, "the platform moves alone"),
+    ):
+        for group in groups:
             yield f"{kind}: {' = '.join(group)} = 0, {what}"
     yield ""
-    yield heading(f"parallel loci inside the workspace box, {mode_words(record, data['mode'])}")
+    yield heading(f"parallel loci inside the workspace box, {mode_words(record, data.mode)}")
     yield table(
-        ("factor", area_title(record, data["coordinates"])),
-        [(item["factor"], _area(item)) for item in data["loci"]],
+        ("factor", area_title(record, data.coordinates)),
+        [(item.factor, _area(item)) for item in data.loci],
         left=("factor",),
     )
     yield ""
     yield heading("example configurations")
     rows = [
-        (item["factor"], item["kind"], item["mode"], point_text(style, data["coordinates"], item["pose"]))
-        for item in data["examples"]
+        (item.factor, item.kind, item.mode, point_text(style, data.coordinates, item.pose)) for item in data.examples
     ]
-    pose = point_title(style, data["coordinates"])
+    pose = point_title(style, data.coordinates)
     yield table(("factor", "the pose is", "mode", pose), rows, left=("factor", "the pose is", pose))
-    without = [item["name"] for item in data["factors"] if item["name"] not in {row[0] for row in rows}]
+    without = [item.name for item in data.factors if item.name not in {row[0] for row in rows}]
     if without:
         yield f"no example found: {', '.join(without)}"
 
 
-def _area(item: dict[str, Any]) -> str:
-    if item["everywhere"]:
+def _area(item: SingularLocus) -> str:
+    if item.everywhere:
         return "the whole mode"
-    return short(item["area"]) if item["area"] else "none found"
+    return short(item.area) if item.area else "none found"

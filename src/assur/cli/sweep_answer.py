@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import InterruptedByUserError, Verbatim, heading, table
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from assur.kinematics.closed_form.grids import Grid
     from assur.kinematics.modes import Problem
     from assur.mechanism import Mechanism
+    from assur.results.answers.sweep import SweepAnswer
     from assur.results.store.inspection import Fault
     from assur.results.store.layout import Shard
     from assur.results.store.store import Store
@@ -103,6 +104,7 @@ def merged(folders: Sequence[str], request: Request, shared: Shared) -> Outcome:
 def _run(store: Store, fill: Callable[[Store, Step], None], how: str, request: Request, shared: Shared) -> Outcome:
     """Fill a store and say so."""
     from assur.kinematics.closed_form.about import described
+    from assur.results.answers.sweep import SweepAnswer, SweptCoordinate, SweptCounts, SweptFile, SweptShard
 
     with _told(store):
         with progress("check", shared) as step:
@@ -112,9 +114,20 @@ def _run(store: Store, fill: Callable[[Store, Step], None], how: str, request: R
         with progress("sweep", shared) as step:
             fill(store, step)
         store.finish()
-    data = described(store.plan, store.counts, store.places_done)
-    repaired = [str(fault.problem) for fault in faults]
-    return Outcome({**data, "folder": str(store.folder), "repaired": repaired}, lambda: _shown(data, store.folder))
+    known = described(store.plan, store.counts, store.places_done)
+    files = {name: SweptFile(**about) for name, about in known.pop("files").items()}
+    along = tuple(SweptCoordinate(**about) for about in known.pop("along"))
+    counts, shard = SweptCounts(**known.pop("counts")), known.pop("shard")
+    answer = SweepAnswer(
+        **known,
+        along=along,
+        shard=shard and SweptShard(**shard),
+        counts=counts,
+        files=files,
+        folder=str(store.folder),
+        repaired=tuple(str(fault.problem) for fault in faults),
+    )
+    return Outcome(answer, lambda: _shown(answer))
 
 
 @contextmanager
@@ -146,11 +159,11 @@ def beforehand(store: Store, how: str) -> str:
     return f"{plan.length} {what}{shard}{begun}, {how}: {size_text(plan.bytes)} in {store.folder}"
 
 
-def _mode_of(about: Mapping[str, Any]) -> str:
-    mode = about["mode"]
+def _mode_of(about: SweepAnswer) -> str:
+    mode = about.mode
     if mode == "all":
-        return f"{len(about['modes'])} modes"
-    if about["problem"] == "direct":
+        return f"{len(about.modes)} modes"
+    if about.problem == "direct":
         return f"assembly mode {mode}"
     from assur.kinematics.closed_form.home_sweep import HOME
 
@@ -159,37 +172,36 @@ def _mode_of(about: Mapping[str, Any]) -> str:
     return f"working mode {mode}" if mode else "its only working mode"
 
 
-def _shown(data: dict[str, Any], folder: Path) -> Iterable[RenderableType]:
+def _shown(data: SweepAnswer) -> Iterable[RenderableType]:
     from assur.results.store.store import ABOUT
 
-    inverse = data["problem"] == "inverse"
-    yield heading(f"{data['mechanism']}, {data['problem']} problem, {_mode_of(data)}: {data['problems']} problems")
-    yield f"how: {data['how']}"
-    grid = [f"{a['name']} {a['low']:g} .. {a['high']:g} {a['unit']}, {a['count']} places" for a in data["along"]]
+    inverse, folder = data.problem == "inverse", Path(data.folder)
+    yield heading(f"{data.mechanism}, {data.problem} problem, {_mode_of(data)}: {data.problems} problems")
+    yield f"how: {data.how}"
+    grid = [f"{a.name} {a.low:g} .. {a.high:g} {a.unit}, {a.count} places" for a in data.along]
     yield f"grid: {'; '.join(grid)}"
-    if data["shard"]:
-        shard = data["shard"]
-        places = f"places {shard['first']} to {shard['last']} of {shard['problems']}" if data["problems"] else "none"
-        yield f"shard {shard['index']} of {shard['of']}: {places}"
-    if data["at"]:
-        yield f"held: {', '.join(f'{name} = {value:g}' for name, value in data['at'].items())}"
+    if data.shard:
+        shard = data.shard
+        places = f"places {shard.first} to {shard.last} of {shard.problems}" if data.problems else "none"
+        yield f"shard {shard.index} of {shard.of}: {places}"
+    if data.at:
+        yield f"held: {', '.join(f'{name} = {value:g}' for name, value in data.at.items())}"
     yield ""
-    counts = data["counts"]
-    if counts["by_status"]:
-        what = "branches" if data["mode"] == "all" else "poses" if inverse else "inputs"
-        yield table(("status", what), [(n, str(k)) for n, k in counts["by_status"].items()], left=("status",))
+    counts = data.counts
+    if counts.by_status:
+        what = "branches" if data.mode == "all" else "poses" if inverse else "inputs"
+        yield table(("status", what), [(n, str(k)) for n, k in counts.by_status.items()], left=("status",))
     else:
-        yield table(("modes with a solution", "problems"), [(n, str(k)) for n, k in counts["by_modes"].items()])
+        yield table(("modes with a solution", "problems"), [(n, str(k)) for n, k in counts.by_modes.items()])
     yield ""
     rows = [
-        (item["file"], item["dtype"], " x ".join(map(str, item["shape"])), ", ".join(item["axes"]))
-        for item in data["files"].values()
+        (item.file, item.dtype, " x ".join(map(str, item.shape)), ", ".join(item.axes)) for item in data.files.values()
     ]
     yield table(("file", "dtype", "shape", "axes"), rows, left=("file", "dtype", "axes"))
     yield ""
-    yield f"written: {folder}, {size_text(data['bytes'])}; {ABOUT} there says what they hold"
+    yield f"written: {folder}, {size_text(data.bytes)}; {ABOUT} there says what they hold"
     yield "in Python:"
-    first = next(iter(data["files"].values()))["file"]
+    first = next(iter(data.files.values())).file
     yield Verbatim(f'    values = numpy.load({str(folder / first)!r}, mmap_mode="r")')
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -61,7 +62,7 @@ def verify(
     return _compared(path, document, mechanism, seconds)
 
 
-def _compared(path: Path, document: dict[str, Any], mechanism: str | None, seconds: float) -> Outcome:
+def _compared(path: Path, document: Mapping[str, Any], mechanism: str | None, seconds: float) -> Outcome:
     """The certificate holds for its formulas; whether they are the mechanism's."""
     from assur.certificates.recorded import at_hand, differences, with_dimensions
 
@@ -84,7 +85,7 @@ def _compared(path: Path, document: dict[str, Any], mechanism: str | None, secon
 
 def _holds(
     path: Path,
-    document: dict[str, Any],
+    document: Mapping[str, Any],
     record: MechanismRecord | None,
     seconds: float,
     why_not: str = "the mechanism is not at hand, say with --mechanism where it is",
@@ -92,21 +93,29 @@ def _holds(
     """It is verified where its formulas are those of the mechanism; anyone can write some for which a claim holds."""
     from assur.certificates.summary import claim_lines, shares, statement_lines
     from assur.cli.output import heading
+    from assur.results.answers.certificate import VerifiedCertificate
 
     lines = [*statement_lines(document, record), *claim_lines(document, record)]
     how = f"checked: every part, proved again by ball arithmetic; the sums, exactly; in {seconds:.2g} s"
     known = {key: document[key] for key in ("kind", "statement", "claims", "made_by", "sha256")}
     ours = record is not None
-    data = {"verified": ours or None, "mechanism_compared": ours, "seconds": seconds, **known}
+    answer = VerifiedCertificate(
+        **known,
+        shares=shares(document["proof"]),
+        verified=True if ours else None,
+        mechanism_compared=ours,
+        seconds=seconds,
+    )
     head = "verified" if ours else "holds for its own formulas"
     whose = "the mechanism's, recorded anew" if ours else f"not compared: {why_not}"
     shown = [heading(f"{head}: {path}"), *lines, how, f"formulas: {whose}"]
     code = exit_codes.of_answers(["yes" if ours else "open"])
-    return Outcome({**data, "shares": shares(document["proof"])}, lambda: shown, code)
+    return Outcome(answer, lambda: shown, code)
 
 
 def _refused(path: Path, why: str, code: int) -> Outcome:
     from assur.cli.output import heading
+    from assur.results.answers.certificate import RefusedCertificate
 
     text = " ".join(why.split())
-    return Outcome({"verified": False, "refused": text}, lambda: [heading(f"refused: {path}"), text], code)
+    return Outcome(RefusedCertificate(False, text), lambda: [heading(f"refused: {path}"), text], code)

@@ -15,6 +15,7 @@ from assur.figures.plots import mode_words, no_workspace
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.written import units
 from assur.performance.indices import INDICES
+from assur.results.json_text import plain
 from assur.workspace.index_maps import IndexMaps, index_maps
 
 FloatArray = NDArray[np.float64]
@@ -48,7 +49,7 @@ def drawn(context: Context, maps: IndexMaps) -> Drawing:
         values = np.where(np.isinf(item.values), np.nan if top is None else top, item.values).T
         image = coloured(pair[0], plane, values, Normalize(0.0, top or 1.0))
         with_bar(pair, image, "none found", beyond(top or np.inf, item.values))
-    return Drawing(figure, maps.to_json())
+    return Drawing(figure, plain(maps.answer()))
 
 
 def _top(name: str, known: FloatArray) -> float | None:

@@ -9,7 +9,7 @@ coordinates mix lengths and angles, lengths are divided by the characteristic le
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,7 +21,6 @@ from assur.kinematics.rates.velocity import VelocityMap, velocity_map_at, veloci
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
 from assur.performance.indices import status_of
-from assur.results.json_text import plain
 
 FloatArray = NDArray[np.float64]
 BLOCK = 2**15
@@ -66,15 +65,6 @@ class Dexterity:
     def defined(self) -> NDArray[np.bool_]:
         """Where (...) the numbers exist."""
         return np.isfinite(self.condition_index)
-
-    def to_json(self) -> dict[str, Any]:
-        """Plain numbers, with None for what does not exist."""
-        return {
-            "poses": self.poses.tolist(),
-            "status": np.vectorize(lambda code: Status(code).name, otypes=[object])(self.status).tolist(),
-            "condition_index": plain(self.condition_index),
-            "velocity_factors": plain(self.velocity_factors),
-        }
 
 
 @dataclass(frozen=True)

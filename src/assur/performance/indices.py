@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -34,7 +33,6 @@ from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
 from assur.performance.scaling import Length, chosen_length
 from assur.performance.transmission import Transmission, transmission_at
-from assur.results.json_text import plain
 
 FloatArray = NDArray[np.float64]
 BLOCK = 2**13
@@ -72,20 +70,6 @@ class Indices:
         """
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.asarray(1.0 / self["condition"])
-
-    def to_json(self) -> dict[str, Any]:
-        """Plain numbers, with None for what does not exist."""
-        return {
-            "mechanism": self.mechanism,
-            "characteristic_length": self.length,
-            "velocity_factor_unit": self.unit,
-            "status": np.vectorize(lambda code: Status(code).name, otypes=[object])(self.status).tolist(),
-            "velocity_factors": plain(self.velocity_factors),
-            "input_transmission_indices": plain(self.transmission.inputs),
-            "output_transmission_indices": plain(self.transmission.outputs),
-            **{name: plain(self[name]) for name in INDICES},
-            "condition_number": plain(self.condition_number),
-        }
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,8 +19,6 @@ from assur.model.mechanism import MechanismRecord
 from assur.performance.dexterity import SHIFTS, STUDENT, SampledRegion
 from assur.performance.indices import INDICES, Indices, indices, indices_at
 from assur.performance.scaling import Length
-from assur.performance.transmission import GOOD
-from assur.results.json_text import plain
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]
@@ -95,19 +93,6 @@ class OverallIndices:
     factor_unit: str
     values: Mapping[str, Overall]
     good: Share | None
-
-    def to_json(self) -> dict[str, Any]:
-        """Plain numbers, with None for what does not exist."""
-        return {
-            "mode": self.mode,
-            "points": self.points,
-            "singular": self.singular,
-            "characteristic_length": self.length,
-            "velocity_factor_unit": self.factor_unit,
-            "good_from": GOOD,
-            "good_transmission": plain(self.good),
-            "indices": plain(self.values),
-        }
 
 
 @stage("indices over the workspace")

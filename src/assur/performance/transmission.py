@@ -18,7 +18,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,7 +29,6 @@ from assur.kinematics.closure import CLOSED, closure_error
 from assur.model.mechanism import MechanismRecord
 from assur.performance.power import power_coefficient
 from assur.performance.statics import Transmitted, is_point, transmitted
-from assur.results.json_text import plain
 
 FloatArray = NDArray[np.float64]
 BLOCK = 512
@@ -60,10 +58,6 @@ class Transmission:
         """Whether transmission is good (...)."""
         with np.errstate(invalid="ignore"):
             return np.asarray(self.local >= GOOD)
-
-    def to_json(self) -> dict[str, Any]:
-        """Plain numbers, with None for what does not exist."""
-        return {"inputs": plain(self.inputs), "outputs": plain(self.outputs), "local": plain(self.local)}
 
 
 def transmission_at(record: MechanismRecord, joints: ArrayLike) -> Transmission:

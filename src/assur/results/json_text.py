@@ -42,6 +42,17 @@ def plain(value: Any) -> Any:
     return [plain(entry) for entry in value]
 
 
+def indented(value: Any) -> str:
+    """The JSON text of a document that is read by people too.
+
+    >>> print(indented({"type": "string"}))
+    {
+      "type": "string"
+    }
+    """
+    return json.dumps(value, indent=2, ensure_ascii=False)
+
+
 def json_text(value: Any) -> str:
     """The JSON text of a result, without NaN or Infinity.
 

@@ -7,7 +7,6 @@ nearer was seen. What is proved to be free of singularities is for intervals to 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,7 +18,6 @@ from assur.kinematics.closed_form.filling import Engine
 from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS
-from assur.results.json_text import plain
 from assur.singularity.parallel_factors import ParallelFactors
 from assur.singularity.rays import Rays
 
@@ -47,15 +45,6 @@ class Distance:
     factor: NDArray[np.str_]
     nearest: FloatArray
     reach: float
-
-    def to_json(self) -> dict[str, Any]:
-        """Plain numbers, with None for what does not exist."""
-        return {
-            "distance": plain(np.where(np.isfinite(self.value), self.value, np.nan)),
-            "factor": self.factor.tolist(),
-            "nearest": plain(self.nearest),
-            "reach": self.reach,
-        }
 
 
 def distance(

@@ -22,6 +22,7 @@ from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS
 from assur.performance.indices import INDICES, Indices, indices_at, indices_where
 from assur.performance.scaling import Length
+from assur.results.answers.indices import MapAnswer, MapExtreme, MapsAnswer
 from assur.results.json_text import plain
 from assur.singularity.distance import distance
 from assur.work import stage
@@ -33,14 +34,6 @@ NODES = 60
 MOST_NODES = 2_000_000
 DISTANCE = "distance"
 MEANING = "distance from the nearest parallel singularity inside the reach that was found, the orientation held"
-
-
-@dataclass(frozen=True)
-class Extreme:
-    """A value and the point of the workspace where it is, in the order of its coordinates."""
-
-    value: float
-    at: tuple[float, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,8 +53,8 @@ class IndexMap:
     unit: str
     values: FloatArray
     mean: float | None
-    least: Extreme | None
-    most: Extreme | None
+    least: MapExtreme | None
+    most: MapExtreme | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,9 +100,9 @@ class IndexMaps:
             return self
         turn = {name: 1.0 if name in LENGTHS else 180 / np.pi for name in (*self.coordinates, *self.held)}
 
-        def there(extreme: Extreme | None) -> Extreme | None:
+        def there(extreme: MapExtreme | None) -> MapExtreme | None:
             at = zip(self.coordinates, extreme.at if extreme else (), strict=False)
-            return extreme and Extreme(extreme.value, tuple(value * turn[name] for name, value in at))
+            return extreme and MapExtreme(extreme.value, tuple(value * turn[name] for name, value in at))
 
         return replace(
             self,
@@ -119,23 +112,23 @@ class IndexMaps:
             maps={k: replace(item, least=there(item.least), most=there(item.most)) for k, item in self.maps.items()},
         )
 
-    def to_json(self) -> dict[str, Any]:
-        """Plain numbers, with None for what does not exist."""
-        return {
-            "mechanism": self.mechanism,
-            "mode": self.mode,
-            "how": self.how,
-            "unit": self.unit,
-            "angle": self.angle,
-            "coordinates": list(self.coordinates),
-            "axes": {name: plain(nodes) for name, nodes in self.axes},
-            "held": plain(self.held),
-            "characteristic_length": self.length,
-            "reach": self.reach,
-            "status": _names(self.status).tolist(),
-            "nearest_factor": None if self.factor is None else self.factor.tolist(),
-            "maps": plain(self.maps),
-        }
+    def answer(self) -> MapsAnswer:
+        """The maps as nested lists, which have nothing where a number does not exist."""
+        return MapsAnswer(
+            mechanism=self.mechanism,
+            mode=self.mode,
+            how=self.how,
+            unit=self.unit,
+            angle=self.angle,
+            coordinates=self.coordinates,
+            axes={name: nodes.tolist() for name, nodes in self.axes},
+            held=self.held,
+            characteristic_length=self.length,
+            reach=self.reach,
+            status=_names(self.status).tolist(),
+            nearest_factor=None if self.factor is None else self.factor.tolist(),
+            maps={name: MapAnswer(**{**vars(item), "values": plain(item.values)}) for name, item in self.maps.items()},
+        )
 
     def arrays(self) -> dict[str, NDArray[Any]]:
         """What an .npz file holds: the nodes by coordinate, status names, and the values by index; nothing pickled.
@@ -291,8 +284,8 @@ def _map(
     if len(known):
         low, high = known[np.argmin(values[known])], known[np.argmax(values[known])]
         mean = float(np.mean(values[known]))
-        least = Extreme(float(values[low]), tuple(points[low].tolist()))
-        most = Extreme(float(values[high]), tuple(points[high].tolist()))
+        least = MapExtreme(float(values[low]), tuple(points[low].tolist()))
+        most = MapExtreme(float(values[high]), tuple(points[high].tolist()))
     return IndexMap(symbol, meaning, unit, values.reshape(shape), mean, least, most)
 
 

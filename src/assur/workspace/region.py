@@ -19,6 +19,8 @@ from assur.errors import UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
+from assur.results.answers.region import ParallelSingular, SingularSurface
+from assur.results.json_text import plain
 from assur.singularity.loci import Locus, parallel_loci
 from assur.workspace.bounds import Stroke
 from assur.workspace.certified.region import unit
@@ -83,19 +85,19 @@ class Workspace:
     how: str = CLOSED_FORM
 
     @property
-    def parallel_singular(self) -> dict[str, Any]:
+    def parallel_singular(self) -> ParallelSingular:
         """Per parallel factor its surface inside the workspace, and how much of the volume is near one."""
-        factors = {
-            locus.factor: {
-                "meaning": locus.meaning,
-                "area": None if locus.everywhere else locus.area,
-                "area_error": None if locus.everywhere else locus.area_error,
-                "faces": len(locus.faces),
-                "everywhere": locus.everywhere,
-            }
+        surfaces = {
+            locus.factor: SingularSurface(
+                locus.meaning,
+                None if locus.everywhere else locus.area,
+                None if locus.everywhere else locus.area_error,
+                len(locus.faces),
+                locus.everywhere,
+            )
             for locus in self.loci
         }
-        return {"factors": factors, "near": self.near, "share": self.share}
+        return ParallelSingular(surfaces, self.near, self.share)
 
     def section(self, value: float, coordinate: str | None = None) -> RegionSection:
         """The cut at a value of a pose coordinate, the last one where none is named."""
@@ -141,7 +143,7 @@ class Workspace:
             "coordinates": list(self.box.names),
             "box": self.box.intervals,
             "held": dict(self.slice.held),
-            "parallel_singular": self.parallel_singular,
+            "parallel_singular": plain(self.parallel_singular),
             "sections": [{key: item.value, "area": item.area, "area_error": item.area_error} for item in self.sections],
         }
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-
 import numpy as np
 import pytest
 from scipy import ndimage
@@ -165,13 +163,6 @@ def test_signs_unlooked_at_would_be_noticed(monkeypatch):
     monkeypatch.setattr("assur.workspace.certified.criteria.Criteria.nonsingular", property(lambda self: self))
     assert any(0 in item.signs.values() for item in aspects(FIVEBAR, "-+", WIDE, finest=9.375).aspects)
     assert all(0 not in item.signs.values() for item in whole.aspects)
-
-
-def test_the_result_is_plain_data():
-    data = aspects(FIVEBAR, "-+", WIDE, finest=9.375).to_json()
-    assert json.loads(json.dumps(data)) == data
-    assert [item["label"] for item in data["aspects"]] == ["+", "-"]
-    assert data["how"] == "proved by interval arithmetic"
 
 
 @pytest.mark.parametrize(

@@ -46,13 +46,6 @@ def test_a_path_beyond_the_strokes_fails():
     assert not check_path(RECORD, narrow, PATH, follow_it=False).reached
 
 
-def test_the_result_is_plain_and_says_whether_it_passed():
-    data = check_path(RECORD, FOUND, PATH, samples=4, follow_it=False).to_json()
-    assert data["passed"] is True
-    assert data["followed"] is None
-    assert data["samples"] == 4 * (len(PATH.points) - 1) + 1
-
-
 def test_without_a_path_there_is_nothing_to_check():
     with pytest.raises(UsageError, match="no path to check"):
         check_path(RECORD, FOUND, FOUND.path([0.0, 200.0], [0.0, 0.0]))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import json
 from dataclasses import replace
 
 import numpy as np
@@ -100,9 +99,3 @@ def test_a_path_moved_out_of_its_boxes_is_noticed():
     points[5] += path.boxes.high[:, 5] - path.boxes.low[:, 5]
     assert covered(path)
     assert not covered(replace(path, points=points))
-
-
-def test_the_result_is_plain_data():
-    data = FOUND.path([0.0, 200.0], [0.0, -200.0]).to_json()
-    assert json.loads(json.dumps(data)) == data
-    assert len(data["boxes"]) == len(data["points"]) - 1

@@ -75,14 +75,6 @@ def test_strokes_count_as_limits():
     assert prove_box(ZENG, box, strokes={"yA1": (-900, 900)}).status == "proved"
 
 
-def test_as_json():
-    found = prove_box(ZENG, {"x": (-40, 0), "y": (-50, 50), "z": (180, 400)}).to_json()
-    assert found["status"] == "refuted"
-    assert found["boxes"]["coordinates"] == ["x", "z"]
-    assert len(found["boxes"]["largest_doubtful"][0]) == 2
-    assert found["boxes"]["doubtful"] >= len(found["boxes"]["largest_doubtful"])
-
-
 def test_ctrl_c_leaves_the_rest_undecided():
     def interrupt(done, total):
         raise KeyboardInterrupt

@@ -144,15 +144,6 @@ def test_the_sum_of_parts_is_the_whole():
     assert whole[0] < sum(part[1] for part in parts)
 
 
-def test_as_json():
-    found = certified_workspace(ZENG, finest=20.0, sections=[400.0]).to_json()
-    assert found["volume"][0] < 22_814_586 < found["volume"][1]
-    assert found["boxes"]["coordinates"] == ["x", "z"]
-    assert found["boxes"]["inside"] > 10
-    assert found["gap"] is None
-    assert found["sections"][0]["z"] == 400.0
-
-
 def test_what_it_would_take_and_interruption():
     found = certified_workspace(ZENG, gap=1e-9, sections=(), most=2000)
     assert found.stopped == "too many boxes"

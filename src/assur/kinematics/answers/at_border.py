@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.kinematics.answers.solution import Solution
-from assur.model.mechanism import MechanismRecord
+from assur.model.mechanism import Input, MechanismRecord
 from assur.model.pose import is_angle
 from assur.results.answers.position import ExceededLimit, KeptLimits
 
 FloatArray = NDArray[np.float64]
+Box = tuple[tuple[float, float], ...]
 
 
 def limits_at_border(record: MechanismRecord, solution: Solution) -> KeptLimits:
@@ -30,9 +31,37 @@ def limits_at_border(record: MechanismRecord, solution: Solution) -> KeptLimits:
     return KeptLimits(solution.within_limits, tuple(outside))
 
 
+def angle_unit(record: MechanismRecord) -> float:
+    """The mechanism's angle unit in rad.
+
+    >>> from assur.model.registry import load_record
+    >>> round(1 / angle_unit(load_record("fivebar")), 6)
+    57.29578
+    """
+    return np.pi / 180 if record.angle == "deg" else 1.0
+
+
+def coordinate_unit(record: MechanismRecord, name: str) -> float:
+    """The unit of a pose's coordinate, in rad; 1 of one that is no angle."""
+    return angle_unit(record) if is_angle(name) else 1.0
+
+
+def input_unit(record: MechanismRecord, item: Input) -> float:
+    """The unit of an input, in rad; 1 of one that is no angle."""
+    return angle_unit(record) if item.coordinate.kind == "angle" else 1.0
+
+
 def coordinates_at_border(record: MechanismRecord, values: Mapping[str, float]) -> dict[str, float]:
     """Coordinates of poses by name, with angles in the mechanism's angle unit."""
-    return {name: float(angle_at_border(record, value) if is_angle(name) else value) for name, value in values.items()}
+    return {name: float(value) / coordinate_unit(record, name) for name, value in values.items()}
+
+
+def box_at_border(record: MechanismRecord, names: Sequence[str], box: Sequence[Sequence[float]]) -> Box:
+    """A box (low, high) of coordinates with angles in the mechanism's angle unit."""
+    return tuple(
+        (low / coordinate_unit(record, name), high / coordinate_unit(record, name))
+        for name, (low, high) in zip(names, box, strict=True)
+    )
 
 
 def angle_at_border(record: MechanismRecord, angle: Any) -> Any:
@@ -49,8 +78,7 @@ def inputs_at_border(record: MechanismRecord, inputs: Any) -> FloatArray:
 def inputs_from_border(record: MechanismRecord, inputs: Any) -> FloatArray:
     """Inputs (..., n) in rad and lengths, from the mechanism's angle unit."""
     angular = np.array([item.coordinate.kind == "angle" for item in record.inputs])
-    factor = np.pi / 180 if record.angle == "deg" else 1.0
-    return np.asarray(np.asarray(inputs, dtype=float) * np.where(angular, factor, 1.0))
+    return np.asarray(np.asarray(inputs, dtype=float) * np.where(angular, angle_unit(record), 1.0))
 
 
 def pose_at_border(record: MechanismRecord, pose: Any) -> FloatArray:
@@ -62,7 +90,7 @@ def pose_at_border(record: MechanismRecord, pose: Any) -> FloatArray:
 def pose_from_border(record: MechanismRecord, pose: Any) -> FloatArray:
     """Poses (..., m) in rad and lengths, from the mechanism's angle unit."""
     angular = np.array([is_angle(name) for name in record.platform.pose])
-    factor = np.pi / 180 if record.angle == "deg" else 1.0
+    factor = angle_unit(record)
     given = np.asarray(pose, dtype=float)
     theta = np.array([name == "theta" for name in record.platform.pose])
     if given.shape[-1:] == theta.shape and np.any(np.abs(given[..., theta]) * factor > np.pi / 2):

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border
+from assur.kinematics.border import input_names, joint_names
 from assur.kinematics.paths.course import Prescribed
 from assur.kinematics.turns import periodic_inputs
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
-from assur.results.json_text import plain
+from assur.results.answers.path import NamedModes, PathAnswer, StoppedPath
 
 FloatArray = NDArray[np.float64]
 ANOTHER = 1e-6
@@ -154,42 +154,39 @@ class Path:
         change = np.where(turning, (change + np.pi) % (2 * np.pi) - np.pi, change)
         return float(np.max(np.abs(np.where(angular, change, change / length))))
 
-    def to_json(self) -> dict[str, Any]:
-        """Plain data: angles of poses and inputs in the mechanism's angle unit, joint values in rad."""
+    def answer(self) -> PathAnswer:
+        """The path with angles of poses and inputs in the mechanism's angle unit, joint values in rad."""
         record, stop = self.record, self.stopped
-        stopped = None
-        if stop is not None:
-            stopped = {
-                "kind": stop.kind,
-                "share": stop.share,
-                "pose": pose_at_border(record, stop.pose),
-                "inputs": inputs_at_border(record, stop.inputs),
-                "quantity": stop.quantity,
-                "value": stop.value,
-                "turns_back": stop.turns_back,
-                "gap": stop.gap,
-                "factor": stop.factor,
-                "meaning": stop.meaning,
-                "size": stop.size,
-                "text": str(stop),
-            }
-        found: dict[str, Any] = plain(
-            {
-                "mechanism": record.name,
-                "unit": record.unit,
-                "angle": record.angle,
-                "prescribed": self.prescribed,
-                "coordinates": record.platform.pose,
-                "input_names": [item.name for item in record.inputs],
-                "joint_names": [record.coordinate_label(item) for item in record.coordinates],
-                "shares": self.shares,
-                "poses": pose_at_border(record, self.poses),
-                "inputs": inputs_at_border(record, self.inputs),
-                "joints": self.joints,
-                "smallest": self.smallest,
-                "modes": [{"working": working, "assembly": assembly} for working, assembly in self.modes],
-                "remark": self.remark,
-                "stopped": stopped,
-            }
+        return PathAnswer(
+            mechanism=record.name,
+            unit=record.unit,
+            angle=record.angle,
+            prescribed=self.prescribed,
+            coordinates=record.platform.pose,
+            input_names=input_names(record),
+            joint_names=joint_names(record),
+            shares=self.shares.tolist(),
+            poses=pose_at_border(record, self.poses).tolist(),
+            inputs=inputs_at_border(record, self.inputs).tolist(),
+            joints=self.joints.tolist(),
+            smallest={name: values.tolist() for name, values in self.smallest.items()},
+            modes=tuple(NamedModes(*names) for names in self.modes),
+            remark=self.remark,
+            stopped=None if stop is None else self._stopped(stop),
         )
-        return found
+
+    def _stopped(self, stop: Stop) -> StoppedPath:
+        return StoppedPath(
+            kind=stop.kind,
+            share=stop.share,
+            pose=pose_at_border(self.record, stop.pose).tolist(),
+            inputs=inputs_at_border(self.record, stop.inputs).tolist(),
+            quantity=stop.quantity,
+            value=stop.value,
+            turns_back=stop.turns_back,
+            gap=stop.gap,
+            factor=stop.factor,
+            meaning=stop.meaning,
+            size=stop.size,
+            text=str(stop),
+        )

@@ -6,7 +6,6 @@ loops that close) is left to `assur check`.
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 from assur.model.file.schema import FileEntry
@@ -83,15 +82,6 @@ def json_schema() -> Schema:
         "required": list(REQUIRED),
         "$defs": {**DEFINITIONS, **entries},
     }
-
-
-def schema_text() -> str:
-    """The schema as the text of a file.
-
-    >>> schema_text().splitlines()[1]
-    '  "title": "Mechanism file of assur",'
-    """
-    return json.dumps(json_schema(), indent=2, ensure_ascii=False) + "\n"
 
 
 def _tidied(node: Any) -> Any:

@@ -1,12 +1,20 @@
-"""The answers of `assur list` and `assur show`: what there is, and what one mechanism is."""
+"""The answers of `assur list`, `assur show` and `assur schema`: what there is, and what one mechanism is."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
-from assur.results.answers.answer import Answer
+from assur.results.answers.answer import Answer, spread
 from assur.results.answers.position import Numbers
+
+
+@dataclass(frozen=True)
+class SchemaAnswer(Answer):
+    """A JSON Schema."""
+
+    schema: Mapping[str, Any] = spread()
 
 
 @dataclass(frozen=True)

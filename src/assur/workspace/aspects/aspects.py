@@ -162,36 +162,6 @@ class Aspects:
         parts = [] if self.told_apart else [f"some are not told apart at this size ({size})"]
         return "; ".join([*([self.stopped] if self.stopped else []), *parts])
 
-    def to_json(self) -> dict[str, Any]:
-        """The result as plain numbers, lists and None; boxes are counted."""
-        return {
-            "mechanism": self.mechanism,
-            "mode": self.mode,
-            "how": self.how,
-            "coordinates": list(self.box.names),
-            "box": self.box.intervals,
-            "held": dict(self.slice.held),
-            "unit": self.unit,
-            "naming": list(self.naming),
-            "aspects": [
-                {
-                    "label": item.label,
-                    "signs": dict(item.signs),
-                    "volume": list(item.volume),
-                    "boxes": len(item.boxes),
-                    "perhaps": list(item.perhaps),
-                }
-                for item in self.aspects
-            ],
-            "told_apart": self.told_apart,
-            "paved": list(self.names),
-            "turning": list(self.turning),
-            "finest": dict(self.finest),
-            "undecided": len(self.search.undecided),
-            "stopped": self.stopped,
-            "note": self.note,
-        }
-
 
 def aspects(
     record: MechanismRecord,

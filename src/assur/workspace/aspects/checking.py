@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,10 +41,6 @@ class PathCheck:
     def passed(self) -> bool:
         """Whether nothing speaks against the path."""
         return self.covered and self.reached and self.kept and self.followed is not False
-
-    def to_json(self) -> dict[str, Any]:
-        """The result as plain values."""
-        return {**vars(self), "passed": self.passed}
 
 
 def check_path(

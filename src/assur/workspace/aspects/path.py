@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,18 +59,6 @@ class AspectPath:
     points: FloatArray = field(repr=False)
     names: tuple[str, ...]
     boxes: Boxes = field(repr=False)
-
-    def to_json(self) -> dict[str, Any]:
-        """The result as plain numbers and lists, the boxes among them."""
-        return {
-            "status": self.status,
-            "why": self.why,
-            "aspects": [self.start.aspect, self.end.aspect],
-            "coordinates": list(self.coordinates),
-            "points": self.points.tolist(),
-            "paved": list(self.names),
-            "boxes": np.stack([self.boxes.low.T, self.boxes.high.T], axis=-1).tolist(),
-        }
 
 
 def path_between(

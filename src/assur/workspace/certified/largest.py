@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,21 +74,6 @@ class LargestShape:
     def height(self) -> float | None:
         """Height of the cylinder that is proved; None of other shapes."""
         return self.size * self.shape.ratio if self.shape.name == "cylinder" else None
-
-    def to_json(self) -> dict[str, Any]:
-        """The result as plain numbers and None."""
-        return {
-            "mode": self.mode,
-            "what": list(self.what),
-            "held": dict(self.held),
-            "shape": self.shape.name,
-            "centre": dict(zip(self.shape.names, self.shape.centre, strict=True)),
-            "size": self.size,
-            "height": self.height,
-            "refuted": self.refuted if math.isfinite(self.refuted) else None,
-            "witness": None if self.witness is None else {"pose": dict(self.witness.pose), "why": self.witness.why},
-            "stopped": self.stopped,
-        }
 
 
 def largest(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -64,28 +64,6 @@ class ProvedBox:
     share: float
     witness: Witness | None
     stopped: Stopped = ""
-
-    def to_json(self) -> dict[str, Any]:
-        """The result as plain numbers, lists and None; of boxes those that are large."""
-        return {
-            "mode": self.mode,
-            "what": list(self.what),
-            "status": self.status,
-            "coordinates": list(self.box.names),
-            "box": self.box.intervals,
-            "held": dict(self.held),
-            "share_proved": self.share,
-            "witness": None if self.witness is None else {"pose": dict(self.witness.pose), "why": self.witness.why},
-            "boxes": {
-                "coordinates": list(self.names),
-                "proved": len(self.proved),
-                "failed": len(self.failed),
-                "doubtful": len(self.doubtful),
-                "largest_failed": _listed(self.failed),
-                "largest_doubtful": _listed(self.doubtful),
-            },
-            "stopped": self.stopped,
-        }
 
 
 def prove_box(
@@ -184,7 +162,7 @@ def _points(boxes: Boxes) -> FloatArray:
     return np.hstack([boxes.middles, *corners])
 
 
-def _listed(boxes: Boxes) -> list[list[list[float]]]:
+def largest_of(boxes: Boxes) -> list[list[list[float]]]:
     """[[low, high] per coordinate] for each box, the largest first, at most `LISTED`."""
     order = np.argsort(-boxes.sizes.high, kind="stable")[:LISTED]
     chosen = boxes[order]

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 from numpy.typing import ArrayLike
 
@@ -76,6 +75,11 @@ class CertifiedWorkspace:
     how: str = HOW
 
     @property
+    def held(self) -> Mapping[str, float]:
+        """At what the other coordinates are held."""
+        return self.slice.held
+
+    @property
     def gap_reached(self) -> float | None:
         """Difference of the bounds as a share of the lower one; None where that is 0."""
         low, high = self.volume
@@ -100,33 +104,6 @@ class CertifiedWorkspace:
             return text
         count = len(self.paving.boundary) * (reached / self.gap) ** ((len(self.paving.names) - 1) / 2)
         return f"{text}; the gap {self.gap:g} would take about {count:.1g} (reached: {reached:.2g})"
-
-    def to_json(self) -> dict[str, Any]:
-        """The result as plain numbers, lists and None; boxes are counted."""
-        paving = self.paving
-        return {
-            "volume": list(self.volume),
-            "unit": self.unit,
-            "mode": self.mode,
-            "how": self.how,
-            "gap": self.gap,
-            "gap_reached": self.gap_reached,
-            "coordinates": list(self.box.names),
-            "box": self.box.intervals,
-            "held": dict(self.slice.held),
-            "sections": [
-                {item.coordinate: item.value, "area": list(item.area), "unit": item.unit, "stopped": item.stopped}
-                for item in self.sections
-            ],
-            "boxes": {
-                "coordinates": list(paving.names),
-                "inside": len(paving.inside),
-                "outside": len(paving.outside),
-                "boundary": len(paving.boundary),
-            },
-            "stopped": self.stopped,
-            "note": self.note,
-        }
 
 
 def certified_workspace(
