@@ -25,10 +25,16 @@ TOLD = 3
 
 
 def gap_tolerance(found: Solutions) -> FloatArray:
-    """The gap (S,) that counts as closed, in length units."""
+    """The gap (S,) that counts as closed, in length units.
+
+    Where two branches merge the root is known to `lost` alone; counted as zero, it misses by itself as well.
+    """
     by_roots = found.problem == "direct" and not callable(_kernel(found))
     least = ROOTS if by_roots else CLOSED
-    return np.asarray(found.size * (least + ROUNDING / np.maximum(found.near, ROUNDING)))
+    lost = ROUNDING / np.maximum(found.near, ROUNDING)
+    merged = np.char.find(found.labels.astype(str), "0") >= 0  # their root counts as zero, though it is `near`
+    of_zero = np.where(merged & (not by_roots), np.minimum(found.near, lost), 0.0)
+    return np.asarray(found.size * (least + lost + of_zero))
 
 
 def _kernel(found: Solutions) -> object:
