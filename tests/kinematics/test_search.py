@@ -11,11 +11,15 @@ import pytest
 
 import assur
 from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import assemble, closure_error
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.instantaneous import instantaneous
-from assur.kinematics.search import distinct, search
+from assur.kinematics.search import AGAIN, MOST, STARTS, distinct, search
+from assur.kinematics.starts import by_chance
 from assur.kinematics.status import Status
+from assur.kinematics.turns import with_turns_of_home
+from assur.model.registry import names
 
 DELTA = Path(__file__).parents[1] / "model" / "file" / "delta.toml"
 TABLE_1 = np.array([162.6907, -143.3209, -24.6776])
@@ -97,6 +101,35 @@ def test_nothing_found_is_undecided_and_says_how_near_it_came():
     assert len(found) == 0
     assert found.overall_status == Status.undecided
     assert found.failures[0].value < -1000.0
+
+
+def test_a_few_hundred_starts_meet_the_sixteen_assemblies_of_a_delta_robot_again_and_again():
+    delta = assur.load("delta_4s")
+    first, second = (search(delta, "direct", np.zeros(3), seed) for seed in (0, 1))
+    for each in (first, second):
+        assert (len(each.joints), each.settled) == (16, True)
+        assert each.last_new + AGAIN * 16 <= each.starts <= 3 * STARTS
+    assert len(distinct(delta, np.concatenate([first.joints, second.joints]))) == 16
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("problem", ["direct", "inverse"])
+@pytest.mark.parametrize("name", names())
+def test_what_starts_by_chance_lead_to_a_search_meets(name, problem):
+    """Three times as many as it ever takes, none of which knows any assembly."""
+    mechanism = assur.load(name)
+    home, rng = mechanism.home_values, np.random.default_rng(1)
+    given = inputs_of(mechanism, home) if problem == "direct" else pose_of(mechanism, home)
+    held = mechanism.input_indices if problem == "direct" else ()
+    start = by_chance(mechanism, 3 * MOST, rng)
+    if problem == "direct":
+        start[:, held] = home[list(held)]
+    closed = assemble(mechanism, start, held=held, poses=None if held else given, far=True)
+    met = search(mechanism, problem, given)
+    counted, same = with_turns_of_home(mechanism, closed.values[closed.closed], held)
+    everything = distinct(mechanism, np.concatenate([met.joints, counted[same]]))
+    missed = everything[everything >= len(met.joints)]
+    assert not len(missed) or not met.settled, f"{len(missed)} beside {len(met.joints)}"
 
 
 def test_the_same_seed_finds_the_same():

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from assur.numerics.least_squares import minimise
 
@@ -56,3 +57,31 @@ def test_damping_that_is_lost_in_rounding_does_no_harm():
 def test_an_empty_batch_is_an_empty_answer():
     found = minimise(_circles, np.empty((0, 2)), tolerance=1e-12)
     assert found.x.shape == (0, 2)
+
+
+def test_a_valley_that_ends_above_zero_is_left_and_a_double_root_is_not():
+    calls = []
+
+    def system(x, rows):
+        calls.append(len(rows))
+        above = np.array([1.0, 0.0])[rows]
+        residual = np.stack([x[:, 0], x[:, 1] ** 2 + above], axis=1)
+        slope = np.zeros((len(x), 2, 2))
+        slope[:, 0, 0], slope[:, 1, 1] = 1.0, 2.0 * x[:, 1]
+        return residual, slope
+
+    found = minimise(system, np.full((2, 2), 0.7), tolerance=1e-13)
+    assert found.converged.tolist() == [False, True]
+    assert found.cost[0] == pytest.approx(1.0, abs=1e-6)
+    assert calls.count(2) < 20  # of 60
+
+
+def test_other_unknowns_for_the_same_may_be_taken_at_every_step():
+    angle = minimise(
+        lambda x, _: (np.sin(x), np.cos(x)[:, :, None]),
+        np.array([[20.0]]),
+        tolerance=1e-13,
+        same=lambda x: np.remainder(x + np.pi, 2 * np.pi) - np.pi,
+    )
+    assert angle.converged.all()
+    assert np.abs(angle.x).max() <= np.pi

@@ -39,6 +39,17 @@ class JointGraph:
         return self._named[name]
 
     @cached_property
+    def turns(self) -> tuple[slice, ...]:
+        """Where rotation vectors of ball joints stand in the vector of joint values."""
+        first = {joint.name: self.slices[joint.name].start for joint in self.joints}
+        return tuple(
+            slice(first[joint.name] + place, first[joint.name] + place + 3)
+            for joint in self.joints
+            for step, place in joint.type.places
+            if step.kind == "ball"
+        )
+
+    @cached_property
     def _named(self) -> dict[str, Joint]:
         return {joint.name: joint for joint in self.joints}
 

@@ -15,10 +15,10 @@ from assur.kinematics.closure import Assembly, assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
 from assur.kinematics.pose import pose_of
+from assur.kinematics.starts import by_chance, mixed, redrawn
 from assur.kinematics.turns import (
     counted,
     counts_turns,
-    joint_units,
     near_turns_of_home,
     periodic_inputs,
     with_turns_of_home,
@@ -29,13 +29,14 @@ from assur.work import WorkStage, stage
 
 FloatArray = NDArray[np.float64]
 STARTS = 192
-MOST = 8 * STARTS
+"""Starts that are closed together: of fewer the last that close keep all arrays short, more would seldom be needed."""
+MOST = 16 * STARTS
 WAY = 16
 """Starts on the way from home, where turns count."""
-AGAIN = 32
-"""A search ends when so many assemblies in a row, for each that is known, were known already; or after MOST starts.
-
-With 24 an assembly of the H4 robot, to which one start in 800 leads, was missed by a search that ended so."""
+AGAIN, LEAST = 16, 4
+"""A search ends when so many assemblies in a row, for each that is known, were known already; for so many at least; or
+after MOST starts. The rarest assembly of the H4 robot, to which one start by chance in 800 leads, is met by one in 50
+of all starts: of 16 times 16 that close, not to be among them has a chance of 1 in 150."""
 
 SAME = 1e-5
 """Assemblies whose joints are all nearer than this share of the characteristic length are one."""
@@ -60,11 +61,11 @@ class Search:
 def search(record: MechanismRecord, problem: Problem, given: FloatArray, seed: int = 0) -> Search:
     """Assemblies at printed inputs (n,) or at a pose (m,), from home and from starts by chance.
 
-    Angles start anywhere on the circle, lengths within twice the characteristic length of home, screws where they
-    advance as far. Where turns count, starts and assemblies have as many as motions from home
-    (`assur.kinematics.turns`), and some starts lie on the way from home to what is asked for. The search ends when it
-    has met what it knows `AGAIN` times as often as it has met anything new, or after `MOST` starts. Ctrl-C ends it with
-    `Interrupted`, whose answer is the search so far.
+    Once some are known, a third of the starts are still by chance; in a third joints of a known assembly are drawn
+    anew, in a third they stand as in another (`assur.kinematics.starts`). Where turns count, starts and assemblies have
+    as many as motions from home (`assur.kinematics.turns`), and some starts lie on the way from home to what is asked
+    for. The search ends when it has met what it knows `AGAIN` times as often as it has met anything new, or after
+    `MOST` starts. Ctrl-C ends it with `Interrupted`, whose answer is the search so far.
 
     >>> from assur.model.registry import load_record
     >>> len(search(load_record("fivebar"), "direct", np.radians([127.0, 53.0])).joints)
@@ -79,11 +80,13 @@ def _searched(
 ) -> Search:
     known = np.empty((0, len(record.coordinates)))
     starts, last, nearest, again = 0, 0, np.inf, 0
-    while starts < MOST and again < AGAIN * max(len(known), 1):
-        begun = _starts(record, STARTS, rng, with_home=starts == 0)
+    while starts < MOST and again < _enough(known):
+        begun = _starts(record, known, rng)
         try:
-            if starts == 0 and counts_turns(record):
-                begun[1 : 1 + WAY] = _on_the_way(record, problem, given)
+            if starts == 0:
+                begun[0] = home_values(record)
+                if counts_turns(record):
+                    begun[1 : 1 + WAY] = _on_the_way(record, problem, given)
             found = _assembled(record, problem, given, begun)
         except KeyboardInterrupt:
             if not starts:
@@ -99,14 +102,33 @@ def _searched(
             last, again = starts + int(closed[newest]) + 1, len(closed) - newest - 1
         known, nearest, starts = joints[kept], min(nearest, float(np.min(found.residual))), starts + STARTS
         work.at(starts, MOST, f"{len(known)} assemblies so far")
-    return Search(known, starts, last, nearest, again >= AGAIN * max(len(known), 1))
+    return Search(known, starts, last, nearest, again >= _enough(known))
+
+
+def _enough(known: FloatArray) -> int:
+    return AGAIN * max(len(known), LEAST)
+
+
+def _starts(record: MechanismRecord, known: FloatArray, rng: np.random.Generator) -> FloatArray:
+    """Joint values (STARTS, n)."""
+    if not len(known):
+        return by_chance(record, STARTS, rng)
+    share = STARTS // 3
+    parts = (
+        by_chance(record, STARTS - 2 * share, rng),
+        redrawn(record, known, share, rng),
+        mixed(record, known, share, rng),
+    )
+    return np.concatenate(parts)
 
 
 def _assembled(record: MechanismRecord, problem: Problem, given: FloatArray, start: FloatArray) -> Assembly:
     held = _held(record, problem)
     if problem == "direct":
-        return assemble(record, near_turns_of_home(record, held_inputs(record, start, given), held), held=held)
-    return assemble(record, near_turns_of_home(record, start, held), poses=given)
+        return assemble(
+            record, near_turns_of_home(record, held_inputs(record, start, given), held), held=held, far=True
+        )
+    return assemble(record, near_turns_of_home(record, start, held), poses=given, far=True)
 
 
 def _held(record: MechanismRecord, problem: Problem) -> tuple[int, ...]:
@@ -155,13 +177,3 @@ def places(record: MechanismRecord, joints: FloatArray) -> FloatArray:
         columns += [np.cos(value), np.sin(value)] if same else [value / joint_scales(record)[item.coordinate.index]]
     columns.append(joints[:, counted(record)])
     return np.concatenate(columns, axis=-1)
-
-
-def _starts(record: MechanismRecord, count: int, rng: np.random.Generator, *, with_home: bool) -> FloatArray:
-    """Joint values (count, coordinates) by chance, the first of them home where that is wanted."""
-    home, units = home_values(record), joint_units(record)
-    spread = rng.uniform(-1.0, 1.0, size=(count, len(home)))
-    if with_home:
-        spread[0] = 0.0
-    angles = (units == 1.0) & [item.kind == "angle" for item in record.coordinates]
-    return np.asarray(home + np.where(angles, np.pi, 2.0 * units) * spread)

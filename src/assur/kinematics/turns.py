@@ -25,6 +25,7 @@ from assur.joint_graph.turns import screws_among, turn_relations
 from assur.kinematics.closure import assemble
 from assur.kinematics.home import home_values
 from assur.model.mechanism import MechanismRecord
+from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -148,18 +149,9 @@ def in_one_turn(record: MechanismRecord, joints: FloatArray) -> FloatArray:
     Rotation vectors of spherical joints too: as a vector of length 2 pi the identity has no rates, and looks singular.
     """
     answer = np.where(periodic(record), (joints + np.pi) % (2 * np.pi) - np.pi, joints)
-    for name, joint in record.joints.items():
-        if joint.type.ball:
-            place = joint_graph(record).slices[name]
-            answer[..., place] = _shortest(answer[..., place])
+    for place in joint_graph(record).turns:
+        answer[..., place] = rotations.shortest(answer[..., place])
     return answer
-
-
-def _shortest(vectors: FloatArray) -> FloatArray:
-    """Rotation vectors (..., 3) of the same rotations, none longer than pi."""
-    angle = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    turns = np.ceil(angle / (2 * np.pi) - 0.5)
-    return np.asarray(vectors * (1.0 - 2 * np.pi * turns / np.where(angle > 0.0, angle, 1.0)))
 
 
 def with_turns_of_home(

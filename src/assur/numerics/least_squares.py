@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
 IndexArray = NDArray[np.intp]
 
 DAMPING = 1e-3
@@ -20,6 +21,11 @@ DAMPING = 1e-3
 LOWERED, RAISED = 0.03, 2.0
 """After a step that did as well as its linear model said damping falls to this share; after one that made things worse
 it rises by this factor, twice as much each time in a row (Nielsen 1999, Damping parameter in Marquardt's method)."""
+
+FAR, LEVEL = 1e-3, 1e-3
+"""Where a residual is above the first and the slope of the sum of squares, as a share of what the residuals and the
+columns' mean length allow, is below the second, there is a valley that ends above zero: a root that near, even a double
+one, makes the slope sixty times as steep. So stopped, the residual is within 1e-6 of itself of the valley's."""
 
 
 @dataclass(frozen=True)
@@ -40,13 +46,15 @@ def minimise(
     max_steps: int = 60,
     max_change: float = np.inf,
     damping: float = DAMPING,
+    same: Callable[[FloatArray], FloatArray] | None = None,
 ) -> LeastSquaresResult:
     """Drive the residuals of a batch of systems to zero, from (N, n) starts.
 
     `system(x, rows)` returns residuals (k, r) and Jacobians (k, r, n) of the k problems with those row
     numbers, at x (k, n). A problem has converged when every residual is at most `tolerance`; one that has
     not is reported as it stands, never dropped. `damping` is that of the first step, as a share of the mean square of
-    the Jacobian's columns: small where the start is known to be near.
+    the Jacobian's columns: small where the start is known to be near. `same(x)` may say (k, n) better unknowns for the
+    same thing.
 
     Example: the root of x^2 = 2.
 
@@ -62,11 +70,12 @@ def minimise(
     steps = 0
     while steps < max_steps:
         active = np.flatnonzero(np.max(np.abs(residual), axis=1, initial=0.0) > tolerance)
+        active = active[~_in_valley(residual[active], jacobian[active])]
         if not len(active):
             break
         steps += 1
         change = _step(residual[active], jacobian[active], damped[active], max_change)
-        trial = x[active] + change
+        trial = x[active] + change if same is None else same(x[active] + change)
         new_residual, new_jacobian = system(trial, active)
         new_error = np.einsum("ni,ni->n", new_residual, new_residual)
         expected = residual[active] + (jacobian[active] @ change[..., None])[..., 0]
@@ -84,6 +93,14 @@ def minimise(
             break
     cost = np.max(np.abs(residual), axis=1, initial=0.0)
     return LeastSquaresResult(x, cost, cost <= tolerance, steps)
+
+
+def _in_valley(residual: FloatArray, jacobian: FloatArray) -> BoolArray:
+    """Where (N,) the sum of squares is at a minimum that is no root."""
+    slope = np.linalg.norm((residual[:, None, :] @ jacobian)[:, 0], axis=1)
+    column = np.sqrt(np.einsum("nij,nij->n", jacobian, jacobian) / max(jacobian.shape[-1], 1))
+    far = np.max(np.abs(residual), axis=1, initial=0.0) > FAR
+    return np.asarray(far & (slope <= LEVEL * column * np.linalg.norm(residual, axis=1)))
 
 
 def _step(residual: FloatArray, jacobian: FloatArray, damping: FloatArray, max_change: float) -> FloatArray:

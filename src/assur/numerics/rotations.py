@@ -117,6 +117,17 @@ def _near_half_turn(rotation: FloatArray, sine_axis: FloatArray, angle: FloatArr
     return np.asarray((angle * sense)[..., None] * axis)
 
 
+def shortest(vector: FloatArray) -> FloatArray:
+    """Rotation vectors (..., 3) of the same rotations, none longer than half a turn.
+
+    >>> shortest(np.array([0.0, 0.0, 1.5 * np.pi])).round(4)
+    array([ 0.    ,  0.    , -1.5708])
+    """
+    angle = np.linalg.norm(vector, axis=-1, keepdims=True)
+    turns = np.ceil(angle / (2 * np.pi) - 0.5)
+    return np.asarray(vector * (1.0 - 2 * np.pi * turns / np.where(angle > 0.0, angle, 1.0)))
+
+
 def taking(start: FloatArray, end: FloatArray) -> FloatArray:
     """The smallest rotation (3, 3) that takes one unit vector onto another, not its opposite.
 

@@ -18,7 +18,6 @@ from itertools import combinations_with_replacement
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import schur
 
 ComplexArray = NDArray[np.complex128]
 
@@ -175,6 +174,8 @@ def common_eigenvalues(groups: Sequence[Sequence[ComplexArray]]) -> ComplexArray
         below = np.linalg.pinv(sum(weight * part for weight, part in zip(weights, group, strict=True)))
         times += [below @ part for part in group]
     mixed = sum(weight * part for weight, part in zip(_unitary(size, seed=2)[1], times, strict=True))
+    from scipy.linalg import schur  # takes as long to load as all of a short answer
+
     _, basis = schur(mixed, output="complex")
     return np.stack([np.diag(basis.conj().T @ part @ basis) for part in times])
 

@@ -17,6 +17,8 @@ SHOWN = 6
 def freedom_problems(record: MechanismRecord, claims: Claims) -> list[Problem]:
     """Freedoms against inputs, by the rank of the whole joint graph near home."""
     driven, moving = len(record.inputs), claims.moving
+    if driven == moving == int(claims.general.inputs) > 0:
+        return []
     names = ", ".join(item.name for item in record.inputs)
     path: KeyPath = table_place(record, "inputs")
     if moving == 0:
@@ -33,11 +35,9 @@ def freedom_problems(record: MechanismRecord, claims: Claims) -> list[Problem]:
     if driven < moving:
         hint = f"{drive}; drive {'one' if moving - driven == 1 else moving - driven} of them"
         return [problem(record, path, f"{inputs} ({names}); {freedoms}", "one input for each freedom", hint)]
-    if int(claims.general.inputs) < driven:
-        found = f"inputs ({names}) that depend on one another: {int(claims.general.inputs)} of {driven} are independent"
-        hint = f"{drive}; drive one of them instead of {_one_of(claims.spare_inputs)}"
-        return [problem(record, path, found, "inputs that determine the mechanism", hint)]
-    return []
+    found = f"inputs ({names}) that depend on one another: {int(claims.general.inputs)} of {driven} are independent"
+    hint = f"{drive}; drive one of them instead of {_one_of(claims.spare_inputs)}"
+    return [problem(record, path, found, "inputs that determine the mechanism", hint)]
 
 
 def pose_problems(record: MechanismRecord, claims: Claims) -> list[Problem]:
