@@ -154,8 +154,8 @@ def _shown(data: CheckAnswer, then: str) -> Iterable[RenderableType]:
         yield Verbatim(_exact_text(facts.exact))
     if facts.unproved:
         yield Verbatim(
-            f"note: by the way it is made it is not known of {count(len(facts.unproved), 'divisor or radicand')} "
-            f"that it means something everywhere; no place was found where it does not: {facts.unproved[0]}"
+            f"note: its reduced model ends branches by {count(len(facts.unproved), 'margin')} without signs, "
+            f"compared with the joint graph at places only: {', '.join(facts.unproved)}"
         )
     yield from (Verbatim(f"note: {note}") for note in data.notes)
     if then:

@@ -130,7 +130,10 @@ def _written_copy(found: Copied, path: Path, *, force: bool, with_closed_form: b
     if found.closed_form is None:
         said.append(f"{found.model} has no closed form")
     elif wanted:
-        said.append(f"its closed form stands beside it, in {CLOSED_FORM}; it holds as long as only numbers are changed")
+        said += [
+            f"its closed form stands beside it, in {CLOSED_FORM}; it holds as long as only numbers are changed",
+            "a radicand, a divisor or a margin that you change in it must stay declared as docs/closed-form.md says",
+        ]
     else:
         said.append(
             "its closed form stays behind, so that the new file is solved on its joint graph; "

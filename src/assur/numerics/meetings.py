@@ -12,6 +12,8 @@ from assur.numerics.vectors import Number, Pair, Vector, add, cross, dot, scaled
 
 TINY = 1e-30
 """What a line through centres that all coincide is taken along Z by: beside any other length it is nothing."""
+FLOOR = 1e-90
+"""Of squares that are never zero where the centres are as they should be: by it nobody has to take that on trust."""
 MANY = 1e9
 """Makes a distance between centres that is not zero count for more than any radius."""
 
@@ -94,13 +96,13 @@ def coincident_spheres(
     w = subtract(u, v)
     # one of u, v, w is zero, so u + v is not, unless all are; and (point - first) . u = u^2 / 2, the same for v
     axis = add(add(u, v), (0, 0, TINY * ns.sqrt(square)))
-    along = dot(axis, axis)
+    along = dot(axis, axis) + FLOOR * square
     first_gap, second_gap, third_gap = dot(u, u), dot(v, v), dot(w, w)  # two are equal and one is zero
     foot = scaled(axis, (first_gap + second_gap) / (2 * along))
     apart = first_gap * second_gap * third_gap / (square * square)
     radicand = square - (first_gap + second_gap + third_gap) / 8 - MANY * apart
     level = cross(axis, across)
-    width = dot(level, level)
+    width = dot(level, level) + FLOOR * square
     right = scaled(level, turn[0] * ns.sqrt(radicand) / ns.sqrt(width))
     up = scaled(cross(axis, level), turn[1] * ns.sqrt(radicand) / (ns.sqrt(along) * ns.sqrt(width)))
     return add(add(first, foot), add(right, up)), radicand

@@ -9,10 +9,13 @@ from assur.kinematics.contract.check import problems
 from assur.kinematics.contract.extent import DEEP, IN_FULL
 from assur.model.registry import load_record
 
+RAILS = "linear_delta_4s"
+"""Divides by a formula of its dimensions that is zero for some: each choice of them is a question of its own."""
+
 
 @pytest.mark.parametrize("name", [*assur.names(), "biglide"])
 def test_a_right_form_passes_with_any_dimensions(copied, name):
-    assert problems(load_record(copied(name))) == ((), True)
+    assert problems(load_record(copied(name))) == ((), name != RAILS)
 
 
 @pytest.mark.parametrize("name", ["zeng2019", "fivebar", "planar_3rpr", "biglide"])
@@ -24,7 +27,7 @@ def test_a_right_form_passes_in_full(copied, name):
 @pytest.mark.parametrize("name", assur.names())
 @pytest.mark.parametrize("extent", [IN_FULL, DEEP], ids=["full", "deep"])
 def test_every_right_form_passes_every_check(copied, name, extent):
-    assert problems(load_record(copied(name)), extent) == ((), True)
+    assert problems(load_record(copied(name)), extent) == ((), name != RAILS)
 
 
 @pytest.mark.deep

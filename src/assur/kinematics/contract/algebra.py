@@ -1,51 +1,55 @@
-"""What is known of the entries of a kernel by the way they are made: which are never negative, which are never zero.
+"""What is known of the entries of a kernel: which are never negative, which never zero where a branch is listed.
 
 A divisor that may vanish unnoticed, and a radicand that may be negative unnoticed, make numbers that mean nothing where
 no status says so. Taken apart, products, quotients, roots and signs leave what must not be zero. That is
 
-- a number, or a parameter that the mechanism's file says is positive, or a formula of parameters that is not zero;
+- a number, or a parameter that the mechanism's file says is positive;
 - a sum of squares and of something positive;
-- a number times powers of margins at whose zero the formulas are declared to degenerate, and of factors of det Jp,
+- a multiple of powers of margins at whose zero the formulas are declared to degenerate, and of factors of det Jp,
   det Jq or of kind "other", at whose zero the pose is singular;
 - what the coefficients of a polynomial are divided by: one that is not finite leaves the problem undecided.
 
-A radicand is one of the first two, a margin, or made of such.
+A radicand is one of the first two, a margin, made of such, or a positive multiple of a margin and of squares. A margin
+in turn has to be a radicand, a divisor or a factor but for such multiples: else it ends branches where they go on.
+What is a multiple is known exactly (`assur.kinematics.contract.identities`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from functools import cached_property
 from typing import Literal
 
-import numpy as np
-from numpy.typing import NDArray
-
+from assur.kinematics.contract.identities import Identities, Powers
 from assur.kinematics.contract.kernel import Kernel
+from assur.kinematics.modes import sign_names
 from assur.kinematics.status import closed_form_of
+from assur.model.closed_form import Margin
 
-FloatArray = NDArray[np.float64]
 Least = Literal["positive", "zero or more", "anything"]
 
-SAMPLES = 120
-SAME = 1e-9
 SIGNS: dict[str, Least] = {"positive": "positive", "nonnegative": "zero or more", "any": "anything"}
 
 
 class Algebra:
-    """What is known of the entries of one kernel."""
+    """What is known of the entries of one kernel.
 
-    def __init__(self, kernel: Kernel) -> None:
+    Args:
+        kernel: one question.
+        general: whether it has to be known with any dimensions; else with those of the record.
+    """
+
+    def __init__(self, kernel: Kernel, general: bool = True) -> None:
         self.kernel, self.operations = kernel, kernel.tape.operations
+        self._general = general
         names = {place: name for name, place in kernel.uniform.items()}
         parameters = kernel.record.parameters
         self._parameters = {k: parameters[name].sign if name in parameters else "any" for k, name in names.items()}
-        self._values = _samples(kernel)
         self._doubts: dict[int, frozenset[int]] = {}
         self._signs: dict[int, Least] = {}
-        self._merging = {k for item in kernel.margins if item.zero == "merge" for k in self._margin(item.name)}
+        self._merging = sorted({k for item in kernel.margins if item.zero == "merge" for k in self.margin(item)})
         named = {item.name for item in closed_form_of(kernel.record).factor_list}
         factors = {k for name, places in kernel.outputs["factor"].items() if name in named for k in places}
-        declared = [k for item in kernel.margins if item.zero == "degenerate" for k in self._margin(item.name)]
+        declared = [k for item in kernel.margins if item.zero == "degenerate" for k in self.margin(item)]
         declared += [*factors, *(k for places in kernel.outputs.get("finite", {}).values() for k in places)]
         coefficients = [k for places in kernel.outputs.get("coefficient", {}).values() for k in places]
         declared += [self.operations[j].arguments[1] for k in coefficients for j in self._quotients(k)]
@@ -55,6 +59,15 @@ class Algebra:
             self._taken_apart(k, finite=k not in factors)
         for k in range(len(self.operations)):  # arguments come first, so that a long chain is no deep recursion
             self.least(k)
+
+    @cached_property
+    def identities(self) -> Identities:
+        """Products among the entries; worked out where something is not known without."""
+        return Identities(self.kernel, self._general)
+
+    def margin(self, item: Margin) -> tuple[int, ...]:
+        """Entries of a margin."""
+        return self.kernel.outputs["margin"][item.name]
 
     def doubtful_divisors(self) -> tuple[int, ...]:
         """Entries, parts of divisors, of which it is not known that they are not zero."""
@@ -76,20 +89,98 @@ class Algebra:
             self._signs[k] = self._least(k)
         return self._signs[k]
 
-    def _margin(self, name: str) -> tuple[int, ...]:
-        return self.kernel.outputs["margin"][name]
+    def untied(self) -> tuple[Margin, ...]:
+        """Margins that are neither radicands nor divisors nor factors, but for what is never negative, or zero."""
+        return tuple(item for item in self.kernel.margins if not all(self._is_tied(item, k) for k in self.margin(item)))
 
     def _quotients(self, k: int) -> list[int]:
         return [j for j in self.kernel.needs[k] if self.operations[j].name == "/"]
 
-    def _allowed(self, k: int) -> bool:
+    def _allowed(self, radicand: int) -> bool:
         """Whether a radicand is a margin, made of such and of what is not negative, or never negative by itself."""
-        if k in self._merging or self.least(k) != "anything" or self._constant(k, negative=False):
+        operations = self.operations
+        root = next(j for j, item in enumerate(operations) if item.name == "root" and item.arguments == (radicand,))
+        # made without this root and those after it: the square of a root says nothing of its radicand's sign
+        earlier = [
+            k
+            for k in (*self._merging, *self._units)
+            if all(j < root for j in self.kernel.needs[k] if operations[j].name == "root")
+        ]
+        return self._is_bounded(radicand, earlier)
+
+    def _is_bounded(self, k: int, others: list[int]) -> bool:
+        """Whether an entry is not negative where no margin is."""
+        if k in self._merging or self.least(k) != "anything" or self._is_fixed(k, positive=True):
             return True
+        item, merging = self.operations[k], set(self._merging)
+        if item.name in ("*", "/", "+") and all(self._is_bounded(part, others) for part in item.arguments):
+            return True
+        return bool(self.identities.positive_product(k, others, lambda powers: self._odd(powers) <= merging))
+
+    def _odd(self, powers: Powers) -> set[int]:
+        """Entries, with odd powers, of which no sign is known."""
+        return {j for j, power in powers.items() if power % 4 and self.least(j) == "anything"}
+
+    def near(self, item: Margin) -> int | None:
+        """Of radicands, or of divisors and factors, the one that has most in common with a margin."""
+        (own, *_), needs = self.margin(item), self.kernel.needs
+        others = self.kernel.roots if item.zero == "merge" else self._vanishing
+        shares = {k: len(needs[k] & needs[own]) / len(needs[k] | needs[own]) for k in others if k != own}
+        return max(shares, key=lambda k: shares[k], default=None)
+
+    def _is_tied(self, item: Margin, k: int) -> bool:
+        if self.least(k) == "positive" or (item.zero == "merge" and self.least(k) != "anything"):
+            return True
+        if item.zero == "degenerate":
+            return bool(self.identities.product(k, self._vanishing))
+        signs = [name for name in item.signs if name in self._asked]
+        if signs:
+            return all(self._is_square(k, self.kernel.outputs["sign"].get(name, ())) for name in signs)
+        return bool(item.signs) and self._is_radicand(k)
+
+    def _is_radicand(self, k: int) -> bool:
+        """Whether a margin is a positive multiple of a radicand: on a curve, whose signs are others."""
+        roots = set(self.kernel.roots)
+        others = [*roots, *self._units]
+        return bool(self.identities.positive_product(k, others, lambda powers: len(self._odd(powers) & roots) == 1))
+
+    @cached_property
+    def _asked(self) -> tuple[str, ...]:
+        """Signs by which the branches of the question are named."""
+        curve = closed_form_of(self.kernel.record).self_motion
+        if self.kernel.question == "self_motion":
+            return curve.signs if curve else ()
+        return sign_names(self.kernel.record, self.kernel.question)
+
+    def _is_square(self, k: int, quantity: tuple[int, ...]) -> bool:
+        """Whether a margin is a positive multiple of the square of what its sign is the sign of."""
+        for own in quantity:
+
+            def accepted(powers: Powers, own: int = own) -> bool:
+                return own in powers and not self._odd(powers)
+
+            if not self.identities.positive_product(k, [own, *self._units], accepted):
+                return False
+        return bool(quantity)
+
+    @cached_property
+    def _units(self) -> list[int]:
+        """What two entries that vanish together may differ by: what is declared, and what is divided by."""
+        return sorted({*self._declared, *(part for k in self.kernel.divisors for part in self._parts(k))})
+
+    @cached_property
+    def _vanishing(self) -> list[int]:
+        """Factors, radicands and parts of divisors."""
+        named = [k for places in self.kernel.outputs["factor"].values() for k in places]
+        parts = {part for k in (*self.kernel.divisors, *named) for part in self._parts(k)}
+        return sorted({*parts, *named, *self.kernel.roots})
+
+    def _parts(self, k: int) -> list[int]:
+        """What a product is made of."""
         item = self.operations[k]
-        if item.name in ("*", "/", "+") and all(map(self._allowed, item.arguments)):
-            return True
-        return any(self._multiple(k, j) > 0 for j in self._merging)
+        if item.name in ("*", "/", "negative", "root"):
+            return [part for j in item.arguments for part in self._parts(j)]
+        return [] if item.name == "number" else [k]
 
     def _taken_apart(self, k: int, *, finite: bool) -> None:
         """A product that is not zero has no part that is zero; nor has a quotient that is known to be finite."""
@@ -104,7 +195,7 @@ class Algebra:
 
     def _doubtful(self, k: int) -> frozenset[int]:
         item = self.operations[k]
-        if k in self._known or self.least(k) == "positive" or self._constant(k, negative=True):
+        if k in self._known or self.least(k) == "positive" or self._is_fixed(k):
             return frozenset()
         if item.name in ("negative", "magnitude", "root"):
             return self.doubts(item.arguments[0])
@@ -112,22 +203,23 @@ class Algebra:
             return self.doubts(item.arguments[0]) | self.doubts(item.arguments[1])
         if item.name in ("+", "-") and self._is_nothing(item.arguments[1]):
             return self.doubts(item.arguments[0])
-        known = any(self._multiple(k, j) for j in self._known) or self._is_product(k)
-        return frozenset() if known else frozenset([k])
+        if self._general and k in self.identities.fixed:
+            return frozenset([k])
+        known = self.identities.product(k, [*self._declared, *sorted(self._known)])
+        return frozenset([k]) if known is None else frozenset()
 
     def _is_nothing(self, k: int) -> bool:
         return self.operations[k].name == "number" and self.operations[k].number == 0
 
-    def _constant(self, k: int, *, negative: bool) -> bool:
-        """Whether an entry is made of dimensions and numbers alone, and is positive; or negative, if that will do."""
-        if any(self.operations[j].name == "varying" or j in self._modes for j in self.kernel.needs[k]):
+    def _is_fixed(self, k: int, *, positive: bool = False) -> bool:
+        """Whether an entry is made of dimensions alone and, with those of the record, not zero; or positive."""
+        item = self.operations[k]
+        if item.name == "number":
+            return item.number > 0 or (item.number < 0 and not positive)
+        if self._general or k not in self.identities.fixed:
             return False
-        value = float(np.min(self._values[k]))
-        return value > 0 or (negative and value < 0)
-
-    @property
-    def _modes(self) -> set[int]:
-        return {place for name, place in self.kernel.uniform.items() if name.startswith("sign.")}
+        value = self.identities.value(k)
+        return value > 0 or (value < 0 and not positive)
 
     def _least(self, k: int) -> Least:
         item = self.operations[k]
@@ -142,48 +234,11 @@ class Algebra:
         return "anything"
 
     def _least_of_two(self, name: str, first: int, second: int) -> Least:
+        if name == "*" and any(self._is_nothing(part) for part in (first, second)):
+            return "zero or more"
         if name == "*" and first == second:
             return "positive" if first in self._known or self.least(first) == "positive" else "zero or more"
         both = {self.least(first), self.least(second)}
         if "anything" in both:
             return "anything"
         return "positive" if both == {"positive"} or (name == "+" and "positive" in both) else "zero or more"
-
-    def _multiple(self, k: int, known: int) -> float:
-        """What an entry that varies is times another, at samples; 0 where it is no multiple."""
-        with np.errstate(all="ignore"):
-            ratio = np.broadcast_to(self._values[k] / self._values[known], (SAMPLES,))
-        ratio = ratio[np.isfinite(ratio) & (ratio != 0)]
-        varies = len(np.unique(self._values[k])) > SAMPLES // 4
-        if not varies or len(ratio) <= SAMPLES // 4 or not _same(ratio, float(np.median(ratio))):
-            return 0.0
-        return float(np.median(ratio))
-
-    def _is_product(self, k: int) -> bool:
-        """Whether an entry is a number times powers of what is declared, at samples; powers are halves."""
-        with np.errstate(all="ignore"):
-            logs = np.log(np.abs([np.broadcast_to(self._values[j], (SAMPLES,)) for j in (k, *self._declared)]))
-        logs = logs[:, np.all(np.isfinite(logs), axis=0)]
-        if logs.shape[1] < 2 * len(logs):
-            return False
-        columns = np.vstack([np.ones(logs.shape[1]), logs[1:]]).T
-        powers = np.linalg.lstsq(columns, logs[0], rcond=1e-9)[0][1:]
-        rest = logs[0] - logs[1:].T @ (np.round(2 * powers) / 2)
-        return bool(np.any(np.round(2 * powers))) and _same(rest - np.median(rest), 0.0)
-
-
-def _same(values: FloatArray, wanted: float) -> bool:
-    """Nine in ten of them: at the others rounding may have taken the digits."""
-    return bool(np.mean(np.abs(values - wanted) <= SAME * max(1e-300, abs(wanted), float(wanted == 0))) > 0.9)
-
-
-def _samples(kernel: Kernel) -> Sequence[FloatArray]:
-    """Values (SAMPLES,) of every entry at random given numbers, those near the workspace; signs are plus."""
-    random, record = np.random.default_rng(7), kernel.record
-    size = max(map(abs, vars(record.values).values()), default=1.0)
-    varying: list[FloatArray] = []
-    for name, angle in kernel.given:
-        usual = (-3, 3) if angle else (0.3 * size, 1.5 * size)
-        place = random.uniform(*record.box.get(name, usual), SAMPLES)
-        varying += [np.cos(place), np.sin(place)] if angle else [place]
-    return kernel.evaluated(varying, {})

@@ -7,13 +7,14 @@ from functools import lru_cache
 import numpy as np
 
 from assur.errors import Problem, cut
+from assur.kinematics.contract.algebra import Algebra
 from assur.kinematics.contract.exact import exactness
 from assur.kinematics.contract.extent import AT_LOAD, Extent
-from assur.kinematics.contract.held import at_other_dimensions, at_places, of_formulas
+from assur.kinematics.contract.held import at_other_dimensions, at_places, of_declarations, of_formulas
 from assur.kinematics.contract.kernel import questions, recorded
 from assur.kinematics.contract.lines import line_of
 from assur.kinematics.contract.mismatch import Mismatch
-from assur.kinematics.contract.undeclared import in_doubt
+from assur.kinematics.contract.undeclared import own_ends
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import CLOSED_FORM
 
@@ -32,13 +33,16 @@ def exact_problems(record: MechanismRecord) -> tuple[Problem, ...]:
 
 
 def unproved(record: MechanismRecord) -> tuple[str, ...]:
-    """Divisors and radicands of which the way they are made does not show that they mean something.
+    """Margins by which a reduced model ends branches, and nothing but the model says where.
 
     >>> from assur.model.registry import load_record
-    >>> unproved(load_record("fivebar"))
-    ()
+    >>> unproved(load_record("fivebar")), unproved(load_record("h4_robot"))
+    ((), ('near',))
     """
-    return tuple(dict.fromkeys(text for question in questions(record) for text in in_doubt(recorded(record, question))))
+    if record.closed_form is None or record.closed_form.complete_for == "joint_graph":
+        return ()
+    kernels = (recorded(record, question) for question in questions(record))
+    return tuple(dict.fromkeys(name for kernel in kernels for name in own_ends(kernel, Algebra(kernel))))
 
 
 @lru_cache(maxsize=64)
@@ -58,6 +62,9 @@ def problems(record: MechanismRecord, extent: Extent = AT_LOAD) -> tuple[tuple[P
         if not found:
             exact = exactness(record)
             found, general = list(exact.mismatches), general and (exact.general or bool(exact.undecided))
+        if not found:
+            found, declared = of_declarations(record, extent)
+            general = general and declared
         if not found and extent.formulas:
             found = of_formulas(record, extent)
     parts = {(item.part, item.name): item for item in reversed(found)}

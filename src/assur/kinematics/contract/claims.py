@@ -106,8 +106,7 @@ class DrawnProblem:
         self.record, self.problem, self.ns, self.form = record, problem, ns, closed_form_of(record)
         names = _dimensions(record, ns, general)
         self.geometry: Geometry = written_geometry(record, NumberReading(names, ns, ns.number))
-        positive = [names[name] for name, item in record.parameters.items() if item.sign == "positive"]
-        ns.positive.extend(value for value in positive if not isinstance(value, DrawnAngle))
+        ns.positive.extend(_positive(record, names, general))
         self.p = SimpleNamespace(**{name: _plain(ns, value) for name, value in names.items()})
         self.signs = {name: ns.signs() for name in sign_names(record, problem)}
         self.branch: Branch = self._branch(SimpleNamespace(**self.signs))
@@ -282,6 +281,15 @@ def _dimensions(record: MechanismRecord, ns: DrawnNumbers, general: bool) -> dic
             if name not in values and formula.names <= values.keys():
                 values[name] = NumberReading(values, ns, ns.number).value(formula)
     return values
+
+
+def _positive(record: MechanismRecord, names: Mapping[str, Any], general: bool) -> Iterator[Any]:
+    """Dimensions that are positive: of those that are drawn as the file says, of its own as they are."""
+    for name, item in record.parameters.items():
+        if not isinstance(names[name], DrawnAngle):
+            own = getattr(record.values, name)
+            if item.sign == "positive" or (not general and own):
+                yield names[name] if own > 0 else -names[name]
 
 
 def _plain(ns: DrawnNumbers, value: Any) -> Any:

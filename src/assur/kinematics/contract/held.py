@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.closure import RANK_GAP
+from assur.kinematics.contract.algebra import Algebra
 from assur.kinematics.contract.borders import cut_short, ends, named_by_signs
 from assur.kinematics.contract.completeness import missing, random_assemblies
 from assur.kinematics.contract.curves import broken_curves, lacking_curves
 from assur.kinematics.contract.determinants import wrong_factors
 from assur.kinematics.contract.dimensions import changed, with_dimensions
 from assur.kinematics.contract.extent import Extent
-from assur.kinematics.contract.kernel import recorded
+from assur.kinematics.contract.kernel import questions, recorded
 from assur.kinematics.contract.mismatch import Mismatch
 from assur.kinematics.contract.places import inputs, poses
 from assur.kinematics.contract.positions import open_loops, other_questions
@@ -25,7 +26,7 @@ from assur.kinematics.contract.solutions import Solutions, solutions, solves
 from assur.kinematics.contract.solvers import lacking
 from assur.kinematics.contract.statuses import false_statuses
 from assur.kinematics.contract.systems import unsolved
-from assur.kinematics.contract.undeclared import undeclared
+from assur.kinematics.contract.undeclared import is_declared, undeclared
 from assur.kinematics.contract.zeros import false_zeros
 from assur.kinematics.modes import Problem
 from assur.kinematics.rates.motions import motions
@@ -82,24 +83,53 @@ def at_places(record: MechanismRecord, extent: Extent, seed: int = 0) -> list[Mi
     return broken or lacking(there, extent.problems, random)
 
 
-@stage("divisors, radicands and factors of the closed form")
+@stage("radicands, divisors and margins of the closed form")
+def of_declarations(record: MechanismRecord, extent: Extent, seed: int = 0) -> tuple[list[Mismatch], bool]:
+    """Radicands and divisors that are not declared, and margins that are neither; of polynomials in wider checks.
+
+    The second answer: whether all is declared with any dimensions.
+
+    >>> from assur.model.registry import load_record
+    >>> from assur.kinematics.contract.extent import IN_FULL
+    >>> of_declarations(load_record("fivebar"), IN_FULL)
+    ([], True)
+    """
+    found, general = list[Mismatch](), True
+    for question in questions(record):
+        if extent.formulas or question == "self_motion" or named_by_signs(record, question):
+            kernel = recorded(record, question)
+            if not is_declared(kernel, Algebra(kernel)):
+                general, known = False, Algebra(kernel, general=False)
+                if not is_declared(kernel, known):
+                    found += undeclared(kernel, known, _solved(record, extent, seed).get(question))
+    return found, general
+
+
+def _solved(record: MechanismRecord, extent: Extent, seed: int) -> dict[str, Solutions]:
+    """Solutions of the problems that are answered by signs."""
+    random = np.random.default_rng(seed)
+    there = solutions(record, "inverse", poses(record, extent.poses, random))
+    found = {"inverse": there}
+    if len(there) and solves(record, "direct") and named_by_signs(record, "direct"):
+        found["direct"] = solutions(record, "direct", inputs(record, there.inputs, extent.poses, random))
+    return found
+
+
+@stage("curves and zeros of factors of the closed form")
 def of_formulas(record: MechanismRecord, extent: Extent, seed: int = 0) -> list[Mismatch]:
-    """Divisors and radicands that nothing declares, and zeros of factors at which nothing is singular.
+    """Curves that do not close, and zeros of factors at which nothing is singular.
 
     >>> from assur.model.registry import load_record
     >>> from assur.kinematics.contract.extent import IN_FULL
     >>> of_formulas(load_record("fivebar"), IN_FULL)
     []
     """
-    random = np.random.default_rng(seed)
-    there = solutions(record, "inverse", poses(record, extent.poses, random))
-    kernel = recorded(record, "inverse")
-    found = undeclared(kernel, there)
-    if len(there) and solves(record, "direct") and named_by_signs(record, "direct"):
-        back = solutions(record, "direct", inputs(record, there.inputs, extent.poses, random))
+    solved = _solved(record, extent, seed)
+    found = list[Mismatch]()
+    if "direct" in solved:
         direct = recorded(record, "direct")
-        found += [*undeclared(direct, back), *broken_curves(direct, back), *lacking_curves(there)]
-    return found or false_zeros(kernel, there)
+        found = [*broken_curves(direct, solved["direct"]), *lacking_curves(solved["inverse"])]
+    return found or false_zeros(recorded(record, "inverse"), solved["inverse"])
 
 
 @stage("closed form with other dimensions")

@@ -58,8 +58,8 @@ class Kernel:
         tape: every number that the kernels of the question work out.
         given: name, and whether it is an angle, of what is given for each problem.
         margins: those that the question judges.
-        outputs: "joint", "pose", "input", "margin", "factor", "jp", "jq", "quantity", "coefficient", "finite" -> name
-            -> its entries of the tape; an angle has two.
+        outputs: "joint", "pose", "input", "margin", "factor", "sign", "jp", "jq", "quantity", "coefficient" or "finite"
+            -> name -> its entries of the tape; an angle has two.
     """
 
     record: MechanismRecord
@@ -245,7 +245,10 @@ class _Writer:
             self._put("pose", name, value)
         for actuated, value in zip(self.record.inputs, branch.inputs, strict=True):
             self._put("input", actuated.name, value)
-        for kind, named in (("joint", form.joints(ns, p, core)), ("factor", form.factors(ns, p, core))):
+        known = vars(core)
+        signs = {name: known[item.attribute] for name, item in form.signs.items() if item.attribute in known}
+        answers = (("joint", form.joints(ns, p, core)), ("factor", form.factors(ns, p, core)), ("sign", signs))
+        for kind, named in answers:
             for name, value in named.items():
                 self._put(kind, name, value)
         for kind, rows in zip(("jp", "jq"), form.jacobians(ns, p, core), strict=True):

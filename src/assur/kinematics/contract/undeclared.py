@@ -1,6 +1,7 @@
-"""Divisors that vanish and radicands that are negative where nothing says so: numbers that mean nothing are listed.
+"""The law of declarations: radicands are margins, divisors margins that degenerate or factors, margins nothing else.
 
-First by the way they are made (`algebra`); what that leaves in doubt is looked for, so that no right form is refused.
+What is known by the way an entry is made, and by exact arithmetic, says `algebra`; of the rest it is told where it does
+harm, or nearly does.
 """
 
 from __future__ import annotations
@@ -14,7 +15,9 @@ from assur.kinematics.contract.algebra import Algebra
 from assur.kinematics.contract.kernel import Kernel, line_where
 from assur.kinematics.contract.mismatch import Mismatch, place_text
 from assur.kinematics.contract.solutions import Solutions
+from assur.kinematics.modes import Problem
 from assur.kinematics.status import closed_form_of, scale
+from assur.model.closed_form import Margin
 from assur.model.pose import LENGTHS
 
 FloatArray = NDArray[np.float64]
@@ -26,72 +29,142 @@ DIFFERENCE = 1e-6
 """Step of a difference, as a share of the mechanism's length, or in rad."""
 LONGEST = 0.2
 """Of a step of Newton's method, the same."""
+RADICAND = "a radicand must be a margin, or a positive multiple of one, or never negative by the way it is made"
+DIVISOR = "a divisor must be a margin that degenerates, or a factor, or never zero by the way it is made"
+ALLOWED = {
+    "degenerate": "a margin that degenerates must be a multiple of powers of divisors and factors, exactly",
+    "signed": "a margin of a sign must be a positive multiple of the square of what its sign is the sign of, exactly",
+    "unsigned": "a margin without signs leaves assemblies out: only a form that is complete for a reduced model may",
+}
+ALIKE = 0.1
+"""What differs by this share, at more than half of the places, is something else."""
 ZERO = 1e-9
 """A value within this share of what it is usually is zero."""
 APART = 1e-5
 """A declared margin or factor within this share of its scale is zero as well: then the status says so."""
 
 
-def undeclared(kernel: Kernel, found: Solutions) -> list[Mismatch]:
-    """What is divided by, or drawn a root of, that is zero or negative at a listed branch.
-
-    Args:
-        kernel: of a question that is answered by signs.
-        found: its solutions, the more the better.
-    """
-    if not len(found):
-        return []
-    known = Algebra(kernel)
-    values = kernel.values(found.given, found.signs)
-    negative = [_negative(kernel, found, k, values[k]) for k in known.doubtful_radicands()]
-    vanishing = [_vanishing(kernel, found, k, values[k]) for k in known.doubtful_divisors()]
-    return [item for item in (*negative, *vanishing) if item]
-
-
-def in_doubt(kernel: Kernel) -> tuple[str, ...]:
-    """Divisors and radicands, as formulas, of which it is not known by the way they are made.
+def is_declared(kernel: Kernel, known: Algebra) -> bool:
+    """Whether nothing is left to be told.
 
     >>> from assur.kinematics.contract.kernel import recorded
     >>> from assur.model.registry import load_record
-    >>> in_doubt(recorded(load_record("fivebar"), "inverse"))
-    ()
+    >>> kernel = recorded(load_record("fivebar"), "inverse")
+    >>> is_declared(kernel, Algebra(kernel))
+    True
     """
-    known = Algebra(kernel)
-    return tuple(kernel.text(k) for k in (*known.doubtful_radicands(), *known.doubtful_divisors()))
+    margins = [item for item in known.untied() if not _is_own_end(kernel, item)]
+    return not (margins or known.doubtful_radicands() or known.doubtful_divisors())
 
 
-def _negative(kernel: Kernel, found: Solutions, k: int, values: FloatArray) -> Mismatch | None:
-    row = int(np.argmin(values))
-    if not values[row] < -ZERO * float(np.max(np.abs(values))):
-        return None
-    text = (
-        f"{kernel.text(k)} is {values[row]:.6g} at {place_text(kernel.record, found.problem, found.given[row])}, where "
-        f"the branch {found.labels[row]} of the {found.problem} problem is listed"
-    )
-    line = line_where(kernel, "root", k, 0)
-    return Mismatch("radicand", "", found.problem, text, "a radicand must be a margin, or never negative", line=line)
+def undeclared(kernel: Kernel, known: Algebra, found: Solutions | None = None) -> list[Mismatch]:
+    """Margins that are nothing else of the kernel; radicands and divisors that are not declared.
+
+    Args:
+        kernel: of a question.
+        known: of its entries.
+        found: solutions, the more the better, of a question that is answered by signs.
+    """
+    margins = [_untied(kernel, known, item, found) for item in known.untied() if not _is_own_end(kernel, item)]
+    radicands = [_negative(kernel, k, found) for k in known.doubtful_radicands()]
+    divisors = [_vanishing(kernel, known, k, found) for k in known.doubtful_divisors()]
+    return [*margins, *radicands, *divisors]
 
 
-def _vanishing(kernel: Kernel, found: Solutions, k: int, values: FloatArray) -> Mismatch | None:
+def own_ends(kernel: Kernel, known: Algebra) -> tuple[str, ...]:
+    """Margins by which a reduced model ends branches where it likes.
+
+    >>> from assur.kinematics.contract.kernel import recorded
+    >>> from assur.model.registry import load_record
+    >>> kernel = recorded(load_record("h4_robot"), "direct")
+    >>> own_ends(kernel, Algebra(kernel))
+    ('near',)
+    """
+    return tuple(item.name for item in known.untied() if _is_own_end(kernel, item))
+
+
+def _is_own_end(kernel: Kernel, item: Margin) -> bool:
+    """Whether a margin may be what it likes: without signs, of a model that is said to leave assemblies out."""
+    reduced = closed_form_of(kernel.record).complete_for == "reduced"
+    return reduced and item.zero == "merge" and not item.signs
+
+
+def _problem(kernel: Kernel) -> Problem:
+    return "inverse" if kernel.question == "inverse" else "direct"
+
+
+def _untied(kernel: Kernel, known: Algebra, item: Margin, found: Solutions | None) -> Mismatch:
+    """A margin, and what comes nearest to it: where the two differ most, in units of what they usually are."""
+    places = known.margin(item)
+    text = kernel.text(places[0]) if places else "a plain number"
+    if places and found is not None and len(found):
+        text += _beside(kernel, found, places[0], known.near(item))
+    kind = "degenerate" if item.zero == "degenerate" else "signed" if item.signs else "unsigned"
+    return Mismatch("margin", item.name, _problem(kernel), text, ALLOWED[kind])
+
+
+def _beside(kernel: Kernel, found: Solutions, own: int, near: int | None) -> str:
+    """What a margin is at a solution, and what it should be if it were a multiple of another entry."""
+    values = kernel.values(found.given, found.signs)
+    share = values[own] / values[near] if near is not None else np.full(len(found), np.nan)
+    usual = float(np.nanmedian(share))
+    expected = usual * values[near] if near is not None else values[own]
+    apart = np.nan_to_num(np.abs(values[own] - expected))
+    row = int(np.argmax(apart))
+    text = f" is {values[own][row]:.6g} at {place_text(kernel.record, found.problem, found.given[row])}"
+    if near is None or not np.nanmean(np.abs(share - usual) <= ALIKE * abs(usual)) > 1 / 2:
+        return text
+    size = f"{apart[row]:.3g}" if apart[row] > ZERO * abs(expected[row]) else "less than floats tell"
+    return f"{text}, off {kernel.text(near)}, times {usual:.6g}, by {size}, and by exact arithmetic no multiple of it"
+
+
+def _negative(kernel: Kernel, k: int, found: Solutions | None) -> Mismatch:
+    """Where a radicand is least."""
+    text, line = f"{kernel.text(k)} is not declared", line_where(kernel, "root", k, 0)
+    if found is not None and len(found):
+        values = kernel.values(found.given, found.signs)[k]
+        row = int(np.argmin(np.nan_to_num(values, nan=np.inf)))
+        text = (
+            f"{kernel.text(k)} is {values[row]:.6g} at {place_text(kernel.record, found.problem, found.given[row])}, "
+            f"where the branch {found.labels[row]} of the {found.problem} problem is listed"
+        )
+    return Mismatch("radicand", "", _problem(kernel), text, RADICAND, "declare it as a margin", line=line)
+
+
+def _vanishing(kernel: Kernel, known: Algebra, k: int, found: Solutions | None) -> Mismatch:
+    """Where a divisor is zero unnoticed, else where it is nearest to it."""
+    text = f"{kernel.text(k)} is not declared"
+    if found is not None and len(found):
+        text = _zero(kernel, found, k) or _smallest(kernel, found, k)
+    whole = next(divisor for divisor in kernel.divisors if k in known.doubts(divisor))
+    line = line_where(kernel, "/", whole, 1)
+    hint = "declare it as a margin that degenerates, or write it as a sum of squares"
+    return Mismatch("divisor", "", _problem(kernel), text, DIVISOR, hint, line=line)
+
+
+def _zero(kernel: Kernel, found: Solutions, k: int) -> str:
+    values = kernel.values(found.given, found.signs)[k]
     usual = float(np.median(np.abs(values)))
     order = np.argsort(np.abs(values), kind="stable")
     start = np.unique(np.concatenate([order[: STARTS // 2], order[:: max(1, 2 * len(order) // STARTS)]]))
-    given, signs = found.given[start], found.signs[start]
-    zero = zeros(kernel, found, k, given, signs)
+    signs = found.signs[start]
+    zero = zeros(kernel, found, k, found.given[start], signs)
     at = kernel.values(zero, signs)
     unnoticed = (np.abs(at[k]) <= ZERO * usual) & _listed(kernel, at) & ~_declared_zero(kernel, at)
     if not np.any(unnoticed):
-        return None
+        return ""
     row = int(np.flatnonzero(unnoticed)[0])
-    text = (
+    return (
         f"{kernel.text(k)} is zero at {place_text(kernel.record, found.problem, zero[row])}, where the branch "
         f"{found.labels[start[row]]} of the {found.problem} problem is listed and no margin or factor vanishes"
     )
-    algebra = Algebra(kernel)
-    whole = next(divisor for divisor in kernel.divisors if k in algebra.doubts(divisor))
-    line = line_where(kernel, "/", whole, 1)
-    allowed = "a divisor must be a margin that degenerates, or a factor, or never zero"
-    return Mismatch("divisor", "", found.problem, text, allowed, "declare it as a margin that degenerates", line=line)
+
+
+def _smallest(kernel: Kernel, found: Solutions, k: int) -> str:
+    values = kernel.values(found.given, found.signs)[k]
+    row = int(np.argmin(np.nan_to_num(np.abs(values), nan=np.inf)))
+    place = place_text(kernel.record, found.problem, found.given[row])
+    return f"{kernel.text(k)} is {values[row]:.6g} at {place}, and nothing says that it is zero nowhere"
 
 
 def zeros(kernel: Kernel, found: Solutions, k: int, given: FloatArray, signs: NDArray[np.int8]) -> FloatArray:

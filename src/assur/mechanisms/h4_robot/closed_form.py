@@ -14,7 +14,7 @@ from types import SimpleNamespace
 
 from assur.model.closed_form import Branch, ClosedForm, Eliminant, Factor, Margin, Quantity, Sign
 from assur.numerics import resultants
-from assur.numerics.meetings import angle_with, linear_in_three
+from assur.numerics.meetings import angle_with
 from assur.numerics.polynomials import add as plus
 from assur.numerics.polynomials import multiply
 from assur.numerics.polynomials import scaled as times
@@ -68,13 +68,15 @@ def back(ns, p, inputs, t):
     m, foot, along, crossed = _line(ns, p, inputs)
     u, v, apart = resultants.other_two(_quadrics(p, m, foot, along), t)
     w, cosine, sine = apply(transposed(resultants.ASKEW), (t, u, v))
-    size = ns.sqrt(cosine * cosine + sine * sine)
+    square = cosine * cosine + sine * sine
+    size = ns.sqrt(square)
     middle = scaled(add(foot, scaled(along, w)), p.l)
     pose = (*add(middle, (-p.h * cosine, p.h * sine, 0)), (cosine / size, sine / size))
     for _ in range(STEPS):
         pose = _improved(ns, p, pose, inputs)
     away = t - resultants.ASKEW[0][0] * dot(along, subtract(m[0], foot))  # at a pose within (6 + sqrt(13))/7
-    return _branch(ns, p, pose, tuple(inputs), {"near": 4 - away * away, "crossed": crossed, "apart": apart})
+    margins = {"near": 4 - away * away, "crossed": crossed, "apart": apart, "turn": square}
+    return _branch(ns, p, pose, tuple(inputs), margins)
 
 
 def _line(ns, p, inputs):
@@ -82,7 +84,9 @@ def _line(ns, p, inputs):
     m1, m2, m3, m4 = (scaled(_centre(p, k, inputs[k]), 1 / p.l) for k in range(4))
     a, b = subtract(m2, m1), subtract(m4, m3)
     n = cross(a, b)
-    foot, crossed = linear_in_three((a, b, n), (dot(a, add(m1, m2)) / 2, dot(b, add(m3, m4)) / 2, 0))
+    crossed = dot(n, n)
+    across = add(scaled(cross(b, n), dot(a, add(m1, m2)) / 2), scaled(cross(n, a), dot(b, add(m3, m4)) / 2))
+    foot = scaled(across, 1 / crossed)  # a . foot and b . foot are as said, n . foot is zero
     return (m1, m2, m3, m4), foot, scaled(n, 1 / ns.sqrt(crossed)), crossed
 
 
@@ -217,7 +221,9 @@ CLOSED_FORM = ClosedForm(
     factors=factors,
     jacobians=jacobians,
     quantities=quantities,
-    quantity_list=(Quantity("t", "number", "", meaning="(6 w/l + 2 cos(phi) + 3 sin(phi))/7, w a place on a line"),),
+    quantity_list=(
+        Quantity("t", "number", "", (), "", "direct", "(6 w/l + 2 cos(phi) + 3 sin(phi))/7, w a place on a line"),
+    ),
     signs={f"s{k}": Sign(f"lever{k}", "L") for k in LIMBS},
     direct_margins=(
         Margin("near", "1", "the root is farther away than a sphere reaches", unit=0),
@@ -229,6 +235,7 @@ CLOSED_FORM = ClosedForm(
             zero="degenerate",
         ),
         Margin("apart", "1", "two poses share the unknown t", unit=2, zero="degenerate"),
+        Margin("turn", "1", "the root is no direction from one bar to the other", unit=0, zero="degenerate"),
         *_UPRIGHT,
     ),
     inverse_margins=(

@@ -21,7 +21,7 @@ from assur.model.closed_form import Branch, ClosedForm, Eliminant, Factor, Margi
 from assur.numerics import vectors
 from assur.numerics.expanded import coefficients_of, unknowns
 from assur.numerics.meetings import linear_in_three
-from assur.numerics.vectors import add, dot, product, scaled, triple
+from assur.numerics.vectors import add, cross, dot, product, scaled, triple
 
 LEGS = (1, 2, 3)
 AWRY = (6 / 7, 2 / 7, -3 / 7)
@@ -30,6 +30,8 @@ STEPS = 3
 """Of Newton's method after the root."""
 SMALL = 1e-12
 """Where det Jp is about this part of its scale, R^3 r^2, the steps fade out: there is a double root."""
+FLOOR = 1e-60
+"""Beside 2 n it is nothing, but where the platform is upside down."""
 
 
 def inverse(ns, p, pose, sign):
@@ -114,11 +116,11 @@ def back(ns, p, inputs, t, sign):
     heights = scaled(along, sign.side / ns.sqrt(aside))
     z = (heights[0] + heights[1] + heights[2]) / 3
     a, b = (z - heights[0]) / p.r, (heights[1] - heights[2]) / (ns.sqrt(3) * p.r)
-    level = 1 - 2 * (values[0] + values[1] + values[2]) / 3
-    pose = (z, (ns.sqrt(1 - a * a), a), _unit(ns, (level, b)))
+    level, tilt = 1 - 2 * (values[0] + values[1] + values[2]) / 3, 1 - a * a
+    pose = (z, _unit(ns, (ns.sqrt(tilt), a)), _unit(ns, (level, b)))
     for _ in range(STEPS):
         pose = _improved(ns, p, pose, inputs, sign.o)
-    margins = {"apart": apart, "heights": products[0][0] + products[1][1] + products[2][2], "aside": aside}
+    margins = {"apart": apart, "heights": aside, "aside": aside, "tilt": tilt, "roll": level * level + b * b}
     return Branch(pose, tuple(inputs), {**margins, "upright": pose[1][0] * pose[1][0]}, _core(ns, p, pose, sign.o))
 
 
@@ -134,16 +136,22 @@ def _products_of_heights(p, inputs, e):
 
 def _improved(ns, p, pose, inputs, o):
     """The pose after one step of Newton's method on the lengths."""
-    core = _core(ns, p, pose, o)
-    rows, _ = jacobians(ns, p, core)
-    missing = tuple((rho * rho - square) / 2 for rho, square in zip(inputs, core.squares, strict=True))
-    step, determinant = linear_in_three(rows, missing)
-    size = SMALL * p.R * p.R * p.R * p.r * p.r
-    dz, dtheta, dpsi = scaled(step, determinant * determinant / (determinant * determinant + size * size))
+    tilt = _tilted(ns, p, pose, o, FLOOR)
+    one, two, three = _slopes_of_squares(ns, p, tilt)
+    missing = tuple((rho * rho - square) / 2 for rho, square in zip(inputs, tilt.squares, strict=True))
+    adjugate = vectors.transposed((cross(two, three), cross(three, one), cross(one, two)))
+    determinant, size = triple(one, two, three), SMALL * p.R * p.R * p.R * p.r * p.r
+    dz, *turns = scaled(vectors.apply(adjugate, missing), determinant / (determinant * determinant + size * size))
     theta, psi = (
-        _unit(ns, vectors.sum_of_angles(angle, (1, turn))) for angle, turn in ((pose[1], dtheta), (pose[2], dpsi))
+        _unit(ns, vectors.sum_of_angles(angle, _small(turn))) for angle, turn in zip(pose[1:], turns, strict=True)
     )
     return (pose[0] + dz, theta, psi)
+
+
+def _small(turn):
+    """An angle that is near zero: twice the one that has half of it as its tangent."""
+    square = turn * turn / 4
+    return ((1 - square) / (1 + square), turn / (1 + square))
 
 
 def _unit(ns, leg):
@@ -151,21 +159,32 @@ def _unit(ns, leg):
     return (leg[0] / size, leg[1] / size)
 
 
-def _core(ns, p, pose, o):
+def _tilted(ns, p, pose, o, floor):
+    """Where the corners are. The floor keeps n from being zero on the way to a pose."""
     z, theta, psi = pose
     root3 = ns.sqrt(3)
     a, b, above = theta[1], theta[0] * psi[1], 1 + theta[0] * psi[0]
-    n = (above * above + a * a + b * b) / 2  # as 1 + cos(theta) cos(psi), without the loss of digits near zero
+    # as 1 + cos(theta) cos(psi), without the loss of digits near zero
+    n = (above * above + a * a + b * b + floor) / 2
     radial = tuple(o * p.r * (1 - square / n) for square in _squares(root3, a, b))
     heights = tuple(z + p.r * slope for slope in _slopes(root3, a, b))
     squares = tuple((e - p.R) * (e - p.R) + h * h for e, h in zip(radial, heights, strict=True))
-    lengths = tuple(ns.sqrt(square) for square in squares)
+    return SimpleNamespace(
+        theta=theta, psi=psi, a=a, b=b, n=n, radial=radial, heights=heights, squares=squares,
+        o=radial[0] + radial[1] + radial[2],
+    )  # fmt: skip
+
+
+def _core(ns, p, pose, o):
+    tilt, root3 = _tilted(ns, p, pose, o, 0), ns.sqrt(3)
+    radial, (_, theta, psi) = tilt.radial, pose
+    lengths = tuple(ns.sqrt(square) for square in tilt.squares)
     phi = _unit(ns, (root3 * (4 * radial[0] + radial[1] + radial[2]), 3 * (radial[2] - radial[1])))
     rotation = product(vectors.about_z(phi), product(vectors.about_y(theta), vectors.about_x(psi)))
-    legs = tuple((h / rho, (e - p.R) / rho) for e, h, rho in zip(radial, heights, lengths, strict=True))
+    legs = tuple((h / rho, (e - p.R) / rho) for e, h, rho in zip(radial, tilt.heights, lengths, strict=True))
     return SimpleNamespace(
-        z=z, theta=theta, psi=psi, phi=phi, a=a, b=b, n=n, rotation=rotation, radial=radial, heights=heights,
-        squares=squares, lengths=lengths, legs=legs, o=radial[0] + radial[1] + radial[2],
+        z=pose[0], theta=theta, psi=psi, phi=phi, a=tilt.a, b=tilt.b, n=tilt.n, rotation=rotation, radial=radial,
+        heights=tilt.heights, squares=tilt.squares, lengths=lengths, legs=legs, o=tilt.o,
         x=p.r * (rotation[0][0] - rotation[1][1]) / 2, y=-p.r * rotation[1][0],
         e=_together([length / p.R for length in lengths], legs),
     )  # fmt: skip
@@ -210,8 +229,12 @@ def factors(ns, p, core):
 def jacobians(ns, p, core):
     """From (e_i - R)^2 + h_i^2 = rho_i^2."""
     first, second, third = core.lengths
-    rows = tuple((row[0], row[1], core.theta[0] * row[2]) for row in _rows(ns, p, core))
-    return rows, ((first, 0, 0), (0, second, 0), (0, 0, third))
+    return _slopes_of_squares(ns, p, core), ((first, 0, 0), (0, second, 0), (0, 0, third))
+
+
+def _slopes_of_squares(ns, p, core):
+    """Rows of Jp: rates of rho_i^2 / 2."""
+    return tuple((row[0], row[1], core.theta[0] * row[2]) for row in _rows(ns, p, core))
 
 
 def _rows(ns, p, core):
@@ -257,8 +280,10 @@ CLOSED_FORM = ClosedForm(
     signs={"o": Sign("o", "r"), "e": Sign("e", "1")},
     direct_margins=(
         Margin("apart", "1", "two values of P have this t in common", unit=2, zero="degenerate"),
-        Margin("heights", "R*R", "h1^2 + h2^2 + h3^2: the heights of the corners are real", unit=2),
+        Margin("heights", "R*R", "the square of the heights along AWRY: the heights of the corners are real", unit=2),
         Margin("aside", "R*R", "the direction of the heights has no part along AWRY", unit=2, zero="degenerate"),
+        Margin("tilt", "1", "cos(theta)^2: a corner is higher than the platform is wide", unit=0),
+        Margin("roll", "1", "cos(theta)^2 again, by P: the root leaves psi free", unit=0, zero="degenerate"),
         UPRIGHT,
     ),
     inverse_margins=(

@@ -8,12 +8,12 @@ eight points at most, and never in a curve: z alone satisfies a polynomial with 
 from types import SimpleNamespace
 
 from assur.model.closed_form import Branch, ClosedForm, Eliminant, Factor, Margin, Quantity, Sign
-from assur.numerics.meetings import angle_with, linear_in_three
+from assur.numerics.meetings import angle_with
 from assur.numerics.polynomials import add as plus
 from assur.numerics.polynomials import multiply
 from assur.numerics.polynomials import scaled as times
 from assur.numerics.resultants import ASKEW, eliminant, other_two
-from assur.numerics.vectors import add, apply, difference_of_angles, dot, scaled, subtract, transposed, triple
+from assur.numerics.vectors import add, apply, cross, difference_of_angles, dot, scaled, subtract, transposed, triple
 
 LIMBS = (1, 2, 3)
 DAMPING = 1e-12
@@ -91,8 +91,13 @@ def _rods(ns, ends, point):
 def _nearer(ns, ends, point):
     """A damped step of least squares towards rods of length 1."""
     rods = _rods(ns, ends, point)
-    normal = tuple(tuple(dot(a, b) + DAMPING * (i == k) for k, b in enumerate(rods)) for i, a in enumerate(rods))
-    weights, _ = linear_in_three(normal, tuple((dot(rod, rod) - 1) / 2 for rod in rods))
+    one, two, three = (tuple(dot(a, b) + DAMPING * (i == k) for k, b in enumerate(rods)) for i, a in enumerate(rods))
+    adjugate = transposed((cross(two, three), cross(three, one), cross(one, two)))
+    # the determinant of the damped products of the rods, as squares: never zero
+    volume, lengths = triple(*rods), sum(dot(rod, rod) for rod in rods)
+    areas = sum(dot(area, area) for area in (cross(rods[0], rods[1]), cross(rods[1], rods[2]), cross(rods[2], rods[0])))
+    determinant = volume * volume + DAMPING * (areas + DAMPING * (lengths + DAMPING))
+    weights = scaled(apply(adjugate, tuple((dot(rod, rod) - 1) / 2 for rod in rods)), 1 / determinant)
     return subtract(point, apply(transposed(rods), weights))
 
 

@@ -21,7 +21,7 @@ class ExactAnswer:
 
 @dataclass(frozen=True)
 class SoundFacts:
-    """What a sound file describes; `unproved` is what a closed form of one's own leaves to be believed."""
+    """What a sound file describes; `unproved` are margins of a closed form that were held at places only."""
 
     links: int
     joints: int
