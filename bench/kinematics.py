@@ -28,9 +28,10 @@ from rich.table import Table
 import assur
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closure import FloatArray, assemble, closure_error
-from assur.kinematics.newton import BLOCK, ENOUGH, Newton, NewtonStep
+from assur.kinematics.newton import ENOUGH, Newton, NewtonStep
 from assur.kinematics.paths.from_home import followed_in_a_row
 from assur.kinematics.pose import pose_of
+from assur.numerics.newton import BLOCK
 from assur.synthesis.drafting.drafting import drafted
 from assur.topology.notation import parse_chains
 
@@ -78,14 +79,18 @@ def closure(rows: Table, poses: int, repeats: int) -> bool:
 def newton(rows: Table, mechanism: assur.Mechanism, start: FloatArray, expected: FloatArray, repeats: int) -> bool:
     """The recorded Newton step from the same starts; whether it ends where least squares do."""
     method = Newton(mechanism, NewtonStep(mechanism.input_indices))
-    values, gaps, steps = method(start)
-    right = bool(np.all(gaps <= ENOUGH) and np.abs(values - expected).max() < 1e-9)
+    found = method(start)
+    right = bool(np.all(found.residual <= ENOUGH) and np.abs(found.values - expected).max() < 1e-9)
     ours = timed(lambda: method(start), repeats, time.process_time) / len(start)
     block = start[:BLOCK]
-    bare = (steps + 1) * timed(lambda: method.program(mechanism, block), 20 * repeats, time.process_time) / len(block)
+    bare = (
+        (found.steps + 1)
+        * timed(lambda: method.program(mechanism, block), 20 * repeats, time.process_time)
+        / len(block)
+    )
     took = f"{1e6 * ours:.2f} µs a pose", f"{1e6 * bare:.2f} µs", f"{ours / bare:.1f}"
     count = len(method.program.tape.operations)
-    rows.add_row("closure, recorded", *took, f"{steps} steps of {count} operations")
+    rows.add_row("closure, recorded", *took, f"{found.steps} steps of {count} operations")
     return right
 
 

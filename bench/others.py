@@ -169,8 +169,10 @@ def closure(rows: Table, record: assur.Mechanism, start: np.ndarray, poses: np.n
     start = start.copy()
     start[:, record.input_indices] = record.inverse(poses, record.modes.default_working).inputs[:, 0]
     engine = Newton(record, NewtonStep(record.input_indices))
-    values, gaps, _ = engine(start)
-    right = bool(np.all(gaps <= ENOUGH)) and np.abs(pose_of(record, values) - poses).max() < NEAR * ROUNDING
+    found = engine(start)
+    right = (
+        bool(np.all(found.residual <= ENOUGH)) and np.abs(pose_of(record, found.values) - poses).max() < NEAR * ROUNDING
+    )
     many = np.tile(start, (MANY // len(start), 1))
     took = seconds({"one": lambda: [engine(one[None]) for one in start], "many": lambda: engine(many)}, repeats)
     own = Own(took["one"] / len(start), took["many"] / len(many))

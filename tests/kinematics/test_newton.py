@@ -40,10 +40,11 @@ def test_neighbouring_starts_close_as_by_least_squares(name):
     mechanism = assur.load(name)
     held, length = mechanism.input_indices, characteristic_length(mechanism)
     start = starts(mechanism)
-    values, gaps, _ = Newton(mechanism, NewtonStep(held))(start)
+    found = Newton(mechanism, NewtonStep(held))(start)
+    values = found.values
     expected = assemble(mechanism, start, held=held, near=True)
     assert len(start) > 30
-    closed = gaps <= ENOUGH
+    closed = found.residual <= ENOUGH
     assert np.mean(closed[expected.closed]) > 0.97
     assert not np.any(closed[~expected.closed])
     np.testing.assert_array_equal(values[:, list(held)], start[:, list(held)])
@@ -59,8 +60,8 @@ def test_at_given_poses_the_platform_is_there(name):
     length = characteristic_length(mechanism)
     poses = pose_of(mechanism, starts(mechanism))
     begun = np.repeat(mechanism.home_values[None], len(poses), axis=0)
-    values, gaps, _ = Newton(mechanism, NewtonStep((), mechanism.platform.pose))(begun, poses)
-    closed = gaps <= ENOUGH
+    found = Newton(mechanism, NewtonStep((), mechanism.platform.pose))(begun, poses)
+    values, closed = found.values, found.residual <= ENOUGH
     assert np.mean(closed) > 0.7
     assert np.max(closure_error(mechanism, values[closed])) <= 2 * ENOUGH * length
     assert np.max(np.abs(pose_error(mechanism, values[closed], poses[closed], length))) <= 1e-10 * length
@@ -77,8 +78,8 @@ def test_every_kind_of_pose_and_of_joint(pose):
     assert len(there) > 20
     poses = pose_of(record, there)
     begun = there + 1e-3 * rng.normal(size=there.shape) * units(record)
-    values, gaps, _ = Newton(record, NewtonStep((), pose))(begun, poses)
-    closed, length = gaps <= ENOUGH, characteristic_length(record)
+    found = Newton(record, NewtonStep((), pose))(begun, poses)
+    values, closed, length = found.values, found.residual <= ENOUGH, characteristic_length(record)
     assert np.mean(closed) > 0.9
     assert np.max(closure_error(record, values[closed])) <= 2 * ENOUGH * length
     assert np.max(np.abs(pose_error(record, values[closed], poses[closed], length))) < 1e-10 * length
@@ -102,14 +103,14 @@ def test_the_step_is_the_least_one_of_the_closing_system():
 def test_starts_that_are_far_do_not_count_as_closed():
     mechanism = assur.load("fivebar")
     far = np.array([[0.0, 0.1, np.pi, 0.1, 0.0]])
-    _, gaps, _ = Newton(mechanism, NewtonStep((0, 3)))(np.repeat(far, 3, axis=0))
+    gaps = Newton(mechanism, NewtonStep((0, 3)))(np.repeat(far, 3, axis=0)).residual
     assert not np.any(gaps <= ENOUGH)
 
 
 def test_an_empty_batch():
     mechanism = assur.load("fivebar")
-    values, gaps, steps = Newton(mechanism, NewtonStep(mechanism.input_indices))(np.empty((0, 5)))
-    assert (values.shape, gaps.shape, steps) == ((0, 5), (0,), 0)
+    found = Newton(mechanism, NewtonStep(mechanism.input_indices))(np.empty((0, 5)))
+    assert (found.values.shape, found.residual.shape, found.steps) == ((0, 5), (0,), 0)
 
 
 def test_numbers_of_poses_are_those_of_the_platform():

@@ -213,11 +213,11 @@ def closing_system(
     length, count = characteristic_length(record), len(record.coordinates)
     system = program(record, _gaps_and_rates if poses is None else closing_numbers)
     numbers = system(record, values)
-    rows = 6 * len(joint_graph(record).cut)
+    loops = len(joint_graph(record).cut)
     gaps = _gap_rows(numbers[system.rows("gap")], length)
-    derivative = system.matrix("derivative", numbers, (rows, count))
-    turning = derivative.reshape(len(values), -1, 6, count)[:, :, 3:]
-    vectors = gaps.reshape(len(values), -1, 6)[:, :, 3:] / length
+    derivative = system.matrix("derivative", numbers, (6 * loops, count))
+    turning = derivative.reshape(len(values), loops, 6, count)[:, :, 3:]
+    vectors = gaps.reshape(len(values), loops, 6)[:, :, 3:] / length
     turning[:] = length * (rotations.vector_rates_matrix(vectors) @ turning)  # (N, v, 3, n)
     if poses is None:
         return gaps, derivative
@@ -269,9 +269,10 @@ def assemble(
     steps = 0
     if near and len(values) >= MANY and joint_graph(record).cut:
         step = NewtonStep(tuple(sorted(held)), () if wanted is None else record.platform.pose)
-        closest, gaps, steps = Newton(record, step)(values, wanted)
-        values[gaps <= ENOUGH] = closest[gaps <= ENOUGH]
-        left = np.flatnonzero(~(gaps <= ENOUGH))
+        closest = Newton(record, step)(values, wanted)
+        closed, steps = closest.residual <= ENOUGH, closest.steps
+        values[closed] = closest.values[closed]
+        left = np.flatnonzero(~closed)
     scale = joint_scales(record)[free]
 
     def system(block: NDArray[np.intp], unknowns: FloatArray, rows: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:

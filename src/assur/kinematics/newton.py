@@ -23,16 +23,13 @@ from assur.joint_graph.tree import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, Pose, has_quaternion
 from assur.numerics import rotations
+from assur.numerics.newton import NewtonResult, iterated
 from assur.numerics.normal_equations import least_squares_step
 from assur.numerics.sparse_vectors import dot, minus, plus, times
 
 FloatArray = NDArray[np.float64]
-BoolArray = NDArray[np.bool_]
+IntArray = NDArray[np.intp]
 
-BLOCK = 256
-"""Configurations that are closed at a time: their numbers stay in the cache."""
-MAX_STEPS = 8
-"""Steps before a start is given up: from near by gaps fall from 0.1 by squares to rounding in five."""
 TOLERANCE = 1e-13
 """Steps end where all gaps are at most this times the characteristic length."""
 ENOUGH = 1e-12
@@ -186,36 +183,25 @@ class Newton:
     record: MechanismRecord
     step: NewtonStep
 
-    def __call__(self, start: FloatArray, poses: FloatArray | None = None) -> tuple[FloatArray, FloatArray, int]:
-        """Joint values (N, n), their largest gaps (N,) in characteristic lengths or rad, and the most steps made.
+    def __call__(self, start: FloatArray, poses: FloatArray | None = None) -> NewtonResult:
+        """Joint values (N, n) with gaps in characteristic lengths or rad, at poses (N, m) where the step holds those.
 
-        At poses (N, m), where the step holds those. Where the gaps are larger than `ENOUGH` no assembly is near.
+        Where the gaps are larger than `ENOUGH` no assembly is near.
         """
-        values, gaps, steps = np.array(start, dtype=float), np.empty(len(start)), 0
-        for first in range(0, len(start), BLOCK):
-            block = slice(first, first + BLOCK)
-            given = None if poses is None else targets(self.record, poses[block])
-            values[block], gaps[block], made = self._closed(values[block], given)
-            steps = max(steps, made)
-        return values, gaps, steps
+        given = None if poses is None else targets(self.record, poses)
+        columns = [int(name.split()[1]) for name in self.program.names if name.startswith("change")]
+
+        def step(values: FloatArray, rows: IntArray) -> tuple[FloatArray, FloatArray]:
+            numbers = self.program(self.record, values, None if given is None else given[:, rows])
+            gaps = np.sqrt(np.max(numbers[len(columns) :], axis=0, initial=0.0))
+            return gaps, moved(self.record, values, columns, numbers[: len(columns)])
+
+        return iterated(step, start, TOLERANCE)
 
     @cached_property
     def program(self) -> GraphProgram:
         """The step's program."""
         return program(self.record, self.step, self.step.given)
-
-    def _closed(self, values: FloatArray, given: FloatArray | None) -> tuple[FloatArray, FloatArray, int]:
-        columns = [int(name.split()[1]) for name in self.program.names if name.startswith("change")]
-        gaps, made = np.full(len(values), np.inf), 0
-        apart = np.arange(len(values))
-        while True:
-            numbers = self.program(self.record, values[apart], None if given is None else given[:, apart])
-            gaps[apart] = np.sqrt(np.max(numbers[len(columns) :], axis=0, initial=0.0))
-            kept = ~(gaps[apart] <= TOLERANCE)
-            if made == MAX_STEPS or not kept.any():
-                return values, gaps, made
-            apart, made = apart[kept], made + 1
-            values[apart] = moved(self.record, values[apart], columns, numbers[: len(columns), kept])
 
 
 def moved(record: MechanismRecord, values: FloatArray, columns: Sequence[int], changes: FloatArray) -> FloatArray:

@@ -113,12 +113,20 @@ def error_rates(names: Pose, rotation: FloatArray, moves: FloatArray) -> FloatAr
     if whole_orientation(names):
         lengths = [3 + LENGTHS.index(name) for name in names if name in LENGTHS]
         return np.asarray(moves[..., [*lengths, 0, 1, 2], :])
-    rates = _rates(names, rotation, moves)
-    return np.asarray(rates[..., [*np.flatnonzero(_is_length(names)), *np.flatnonzero(~_is_length(names))], :])
+    return np.asarray(_rates(names, rotation, moves)[..., error_order(names), :])
 
 
-def _is_length(names: tuple[str, ...]) -> NDArray[np.bool_]:
-    return np.array([name in LENGTHS for name in names], dtype=bool)
+def error_order(names: Pose) -> list[int]:
+    """Of the rows of `pose_error`, lengths first, the places among the rates of a pose (`turning_rates`).
+
+    >>> error_order(("phi", "x", "y"))
+    [1, 2, 0]
+    """
+    rates = rate_names(names)
+    turning = [name for name in rates if name not in LENGTHS]
+    if all(name in names for name in ANGLES):
+        turning = list(ANGLES)
+    return [rates.index(name) for name in (*(name for name in rates if name in LENGTHS), *turning)]
 
 
 def whole_orientation(names: tuple[str, ...]) -> bool:

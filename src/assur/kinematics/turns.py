@@ -36,6 +36,9 @@ SUMMED = 4
 AROUND, SAMPLES = 0.1, 24
 """How far assemblies around home are looked for (rad), and how many."""
 
+LONGEST = 1.25 * np.pi
+"""Rotation vectors up to this length, in rad, are left as they are by motions."""
+
 KEPT = 1e-6
 """A sum of angles that changes by less than this (rad) does not change: assemblies close to some 1e-9, and the angles
 move by `AROUND`. In turns: within it half a turn counts as just that."""
@@ -151,6 +154,20 @@ def in_one_turn(record: MechanismRecord, joints: FloatArray) -> FloatArray:
     answer = np.where(periodic(record), (joints + np.pi) % (2 * np.pi) - np.pi, joints)
     for place in joint_graph(record).turns:
         answer[..., place] = rotations.shortest(answer[..., place])
+    return answer
+
+
+def whole_turns_less(record: MechanismRecord, joints: FloatArray) -> FloatArray:
+    """The same assemblies (N, n) with every rotation vector that is longer than `LONGEST` a turn the other way round.
+
+    One that is a little longer than half a turn stays, so that a motion along there is not turned to and fro.
+    """
+    answer = joints
+    for place in joint_graph(record).turns:
+        longer = np.flatnonzero(np.linalg.norm(joints[:, place], axis=1) > LONGEST)
+        if len(longer):
+            answer = joints.copy() if answer is joints else answer
+            answer[longer, place] = rotations.shortest(joints[longer, place])
     return answer
 
 

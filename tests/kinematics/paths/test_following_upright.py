@@ -7,7 +7,7 @@ import pytest
 
 from assur.kinematics.paths.course import course
 from assur.kinematics.paths.following import follow
-from assur.kinematics.paths.neighbours import pose_change
+from assur.kinematics.paths.ways import pose_change
 from assur.kinematics.pose import pose_of, turned_alike
 from assur.mechanism import load
 from assur.numerics import rotations

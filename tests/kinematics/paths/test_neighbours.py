@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.paths.neighbours import Steps, pose_change, working_signs
-from assur.kinematics.paths.platform_held import platform_held
+from assur.kinematics.paths.neighbours import Signs, steps_at, working_signs
+from assur.kinematics.paths.ways import pose_change
 
 
 def test_a_change_of_pose_takes_angles_the_short_way_and_quaternions_as_rotation_vectors():
@@ -27,11 +27,11 @@ def test_a_step_is_taken_inside_and_refused_beyond_the_border():
     record = assur.load("fivebar")
     poses = np.array([[0.0, 280.0], [0.0, 280.0]])
     joints = record.inverse(poses, mode="-+").joints[:, 0]
-    steps = Steps(record, working_signs(record, joints[0]), joints, poses, platform_held(record, joints))
+    steps = steps_at(Signs(record, working_signs(record, joints[0])), poses, joints)
     found, good = steps.to(np.array([[0.0, 284.0], [0.0, 290.0]]))
     assert good.tolist() == [True, False]
     known = record.inverse([0.0, 284.0], mode="-+").joints[0]
-    np.testing.assert_allclose(found[0], known, atol=1e-9)
+    np.testing.assert_allclose(found.places.joints[0], known, atol=1e-9)
     parts, good = steps.in_parts(np.array([[0.0, 284.0], [0.0, 290.0]]))
     assert good.tolist() == [True, False]
-    np.testing.assert_allclose(parts[0], known, atol=1e-9)
+    np.testing.assert_allclose(parts.places.joints[0], known, atol=1e-9)

@@ -7,9 +7,9 @@ import pytest
 
 import assur
 from assur.kinematics.closure import closure_error
-from assur.kinematics.paths.neighbours import pose_change
 from assur.kinematics.paths.platform_held import held_matrix, platform_held
 from assur.kinematics.paths.turning import turnings
+from assur.kinematics.paths.ways import pose_change
 from assur.kinematics.pose import pose_of
 
 

@@ -89,9 +89,9 @@ def _spread(found: Continuation, front: IntArray) -> IntArray:
     return np.concatenate(new)
 
 
-def _taken(found: Continuation, heads: IntArray, joints: FloatArray, good: BoolArray) -> IntArray:
+def _taken(found: Continuation, heads: IntArray, steps: Steps, good: BoolArray) -> IntArray:
     """Those of the nodes (N, d) that a step may be taken to, their joint values kept."""
-    found.joints[tuple(heads[good].T)] = joints[good]
+    found.joints[tuple(heads[good].T)] = steps.places.joints[good]
     return heads[good]
 
 

@@ -13,9 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.paths.locked import units
-from assur.kinematics.paths.neighbours import FURTHEST, Steps, pose_change
+from assur.kinematics.paths.neighbours import FURTHEST, Signs, Steps, steps_at
 from assur.kinematics.paths.platform_held import platform_held
+from assur.kinematics.paths.stepping import Places
 from assur.kinematics.paths.turning import turnings
+from assur.kinematics.paths.ways import pose_change
 from assur.kinematics.pose import whole_orientation
 from assur.model.mechanism import MechanismRecord
 
@@ -50,11 +52,12 @@ class Mode:
 
     def steps(self, joints: FloatArray, points: FloatArray) -> Steps:
         """Steps from assemblies (N, n) at points (N, d)."""
-        return Steps(self.record, self.signs, joints, self.poses(points), platform_held(self.record, joints))
+        return steps_at(Signs(self.record, self.signs), self.poses(points), joints)
 
     def stepped(self, joints: FloatArray, start: FloatArray, end: FloatArray) -> tuple[FloatArray, BoolArray]:
         """Joint values (N, n) after a step between points (N, d), and where the step may be taken (N,)."""
-        return self.steps(joints, start).to(self.poses(end))
+        steps, good = self.steps(joints, start).to(self.poses(end))
+        return steps.places.joints, good
 
     def ends(self, joints: FloatArray, inside: FloatArray, outside: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Where the mode ends between points (N, d) that it reaches, with joint values (N, n), and others.
@@ -85,7 +88,8 @@ class Mode:
         far = np.max(np.abs(turned.joints - joints) / units(self.record), axis=1, initial=0.0) > FURTHEST
         rows = np.flatnonzero(turned.found & ~far)
         found = np.zeros(len(joints), dtype=bool)
-        found[rows] = here.of(rows).kept(turned.joints[rows], turned.matrix[rows])
+        ends = Places(turned.share[rows], turned.joints[rows], turned.matrix[rows])
+        found[rows] = here.guard.kept(here.places.of(rows), ends)
         return turned.share, turned.joints, found
 
     def _halved(self, joints: FloatArray, inside: FloatArray, outside: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -1,7 +1,7 @@
 """Following a path: tangent, step, correction; the mode is kept, and the path stops before what would change it.
 
-Steps (`assur.kinematics.paths.stepping`) adapt themselves; where none can be taken the path stops and says before what
-(`assur.kinematics.paths.stopping`).
+Steps (`assur.kinematics.paths.stepping`) adapt themselves; where the guard (`assur.kinematics.paths.ranks`) lets none
+be taken the path stops and says before what (`assur.kinematics.paths.stopping`).
 """
 
 from __future__ import annotations
@@ -9,21 +9,22 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from assur.errors import Interrupted, UsageError
+from assur.errors import UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.points import quantity
 from assur.kinematics.border import checked, inputs_of
 from assur.kinematics.closure import CLOSED, closure_error
 from assur.kinematics.limits import limits
 from assur.kinematics.modes import mode_text
-from assur.kinematics.paths.course import Prescribed, Turns, course
+from assur.kinematics.paths.course import Course, Prescribed, Turns, course
 from assur.kinematics.paths.locked import general_ranks, smallest
 from assur.kinematics.paths.path import Path
-from assur.kinematics.paths.stepping import Blocked, Point, Task, outside, point_at, step_on
-from assur.kinematics.paths.stopping import SINGULAR, stop_at
+from assur.kinematics.paths.ranks import Ranks
+from assur.kinematics.paths.stepping import Pace, Places, followed
+from assur.kinematics.paths.stopping import stop_at
+from assur.kinematics.paths.ways import Stretch, system_of
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
-from assur.work import WorkStage, stage
 
 FloatArray = NDArray[np.float64]
 TOLERANCE = 1e-9
@@ -32,11 +33,8 @@ TOLERANCE = 1e-9
 LARGEST_STEP = 0.05
 """Share of the way that one step takes at most."""
 
-FURTHEST = 0.25
-"""How far the joint values move in one step at most, in rad or characteristic lengths, all of them together."""
-
-MISSED = 1e-6
-"""Rates of which a larger share cannot be produced are those of no motion."""
+LEAVING = 1e-3
+"""Share of the tolerance to which steps may go down at the start, where another path may have stopped."""
 
 
 def follow(
@@ -96,16 +94,8 @@ def follow(
     way = course(record, prescribed, here, np.asarray([] if wanted is None else wanted), turns)
     bounds = limits(record, start) if use_limits else ()
     known = general_ranks(record, start) if ranks is None else ranks
-    task = Task(record, way, bounds, known, tolerance, largest_step)
-    points: list[Point] = []
-    try:
-        with stage("path") as work:
-            blocked = _walk(task, start, points, work)
-    except KeyboardInterrupt:
-        if not points:
-            raise
-        raise Interrupted(_path(task, points, Blocked("interrupted", 0))) from None
-    return _path(task, points, blocked)
+    guard = Ranks(prescribed, lambda *_: bounds, known)
+    return _path(record, way, start, guard, Pace(tolerance, largest_step, LEAVING))
 
 
 def _checked_start(record: MechanismRecord, joints: ArrayLike) -> FloatArray:
@@ -122,53 +112,28 @@ def _checked_start(record: MechanismRecord, joints: ArrayLike) -> FloatArray:
     return start
 
 
-def _walk(task: Task, start: FloatArray, points: list[Point], work: WorkStage) -> Blocked | None:
-    """Add points from the start to the end of the way, or to what blocks it, which is the answer."""
-    points.append(point_at(task, 0.0, start))
-    blocked = _blocked_at_once(task, points[0])
-    step = task.largest_step
-    for segment, end in enumerate(task.way.shares[1:]):
-        while blocked is None and points[-1].share < end:
-            here = points[-1]
-            tangent, missed = here.own.tangent(task.way.rate(here.share, segment))
-            if missed > MISSED:
-                blocked = Blocked("missed", segment)
-                break
-            most = min(task.largest_step, FURTHEST / float(np.linalg.norm(tangent)))
-            taken, step = step_on(task, here, segment, tangent, min(step, most))
-            if isinstance(taken, Blocked):
-                blocked = taken
-            else:
-                points.append(taken)
-                work.at(len(points), result=f"{taken.share:.0%} of the way")
-    return blocked
-
-
-def _blocked_at_once(task: Task, start: Point) -> Blocked | None:
-    """What blocks the way before it begins: a singular start, or one outside the limits."""
-    if len(task.way.vertices) < 2:
-        return None
-    if min(start.own.sizes[-1], start.other.sizes[-1]) <= SINGULAR:
-        return Blocked("lost", 0)
-    broken = outside(task, start.joints)
-    return Blocked("limit", 0, broken) if broken else None
-
-
-def _path(task: Task, points: list[Point], blocked: Blocked | None) -> Path:
-    record = task.record
-    joints = np.array([point.joints for point in points])
-    sizes = smallest(record, joints, task.ranks)
-    stopped = None if blocked is None else stop_at(record, task.way, points, blocked, sizes)
+def _path(record: MechanismRecord, way: Course, start: FloatArray, guard: Ranks, pace: Pace) -> Path:
+    """The points from the start to the end of the way, or to what blocks it."""
+    stretch, matrix = Stretch(record, way, 0), system_of(record, way.prescribed, start[None], way.vertices[:1])[1]
+    here = Places(np.zeros(1), start[None].copy(), matrix)
+    going = guard.begun(stretch, here) or not len(way.changes)
+    steps = np.array([pace.largest])
+    for segment, end in enumerate(way.shares[1:]):
+        if going:
+            stretch = Stretch(record, way, segment)
+            going = bool(followed(stretch, here, guard, pace, steps, float(end))[0])
+    joints = np.array([point.joints for point in guard.points])
+    sizes = smallest(record, joints, guard.ranks)
     return Path(
         record=record,
-        prescribed=task.way.prescribed,
-        shares=np.array([point.share for point in points]),
+        prescribed=way.prescribed,
+        shares=np.array([point.share for point in guard.points]),
         joints=joints,
         poses=pose_of(record, joints),
         inputs=inputs_of(record, joints),
         smallest=sizes,
         modes=(mode_names(record, joints[0]), mode_names(record, joints[-1])),
-        stopped=stopped,
+        stopped=None if going else stop_at(stretch, guard.points, guard.refused[-1], sizes),
     )
 
 

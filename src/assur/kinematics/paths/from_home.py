@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.border import checked_poses
 from assur.kinematics.home import home_values
-from assur.kinematics.paths.neighbours import Steps, pose_change, working_signs
-from assur.kinematics.paths.platform_held import platform_held
+from assur.kinematics.paths.neighbours import Signs, steps_at, working_signs
+from assur.kinematics.paths.stepping import Pace, followed
+from assur.kinematics.paths.ways import Straight, pose_change
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
 
@@ -51,24 +51,13 @@ def followed_from_home(
         >>> reached.tolist()
         [True, False]
     """
-    home = home_values(record)
-    start, signs = pose_of(record, home), working_signs(record, home)
-    joints = np.tile(home, (len(poses), 1))
-    share, step = np.zeros(len(poses)), np.full(len(poses), FIRST)
-    rows = np.arange(len(poses))
-    for _ in range(MOST):
-        if not len(rows):
-            break
-        ahead = np.minimum(share[rows] + step[rows], 1.0)
-        before, after = (_on_the_way(record, start, poses[rows], part) for part in (share[rows], ahead))
-        steps = Steps(record, signs, joints[rows], before, platform_held(record, joints[rows]))
-        values, good = steps.to(after)
-        joints[rows[good]], share[rows[good]] = values[good], ahead[good]
-        step[rows] *= np.where(good, 2.0, 0.5)
-        rows = rows[(share[rows] < 1.0) & (step[rows] >= least)]
-    reached = share == 1.0
-    joints[~reached] = np.nan
-    return joints, reached
+    home, count = home_values(record), len(poses)
+    begun = steps_at(Signs(record, working_signs(record, home)), pose_of(record, home[None]), home[None])
+    begun = begun.of(np.zeros(count, dtype=np.intp))
+    here, pace = begun.places, Pace(least, most=MOST)
+    reached = followed(Straight(record, begun.poses, poses), here, begun.guard, pace, np.full(count, FIRST))
+    here.joints[~reached] = np.nan
+    return here.joints, reached
 
 
 def followed_in_a_row(record: MechanismRecord, poses: FloatArray) -> tuple[FloatArray, BoolArray]:
@@ -84,33 +73,27 @@ def followed_in_a_row(record: MechanismRecord, poses: FloatArray) -> tuple[Float
         >>> followed_in_a_row(load_record("fivebar"), line)[1].tolist()
         [True, True, True, True, True, False]
     """
-    signs = working_signs(record, home_values(record))
+    guard = Signs(record, working_signs(record, home_values(record)))
     joints = np.full((len(poses), len(record.coordinates)), np.nan)
     reached = np.zeros(len(poses), dtype=bool)
     seeds = np.arange(0, len(poses), APART)
     joints[seeds], reached[seeds] = followed_from_home(record, poses[seeds])
     distance = np.linalg.norm(pose_change(record, poses[:-1], poses[1:]), axis=1)
     adjacent = distance <= WIDE * np.median(distance) if len(distance) else np.zeros(0, dtype=bool)
+    begun = seeds[reached[seeds]]
     for sense in (1, -1):
-        front = seeds
+        front, steps = begun, steps_at(guard, poses[begun], joints[begun])
         for _ in range(APART - 1):
             heads = front + sense
             inside = (heads >= 0) & (heads < len(poses))
-            front, heads = front[inside], heads[inside]
-            onward = reached[front] & ~reached[heads] & adjacent[np.minimum(front, heads)]
-            front, heads = front[onward], heads[onward]
-            if not len(front):
+            onward = np.zeros(len(front), dtype=bool)
+            onward[inside] = ~reached[heads[inside]] & adjacent[np.minimum(front, heads)[inside]]
+            if not np.any(onward):
                 break
-            steps = Steps(record, signs, joints[front], poses[front], platform_held(record, joints[front]))
-            values, good = steps.to(poses[heads])
-            joints[heads[good]], reached[heads[good]] = values[good], True
-            front = heads[good]
+            heads = heads[onward]
+            steps, good = steps.of(onward).to(poses[heads])
+            front, steps = heads[good], steps.of(good)
+            joints[front], reached[front] = steps.places.joints, True
     left = np.flatnonzero(~reached & ~np.isin(np.arange(len(poses)), seeds))
     joints[left], reached[left] = followed_from_home(record, poses[left], COARSE)
     return joints, reached
-
-
-def _on_the_way(record: MechanismRecord, start: FloatArray, poses: FloatArray, share: FloatArray) -> FloatArray:
-    """Poses (N, m) at shares (N,) of the ways; at the end the very poses."""
-    between = start + share[:, None] * (poses - start)
-    return checked_poses(record, np.where(share[:, None] == 1.0, poses, between))

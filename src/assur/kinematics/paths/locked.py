@@ -7,6 +7,7 @@ in units of the characteristic length. With the inputs locked D loses rank where
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,8 +30,8 @@ NEIGHBOURS = 4
 AWAY = 0.05
 """How far they are from it, in rad or characteristic lengths."""
 
-DRIVES = 1e-3
-"""Share of the wanted rates, towards the direction of the smallest singular value, that counts."""
+NEEDED = 1e-3
+"""Share of changes of gaps, towards the direction of the smallest singular value, that counts."""
 
 Matrices = dict[str, FloatArray]
 
@@ -73,7 +74,7 @@ def general_ranks(record: MechanismRecord, values: FloatArray) -> dict[str, int]
     return found
 
 
-def smallest(record: MechanismRecord, values: FloatArray, ranks: dict[str, int]) -> dict[str, FloatArray]:
+def smallest(record: MechanismRecord, values: FloatArray, ranks: Mapping[str, int]) -> dict[str, FloatArray]:
     """Per matrix, the singular value (...) that goes to zero where it loses rank, at joint values (..., n)."""
     found: dict[str, FloatArray] = {}
     for name, matrix in matrices(record, values).items():
@@ -89,21 +90,18 @@ class Locked:
     sizes: FloatArray
     right: FloatArray
 
-    def tangent(self, rates: FloatArray) -> tuple[FloatArray, float]:
-        """Joint rates (n,) for rates (r,) of what is locked, the smallest that do; and the share that is missed."""
-        wanted = np.zeros(len(self.left))
-        wanted[len(wanted) - len(rates) :] = rates
-        parts = self.left.T @ wanted
-        missed = np.linalg.norm(wanted - self.left @ parts) / np.linalg.norm(wanted)
+    def change(self, rows: FloatArray) -> tuple[FloatArray, float]:
+        """The smallest change of joint values (n,) that changes gaps by rows (r,); and the share of these it misses."""
+        parts = self.left.T @ rows
+        missed = np.linalg.norm(rows - self.left @ parts) / np.linalg.norm(rows)
         return self.right.T @ (parts / self.sizes), float(missed)
 
-    def drives(self, rates: FloatArray) -> bool:
-        """Whether rates (r,) of what is locked need the direction whose singular value is the smallest.
+    def needs(self, rows: FloatArray) -> bool:
+        """Whether changes of gaps by rows (r,) need the direction whose singular value is the smallest.
 
         Where that one vanishes no joint rates give them: two branches merge there, and both end.
         """
-        towards = self.left[len(self.left) - len(rates) :, -1] @ rates
-        return bool(abs(towards) > DRIVES * np.linalg.norm(rates))
+        return bool(abs(self.left[:, -1] @ rows) > NEEDED * np.linalg.norm(rows))
 
     def kept(self, matrix: FloatArray) -> float:
         """What is left of the rank at another assembly: 1 where nothing changes, 0 or less where it is lost between.

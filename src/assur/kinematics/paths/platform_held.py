@@ -1,7 +1,7 @@
 """The joint graph with its platform held: how joints follow the pose, what is singular, whether a step passes zero.
 
 One matrix D holds the closure rows and the rows of the pose, lengths in characteristic lengths; D u' = (0, v) gives
-the joint rates u' at pose rates v (`correcting.solved`). It is the derivative that Newton's steps to a pose use.
+the joint rates u' at pose rates v (`assur.numerics.newton.solved`). It is the derivative of Newton's steps to a pose.
 """
 
 from __future__ import annotations
@@ -12,12 +12,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joint_graph.geometry import characteristic_length
-from assur.kinematics.closure import closing_system
-from assur.kinematics.paths.correcting import damped, solved
 from assur.kinematics.paths.locked import units
+from assur.kinematics.paths.ways import held_system
 from assur.kinematics.rates.motions import input_units, pose_units
 from assur.model.mechanism import MechanismRecord
+from assur.numerics.newton import damped, solved
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -91,13 +90,6 @@ def held_by(record: MechanismRecord, matrix: FloatArray) -> PlatformHeld:
     size = units(record)
     own = np.array([item.sign for item in record.inputs]) * size[list(record.input_indices)] / input_units(record)
     return PlatformHeld(matrix, rates, rates[..., list(record.input_indices), :] * own[:, None])
-
-
-def held_system(record: MechanismRecord, values: FloatArray, poses: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Gaps (N, r) of the loops and to poses (N, m) at joint values (N, n), and D; no dimensions."""
-    gaps, derivative = closing_system(record, values, poses)
-    length = characteristic_length(record)
-    return gaps / length, derivative * (units(record) / length)
 
 
 def held_matrix(record: MechanismRecord, values: FloatArray) -> FloatArray:

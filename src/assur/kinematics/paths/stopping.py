@@ -8,11 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.border import inputs_of
+from assur.kinematics.border import held_inputs, inputs_of
+from assur.kinematics.closure import Assembly, assemble
 from assur.kinematics.paths.course import Course
 from assur.kinematics.paths.locked import own
 from assur.kinematics.paths.path import Stop
-from assur.kinematics.paths.stepping import COARSE, NEWTON, Blocked, Point, assembled
+from assur.kinematics.paths.ranks import COARSE, SINGULAR, Blocked, Point
+from assur.kinematics.paths.ways import Stretch, held_rows
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.status import closed_form_of, relative_factors
@@ -21,9 +23,6 @@ from assur.model.closed_form import ClosedForm
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
-SINGULAR = 1e-6
-"""A smallest singular value up to here is zero to begin with."""
-
 LESS = 0.3
 """One that has come down to this share of its largest on the path is going to zero."""
 
@@ -32,6 +31,9 @@ DIGIT, HALF = 10.0, 0.5
 
 BEYOND = 0.01
 """How much further on, as a share of the way, another assembly is looked for."""
+
+PATIENCE = 80
+"""Steps of least squares in which it may be met."""
 
 NEAR = 1e-3
 """A group of factors, relative to their scales, that is smaller is taken for zero."""
@@ -49,11 +51,9 @@ NAMES = {
 }
 
 
-def stop_at(
-    record: MechanismRecord, way: Course, points: Sequence[Point], blocked: Blocked, sizes: dict[str, FloatArray]
-) -> Stop:
+def stop_at(stretch: Stretch, points: Sequence[Point], blocked: Blocked, sizes: dict[str, FloatArray]) -> Stop:
     """The stop at the last of the points, given the smallest singular values (N,) at them."""
-    last = points[-1]
+    record, way, last = stretch.record, stretch.course, points[-1]
     place: dict[str, Any] = {
         "share": last.share,
         "joints": last.joints,
@@ -71,14 +71,23 @@ def stop_at(
     else:
         kind, name, mine = _kind(way, blocked, sizes)
     kind, factor, meaning, size = _nearest_factor(record, way, kind, points)
-    turns_back = mine and last.own.drives(way.rate(last.share, blocked.segment))
+    turns_back = mine and last.own.needs(held_rows(record, stretch.rate(last.share)))
     gap = None
     if turns_back:
-        beyond = assembled(record, way, last.joints, last.share + BEYOND, blocked.segment, 5 * NEWTON, COARSE)
+        beyond = _assembled(stretch, last.joints, last.share + BEYOND)
         gap = 0.0 if bool(beyond.closed) else float(beyond.residual)
     value = float(sizes[name][-1])
     return Stop(kind, **place, quantity=NAMES[name], value=value, turns_back=turns_back, gap=gap,
                 factor=factor, meaning=meaning, size=size)  # fmt: skip
+
+
+def _assembled(stretch: Stretch, start: FloatArray, share: float) -> Assembly:
+    """The closest approach from joint values (n,) to the inputs or the pose at a share of the way."""
+    record, target = stretch.record, stretch.course.at(share, stretch.segment)
+    if stretch.course.prescribed == "poses":
+        return assemble(record, start, poses=target, tolerance=COARSE, max_steps=PATIENCE)
+    held = held_inputs(record, start, target)
+    return assemble(record, held, held=record.input_indices, tolerance=COARSE, max_steps=PATIENCE)
 
 
 def _kind(way: Course, blocked: Blocked, sizes: dict[str, FloatArray]) -> tuple[str, str, bool]:

@@ -13,10 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.paths.correcting import corrected, solved
 from assur.kinematics.paths.locked import units
-from assur.kinematics.paths.platform_held import PlatformHeld, held_system
+from assur.kinematics.paths.platform_held import PlatformHeld
+from assur.kinematics.paths.ways import held_system
 from assur.model.mechanism import MechanismRecord
+from assur.numerics.newton import corrected, solved
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]

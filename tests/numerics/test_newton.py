@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from assur.kinematics.paths.correcting import BLOCK, STEPS, corrected, solved
+from assur.numerics.newton import BLOCK, STEPS, corrected, solved
 
 
 def circle(radii):
