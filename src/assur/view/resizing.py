@@ -15,10 +15,10 @@ from assur.kinematics.border import inputs_of
 from assur.kinematics.limits import limits
 from assur.kinematics.paths.course import Prescribed
 from assur.kinematics.paths.locked import own
-from assur.kinematics.paths.ranks import Ranks
+from assur.kinematics.paths.ranks import RankGuard
 from assur.kinematics.paths.stepping import Pace, Places, followed
 from assur.kinematics.paths.stopping import LESS
-from assur.kinematics.paths.ways import Dimension, system_of
+from assur.kinematics.paths.ways import DimensionWay, system_of
 from assur.kinematics.pose import pose_of
 from assur.model.dimensions import with_parameters
 from assur.model.mechanism import MechanismRecord
@@ -84,14 +84,14 @@ def resized(
     before = record.parameters[name].value if name in record.parameters else value
     with_parameters(record, **{name: value})  # raises where there is no such dimension
     target = inputs_of(record, values) if held == "inputs" else pose_of(record, values)
-    way, guard = Dimension(record, name, (before, value), held, target), Ranks(held, limits, ranks)
+    way, guard = DimensionWay(record, name, (before, value), held, target), RankGuard(held, limits, ranks)
     here = Places(np.zeros(1), values[None].copy(), system_of(record, held, values[None], target[None])[1])
     arrived = guard.begun(way, here) and followed(way, here, guard, Pace(TOLERANCE), np.ones(1))[0]
     share = float(here.shares[0])
     return Resized(way.mechanism(share), here.joints[0], way.value(share), "" if arrived else _why(guard))
 
 
-def _why(guard: Ranks) -> str:
+def _why(guard: RankGuard) -> str:
     """The singularity before which it ended, by the singular value that went down most; else what forbade a step."""
     first, last, blocked = guard.points[0], guard.points[-1], guard.refused[-1]
     if blocked.limit is not None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.paths.neighbours import Signs, steps_at, working_signs
+from assur.kinematics.paths.neighbours import SignGuard, steps_at, working_signs
 from assur.kinematics.paths.ways import pose_change
 
 
@@ -27,7 +27,7 @@ def test_a_step_is_taken_inside_and_refused_beyond_the_border():
     record = assur.load("fivebar")
     poses = np.array([[0.0, 280.0], [0.0, 280.0]])
     joints = record.inverse(poses, mode="-+").joints[:, 0]
-    steps = steps_at(Signs(record, working_signs(record, joints[0])), poses, joints)
+    steps = steps_at(SignGuard(record, working_signs(record, joints[0])), poses, joints)
     found, good = steps.to(np.array([[0.0, 284.0], [0.0, 290.0]]))
     assert good.tolist() == [True, False]
     known = record.inverse([0.0, 284.0], mode="-+").joints[0]

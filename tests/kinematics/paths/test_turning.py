@@ -7,9 +7,9 @@ import pytest
 
 import assur
 from assur.kinematics.closure import closure_error
-from assur.kinematics.paths.platform_held import held_matrix, platform_held
+from assur.kinematics.paths.platform_held import held_matrix
 from assur.kinematics.paths.turning import turnings
-from assur.kinematics.paths.ways import pose_change
+from assur.kinematics.paths.ways import Straight
 from assur.kinematics.pose import pose_of
 
 
@@ -46,13 +46,7 @@ def existing(record, start, end):
 def test_ways_turn_back_where_the_closed_form_ends(name):
     record = assur.load(name)
     start, end, joints = ways(record)
-    found = turnings(
-        record,
-        joints,
-        platform_held(record, joints),
-        pose_change(record, start, end),
-        lambda share, rows: start[rows] + share[:, None] * (end - start)[rows],
-    )
+    found = turnings(Straight(record, start, end), joints, held_matrix(record, joints))
     there = found.found
     assert np.mean(there) > 0.6
     gaps = np.abs(found.share - existing(record, start, end))[there]
@@ -68,11 +62,5 @@ def test_a_way_that_stays_inside_never_turns():
     record = assur.load("fivebar")
     start, end = np.array([[0.0, 200.0]]), np.array([[10.0, 210.0]])
     joints = record.inverse(start, mode="-+").joints[:, 0]
-    found = turnings(
-        record,
-        joints,
-        platform_held(record, joints),
-        pose_change(record, start, end),
-        lambda share, rows: start[rows] + share[:, None] * (end - start)[rows],
-    )
+    found = turnings(Straight(record, start, end), joints, held_matrix(record, joints))
     assert not found.found[0]

@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.paths.locked import units
-from assur.kinematics.paths.neighbours import FURTHEST, Signs, Steps, steps_at
+from assur.kinematics.paths.neighbours import FURTHEST, SignGuard, Steps, steps_at
 from assur.kinematics.paths.platform_held import platform_held
 from assur.kinematics.paths.stepping import Places
 from assur.kinematics.paths.turning import turnings
-from assur.kinematics.paths.ways import pose_change
+from assur.kinematics.paths.ways import Straight
 from assur.kinematics.pose import whole_orientation
 from assur.model.mechanism import MechanismRecord
 
@@ -52,7 +52,7 @@ class Mode:
 
     def steps(self, joints: FloatArray, points: FloatArray) -> Steps:
         """Steps from assemblies (N, n) at points (N, d)."""
-        return steps_at(Signs(self.record, self.signs), self.poses(points), joints)
+        return steps_at(SignGuard(self.record, self.signs), self.poses(points), joints)
 
     def stepped(self, joints: FloatArray, start: FloatArray, end: FloatArray) -> tuple[FloatArray, BoolArray]:
         """Joint values (N, n) after a step between points (N, d), and where the step may be taken (N,)."""
@@ -79,12 +79,8 @@ class Mode:
         if whole_orientation(self.record.platform.pose):  # its rates change along the way
             return np.ones(len(joints)), joints, np.zeros(len(joints), dtype=bool)
         here = self.steps(joints, inside)
-        change = pose_change(self.record, here.poses, self.poses(outside))
-
-        def way(share: FloatArray, rows: IntArray) -> FloatArray:
-            return self.poses(inside[rows] + share[:, None] * (outside - inside)[rows])
-
-        turned = turnings(self.record, joints, here.held, change, way)
+        way = Straight(self.record, here.poses, self.poses(outside))
+        turned = turnings(way, joints, here.places.matrix)
         far = np.max(np.abs(turned.joints - joints) / units(self.record), axis=1, initial=0.0) > FURTHEST
         rows = np.flatnonzero(turned.found & ~far)
         found = np.zeros(len(joints), dtype=bool)

@@ -19,7 +19,7 @@ from assur.kinematics.modes import mode_text
 from assur.kinematics.paths.course import Course, Prescribed, Turns, course
 from assur.kinematics.paths.locked import general_ranks, smallest
 from assur.kinematics.paths.path import Path
-from assur.kinematics.paths.ranks import Ranks
+from assur.kinematics.paths.ranks import RankGuard
 from assur.kinematics.paths.stepping import Pace, Places, followed
 from assur.kinematics.paths.stopping import stop_at
 from assur.kinematics.paths.ways import Stretch, system_of
@@ -94,7 +94,7 @@ def follow(
     way = course(record, prescribed, here, np.asarray([] if wanted is None else wanted), turns)
     bounds = limits(record, start) if use_limits else ()
     known = general_ranks(record, start) if ranks is None else ranks
-    guard = Ranks(prescribed, lambda *_: bounds, known)
+    guard = RankGuard(prescribed, lambda *_: bounds, known)
     return _path(record, way, start, guard, Pace(tolerance, largest_step, LEAVING))
 
 
@@ -112,7 +112,7 @@ def _checked_start(record: MechanismRecord, joints: ArrayLike) -> FloatArray:
     return start
 
 
-def _path(record: MechanismRecord, way: Course, start: FloatArray, guard: Ranks, pace: Pace) -> Path:
+def _path(record: MechanismRecord, way: Course, start: FloatArray, guard: RankGuard, pace: Pace) -> Path:
     """The points from the start to the end of the way, or to what blocks it."""
     stretch, matrix = Stretch(record, way, 0), system_of(record, way.prescribed, start[None], way.vertices[:1])[1]
     here = Places(np.zeros(1), start[None].copy(), matrix)

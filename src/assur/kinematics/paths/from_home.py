@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.home import home_values
-from assur.kinematics.paths.neighbours import Signs, steps_at, working_signs
+from assur.kinematics.paths.neighbours import SignGuard, steps_at, working_signs
 from assur.kinematics.paths.stepping import Pace, followed
 from assur.kinematics.paths.ways import Straight, pose_change
 from assur.kinematics.pose import pose_of
@@ -52,7 +52,7 @@ def followed_from_home(
         [True, False]
     """
     home, count = home_values(record), len(poses)
-    begun = steps_at(Signs(record, working_signs(record, home)), pose_of(record, home[None]), home[None])
+    begun = steps_at(SignGuard(record, working_signs(record, home)), pose_of(record, home[None]), home[None])
     begun = begun.of(np.zeros(count, dtype=np.intp))
     here, pace = begun.places, Pace(least, most=MOST)
     reached = followed(Straight(record, begun.poses, poses), here, begun.guard, pace, np.full(count, FIRST))
@@ -73,7 +73,7 @@ def followed_in_a_row(record: MechanismRecord, poses: FloatArray) -> tuple[Float
         >>> followed_in_a_row(load_record("fivebar"), line)[1].tolist()
         [True, True, True, True, True, False]
     """
-    guard = Signs(record, working_signs(record, home_values(record)))
+    guard = SignGuard(record, working_signs(record, home_values(record)))
     joints = np.full((len(poses), len(record.coordinates)), np.nan)
     reached = np.zeros(len(poses), dtype=bool)
     seeds = np.arange(0, len(poses), APART)

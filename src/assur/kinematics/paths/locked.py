@@ -93,8 +93,8 @@ class Locked:
     def change(self, rows: FloatArray) -> tuple[FloatArray, float]:
         """The smallest change of joint values (n,) that changes gaps by rows (r,); and the share of these it misses."""
         parts = self.left.T @ rows
-        missed = np.linalg.norm(rows - self.left @ parts) / np.linalg.norm(rows)
-        return self.right.T @ (parts / self.sizes), float(missed)
+        missed = float(np.linalg.norm(rows - self.left @ parts))
+        return self.right.T @ (parts / self.sizes), missed / float(np.linalg.norm(rows)) if missed else 0.0
 
     def needs(self, rows: FloatArray) -> bool:
         """Whether changes of gaps by rows (r,) need the direction whose singular value is the smallest.

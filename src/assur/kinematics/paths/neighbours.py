@@ -31,7 +31,7 @@ PARTS = 4
 
 
 @dataclass(frozen=True, eq=False)
-class Signs:
+class SignGuard:
     """The guard of many ways of poses: the signs of one working mode stay, and no two branches merge between.
 
     Of these two, the first is what names the mode, the second is told by one determinant (`passes_zero`).
@@ -63,7 +63,7 @@ class Signs:
 class Steps:
     """Steps from assemblies at poses (N, m)."""
 
-    guard: Signs
+    guard: SignGuard
     poses: FloatArray
     places: Places
 
@@ -92,12 +92,12 @@ class Steps:
         return steps_from(self.guard, poses, places), good
 
 
-def steps_from(guard: Signs, poses: FloatArray, places: Places) -> Steps:
+def steps_from(guard: SignGuard, poses: FloatArray, places: Places) -> Steps:
     """Steps from places at poses (N, m), where new ways begin."""
     return Steps(guard, poses, Places(np.zeros(len(poses)), places.joints, places.matrix))
 
 
-def steps_at(guard: Signs, poses: FloatArray, joints: FloatArray) -> Steps:
+def steps_at(guard: SignGuard, poses: FloatArray, joints: FloatArray) -> Steps:
     """Steps from assemblies (N, n) at poses (N, m)."""
     return Steps(guard, poses, Places(np.zeros(len(poses)), joints, held_matrix(guard.record, joints)))
 

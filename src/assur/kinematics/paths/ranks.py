@@ -121,7 +121,7 @@ class Point:
 
 
 @dataclass(frozen=True, eq=False)
-class Ranks:
+class RankGuard:
     """The guard of one way, with the points that it has let by.
 
     Attributes:

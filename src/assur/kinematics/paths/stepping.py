@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.paths.ways import Way
-from assur.kinematics.turns import joint_units, whole_turns_less
+from assur.kinematics.turns import whole_turns_less
 from assur.numerics.newton import CLOSED, corrected
 
 FloatArray = NDArray[np.float64]
@@ -54,7 +54,7 @@ class Places:
 
 
 @dataclass(frozen=True, eq=False)
-class Trial:
+class TriedStep:
     """A step that was tried on N ways.
 
     Attributes:
@@ -70,7 +70,7 @@ class Trial:
     away: FloatArray
 
 
-class Guard(Protocol):
+class StepGuard(Protocol):
     """What allows steps, and how long the next ones may be."""
 
     def step(self, way: Way, here: Places, ends: FloatArray, rows: IntArray) -> tuple[Places, BoolArray, FloatArray]:
@@ -108,7 +108,7 @@ class Pace:
         return np.where(ends > end - 0.5 * self.least(shares), end, ends)
 
 
-def followed(way: Way, here: Places, guard: Guard, pace: Pace, steps: FloatArray, end: float = 1.0) -> BoolArray:
+def followed(way: Way, here: Places, guard: StepGuard, pace: Pace, steps: FloatArray, end: float = 1.0) -> BoolArray:
     """Ways followed from `here`, which moves along them, by `steps` (N,), which change; which come to an end (N,)."""
     rows, made = np.flatnonzero(here.shares < end), 0
     while len(rows) and made < pace.most:
@@ -124,9 +124,9 @@ def followed(way: Way, here: Places, guard: Guard, pace: Pace, steps: FloatArray
 
 def tried(
     way: Way, here: Places, ends: FloatArray, move: FloatArray, rows: IntArray, tolerance: float = CLOSED
-) -> Trial:
+) -> TriedStep:
     """Steps to shares (k,) by foreseen moves (k, n), without dimensions, and corrections of these."""
-    size = joint_units(way.mechanism(float(ends[0])))
+    size = way.units(float(ends[0]))
     foreseen = here.joints / size + move
 
     def system(values: FloatArray, some: IntArray) -> tuple[FloatArray, FloatArray]:
@@ -134,7 +134,7 @@ def tried(
 
     near = corrected(system, foreseen, tolerance)
     places = Places(ends, near.values * size, near.derivative)
-    return Trial(places, near.closed, near.residual, np.linalg.norm(near.values - foreseen, axis=1))
+    return TriedStep(places, near.closed, near.residual, np.linalg.norm(near.values - foreseen, axis=1))
 
 
 def settled(way: Way, places: Places, rows: IntArray) -> Places:

@@ -41,6 +41,10 @@ class Way(Protocol):
         """The mechanism at a share; where it is not the same all along there is one way."""
         ...
 
+    def units(self, share: float, /) -> FloatArray:
+        """What a change of one is of each unknown (n,), in the units of the file."""
+        ...
+
     def system(self, joints: FloatArray, shares: FloatArray, rows: IntArray, /) -> tuple[FloatArray, FloatArray]:
         """Gaps (k, r) and D (k, r, n)."""
         ...
@@ -62,6 +66,10 @@ class Stretch:
     def mechanism(self, _share: float) -> MechanismRecord:
         """The same all along."""
         return self.record
+
+    def units(self, share: float) -> FloatArray:
+        """Those of the joint values."""
+        return joint_units(self.mechanism(share))
 
     def system(self, joints: FloatArray, shares: FloatArray, _rows: IntArray) -> tuple[FloatArray, FloatArray]:
         """Gaps (1, r) and D (1, r, n)."""
@@ -91,6 +99,10 @@ class Straight:
         """The same all along."""
         return self.record
 
+    def units(self, share: float) -> FloatArray:
+        """Those of the joint values."""
+        return joint_units(self.mechanism(share))
+
     def system(self, joints: FloatArray, shares: FloatArray, rows: IntArray) -> tuple[FloatArray, FloatArray]:
         """Gaps and D with the platform held."""
         return held_system(self.record, joints, self.at(shares, rows))
@@ -103,11 +115,58 @@ class Straight:
         """Poses (k, m); at the end the very poses."""
         start, end, part = self.start[rows], self.end[rows], shares[:, None]
         between = start + part * (end - start)
-        return checked_poses(self.record, np.where(part == 1.0, end, np.where(part == 0.0, start, between)))
+        poses = np.where(part == 1.0, end, np.where(part == 0.0, start, between))
+        return checked_poses(self.record, poses) if has_quaternion(self.record.platform.pose) else poses
 
 
 @dataclass(frozen=True, eq=False)
-class Dimension:
+class Led:
+    """Ways that a joint value leads and whose shares follow, so that they run smoothly through where they turn back.
+
+    Unknowns (k, n + 1) are joint values and the share of the other way, shares (k,) those of the leading joint values.
+
+    Attributes:
+        way: the other one, whose gaps change evenly with its share.
+        lead: (N,) which joint value leads on each.
+    """
+
+    way: Way
+    lead: IntArray
+    linear: bool = False
+
+    def mechanism(self, share: float) -> MechanismRecord:
+        """That of the other way."""
+        return self.way.mechanism(share)
+
+    def units(self, share: float) -> FloatArray:
+        """Those of the joint values, and a share."""
+        return np.append(self.way.units(share), 1.0)
+
+    def system(self, joints: FloatArray, shares: FloatArray, rows: IntArray) -> tuple[FloatArray, FloatArray]:
+        """Gaps (k, r + 1) and D (k, r + 1, n + 1): those of the other way, then of the leading joint value."""
+        values, others = joints[:, :-1], joints[:, -1]
+        gaps, matrix = self.way.system(values, others, rows)
+        leading = (values / self.way.units(0.0))[np.arange(len(rows)), self.lead[rows]]
+        away = np.concatenate([gaps, (leading - shares)[:, None]], axis=1)
+        return away, self.bordered(matrix, values, rows)
+
+    def bordered(self, matrix: FloatArray, joints: FloatArray, rows: IntArray) -> FloatArray:
+        """D (k, r + 1, n + 1) from that (k, r, n) of the other way."""
+        count = len(rows)
+        whole = np.zeros((count, matrix.shape[1] + 1, matrix.shape[2] + 1))
+        whole[:, :-1, :-1] = matrix
+        whole[:, :-1, -1] = self.way.gaps(joints, np.zeros(count), np.ones(count), rows)
+        whole[np.arange(count), -1, self.lead[rows]] = 1.0
+        return whole
+
+    def gaps(self, joints: FloatArray, shares: FloatArray, ends: FloatArray, rows: IntArray) -> FloatArray:
+        """Gaps (k, r + 1): the leading joint value goes ahead."""
+        other = self.way.gaps(joints[:, :-1], joints[:, -1], joints[:, -1], rows)
+        return np.concatenate([other, (shares - ends)[:, None]], axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class DimensionWay:
     """One dimension that changes from a value to another, in the unit of the file; the inputs or the pose are held.
 
     Where the file allows a value between the two, that is; else its `UsageError` is raised.
@@ -131,6 +190,10 @@ class Dimension:
         if share not in self._records:
             self._records[share] = with_parameters(self.record, **{self.name: self.value(share)})
         return self._records[share]
+
+    def units(self, share: float) -> FloatArray:
+        """Those of the joint values."""
+        return joint_units(self.mechanism(share))
 
     def system(self, joints: FloatArray, shares: FloatArray, _rows: IntArray) -> tuple[FloatArray, FloatArray]:
         """Gaps (1, r) and D (1, r, n)."""
