@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from assur.errors import UsageError
+from assur.errors import Interrupted, UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.points import quantity
 from assur.kinematics.border import checked, inputs_of
@@ -19,12 +19,13 @@ from assur.kinematics.modes import mode_text
 from assur.kinematics.paths.course import Course, Prescribed, Turns, course
 from assur.kinematics.paths.locked import general_ranks, smallest
 from assur.kinematics.paths.path import Path
-from assur.kinematics.paths.ranks import RankGuard
+from assur.kinematics.paths.ranks import Blocked, RankGuard
 from assur.kinematics.paths.stepping import Pace, Places, followed
 from assur.kinematics.paths.stopping import stop_at
 from assur.kinematics.paths.ways import Stretch, system_of
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
+from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 TOLERANCE = 1e-9
@@ -94,8 +95,16 @@ def follow(
     way = course(record, prescribed, here, np.asarray([] if wanted is None else wanted), turns)
     bounds = limits(record, start) if use_limits else ()
     known = general_ranks(record, start) if ranks is None else ranks
-    guard = RankGuard(prescribed, lambda *_: bounds, known)
-    return _path(record, way, start, guard, Pace(tolerance, largest_step, LEAVING))
+    with stage("path") as work:
+        guard = RankGuard(prescribed, lambda *_: bounds, known, work)
+        try:
+            _walk(record, way, start, guard, Pace(tolerance, largest_step, LEAVING))
+        except KeyboardInterrupt:
+            if not guard.points:
+                raise
+            guard.refused.append(Blocked("interrupted"))
+            raise Interrupted(_path(record, way, guard)) from None
+    return _path(record, way, guard)
 
 
 def _checked_start(record: MechanismRecord, joints: ArrayLike) -> FloatArray:
@@ -112,16 +121,19 @@ def _checked_start(record: MechanismRecord, joints: ArrayLike) -> FloatArray:
     return start
 
 
-def _path(record: MechanismRecord, way: Course, start: FloatArray, guard: RankGuard, pace: Pace) -> Path:
-    """The points from the start to the end of the way, or to what blocks it."""
-    stretch, matrix = Stretch(record, way, 0), system_of(record, way.prescribed, start[None], way.vertices[:1])[1]
-    here = Places(np.zeros(1), start[None].copy(), matrix)
-    going = guard.begun(stretch, here) or not len(way.changes)
-    steps = np.array([pace.largest])
+def _walk(record: MechanismRecord, way: Course, start: FloatArray, guard: RankGuard, pace: Pace) -> None:
+    """Let the guard have the points from the start to the end of the way, or to what blocks it."""
+    matrix = system_of(record, way.prescribed, start[None], way.vertices[:1])[1]
+    here, steps = Places(np.zeros(1), start[None].copy(), matrix), np.array([pace.largest])
+    going = guard.begun(Stretch(record, way, 0), here)
     for segment, end in enumerate(way.shares[1:]):
-        if going:
-            stretch = Stretch(record, way, segment)
-            going = bool(followed(stretch, here, guard, pace, steps, float(end))[0])
+        going = going and bool(followed(Stretch(record, way, segment), here, guard, pace, steps, float(end))[0])
+
+
+def _path(record: MechanismRecord, way: Course, guard: RankGuard) -> Path:
+    """The path of the points that the guard has let by."""
+    last = guard.points[-1].share
+    stretch = Stretch(record, way, int(np.searchsorted(way.shares, last, side="right")) - 1)
     joints = np.array([point.joints for point in guard.points])
     sizes = smallest(record, joints, guard.ranks)
     return Path(
@@ -133,7 +145,7 @@ def _path(record: MechanismRecord, way: Course, start: FloatArray, guard: RankGu
         inputs=inputs_of(record, joints),
         smallest=sizes,
         modes=(mode_names(record, joints[0]), mode_names(record, joints[-1])),
-        stopped=None if going else stop_at(stretch, guard.points, guard.refused[-1], sizes),
+        stopped=None if last == way.shares[-1] else stop_at(stretch, guard.points, guard.refused[-1], sizes),
     )
 
 

@@ -23,6 +23,7 @@ from assur.kinematics.paths.stepping import Places, following, settled, tried
 from assur.kinematics.paths.ways import Way, other_side
 from assur.kinematics.turns import joint_units
 from assur.model.mechanism import MechanismRecord
+from assur.work import WorkStage
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -74,12 +75,13 @@ class Blocked:
 
     Attributes:
         why: open (the loops did not close), far (the correction was large against the step), lost (a rank would be
-            lost on the way), missed (no motion has these rates), limit, refused (there is no such mechanism).
+            lost on the way), missed (no motion has these rates), limit, refused (there is no such mechanism),
+            interrupted (by Ctrl-C).
         limit: the one that is broken.
         text: why there is no such mechanism.
     """
 
-    why: Literal["open", "far", "lost", "missed", "limit", "refused"]
+    why: Literal["open", "far", "lost", "missed", "limit", "refused", "interrupted"]
     limit: Limit | None = None
     text: str = ""
 
@@ -128,6 +130,7 @@ class RankGuard:
         held: what the way holds.
         bounds: limits that must not be broken, of a mechanism about joint values (n,).
         ranks: of both matrices in general.
+        work: whose stage the points are.
         points: the first and those that follow.
         refused: what forbade steps.
     """
@@ -135,6 +138,7 @@ class RankGuard:
     held: Prescribed
     bounds: Bounds
     ranks: Mapping[str, int]
+    work: WorkStage = field(default_factory=lambda: WorkStage("way"))
     points: list[Point] = field(default_factory=list)
     refused: list[Blocked] = field(default_factory=list)
 
@@ -197,6 +201,7 @@ class RankGuard:
             # were the singular value to go on like this, it would vanish after step * least / (1 - least)
             after = min(after, BEFORE * step * least / (1.0 - least))
         self.points.append(point)
+        self.work.at(len(self.points), result=f"{point.share:.0%} of the way")
         return places, np.ones(1, dtype=bool), np.array([after])
 
     def _refused(self, here: Places, ends: FloatArray, why: Blocked) -> tuple[Places, BoolArray, FloatArray]:
