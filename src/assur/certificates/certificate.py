@@ -15,6 +15,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from assur.certificates.exact_check import exact_check
 from assur.certificates.formulas import RegionFormulas, formulas
 from assur.certificates.leaves import INSIDE, OPEN, OUTSIDE, REGULAR, Leaves
 from assur.certificates.tree import Limits, Progress, Tree, grow, planted
@@ -26,7 +27,7 @@ from assur.workspace.bounds import Stroke
 from assur.workspace.certified.boxes import Boxes, together
 from assur.workspace.domain import box_of
 
-FORMAT, VERSION = "assur certificate", 1
+FORMAT, VERSION = "assur certificate", 2
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 Kind = Literal["workspace", "box", "path"]
@@ -54,6 +55,7 @@ class Certificate:
         program: the formulas as data.
         proof: the tree, depth first; of a path, that of each of its boxes.
         claims: what the leaves prove together.
+        exact: how surely the formulas are those of the joint graph, see `exact_check`.
     """
 
     kind: Kind
@@ -61,6 +63,7 @@ class Certificate:
     program: Mapping[str, Any]
     proof: str
     claims: Mapping[str, Any]
+    exact: Mapping[str, Any]
 
     def to_json(self) -> dict[str, Any]:
         """Plain data with the checksum of everything else; floats are in hex, so that they are exact."""
@@ -71,6 +74,7 @@ class Certificate:
             "made_by": f"assur {version('assur')}",
             "statement": dict(self.statement),
             "program": dict(self.program),
+            "exact": dict(self.exact),
             "claims": dict(self.claims),
             "proof": self.proof,
         }
@@ -153,6 +157,7 @@ def certificate(
         program,
         tree.text,
         {name: everything[name] for name in CLAIMS[kind]},
+        exact_check(record),
     )
 
 

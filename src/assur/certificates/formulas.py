@@ -26,7 +26,9 @@ from assur.workspace.bounds import Stroke, bounds
 from assur.workspace.slices import Slice, quaternion_of, slice_at
 
 BoolArray = NDArray[np.bool_]
-GROUPS = ("margins", "nonzero", "factors")
+GROUPS = ("margins", "nonzero", "factors", "joints", "jp", "jq")
+VELOCITIES = ("jp", "jq")
+"""What no leaf of a proof needs: the velocity equation, which the exact check holds against the joint graph."""
 CONSTANT = "constant"
 SLACK = 2.0**-46
 """Constants of strokes are given wider bounds, by this share: another machine's library then still agrees."""
@@ -39,8 +41,9 @@ class RegionFormulas:
     Attributes:
         slice: which coordinates vary, and at what the others are held.
         tape: its outputs are (group, name); "margins" must not be negative, "nonzero" must not be zero because the
-            formulas divide by it, "factors" are zero where the pose is singular, serial or parallel. It has two
-            operations more than tapes of kernels: "cosine" and "sine".
+            formulas divide by it, "factors" are zero where the pose is singular, serial or parallel; "joints" say where
+            each joint stands, "jp" and "jq" are the velocity equation. It has two operations more than tapes of
+            kernels: "cosine" and "sine".
         numbers: name -> enclosure of what does not vary; exact but for constants of angular strokes and cones.
     """
 
@@ -53,19 +56,22 @@ class RegionFormulas:
         return tuple(key.partition(": ")[2] for key in self.tape.outputs if key.startswith(f"{group}: "))
 
     def over(self, box: Sequence[Interval]) -> tuple[dict[str, Interval], BoolArray]:
-        """Outputs over boxes (N,), and where no radicand can be negative; roots are those of max(x, 0).
+        """Outputs over boxes (N,), and where every joint has a value; roots are those of max(x, 0).
 
-        `defined` of an output is False where something that it needs divides by what may be zero.
+        There no radicand can be negative, nor what joints are divided by zero. `defined` of an output is False where
+        something that it needs divides by what may be zero. The velocity equation is left out.
         """
         values: list[Any] = []
         varying, numbers = iter(box), iter(self.numbers.values())
         real = np.ones(box[0].shape, dtype=bool)
-        for operation in self.tape.operations:
-            arguments = [values[k] for k in operation.arguments]
+        for k, operation in enumerate(self.tape.operations):
+            arguments = [values[j] for j in operation.arguments]
             if operation.name == "varying":
                 values.append(next(varying))
             elif operation.name == "uniform":
                 values.append(next(numbers))
+            elif k not in self._needed:
+                values.append(None)
             elif operation.name == "number":
                 values.append(as_interval(operation.number))
             elif operation.name == "root":
@@ -76,12 +82,30 @@ class RegionFormulas:
                 values.append(cosine_sine(arguments[0])[operation.name == "sine"])
             else:
                 values.append(MEANING[operation.name](*arguments))
-        return {name: values[k] for name, k in self.tape.outputs.items()}, real
+        outputs = {name: values[k] for name, k in self._outputs.items()}
+        for name in self.names("joints"):
+            real = real & outputs.pop(f"joints: {name}").defined
+        return outputs, real
+
+    @cached_property
+    def _outputs(self) -> dict[str, int]:
+        """Those that leaves need."""
+        return {name: k for name, k in self.tape.outputs.items() if name.partition(": ")[0] not in VELOCITIES}
+
+    @cached_property
+    def _needed(self) -> frozenset[int]:
+        needed = set(self._outputs.values())
+        for k in range(len(self.tape.operations) - 1, -1, -1):
+            if k in needed:
+                needed.update(self.tape.operations[k].arguments)
+        return frozenset(needed)
 
     @cached_property
     def used(self) -> tuple[bool, ...]:
-        """Per free coordinate whether any output depends on it."""
-        names = frozenset[str]().union(*self.tape.dependence().values())
+        """Per free coordinate whether any margin, divisor or factor depends on it."""
+        dependence = self.tape.dependence()
+        asked = (f"{group}: {name}" for group in GROUPS[:3] for name in self.names(group))
+        names = frozenset[str]().union(*(dependence[key] for key in asked))
         return tuple(name in names for name in self.slice.free)
 
     def to_json(self) -> dict[str, Any]:
@@ -146,7 +170,22 @@ def formulas(
     outputs |= {f"margins: {name}": bound(joints) for name, bound in limits.items()}
     outputs |= {f"nonzero: {m.name}": branch.margins[m.name] for m in form.inverse_margins if m.zero == "degenerate"}
     outputs |= {f"factors: {f.name}": factors[f.name] for f in form.factor_list if f.kind != "other"}
+    outputs |= {f"joints: {name}": number for name, number in _joint_numbers(record, joints).items()}
+    for group, matrix in zip(VELOCITIES, form.jacobians(recorder, p, branch.core), strict=True):
+        rows = ((f"{group}: {i},{j}", number) for i, row in enumerate(matrix) for j, number in enumerate(row))
+        outputs |= dict(rows)
     return RegionFormulas(poses, recorder.tape(outputs), numbers)
+
+
+def _joint_numbers(record: MechanismRecord, joints: Mapping[str, Any]) -> dict[str, Any]:
+    """Lengths, cosines and sines, and rows of rotations, of each joint in the order of its steps: "joint place"."""
+    numbers: dict[str, Any] = {}
+    for name, joint in record.joints.items():
+        own = [joints[name]] if name in joints else [joints[f"{name}.{part}"] for part in joint.type.components]
+        flat = [number for value in own for number in (value if isinstance(value, tuple) else (value,))]
+        flat = [number for row in flat for number in (row if isinstance(row, tuple) else (row,))]
+        numbers |= {f"{name} {k}": number for k, number in enumerate(flat)}
+    return numbers
 
 
 def _wider(value: Interval) -> Interval:

@@ -15,6 +15,7 @@ from assur.certificates.certificate import (
     proved_by,
     tree_of,
 )
+from assur.certificates.exact_check import exact_check
 from assur.certificates.formulas import formulas
 from assur.certificates.leaves import INSIDE, OPEN, Leaves
 from assur.certificates.tree import Limits, Progress, Tree
@@ -92,6 +93,7 @@ def path_certificate(
         rules.to_json(),
         "".join(tree.text for tree in trees),
         {name: everything[name] for name in CLAIMS["path"]},
+        exact_check(record),
     )
 
 

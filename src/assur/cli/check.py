@@ -87,9 +87,8 @@ def _exact(record: MechanismRecord) -> ExactAnswer | None:
         return None
     exact = exactness(record)
     proved = exact.proved
-    return ExactAnswer(
-        proved, exact.general if proved else None, exact.error if proved else None, exact.guarded, exact.undecided
-    )
+    error, general = exact.error if proved else None, exact.general if proved else None
+    return ExactAnswer(exact.text, proved, general, error, exact.guarded, exact.undecided)
 
 
 def _summary(record: MechanismRecord) -> SoundFacts:
@@ -151,7 +150,7 @@ def _shown(data: CheckAnswer, then: str) -> Iterable[RenderableType]:
     else:
         yield "no closed form: it is solved on its joint graph"
     if facts.exact:
-        yield Verbatim(_exact_text(facts.exact))
+        yield Verbatim(facts.exact.says if facts.exact.proved else f"note: {facts.exact.says}")
     if facts.unproved:
         yield Verbatim(
             f"note: its reduced model ends branches by {count(len(facts.unproved), 'margin')} without signs, "
@@ -160,11 +159,3 @@ def _shown(data: CheckAnswer, then: str) -> Iterable[RenderableType]:
     yield from (Verbatim(f"note: {note}") for note in data.notes)
     if then:
         yield Verbatim(then)
-
-
-def _exact_text(exact: ExactAnswer) -> str:
-    if not exact.proved:
-        return f"note: its formulas were held at places only, not in exact arithmetic: {exact.because}"
-    special = "" if exact.any_dimensions else "with these dimensions "
-    guards = " but where numbers below 1e-25 that are added to others count" if exact.guards_left_out else ""
-    return f"{special}the formulas close the joint graph: exact{guards}, error < 1e-15"

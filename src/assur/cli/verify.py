@@ -32,7 +32,8 @@ def verify(
     over, not reached anywhere, or undecided. The verifier proves every part
     again by ball arithmetic, with exact volumes, and shares no code with what
     made the file; how much is undecided is told. Then the formulas are recorded
-    anew from the mechanism's files and compared: only then it is verified.
+    anew from the mechanism's files and compared, and held against the verifier's
+    own joint graph of the mechanism's file, exactly: only then it is verified.
 
     The exit code is about the proof, not about what it answers. 0: it holds,
     also where it proves a no; 1: refused, a part or a claim does not hold or it
@@ -80,7 +81,14 @@ def _compared(path: Path, document: Mapping[str, Any], mechanism: str | None, se
         different = differences(document, record)
     if different:
         return _refused(path, f"another mechanism or version: {'; '.join(different)}", exit_codes.FAILS)
-    return _holds(path, document, record, seconds)
+    from assur.verifier.closure import closes
+    from assur.verifier.reading import RefusedError
+
+    try:
+        exact = closes(document, record.file.read_text(encoding="utf-8")) if document["exact"]["proved"] else None
+    except RefusedError as error:
+        return _refused(path, str(error), exit_codes.FAILS)
+    return _holds(path, document, record, seconds, exact=exact)
 
 
 def _holds(
@@ -89,6 +97,7 @@ def _holds(
     record: MechanismRecord | None,
     seconds: float,
     why_not: str = "the mechanism is not at hand, say with --mechanism where it is",
+    exact: Mapping[str, Any] | None = None,
 ) -> Outcome:
     """It is verified where its formulas are those of the mechanism; anyone can write some for which a claim holds."""
     from assur.certificates.summary import claim_lines, shares, statement_lines
@@ -97,20 +106,31 @@ def _holds(
 
     lines = [*statement_lines(document, record), *claim_lines(document, record)]
     how = f"checked: every part, proved again by ball arithmetic; the sums, exactly; in {seconds:.2g} s"
-    known = {key: document[key] for key in ("kind", "statement", "claims", "made_by", "sha256")}
+    known = {key: document[key] for key in ("kind", "statement", "exact", "claims", "made_by", "sha256")}
     ours = record is not None
     answer = VerifiedCertificate(
         **known,
         shares=shares(document["proof"]),
         verified=True if ours else None,
         mechanism_compared=ours,
+        joint_graph=exact,
         seconds=seconds,
     )
     head = "verified" if ours else "holds for its own formulas"
     whose = "the mechanism's, recorded anew" if ours else f"not compared: {why_not}"
-    shown = [heading(f"{head}: {path}"), *lines, how, f"formulas: {whose}"]
+    shown = [heading(f"{head}: {path}"), *lines, how, f"formulas: {whose}", *_graph(document, exact)]
     code = exit_codes.of_answers(["yes" if ours else "open"])
     return Outcome(answer, lambda: shown, code)
+
+
+def _graph(document: Mapping[str, Any], exact: Mapping[str, Any] | None) -> list[str]:
+    """What is known of the formulas on the joint graph; only what the verifier found itself counts as checked."""
+    says = document["exact"]["says"]
+    if exact is None:
+        return [f"joint graph: {'not looked at; the certificate says: ' if document['exact']['proved'] else ''}{says}"]
+    degree = f"degrees up to {exact['degree']:.0f}"
+    how = f"repeated with a joint graph of its own, modulo {exact['prime']}, at {exact['places']} places, {degree}"
+    return [f"joint graph: {says}", f"  {how}, error {exact['error']:.0e}"]
 
 
 def _refused(path: Path, why: str, code: int) -> Outcome:

@@ -1,5 +1,7 @@
 """The check: walk through the tree of boxes, prove every leaf anew, and compare what follows with what is claimed.
 
+Where the mechanism's folder is given, the formulas are held against its joint graph as well (`assur.verifier.closure`).
+
 The proof is the tree, depth first: a digit halves the box across that coordinate, at the float 0.5 low + 0.5 high, the
 lower half first; a path has a tree for each of its boxes in turn. Leaves: i inside, every margin >= 0 in all of the
 box; r the same and no factor zero; oNN outside, margin NN (hex) < 0 in all of it; b left open. So the leaves cover the
@@ -20,8 +22,9 @@ from typing import Any
 from flint import ctx, fmpq
 
 from assur.verifier.bounds import nonzero
+from assur.verifier.closure import closes
 from assur.verifier.program import Box, Program
-from assur.verifier.reading import MalformedError, RefusedError, names, numbers, read
+from assur.verifier.reading import CLOSED_FORM, MalformedError, RefusedError, names, numbers, read
 
 BITS = 128
 LEAVES = {"i": "inside", "r": "regular", "o": "outside", "b": "open"}
@@ -58,6 +61,8 @@ def _check(document: dict[str, Any], folder: Path | None) -> None:
             raise RefusedError(f"another mechanism: {folder} has no file {name}")
         if hashlib.sha256((folder / name).read_bytes()).hexdigest() != expected:
             raise RefusedError(f"another mechanism or version: {folder / name} is not the file it was made for")
+        if folder and name != CLOSED_FORM and document["exact"]["proved"]:
+            closes(document, (folder / name).read_text(encoding="utf-8"))
     coordinates, is_path = names(statement["coordinates"]), document["kind"] == "path"
     boxes = [_box(pairs, len(coordinates)) for pairs in (statement["boxes"] if is_path else [statement["box"]])]
     if is_path:
@@ -145,10 +150,11 @@ def _holds(program: Program, box: Box, token: str, signs: set[tuple[int, bool]])
         values = program.over(box, [program.margins[int(token[1:], 16)]], strict=False)
         return values is not None and bool(values[0][1] < 0)
     factors = program.factors if token == "r" else []
-    values = program.over(box, [*program.margins, *factors, *program.nonzero])
+    wanted = [*program.margins, *factors, *program.nonzero]
+    values = program.over(box, [*wanted, *program.joints])  # the joints, too, have values: the graph is assembled
     if values is None:
         return False
-    margins, others = values[: len(program.margins)], values[len(program.margins) :]
+    margins, others = values[: len(program.margins)], values[len(program.margins) : len(wanted)]
     signs.update((k, bool(value[0] > 0)) for k, value in zip(factors, others, strict=False))
     return all(margin[0] >= 0 for margin in margins) and all(map(nonzero, others))
 

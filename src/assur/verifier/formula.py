@@ -157,19 +157,29 @@ class _Reader:
         return self.numbers.circle(argument)[name == "sin"]
 
     def _number(self, operand: Any) -> Any:
-        if isinstance(operand, AngleSum):
-            return self.numbers.radians(operand)
-        return self.numbers.number(operand) if isinstance(operand, Fraction) else operand
+        return plain(operand, self.numbers)
 
     def _joined(self, sign: str, a: Any, b: Any) -> Any:
-        angles = isinstance(a, AngleSum) + isinstance(b, AngleSum)
-        if angles == 2 and sign == "+":
-            return a.plus(b)
-        if angles == 1 and sign == "*":
-            angle, factor = (a, b) if isinstance(a, AngleSum) else (b, a)
-            return angle.times(factor)
-        if sign == "/" and isinstance(a, AngleSum) and not isinstance(b, AngleSum):
-            return a.times(1 / b)
-        if not (isinstance(a, Fraction) and isinstance(b, Fraction)):
-            a, b = self._number(a), self._number(b)
-        return a + b if sign == "+" else a * b if sign == "*" else a / b
+        return joined(sign, a, b, self.numbers)
+
+
+def plain(operand: Any, numbers: NumberType) -> Any:
+    """A rational or an angle as a number of the type."""
+    if isinstance(operand, AngleSum):
+        return numbers.radians(operand)
+    return numbers.number(operand) if isinstance(operand, Fraction) else operand
+
+
+def joined(sign: str, a: Any, b: Any, numbers: NumberType) -> Any:
+    """Sum, product or quotient of rationals, angles and numbers of the type; rationals and angles stay exact."""
+    angles = isinstance(a, AngleSum) + isinstance(b, AngleSum)
+    if angles == 2 and sign == "+":
+        return a.plus(b)
+    if angles == 1 and sign == "*":
+        angle, factor = (a, b) if isinstance(a, AngleSum) else (b, a)
+        return angle.times(factor)
+    if sign == "/" and isinstance(a, AngleSum) and not isinstance(b, AngleSum):
+        return a.times(1 / b)
+    if not (isinstance(a, Fraction) and isinstance(b, Fraction)):
+        a, b = plain(a, numbers), plain(b, numbers)
+    return a + b if sign == "+" else a * b if sign == "*" else a / b

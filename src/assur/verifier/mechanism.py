@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -58,6 +58,7 @@ class FileMechanism:
         joints: by their full names, in the order of the file, those of limbs last.
         base, platform: links; `point` is that of the platform, in its frame, and `pose` names what counts of it.
         inputs: (joint, coordinate) each.
+        positive: parameters that may be nothing else.
         degrees: whether plain numbers that are angles are in degrees.
     """
 
@@ -69,7 +70,7 @@ class FileMechanism:
     pose: tuple[str, ...]
     inputs: tuple[tuple[str, str], ...]
     degrees: bool
-    aliases: Mapping[str, str] = field(default_factory=dict)
+    positive: frozenset[str] = frozenset()
 
     def angle(self, written: Any, names: Mapping[str, Any], numbers: NumberType) -> AngleSum:
         """An angle of the file; a plain number is in the file's unit."""
@@ -140,7 +141,7 @@ def mechanism(text: str, changed: Mapping[str, float] | None = None) -> FileMech
         tuple(platform["pose"]),
         tuple(_coordinate(f"{prefix}{name}", parts, aliases) for prefix, name in named),
         data["angle"] == "deg",
-        aliases,
+        frozenset(n for n, entry in data.get("parameters", {}).items() if entry.get("sign", "positive") == "positive"),
     )
 
 

@@ -17,7 +17,7 @@ ONE = {name: getattr(bounds, name) for name in ("negative", "magnitude", "root",
 
 
 class Program:
-    """Operations on earlier entries; `margins`, `nonzero` and `factors` are the entries that are wanted."""
+    """Operations on earlier entries; `margins`, `nonzero`, `factors` and `joints` are the entries that are wanted."""
 
     def __init__(self, data: Mapping[str, Any], coordinates: list[str]) -> None:
         self.operations: list[tuple[str, list[int]]] = []
@@ -43,8 +43,8 @@ class Program:
             elif any(type(a) is not int or not 0 <= a < k for a in arguments):
                 raise ValueError(f"operation {k} uses what is no earlier one")
             self.operations.append((name, arguments))
-        self.margins, self.nonzero, self.factors = (
-            self._outputs(data[group]) for group in ("margins", "nonzero", "factors")
+        self.margins, self.nonzero, self.factors, self.joints, *_ = (
+            self._outputs(data[group]) for group in ("margins", "nonzero", "factors", "joints", "jp", "jq")
         )
         self._orders: dict[tuple[int, ...], list[int]] = {}
 

@@ -8,12 +8,25 @@ import math
 import re
 from typing import Any
 
-FORMAT, VERSION = "assur certificate", 1
+FORMAT, VERSION = "assur certificate", 2
 LARGEST = 10**9
 KEYS = {
-    "": {"format", "version", "kind", "made_by", "statement", "program", "claims", "proof", "sha256"},
+    "": {"format", "version", "kind", "made_by", "statement", "program", "exact", "claims", "proof", "sha256"},
     "statement": {"mechanism", "files", "parameters", "mode", "strokes", "held", "coordinates", "box"},
-    "program": {"operations", "margins", "nonzero", "factors"},
+    "program": {"operations", "margins", "nonzero", "factors", "joints", "jp", "jq"},
+    "exact": {
+        "says",
+        "proved",
+        "any_dimensions",
+        "guards_left_out",
+        "checked",
+        "primes",
+        "places",
+        "degree",
+        "error",
+        "parallel",
+        "serial",
+    },
 }
 PATH = KEYS["statement"] - {"box"} | {"from", "to", "points", "boxes"}
 """Keys of a statement about a path."""
@@ -62,7 +75,19 @@ def _whole(document: Any) -> dict[str, Any]:
         raise MalformedError("edited or damaged: its checksum is not that of its content")
     printable(document["made_by"])
     _statement(document["statement"])
+    _exact(document["exact"])
     return document
+
+
+def _exact(exact: dict[str, Any]) -> None:
+    """Check what says how surely the formulas are those of the joint graph; the verifier finds that out by itself."""
+    printable(exact["says"])
+    for key in ("checked", "primes", "parallel", "serial"):
+        names(exact[key])
+    if not all(type(exact[key]) is bool for key in ("proved", "any_dimensions", "guards_left_out")):
+        raise ValueError("an exact check that is neither true nor false")
+    if type(exact["places"]) is not int or number(exact["degree"]) < 0 or not 0 <= number(exact["error"]) <= 1:
+        raise ValueError("an exact check at no places")
 
 
 def _statement(statement: dict[str, Any]) -> None:

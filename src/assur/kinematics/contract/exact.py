@@ -68,6 +68,16 @@ class Exactness:
         """Whether everything holds, but for an error that is none."""
         return not self.mismatches and not self.undecided
 
+    @property
+    def text(self) -> str:
+        """What is said of the formulas."""
+        if not self.proved:
+            because = self.undecided or self.mismatches[0].found
+            return f"the formulas were held at places only, not in exact arithmetic: {because}"
+        special = "" if self.general else "with these dimensions "
+        guards = " but where numbers below 1e-25 that are added to others count" if self.guarded else ""
+        return f"{special}the formulas close the joint graph: exact{guards}, error < 1e-15"
+
 
 @lru_cache(maxsize=64)
 @stage("closed form in exact arithmetic")

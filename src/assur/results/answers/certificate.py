@@ -11,11 +11,12 @@ from assur.results.answers.answer import Answer
 
 @dataclass(frozen=True)
 class StatedCertificate(Answer):
-    """What a certificate states and claims, and which shares of it are regular, inside, outside and open."""
+    """What a certificate states and claims, what it says of its formulas on the joint graph, and shares of its parts."""
 
     kind: str
     made_by: str
     statement: Mapping[str, Any]
+    exact: Mapping[str, Any]
     claims: Mapping[str, Any]
     sha256: str
     shares: Mapping[str, float]
@@ -41,10 +42,14 @@ class NoCertificate(Answer):
 
 @dataclass(frozen=True)
 class VerifiedCertificate(StatedCertificate):
-    """A certificate that holds; `verified` is null where nobody knows whether its formulas are the mechanism's."""
+    """A certificate that holds; `verified` is null where nobody knows whether its formulas are the mechanism's.
+
+    `joint_graph` is what the verifier found of the formulas on its own joint graph, where it looked.
+    """
 
     verified: Literal[True] | None
     mechanism_compared: bool
+    joint_graph: Mapping[str, Any] | None
     seconds: float
 
 

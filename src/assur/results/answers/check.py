@@ -12,6 +12,7 @@ from assur.results.answers.answer import Answer
 class ExactAnswer:
     """What exact arithmetic says of a closed form: the bound on the error, and why nothing where nothing is proved."""
 
+    says: str
     proved: bool
     any_dimensions: bool | None
     error: float | None
