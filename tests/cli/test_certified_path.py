@@ -21,7 +21,11 @@ def test_the_file_is_that_of_the_library(assur_cli, tmp_path):
     record = load_record("fivebar")
     found = aspects(record, "-+")
     made = path_certificate(record, found, found.path([-60.0, 150.0], [60.0, 220.0]))
-    assert path.read_text() == made.text
+    written, own = json.loads(path.read_text()), made.to_json()
+    for document in (written, own):  # the exact check draws anew, with other numbers
+        del document["sha256"]
+        document["exact"] = {key: document["exact"][key] for key in ("says", "proved", "parallel", "serial")}
+    assert written == own
     assert run.json["claims"] == made.claims
     assert run.json["written"] == str(path)
     assert "proof" not in run.json

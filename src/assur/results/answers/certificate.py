@@ -11,7 +11,7 @@ from assur.results.answers.answer import Answer
 
 @dataclass(frozen=True)
 class StatedCertificate(Answer):
-    """What a certificate states and claims, what it says of its formulas on the joint graph, and shares of its parts."""
+    """What a certificate states and claims, what it says of its formulas, and the shares of its parts."""
 
     kind: str
     made_by: str
