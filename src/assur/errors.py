@@ -8,7 +8,7 @@ from __future__ import annotations
 import difflib
 import unicodedata
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 _HIDDEN = frozenset(("Cc", "Cf", "Cs", "Zl", "Zp"))
@@ -128,7 +128,7 @@ class Problem:
     file: str
     line: int | None
     path: str
-    given: str
+    given: str = field(metadata={"name": "found"})  # in JSON, as it has been from the first
     allowed: str
     hint: str = ""
 

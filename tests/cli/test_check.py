@@ -178,7 +178,7 @@ def test_the_same_as_json(check) -> None:
             "file": "m.toml",
             "line": 16,
             "path": "links.ground",
-            "given": "spans 300 mm between A and D, the rest of its loop only 240 mm",
+            "found": "spans 300 mm between A and D, the rest of its loop only 240 mm",
             "allowed": "allowed: no side longer than the others together",
             "hint": "whatever the angles, the loop through A, B, C, D cannot close",
         }

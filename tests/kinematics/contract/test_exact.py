@@ -88,7 +88,7 @@ def test_a_bump_passes_at_the_places_and_is_refused_for_all_that(copied):
     record = load_record(copied(name, (before, after)))
     assert at_places(record, AT_LOAD) == []
     found, _ = problems(record)
-    assert "in exact arithmetic" in found[0].found
+    assert "in exact arithmetic" in found[0].given
     assert found[0].line
 
 
