@@ -10,6 +10,7 @@ from assur.kinematics.border import checked_joints
 from assur.kinematics.closure import assemble
 from assur.kinematics.rates.instantaneous import Instant, instantaneous
 from assur.kinematics.rates.motions import SINGULAR, motions, twist_units
+from assur.kinematics.rates.regularity import surely_regular
 from assur.kinematics.status import NEAR_SINGULAR, Status
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import rotations
@@ -37,7 +38,12 @@ def classify_at(record: MechanismRecord, joints: ArrayLike) -> NDArray[np.int8]:
     'regular'
     """
     values = checked_joints(record, joints)
-    return status_of(record, values, instantaneous(record, values))
+    rows = values.reshape(-1, values.shape[-1])
+    status = np.full(len(rows), Status.regular, dtype=np.int8)
+    doubtful = ~surely_regular(record, rows)
+    if np.any(doubtful):
+        status[doubtful] = status_of(record, rows[doubtful], instantaneous(record, rows[doubtful]))
+    return status.reshape(values.shape[:-1])
 
 
 def status_of(record: MechanismRecord, values: FloatArray, instant: Instant) -> NDArray[np.int8]:
