@@ -48,9 +48,9 @@ def loaded(cache, words):
     [
         (("--help",), set(), 50),
         (("list",), NUMPY | READ, 122),
-        (("show", "zeng2019"), NUMPY, 124),
-        (DIRECT, NUMPY, 133),
-        (INVERSE, NUMPY, 133),
+        (("show", "zeng2019"), NUMPY, 125),
+        (DIRECT, NUMPY, 134),
+        (INVERSE, NUMPY, 134),
     ],
 )
 def test_a_command_loads_what_it_prints_and_no_more(cache, words, packages, most):

@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING
 from assur.cli import exit_codes
 from assur.cli.options import MethodName, Outcome
 from assur.cli.output import heading, table
-from assur.cli.positions import columns_of, exceeded, given_words, limits_cell, texts_of
-from assur.cli.quantities import QUATERNION, Style, short, style_of
+from assur.cli.positions import exceeded, limits_cell
 from assur.errors import UsageError
+from assur.kinematics.answers.style import Style, given_words, style_of, texts_of, titles_of
+from assur.model.pose import QUATERNION
 from assur.results.answers.certified import CertifiedDirect, ProvedPose
+from assur.results.plain_text import short
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -55,7 +57,7 @@ def outcome(record: Mechanism, found: CertifiedSolutions) -> Outcome:
 def _shown(record: Mechanism, data: CertifiedPositions, headline: str) -> Iterable[RenderableType]:
     style = style_of(record)
     yield heading(f"{data.mechanism}, {data.problem}: {headline}")
-    yield given_words(record, style, data)
+    yield f"at {given_words(record, style, data.given, direct=data.problem == 'direct')}"
     yield ""
     if data.solutions:
         yield _solutions(record, data, style)
@@ -88,7 +90,7 @@ def _solutions(record: Mechanism, data: CertifiedPositions, style: Style) -> Ren
         row = (item.mode, *values, at_most(max(widths, default=0.0)), item.other_mode, str(hows.index(item.how) + 1))
         rows.append((*row, *([limits_cell(item)] if data.limits_stated else [])))
     last = ("working" if direct else "assembly", "proof", *(["limits"] if data.limits_stated else []))
-    return table(("mode", *columns_of(record, style, direct=direct), "width", *last), rows, left=("limits",))
+    return table(("mode", *titles_of(record, style, direct=direct), "width", *last), rows, left=("limits",))
 
 
 def _hows(data: CertifiedPositions) -> list[str]:
@@ -106,7 +108,7 @@ def _undetermined(style: Style, data: CertifiedPositions) -> Iterable[str]:
     names = {name for item in proved for name in item.undetermined}
     angles = [name for name in data.coordinates if name in names and name not in QUATERNION]
     if angles:
-        right = style.degrees(90.0 if data.angle == "deg" else math.pi / 2)
+        right = style.number(90.0 if data.angle == "deg" else math.pi / 2, angle=True)
         yield (
             f"{' and '.join(angles)}: any, where theta may be {right} {data.angle} or its negative: both turn about"
             " one axis there, and only the two together say how the platform stands"

@@ -11,7 +11,7 @@ from assur.cli import exit_codes
 from assur.cli.called import called
 from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
 from assur.cli.output import Verbatim, heading
-from assur.cli.quantities import count
+from assur.results.plain_text import count
 from assur.work import stage
 
 if TYPE_CHECKING:

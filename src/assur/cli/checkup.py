@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 from assur.cli.options import Outcome, Plain
 from assur.cli.output import heading, table
 from assur.cli.progress import progress
-from assur.cli.quantities import count
 from assur.results.answers.installation import Check, InstallationAnswer
+from assur.results.plain_text import count
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

@@ -138,7 +138,8 @@ def _pair(record: Mechanism, item: Nearest, because: str | None) -> NearestLinks
 
 def _shown(record: Mechanism, found: Collisions, data: CollisionsAnswer) -> Iterable[RenderableType]:
     from assur.cli.output import heading, table
-    from assur.cli.quantities import count, point_text, point_title, style_of
+    from assur.kinematics.answers.style import style_of
+    from assur.results.plain_text import count
 
     style, names = style_of(record), data.coordinates
     said = f"{count(len(found.meeting), 'pair')} of links meet" if found.meeting else "no links meet"
@@ -154,12 +155,12 @@ def _shown(record: Mechanism, found: Collisions, data: CollisionsAnswer) -> Iter
             " - ".join(item.links),
             f"meet at {item.meeting} of {found.poses}" if item.meeting else f"{item.clearance:.4g}",
             " - ".join(item.parts),
-            point_text(style, names, item.pose),
+            style.point(names, item.pose),
         )
         for item in data.pairs[:SHOWN]
     ]
     yield ""
-    columns = ("links", f"clearance ({record.unit})", "nearest parts", f"there, {point_title(style, names)}")
+    columns = ("links", f"clearance ({record.unit})", "nearest parts", f"there, {style.point_title(names)}")
     styles = ["bold red" if item.meeting else "" for item in data.pairs[:SHOWN]]
     yield table(columns, rows, left=("links", "nearest parts"), wrap=("links", "nearest parts"), styles=styles)
     if len(data.pairs) > SHOWN:

@@ -9,7 +9,9 @@ from assur.cli import exit_codes
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
 from assur.cli.positions import failures
-from assur.cli.quantities import count, fixed, mode_words, pose_text, short, style_of
+from assur.cli.quantities import mode_words
+from assur.kinematics.answers.style import style_of
+from assur.results.plain_text import count, fixed, short
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -53,7 +55,7 @@ def verdict_answer(record: Mechanism, pose: NDArray[Any], mode: str) -> Configur
 def _shown(record: Mechanism, data: ConfigurationAnswer) -> Iterable[RenderableType]:
     near = ", near_singular" if data.near else ""
     yield heading(f"{data.mechanism}, singularity: {data.kind}{near}")
-    yield f"at {pose_text(style_of(record), data.coordinates, data.pose)}, {mode_words(record, data.mode)}"
+    yield f"at {style_of(record).pose(data.coordinates, data.pose)}, {mode_words(record, data.mode)}"
     yield from of_modes(data)
     yield ""
     if data.failures:

@@ -60,7 +60,7 @@ def _outcome(found: CrossCheck) -> Outcome:
 
 def _shown(found: CrossCheck) -> Iterable[RenderableType]:
     from assur.cli.output import heading, table
-    from assur.cli.quantities import count
+    from assur.results.plain_text import count
 
     said = "agree" if found.holds else "DIFFER" if found.differences else "nothing to compare: no pose was reached"
     yield heading(f"{found.record.name}, assur and MuJoCo {found.version}: {said}")

@@ -10,8 +10,8 @@ from assur.cli.demo_position import entry_of
 from assur.cli.options import Plain
 from assur.cli.output import table
 from assur.cli.progress import progress
-from assur.cli.quantities import count, point_text, point_title, style_of
-from assur.cli.regions import with_error
+from assur.kinematics.answers.style import style_of
+from assur.results.plain_text import count, with_error
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -45,7 +45,7 @@ def velocity(ledger: Ledger, record: Mechanism) -> None:
     style = style_of(record)
     inputs = [item.name for item in record.inputs]
     for name, columns, matrix in (("Jp", record.platform.pose, here.jp), ("Jq", inputs, here.jq)):
-        rows = [("", *(style.length(value) for value in row)) for row in matrix.tolist()]
+        rows = [("", *(style.number(value, angle=False) for value in row)) for row in matrix.tolist()]
         ledger.show([table((name, *columns), rows)])
     ledger.show([f"condition number of J = Jp^-1 Jq: {float(here.condition):.4f}"])
     error, allowed = _difference(record, pose, mode, np.linalg.solve(here.jq, here.jp))
@@ -94,10 +94,10 @@ def singularities(ledger: Ledger, findings: Findings, shared: Plain) -> None:
     style, names = style_of(record), record.platform.pose
     ranks = [int(mobility(record, item.joints).rank) for item in examples]
     rows = [
-        (item.factor.name, item.status.name, item.mode, str(rank), point_text(style, names, item.pose.tolist()))
+        (item.factor.name, item.status.name, item.mode, str(rank), style.point(names, item.pose.tolist()))
         for item, rank in zip(examples, ranks, strict=True)
     ]
-    pose = point_title(style, names)
+    pose = style.point_title(names)
     ledger.show([table(("factor", "status", "mode", "rank", pose), rows, left=("factor", "status", pose))])
     for kind, name in (("parallel", "Jp"), ("serial", "Jq")):
         ratios = [_ratio(record, item, kind) for item in examples if item.factor.kind == kind]

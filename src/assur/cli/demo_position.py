@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from assur.cli.auditing import rows_table
 from assur.cli.claims import Ledger
 from assur.cli.positions import lines
-from assur.cli.quantities import count
+from assur.results.plain_text import count
 
 if TYPE_CHECKING:
     from assur.audit.rows import Row

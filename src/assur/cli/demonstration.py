@@ -11,8 +11,8 @@ from assur.cli.called import called
 from assur.cli.claims import Ledger
 from assur.cli.options import Outcome, Plain
 from assur.cli.output import heading
-from assur.cli.quantities import count
 from assur.results.answers.installation import DemonstrationAnswer
+from assur.results.plain_text import count
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

@@ -11,9 +11,9 @@ from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.paths import made, planned_folder
 from assur.cli.progress import progress, stages
-from assur.cli.quantities import count
 from assur.errors import UnknownNameError
 from assur.results.answers.files import WrittenFigure, WrittenFigures
+from assur.results.plain_text import count
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

@@ -10,7 +10,7 @@ from assur.cli.numbers import numbers
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading
 from assur.cli.progress import progress
-from assur.cli.quantities import style_of
+from assur.kinematics.answers.style import style_of
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

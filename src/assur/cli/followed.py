@@ -9,8 +9,9 @@ from assur.cli import exit_codes
 from assur.cli.numbers import numbers
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
-from assur.cli.quantities import Style, count, fixed, short, style_of
 from assur.errors import UsageError
+from assur.kinematics.answers.style import Style, style_of
+from assur.results.plain_text import count, fixed, short
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

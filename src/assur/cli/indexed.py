@@ -12,10 +12,10 @@ from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.positions import failures
 from assur.cli.progress import progress
-from assur.cli.quantities import point_text, point_title, pose_text, short, style_of
 from assur.cli.region_question import Question
-from assur.cli.regions import with_error
 from assur.errors import UsageError
+from assur.kinematics.answers.style import style_of
+from assur.results.plain_text import short, with_error
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -165,7 +165,7 @@ def _pose_shown(record: Mechanism, data: IndicesAnswer, units: dict[str, str]) -
 
     yield heading(f"{data.mechanism}, indices: {data.status}")
     of_mode = f", working mode {data.mode}" if data.mode else ""
-    yield f"at {pose_text(style_of(record), data.coordinates, data.pose)}{of_mode}"
+    yield f"at {style_of(record).pose(data.coordinates, data.pose)}{of_mode}"
     yield from of_modes(data)
     yield ""
     if data.failures:
@@ -226,8 +226,8 @@ def _overall_shown(record: Mechanism, data: OverallAnswer) -> Iterable[Renderabl
     share = f"{100 * good.share:.1f} ± {100 * good.share_error:.1f} %"
     yield f"good transmission (local index at least {data.good_from}): {share}, {size}"
     worst = data.indices["transmission"]
-    where = point_text(style, data.coordinates, worst.least_at)
-    title = point_title(style, data.coordinates)
+    where = style.point(data.coordinates, worst.least_at)
+    title = style.point_title(data.coordinates)
     yield f"worst transmission seen: {short(worst.least)} at {title} = {where}"
     if data.singular:
         yield f"{data.singular} points are singular and left out of the means of J's indices"

@@ -14,8 +14,9 @@ from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.paths import output_file
 from assur.cli.progress import progress
-from assur.cli.quantities import short, style_of
 from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.answers.style import style_of
+from assur.results.plain_text import short
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

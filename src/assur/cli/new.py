@@ -13,8 +13,8 @@ from assur.cli.called import called
 from assur.cli.numbers import whole_number
 from assur.cli.options import PLAIN, Outcome, Plain
 from assur.cli.output import heading
-from assur.cli.quantities import count as plural
 from assur.errors import OutputError, UnknownNameError, UsageError
+from assur.results.plain_text import count as plural
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

@@ -87,7 +87,7 @@ def _inside(scene: Mapping[str, Any]) -> PageContent:
 
 
 def _lines(inside: PageContent) -> list[str]:
-    from assur.cli.quantities import count
+    from assur.results.plain_text import count
 
     layers, sections = inside.layers, count(inside.layers.section, "section")
     modes = [count(inside.assembly_modes, "assembly mode"), count(inside.working_modes, "working mode")]

@@ -6,7 +6,8 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from assur.cli.output import heading, table
-from assur.cli.quantities import is_length, short
+from assur.model.pose import is_angle
+from assur.results.plain_text import short
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -57,4 +58,4 @@ def shown_solutions(record: Mechanism, solutions: Iterable[PoseSolution | Inputs
 
 
 def _unit(record: Mechanism, name: str) -> str:
-    return record.unit if is_length(name) else record.angle
+    return record.angle if is_angle(name) else record.unit

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from assur.cli import exit_codes, parasitic
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
-from assur.cli.quantities import Style, count, point_text, point_title, pose_text, short, style_of, tiny
+from assur.kinematics.answers.style import Style, given_words, style_of, texts_of, titles_of
+from assur.results.plain_text import count, short, tiny
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -51,7 +52,7 @@ def lines(record: Mechanism, found: SolutionSet) -> Iterable[RenderableType]:
 def _shown(record: Mechanism, data: Positions, branches: int) -> Iterable[RenderableType]:
     style = style_of(record)
     yield heading(f"{data.mechanism}, {data.problem}: {_headline(record, data, branches)}")
-    yield given_words(record, style, data)
+    yield f"at {given_words(record, style, data.given, direct=data.problem == 'direct')}"
     yield ""
     if data.solutions:
         yield _solutions(record, data, style)
@@ -99,34 +100,6 @@ def _own_row(record: Mechanism, data: Positions) -> PoseSolution | InputsSolutio
     return next(iter(home + [item for item in listed if item.mode == default]), None)
 
 
-def given_words(record: Mechanism, style: Style, data: Positions | CertifiedPositions) -> str:
-    """What a problem is given, in words."""
-    if data.problem == "inverse":
-        return f"at {pose_text(style, data.coordinates, data.given)}"
-    given = zip(data.input_names, input_kinds(record), data.given, strict=True)
-    parts = (f"{name} = {style.kind(kind, value)} {style.kind_unit(kind)}" for name, kind, value in given)
-    return f"at {', '.join(parts)}"
-
-
-def input_kinds(record: Mechanism) -> list[str]:
-    """Of every input whether it is an "angle" or a "length"."""
-    return [item.coordinate.kind for item in record.inputs]
-
-
-def columns_of(record: Mechanism, style: Style, *, direct: bool) -> list[str]:
-    """What stands over the numbers of solutions: coordinates of poses, or inputs."""
-    if direct:
-        return [style.coordinate_title(name) for name in record.platform.pose]
-    return [f"{item.name} [{style.kind_unit(item.coordinate.kind)}]" for item in record.inputs]
-
-
-def texts_of(record: Mechanism, style: Style, numbers: Sequence[float], *, direct: bool) -> list[str]:
-    """The numbers of one solution."""
-    if direct:
-        return [style.coordinate(*pair) for pair in zip(record.platform.pose, numbers, strict=True)]
-    return [style.kind(*pair) for pair in zip(input_kinds(record), numbers, strict=True)]
-
-
 def _solutions(record: Mechanism, data: Positions, style: Style) -> RenderableType:
     direct = data.problem == "direct"
     rows = [
@@ -145,7 +118,7 @@ def _solutions(record: Mechanism, data: Positions, style: Style) -> RenderableTy
     other = "working" if direct else "assembly"
     columns = (
         "mode",
-        *columns_of(record, style, direct=direct),
+        *titles_of(record, style, direct=direct),
         other,
         "home",
         "status",
@@ -223,11 +196,11 @@ def _curves(data: Positions, style: Style) -> Iterable[RenderableType]:
         low, high = curve.interval
         poses = curve.poses
         picked = (poses[0], poses[len(poses) // 2], poses[-1])
-        points = "\n".join(point_text(style, data.coordinates, pose) for pose in picked)
-        arc = f"{curve.parameter} = {style.degrees(low)}\n.. {style.degrees(high)}"
+        points = "\n".join(style.point(data.coordinates, pose) for pose in picked)
+        arc = f"{curve.parameter} = {style.number(low, angle=True)}\n.. {style.number(high, angle=True)}"
         rows.append((curve.mode, arc, points))
     yield table(
-        ("mode", f"arc [{style.angle}]", f"start, middle, end {point_title(style, data.coordinates)}"),
+        ("mode", f"arc [{style.angle}]", f"start, middle, end {style.point_title(data.coordinates)}"),
         rows,
         left=("mode",),
     )

@@ -12,8 +12,9 @@ from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.paths import output_file
 from assur.cli.progress import progress
-from assur.cli.quantities import is_length, mode_words, short
+from assur.cli.quantities import is_length, mode_words
 from assur.cli.region_question import Question
+from assur.results.plain_text import short, with_error
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -251,17 +252,3 @@ def _singular(record: Mechanism, data: WorkspaceAnswer) -> Iterable[RenderableTy
         yield f"share within {near} of one: not known"
     else:
         yield f"share within {near} of one: {100 * share:.2f} %; the border of the workspace is not counted"
-
-
-def with_error(value: float, error: float) -> str:
-    """A value and its error, both to the second digit of the error.
-
-    >>> with_error(22813484.36, 3684.24), with_error(2.0, 0.0)
-    ('22813500 ± 3700', '2 ± 0')
-    """
-    if error == 0.0 or not math.isfinite(error):
-        return f"{value:.10g} ± {error:g}"
-    decimals = 1 - math.floor(math.log10(error))
-    if decimals > 0:
-        return f"{value:.{decimals}f} ± {error:.{decimals}f}"
-    return f"{round(value, decimals):.0f} ± {round(error, decimals):.0f}"

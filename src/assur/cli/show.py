@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
 from assur.cli.output import heading, table
-from assur.cli.quantities import Style, count, style_of, tiny
+from assur.results.plain_text import count, tiny
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
+    from assur.kinematics.answers.style import Style
     from assur.mechanism import Mechanism
     from assur.results.answers.catalogue import MechanismAnswer, ShownClosedForm, ShownJoint, ShownModes
 
@@ -27,6 +28,8 @@ def show(mechanism: MechanismName, /, *, shared: Shared = SHARED_DEFAULTS) -> Ou
         assur show ./my.toml --set l2=300 --json
     """
     record = shared.mechanism(mechanism)
+    from assur.kinematics.answers.style import style_of
+
     data = description(record)
     return Outcome(data, lambda: _shown(data, style_of(record)))
 
@@ -133,7 +136,7 @@ def _shown(data: MechanismAnswer, style: Style) -> Iterable[RenderableType]:
         [_joint_row(item, home.joints, style) for item in data.joints],
         left=("joint", "type", "from", "to"),
     )
-    point = ", ".join(style.length(value) for value in home.platform_point)
+    point = ", ".join(style.number(value, angle=False) for value in home.platform_point)
     yield f"home: platform point at ({point}) {style.unit}, loops closed to {tiny(home.residual)} {style.unit}"
     yield ""
     yield from _modes(data.modes)

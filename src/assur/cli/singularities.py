@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.progress import progress
-from assur.cli.quantities import mode_words, point_text, point_title, short, style_of
+from assur.cli.quantities import mode_words
 from assur.cli.regions import area_title
+from assur.kinematics.answers.style import style_of
+from assur.results.plain_text import short
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -122,10 +124,8 @@ def _shown(record: Mechanism, data: SingularityAnswer) -> Iterable[RenderableTyp
     )
     yield ""
     yield heading("example configurations")
-    rows = [
-        (item.factor, item.kind, item.mode, point_text(style, data.coordinates, item.pose)) for item in data.examples
-    ]
-    pose = point_title(style, data.coordinates)
+    rows = [(item.factor, item.kind, item.mode, style.point(data.coordinates, item.pose)) for item in data.examples]
+    pose = style.point_title(data.coordinates)
     yield table(("factor", "the pose is", "mode", pose), rows, left=("factor", "the pose is", pose))
     without = [item.name for item in data.factors if item.name not in {row[0] for row in rows}]
     if without:

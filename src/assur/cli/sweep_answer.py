@@ -14,6 +14,7 @@ from assur.cli.output import InterruptedByUserError, Verbatim, heading, table
 from assur.cli.paths import planned_folder
 from assur.cli.progress import Step, progress
 from assur.errors import OutputError, UsageError
+from assur.results.plain_text import size_text
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -203,15 +204,3 @@ def _shown(data: SweepAnswer) -> Iterable[RenderableType]:
     yield "in Python:"
     first = next(iter(data.files.values())).file
     yield Verbatim(f'    values = numpy.load({str(folder / first)!r}, mmap_mode="r")')
-
-
-def size_text(count: int) -> str:
-    """Bytes as a person reads them.
-
-    >>> size_text(900), size_text(52_000_000), size_text(25 * 10**9)
-    ('900 bytes', '52.0 MB', '25.0 GB')
-    """
-    for size, name in ((10**9, "GB"), (10**6, "MB"), (10**3, "kB")):
-        if count >= size:
-            return f"{count / size:.1f} {name}"
-    return f"{count} bytes"

@@ -6,8 +6,8 @@ from html import escape
 
 import numpy as np
 
-from assur.report.numbers import short
 from assur.results.kinds import Curve
+from assur.results.typeset_text import short
 
 WIDTH, HEIGHT, MARGIN = 320.0, 240.0, 34.0
 

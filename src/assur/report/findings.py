@@ -23,6 +23,7 @@ from assur.joint_graph.points import point
 from assur.kinematics.answers.at_border import inputs_from_border, pose_from_border
 from assur.kinematics.answers.solution import Solution
 from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.answers.style import Style, style_of
 from assur.kinematics.certified.certify import certified_direct, certified_inverse
 from assur.kinematics.certified.result import CertifiedSolutions
 from assur.kinematics.home import home_values
@@ -34,7 +35,6 @@ from assur.model.closed_form import Branch, ClosedForm, Eliminant, PolynomialSys
 from assur.model.mechanism import MechanismRecord
 from assur.performance.dexterity import GlobalIndex, global_condition_index
 from assur.report.formulas.reading import FormulaReading, reading
-from assur.report.numbers import Style, style_of
 from assur.report.pictures import pictures
 from assur.report.proofs import cube
 from assur.results.attempt import REFUSED, attempt
@@ -67,7 +67,7 @@ class Findings:
     @cached_property
     def style(self) -> Style:
         """How numbers are written."""
-        return style_of(self.record)
+        return style_of(self.record, typeset=True)
 
     @property
     def form(self) -> ClosedForm:

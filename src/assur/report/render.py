@@ -13,10 +13,10 @@ import jinja2
 import numpy as np
 from markupsafe import Markup
 
-from assur.report import numbers
 from assur.report.curves import curve_svg
 from assur.report.formulas.latex import latex_mathml
 from assur.report.formulas.mathml import inline
+from assur.results import typeset_text
 from assur.results.kinds import (
     Cell,
     Curve,
@@ -94,7 +94,7 @@ def _environment() -> jinja2.Environment:
         slug=slug,
         scalar=scalar_text,
         error=error_text,
-        short=numbers.short,
+        short=typeset_text.short,
         base64=_base64,
         paragraphs=_paragraphs,
     )
@@ -140,7 +140,7 @@ class Hyperlinks:
             return Markup('<span class="none">–</span>')
         if isinstance(value, str) and _SIGNS.fullmatch(value):
             return Markup(f"<code>{value}</code>")  # signs only
-        return self.cited(numbers.short(value) if isinstance(value, float) else value)
+        return self.cited(typeset_text.short(value) if isinstance(value, float) else value)
 
     def cited(self, text: str) -> Markup:
         """Escaped text with its links."""
@@ -182,7 +182,11 @@ def slug(text: str) -> str:
 def scalar_text(scalar: Scalar) -> str:
     """Value of a scalar, to the second digit of its error; where it has only bounds, these."""
     if scalar.value is None:
-        return numbers.NOTHING if scalar.low is None or scalar.high is None else numbers.bounds(scalar.low, scalar.high)
+        return (
+            typeset_text.NOTHING
+            if scalar.low is None or scalar.high is None
+            else typeset_text.bounds(scalar.low, scalar.high)
+        )
     return _parts(scalar)[0]
 
 
@@ -192,7 +196,7 @@ def error_text(scalar: Scalar) -> str:
 
 
 def _parts(scalar: Scalar) -> tuple[str, str, str]:
-    return numbers.with_error(scalar.value or 0.0, scalar.error or 0.0).partition(" ± ")
+    return typeset_text.with_error(scalar.value or 0.0, scalar.error or 0.0).partition(" ± ")
 
 
 def filled(table: Table) -> Table:
@@ -228,14 +232,14 @@ def field_facts(field: Field) -> Facts:
     """What can be said of a field in words."""
     finite = field.values[np.isfinite(field.values)]
     axes = [(name, f"{_span(values)}, {len(values)} values") for name, values in field.axes]
-    size = f"{_span(finite)} {numbers.shown_unit(field.unit)}".strip() if finite.size else "exists nowhere"
+    size = f"{_span(finite)} {typeset_text.shown_unit(field.unit)}".strip() if finite.size else "exists nowhere"
     share = f"{100 * finite.size / max(1, field.values.size):.1f} % of the grid"
     return Facts(field.name, (*axes, ("values", size), ("exists at", share)))
 
 
 def surface_facts(surface: Surface) -> Facts:
     """What can be said of a surface in words."""
-    unit = numbers.shown_unit(surface.unit)
+    unit = typeset_text.shown_unit(surface.unit)
     spans = [
         (name, f"{_span(surface.vertices[:, k])} {unit}".strip())
         for k, name in enumerate("xyz"[: surface.vertices.shape[1]])
@@ -246,7 +250,7 @@ def surface_facts(surface: Surface) -> Facts:
 
 
 def _span(values: np.ndarray) -> str:
-    return f"{numbers.short(float(np.min(values)), 5)} to {numbers.short(float(np.max(values)), 5)}"
+    return f"{typeset_text.short(float(np.min(values)), 5)} to {typeset_text.short(float(np.max(values)), 5)}"
 
 
 def _base64(data: bytes) -> str:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
+from assur.results.plain_text import count as plural
 from assur.topology.agreement import RoutesDisagreeError, by_twists
 from assur.topology.chains import Chain
 from assur.topology.counting.actuation import actuation
@@ -303,7 +304,7 @@ def _driven_words(linkage: Linkage, inputs: Sequence[tuple[str, int]]) -> str:
     if not inputs:
         return f"actuated: nothing, for the platform does not move; the first joints of the branches: {firsts}"
     if set(inputs) <= set(linkage.inputs):
-        count = counted(len(inputs), "degree")
+        count = plural(len(inputs), "degree")
         return f"actuated: only {', '.join(names)}, of {firsts}, the first joints of the branches; {count} of freedom"
     return (
         f"actuated: {', '.join(names)}, an admissible set near the base, because the first joints of the branches "
@@ -316,22 +317,11 @@ def refuse_too_many(linkage: Linkage, mobility: Mobility) -> None:
     allowed = max(mobility.controlled, 0)
     if len(linkage.inputs) > allowed:
         names = ", ".join(joint for joint, _ in linkage.inputs)
-        internal = (
-            f" beside {counted(mobility.internal_freedoms, 'internal one')}" if mobility.internal_freedoms else ""
-        )
+        internal = f" beside {plural(mobility.internal_freedoms, 'internal one')}" if mobility.internal_freedoms else ""
         raise UsageError(
-            f"{counted(len(linkage.inputs), 'actuated joint')} ({names}) for {counted(allowed, 'degree')} of freedom"
+            f"{plural(len(linkage.inputs), 'actuated joint')} ({names}) for {plural(allowed, 'degree')} of freedom"
             f"{internal}",
             hint=f"actuate {allowed} of them: --actuate limb.joint,... with numbers from 1"
             if allowed
             else "the mechanism does not move: a limb has too few freedoms, or axes that do not go together",
         )
-
-
-def counted(number: int, noun: str) -> str:
-    """A number of things.
-
-    >>> counted(1, "degree")
-    '1 degree'
-    """
-    return f"{number} {noun}{'' if number == 1 else 's'}"

@@ -7,10 +7,12 @@ from collections.abc import Sequence
 from assur.errors import UsageError
 from assur.figures.aspects import shown
 from assur.report.findings import Findings
-from assur.report.numbers import bounds, count, extent_unit
 from assur.report.sections.reach import size_name
 from assur.report.sections.singularities import plain
+from assur.report.units import extent_unit
 from assur.results.kinds import PROVED, Cell, Result, Scalar, Section, Table
+from assur.results.plain_text import count
+from assur.results.typeset_text import bounds
 from assur.workspace.aspects.aspects import Aspects
 
 LISTED = 12

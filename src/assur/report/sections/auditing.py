@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 
 from assur.audit.rows import Audit, Erratum, Row
 from assur.report.findings import Findings
-from assur.report.numbers import short
 from assur.report.sections.printed import computed, number, quantity, verdict
 from assur.results.kinds import EXACT, Facts, Scalar, Section, Table
+from assur.results.typeset_text import short
 
 SHOWN = ("where", "quantity", "printed", "computed", "off by", "verdict", "what is behind it")
 

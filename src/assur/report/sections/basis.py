@@ -11,8 +11,8 @@ from assur.kinematics.rates.units import is_mixed
 from assur.kinematics.status import FACTOR_TOLERANCE, MARGIN_TOLERANCE, NEAR_SINGULAR, Status
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
-from assur.report.numbers import short
 from assur.results.kinds import Facts, Result, Section, Table
+from assur.results.typeset_text import short
 
 TOPOLOGICAL = (
     (

@@ -9,8 +9,9 @@ from assur.model.mechanism import Input, Joint, MechanismRecord
 from assur.report.findings import Findings
 from assur.report.formulas.latex import name_mathml, symbol_mathml
 from assur.report.formulas.mathml import inline
-from assur.report.numbers import count, short, shown_unit
 from assur.results.kinds import EXACT, Formula, Result, Scalar, Section, Table
+from assur.results.plain_text import count
+from assur.results.typeset_text import short, shown_unit
 
 
 def description(findings: Findings) -> Section:
@@ -119,7 +120,7 @@ def _home_texts(findings: Findings) -> dict[str, tuple[str, ...]]:
         for coordinate in record.joint_coordinates(name):
             angle = coordinate.kind == "angle"
             value = angle_at_border(record, home[coordinate.index]) if angle else home[coordinate.index]
-            parts.append(findings.style.written(float(value), angle=angle))
+            parts.append(findings.style.number(float(value), angle=angle))
         texts[name] = ("; ".join(parts),)
     return texts
 

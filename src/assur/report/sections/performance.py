@@ -8,8 +8,8 @@ from assur.kinematics.rates.units import unit_length
 from assur.performance.dexterity import dexterity
 from assur.performance.indices import INDICES, indices_at
 from assur.report.findings import Findings
-from assur.report.numbers import short
 from assur.results.kinds import FLOATING, Scalar, Section, Table
+from assur.results.typeset_text import short
 
 SPREAD = "estimate: spread of eight independent shifts"
 COUNT = 4096

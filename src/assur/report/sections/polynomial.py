@@ -11,8 +11,9 @@ from assur.kinematics.closed_form.roots import coefficients_of
 from assur.model.closed_form import Eliminant, PolynomialSystem
 from assur.numerics import polynomials
 from assur.report.findings import Findings
-from assur.report.numbers import count, short
 from assur.results.kinds import FLOATING, Cell, Table
+from assur.results.plain_text import count
+from assur.results.typeset_text import short
 
 DIGITS = 8
 REAL = 1e-6

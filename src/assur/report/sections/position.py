@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
 from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.answers.style import given_words
 from assur.kinematics.modes import Problem
 from assur.model.closed_form import Eliminant, Margin, PolynomialSystem, SelfMotion
 from assur.model.mechanism import MechanismRecord
@@ -15,12 +16,13 @@ from assur.report.formulas.mathml import equation, inline, letter_mathml, term_m
 from assur.report.formulas.normal import text
 from assur.report.formulas.reading import FormulaLine
 from assur.report.formulas.symbols import GREEK
-from assur.report.numbers import count, input_angles, pose_words, short, shown_unit
 from assur.report.sections.polynomial import polynomial, polynomial_words, system_words
 from assur.report.sections.printed import solutions_beside
 from assur.report.sections.proved import proof_words
 from assur.report.sections.solutions import solutions
 from assur.results.kinds import FLOATING, Formula, Formulas, Result, Section, Table
+from assur.results.plain_text import count
+from assur.results.typeset_text import short, shown_unit
 
 READ = (
     "The formulas below are not written down by hand: they are what the closed form of this mechanism computes, "
@@ -89,8 +91,7 @@ def _modes(record: MechanismRecord) -> list[Table]:
 
 def _direct(findings: Findings) -> Section:
     style, record = findings.style, findings.record
-    names = (actuated.name for actuated in record.inputs)
-    given = style.words(zip(names, inputs_at_border(record, findings.inputs), input_angles(record), strict=True))
+    given = given_words(record, style, inputs_at_border(record, findings.inputs).tolist(), direct=True)
     table = findings.table("direct")
     origin = f"those of {table.source}" if table else "those of the assembled home configuration"
     said = f"Poses from inputs. At the inputs {given} ({origin}) {among(findings, 'direct')}."
@@ -109,7 +110,8 @@ def _direct(findings: Findings) -> Section:
 
 
 def _inverse(findings: Findings) -> Section:
-    given = pose_words(findings.record, findings.style, pose_at_border(findings.record, findings.pose).tolist())
+    record = findings.record
+    given = findings.style.pose(record.platform.pose, pose_at_border(record, findings.pose).tolist())
     said = f"Inputs from a pose. At the pose {given} {among(findings, 'inverse')}."
     said += f"\n\n{proof_words(findings, 'inverse')}"
     results = [*(_formulas(findings, "inverse") if findings.kernel("inverse") else ()), *solutions(findings, "inverse")]

@@ -10,8 +10,8 @@ from assur.audit.rows import Row
 from assur.audit.tables import PrintedTable as Printed
 from assur.report.findings import Findings
 from assur.report.formulas.symbols import GREEK
-from assur.report.numbers import minus
 from assur.results.kinds import Table
+from assur.results.typeset_text import minus
 
 ORDER = ("ok", "missing", "wrong")
 

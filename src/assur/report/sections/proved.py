@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 from assur.kinematics.certified.result import CertifiedSolutions, ProvedSolution
 from assur.kinematics.modes import Problem
 from assur.kinematics.turns import periodic_inputs
-from assur.model.pose import QUATERNION
+from assur.model.pose import QUATERNION, is_angle
 from assur.report.findings import Findings
-from assur.report.numbers import pose_angles, short, shown_unit
 from assur.results.kinds import FLOATING, PROVED
+from assur.results.typeset_text import short, shown_unit
 
 FloatArray = NDArray[np.float64]
 
@@ -70,9 +70,9 @@ def _apart(findings: Findings, problem: Problem, values: FloatArray, proved: Pro
     """How far values (k,) lie outside proved bounds; angles but for whole turns, quaternions but for their sign."""
     record = findings.record
     bounds = proved.pose if problem == "direct" else proved.inputs
-    angles = np.array(pose_angles(record)) if problem == "direct" else periodic_inputs(record)
-    middle, half = 0.5 * (bounds.low + bounds.high), 0.5 * bounds.width
     names = record.platform.pose if problem == "direct" else ()
+    angles = np.array([is_angle(name) for name in names]) if names else periodic_inputs(record)
+    middle, half = 0.5 * (bounds.low + bounds.high), 0.5 * bounds.width
     turned = np.array([-1.0 if name in QUATERNION else 1.0 for name in names]) if names else np.ones(len(values))
     away = []
     for sign in (np.ones(len(values)), turned):

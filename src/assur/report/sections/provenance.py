@@ -10,8 +10,9 @@ from pathlib import Path
 import assur
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
-from assur.report.numbers import count, short
 from assur.results.kinds import Facts, Section, Table
+from assur.results.plain_text import count
+from assur.results.typeset_text import short
 
 TITLE = "assur: topology design and analysis of parallel mechanisms"
 AUTHORS = "The assur authors"

@@ -11,9 +11,10 @@ from assur.kinematics.limits import NO_LIMITS, limits_note, limits_stated
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.report.findings import Findings
-from assur.report.numbers import bounds, extent_unit, fixed, short, shown_unit, with_error
 from assur.report.sections.singularities import written
+from assur.report.units import extent_unit
 from assur.results.kinds import FLOATING, PROVED, TWO_RESOLUTIONS, Cell, Result, Scalar, Section, Table
+from assur.results.typeset_text import bounds, fixed, short, shown_unit, with_error
 from assur.singularity.loci import Locus, parallel_factors
 from assur.workspace.parasitic import largest_parasitic
 from assur.workspace.projections import projection

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
+from assur.kinematics.answers.style import texts_of, titles_of
 from assur.kinematics.closure import mobility
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.model.closed_form import Factor
 from assur.report.findings import Findings
 from assur.report.formulas.latex import symbol_mathml
 from assur.report.formulas.mathml import inline
-from assur.report.numbers import input_angles, pose_angles, short, shown_unit
 from assur.results.kinds import FLOATING, RANK, Cell, Facts, Formula, Result, Scalar, Section, Table
+from assur.results.typeset_text import short, shown_unit
 from assur.singularity.verdict import generic_rank
 
 KINDS = {
@@ -134,17 +135,12 @@ def _examples(findings: Findings) -> Table:
     for example in findings.examples:
         free = mobility(record, example.joints)
         values = [
-            style.written(float(value), angle=angle)
-            for value, angle in (
-                *zip(pose_at_border(record, example.pose), pose_angles(record), strict=True),
-                *zip(inputs_at_border(record, example.inputs), input_angles(record), strict=True),
-            )
+            *texts_of(record, style, pose_at_border(record, example.pose).tolist(), direct=True),
+            *texts_of(record, style, inputs_at_border(record, example.inputs).tolist(), direct=False),
         ]
         rank = f"{int(free.rank)} of {general}"
         rows.append((written(example.factor), example.status.name.replace("_", " "), example.mode, *values, rank))
-    names = [*zip(record.platform.pose, pose_angles(record), strict=True)]
-    names += [(actuated.name, angle) for actuated, angle in zip(record.inputs, input_angles(record), strict=True)]
-    titles = (style.title(name, angle=angle) for name, angle in names)
+    titles = (*titles_of(record, style, direct=True), *titles_of(record, style, direct=False))
     columns = ("vanishing factor", "kind", "mode", *titles, "rank of closure")
     how = (
         "Found by following a factor to its zero, not written down; the kind is the most severe of what all factors say"

@@ -10,13 +10,13 @@ from assur.kinematics.modes import Problem
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.rates.units import is_mixed
 from assur.report.findings import Findings
-from assur.report.numbers import count
 from assur.report.sections.performance import SPREAD
 from assur.report.sections.position import how_found, noun
 from assur.report.sections.proved import right
 from assur.report.sections.reach import extents, held_words, share
 from assur.results.attempt import REFUSED
 from assur.results.kinds import EXACT, RANK, Scalar, Section
+from assur.results.plain_text import count
 
 
 def summary(findings: Findings) -> Section:

@@ -13,10 +13,11 @@ from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
 from assur.report.formulas.latex import latex_mathml
 from assur.report.formulas.mathml import display
-from assur.report.numbers import count, short
 from assur.report.sections.derived import derived
 from assur.report.sections.printed import computed, number, quantity, verdict
 from assur.results.kinds import EXACT, RANK, Formula, Formulas, Result, Scalar, Section, Table
+from assur.results.plain_text import count
+from assur.results.typeset_text import short
 
 EQUATIONS = (
     (r"M_b=\bigcup_i M_{J_i}", "POC set of the end link of a branch: the union of those of its joints", ""),

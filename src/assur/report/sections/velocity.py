@@ -12,8 +12,8 @@ from assur.model.pose import rate_names
 from assur.report.findings import Findings
 from assur.report.formulas.latex import bracket, symbol_mathml
 from assur.report.formulas.mathml import APPLY, THIN, TIMES, display, equation, matrix_mathml
-from assur.report.numbers import pose_words, short
 from assur.results.kinds import FLOATING, Formula, Formulas, Matrix, Result, Scalar, Section
+from assur.results.typeset_text import short
 
 JP, JQ = "<msub><mi>J</mi><mi>p</mi></msub>", "<msub><mi>J</mi><mi>q</mi></msub>"
 RATE = {"wx": "ωx", "wy": "ωy", "wz": "ωz"}
@@ -75,7 +75,7 @@ def _is_sum(mathml: str) -> bool:
 
 def _here(findings: Findings, record: MechanismRecord) -> Section:
     velocity, solution = findings.velocity, findings.solution
-    pose = pose_words(record, findings.style, pose_at_border(record, solution.pose).tolist())
+    pose = findings.style.pose(record.platform.pose, pose_at_border(record, solution.pose).tolist())
     mode = f", working mode {solution.working_mode}" if solution.working_mode else ""
     said = f"In the configuration of this report, {pose}{mode}:"
     rates = tuple(RATE.get(name, f"d{name}/dt") for name in rate_names(record.platform.pose))

@@ -19,6 +19,7 @@ from assur.kinematics.structure import linkage
 from assur.model.file.reader import read_text
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION
+from assur.results.plain_text import count as plural
 from assur.synthesis.drafting.copying import next_steps
 from assur.synthesis.drafting.document import Chosen, DrivenJoint, document
 from assur.synthesis.drafting.facts import differences
@@ -29,7 +30,7 @@ from assur.synthesis.drafting.limb import HEIGHT_NAME
 from assur.synthesis.drafting.pose import pose_for
 from assur.synthesis.drafting.tables import Knee
 from assur.synthesis.drafting.templates import Draft, draft
-from assur.topology.analysis import Mode, analyse, counted
+from assur.topology.analysis import Mode, analyse
 from assur.topology.chains import Chain
 from assur.topology.facts import Topology
 from assur.topology.notation import plain_text
@@ -167,7 +168,7 @@ def _header(chains: Sequence[Chain], topology: Topology, path: Path, *, moved: b
     return (
         f"{path.stem}: drafted from chains in notation. All dimensions are defaults, none is from a source.",
         *limbs,
-        f"Their topology: {topology.poc}, {counted(topology.dof - topology.internal_freedoms, 'degree')} of freedom, "
+        f"Their topology: {topology.poc}, {plural(topology.dof - topology.internal_freedoms, 'degree')} of freedom, "
         f"coupling degree {topology.coupling_degree}.",
         "",
         "As drawn, all joint values are zero and all link frames are parallel to the base's. The parameters say where",

@@ -1,13 +1,6 @@
 from __future__ import annotations
 
-import assur
-from assur.cli.quantities import fixed, short, style_of, tiny
-
-
-def test_seven_digits_of_the_size_of_the_mechanism():
-    style = style_of(assur.load("zeng2019"))
-    assert style.length(456.33154) == "456.3315"
-    assert style.degrees(62.0) == "62.0000"
+from assur.results.plain_text import fixed, short, tiny
 
 
 def test_what_does_not_exist_is_a_dash():

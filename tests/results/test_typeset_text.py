@@ -6,8 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from assur.report.numbers import NOTHING, bounds, extent_unit, with_error
-from assur.workspace.region import unit
+from assur.results.typeset_text import NOTHING, bounds, with_error
 
 
 def read(text):
@@ -31,8 +30,3 @@ def test_bounds_that_are_none():
 def test_an_error_that_is_only_rounding_is_not_shown():
     assert with_error(95000.000007, 0.000011) == "95\u202f000"
     assert with_error(1.0, 1e-8) == "1.000000000 ± 0.000000010"
-
-
-def test_units_are_those_of_the_workspace(findings):
-    record = findings.record
-    assert extent_unit(record, ("x", "y", "z")) == unit(record, ("x", "y", "z")).replace("^3", "³") == "mm³"
