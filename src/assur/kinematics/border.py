@@ -116,7 +116,7 @@ def input_names(record: MechanismRecord) -> tuple[str, ...]:
 
 def input_components(record: MechanismRecord, inputs: FloatArray) -> tuple[Any, ...]:
     """Kernel inputs from printed ones (N, n): an angle as (cosine, sine), a length or counted turns as they are."""
-    values = [(inputs[:, k] - item.offset) * item.sign for k, item in enumerate(record.inputs)]
+    values = [item.joint_value(inputs[:, k]) for k, item in enumerate(record.inputs)]
     return tuple(
         (np.cos(value), np.sin(value)) if same else value
         for value, same in zip(values, periodic_inputs(record), strict=True)
@@ -127,14 +127,14 @@ def printed_inputs(record: MechanismRecord, components: tuple[Any, ...]) -> list
     """Printed inputs from a kernel's, one array each; no arithmetic where a printed input is the joint's value."""
     values = [scalar(value) for value in components]
     return [
-        value if (item.sign, item.offset) == (1.0, 0.0) else item.sign * value + item.offset
+        value if (item.sign, item.offset) == (1.0, 0.0) else item.printed(value)
         for value, item in zip(values, record.inputs, strict=True)
     ]
 
 
 def inputs_of(record: MechanismRecord, joints: FloatArray) -> FloatArray:
     """Printed inputs (..., n) at joint values (..., coordinates)."""
-    columns = [item.sign * joints[..., item.coordinate.index] + item.offset for item in record.inputs]
+    columns = [item.printed(joints[..., item.coordinate.index]) for item in record.inputs]
     return np.stack(columns, axis=-1)
 
 
@@ -143,7 +143,7 @@ def held_inputs(record: MechanismRecord, joints: FloatArray, inputs: FloatArray)
     answer = np.broadcast_to(joints, (*np.broadcast_shapes(joints.shape[:-1], inputs.shape[:-1]), joints.shape[-1]))
     answer = np.array(answer)
     for k, item in enumerate(record.inputs):
-        answer[..., item.coordinate.index] = (inputs[..., k] - item.offset) * item.sign
+        answer[..., item.coordinate.index] = item.joint_value(inputs[..., k])
     return answer
 
 
@@ -192,7 +192,7 @@ def distance(record: MechanismRecord, joints: FloatArray, poses: FloatArray, inp
     length = characteristic_length(record)
     gaps = np.max(np.abs(pose_error(record, joints, poses, length)), axis=-1)
     for k, (item, same) in enumerate(zip(record.inputs, periodic_inputs(record), strict=True)):
-        gap = np.abs(item.sign * joints[:, item.coordinate.index] + item.offset - inputs[:, k])
+        gap = np.abs(item.printed(joints[:, item.coordinate.index]) - inputs[:, k])
         if same:
             gap = np.abs((gap + np.pi) % (2 * np.pi) - np.pi)
         if item.coordinate.kind == "angle":

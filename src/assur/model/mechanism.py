@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -118,6 +118,14 @@ class Input:
     offset: float = 0.0
     sign: float = 1.0
     stroke: tuple[float, float] | None = None
+
+    def printed(self, value: Any) -> Any:
+        """The printed input at values of the joint, over any number type."""
+        return value * self.sign + self.offset
+
+    def joint_value(self, printed: Any) -> Any:
+        """The joint's value at printed inputs, over any number type."""
+        return (printed - self.offset) * self.sign
 
 
 @dataclass(frozen=True)

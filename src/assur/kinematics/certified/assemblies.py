@@ -94,7 +94,7 @@ class _Assemblies:
             values[k] = value
         if self.problem == "direct":
             for item, printed in zip(self.record.inputs, parts(self.asked), strict=True):
-                values[item.coordinate.index] = (printed - item.offset) * item.sign
+                values[item.coordinate.index] = item.joint_value(printed)
         configuration = enclosed(self.record, self.near, values)
         rows, positive = loop_rows(configuration)
         if self.problem == "inverse":
@@ -239,5 +239,5 @@ def _bounds(near: _Assemblies, narrow: Interval, platform: Placed) -> Interval:
     if near.problem == "direct":
         return stacked([number(value) for value in pose_parts(near.record.platform.pose, platform)], len(near.near))
     columns = [narrow[:, near.unknown.index(item.coordinate.index)] for item in near.record.inputs]
-    printed = [value * item.sign + item.offset for value, item in zip(columns, near.record.inputs, strict=True)]
+    printed = [item.printed(value) for value, item in zip(columns, near.record.inputs, strict=True)]
     return stacked(printed, len(near.near))

@@ -76,7 +76,7 @@ def pose_box(record: MechanismRecord, inputs: FloatArray) -> tuple[FloatArray, F
 def reaches(record: MechanismRecord, inputs: FloatArray) -> Iterable[ReachBound]:
     """Balls and cylinders, each of which holds the platform's point at printed inputs (n,)."""
     driven = [pair for pair in zip(record.inputs, inputs.tolist(), strict=True) if pair[0].coordinate.kind == "length"]
-    known = {item.coordinate.joint: (value - item.offset) * item.sign for item, value in driven}
+    known = {item.coordinate.joint: item.joint_value(value) for item, value in driven}
     free = [joint for joint in record.joints.values() if joint.type.slides > (joint.name in known)]
     axes: list[FloatArray | None] = [None]
     for joint in free:

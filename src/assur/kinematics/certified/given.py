@@ -56,7 +56,7 @@ def joint_inputs(record: MechanismRecord, inputs: FloatArray) -> tuple[Any, ...]
     found: list[Any] = []
     meant = zip(record.inputs, periodic_inputs(record), parts(inputs_meant(record, inputs)), strict=True)
     for item, same, value in meant:
-        joint = (value - item.offset) * item.sign
+        joint = item.joint_value(value)
         found.append(cosine_sine(joint) if same else joint)
     return tuple(found)
 
@@ -92,7 +92,7 @@ def turn(angle: Interval | Dual) -> tuple[Any, Any]:
 def printed(record: MechanismRecord, components: tuple[Any, ...]) -> tuple[Interval, ...]:
     """Printed inputs from a kernel's; angles in rad."""
     values = (number(value) for value in components)
-    return tuple(value * item.sign + item.offset for value, item in zip(values, record.inputs, strict=True))
+    return tuple(item.printed(value) for value, item in zip(values, record.inputs, strict=True))
 
 
 def number(value: Any) -> Interval:

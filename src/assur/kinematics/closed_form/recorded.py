@@ -176,7 +176,7 @@ class _Writer:
         )
         if _has_angles(self.record, "direct"):  # NumPy prepares them all
             return raw
-        return tuple((value - item.offset) * item.sign for value, item in zip(raw, items, strict=True))
+        return tuple(item.joint_value(value) for value, item in zip(raw, items, strict=True))
 
     def _varying(self, name: str, angle: bool) -> Any:
         if angle:

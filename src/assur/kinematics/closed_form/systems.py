@@ -109,7 +109,7 @@ def ends(
     """Ends (N, K, n) of all paths at inputs (N, m), the largest unknown 1, and what they are (N, K)."""
     start, solutions = start_system(record, system)
     own = np.broadcast_to(dimensions(record), (len(inputs), len(record.parameters)))
-    joint = np.stack([(inputs[:, k] - item.offset) * item.sign for k, item in enumerate(record.inputs)], axis=-1)
+    joint = np.stack([item.joint_value(inputs[:, k]) for k, item in enumerate(record.inputs)], axis=-1)
     target = np.concatenate([own, joint / characteristic_length(record)], axis=1)
     found = solve(family(record, system, start, target), solutions)
     largest = np.take_along_axis(found.x, np.argmax(np.abs(found.x), axis=1)[:, None], axis=1)
