@@ -20,7 +20,7 @@ Place = tuple[float, float, int]
 
 def asked(record: MechanismRecord, problem: Problem, along: Sequence[str], at: Sequence[str]) -> Grid:
     """The grid of a problem: every coordinate of the pose, or every input, varies or is held; angles in rad."""
-    from assur.kinematics.closed_form.about import coordinates, factor
+    from assur.kinematics.closed_form.about import coordinates
     from assur.kinematics.closed_form.grids import Grid
     from assur.kinematics.status import NO_CLOSED_FORM
     from assur.model.pose import has_quaternion
@@ -46,10 +46,10 @@ def asked(record: MechanismRecord, problem: Problem, along: Sequence[str], at: S
             hint=f"add --along {left[0]}=LOW:HIGH:COUNT or --at {left[0]}=0",
         )
     for name in ("theta",) if problem == "inverse" and "theta" in kinds else ():
-        if max(map(abs, places[name][:2])) * factor(record, "angle") > math.pi / 2:
+        if max(map(abs, places[name][:2])) * record.angle_unit > math.pi / 2:
             raise UsageError(f"{name} is between -90 and 90 deg", hint="turn phi and psi instead")
     lows, highs = (tuple(places[name][k] for name in kinds) for k in (0, 1))
-    scales = tuple(factor(record, kind) for kind in kinds.values())
+    scales = tuple((record.angle_unit if kind == "angle" else 1.0) for kind in kinds.values())
     return Grid(tuple(kinds), lows, highs, tuple(places[name][2] for name in kinds), scales)
 
 
@@ -77,8 +77,6 @@ def _known(record: MechanismRecord, name: str, kinds: dict[str, str]) -> None:
 
 def _of_file(record: MechanismRecord, problem: Problem, name: str, kind: str) -> tuple[float, float]:
     """The box or the stroke of the mechanism's file."""
-    from assur.kinematics.closed_form.about import factor
-
     if problem == "inverse":
         found = record.box.get(name)
     else:
@@ -87,4 +85,5 @@ def _of_file(record: MechanismRecord, problem: Problem, name: str, kind: str) ->
         raise UsageError(
             f"--along {name}: {record.name} states no limits of {name}", hint=f"give them: {name}=LOW:HIGH:COUNT"
         )
-    return found[0] / factor(record, kind), found[1] / factor(record, kind)
+    unit = record.angle_unit if kind == "angle" else 1.0
+    return found[0] / unit, found[1] / unit

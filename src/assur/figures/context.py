@@ -17,6 +17,7 @@ from assur import derived_topology
 from assur.errors import UsageError
 from assur.figures.near import near_solid
 from assur.figures.written import minus
+from assur.kinematics.answers.at_border import inputs_from_border
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
@@ -216,8 +217,5 @@ class Context:
 
     def _inside(self, printed: list[float]) -> list[float]:
         """Inputs of the companion, angles of which are in the mechanism's angle unit."""
-        degrees = self.record.angle == "deg"
-        return [
-            float(np.radians(value)) if degrees and item.coordinate.kind == "angle" else value
-            for value, item in zip(printed, self.record.inputs, strict=True)
-        ]
+        inside: list[float] = inputs_from_border(self.record, printed).tolist()
+        return inside

@@ -18,6 +18,7 @@ from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import BLUE, GREEN, INK, ORANGE, PAGE, PINK, RED, SKY, SMALL, TEXT
 from assur.figures.written import minus
+from assur.kinematics.answers.at_border import pose_at_border
 from assur.kinematics.answers.solution import Solution
 from assur.model.pose import QUATERNION, is_angle
 from assur.scene.camera import oblique, plane
@@ -155,9 +156,7 @@ def _table(context: Context, page: Canvas, ghosts: list[Ghost], width: float, he
 
 
 def _cells(context: Context, ghost: Ghost) -> list[str]:
-    degrees = context.record.angle == "deg"
-    values = zip(context.record.platform.pose, ghost.solution.pose, strict=True)
-    shown = [np.degrees(value) if degrees and is_angle(name) else value for name, value in values]
+    shown = pose_at_border(context.record, ghost.solution.pose).tolist()
     return [minus(f"{round(value, 4) + 0.0:.4f}") for value in shown]
 
 

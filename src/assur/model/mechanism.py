@@ -250,6 +250,11 @@ class MechanismRecord:
         single = self.joints[coordinate.joint].type.freedoms == 1
         return coordinate.joint if single else f"{coordinate.joint}.{coordinate.component}"
 
+    @property
+    def angle_unit(self) -> float:
+        """The file's angle unit, in rad."""
+        return math.radians(1.0) if self.angle == "deg" else 1.0
+
     def joint_coordinates(self, name: str) -> tuple[Coordinate, ...]:
         """The coordinates of one joint, in the order of its components."""
         joint = self.joint(name)

@@ -31,24 +31,14 @@ def limits_at_border(record: MechanismRecord, solution: Solution) -> KeptLimits:
     return KeptLimits(solution.within_limits, tuple(outside))
 
 
-def angle_unit(record: MechanismRecord) -> float:
-    """The mechanism's angle unit in rad.
-
-    >>> from assur.model.registry import load_record
-    >>> round(1 / angle_unit(load_record("fivebar")), 6)
-    57.29578
-    """
-    return np.pi / 180 if record.angle == "deg" else 1.0
-
-
 def coordinate_unit(record: MechanismRecord, name: str) -> float:
     """The unit of a pose's coordinate, in rad; 1 of one that is no angle."""
-    return angle_unit(record) if is_angle(name) else 1.0
+    return record.angle_unit if is_angle(name) else 1.0
 
 
 def input_unit(record: MechanismRecord, item: Input) -> float:
     """The unit of an input, in rad; 1 of one that is no angle."""
-    return angle_unit(record) if item.coordinate.kind == "angle" else 1.0
+    return record.angle_unit if item.coordinate.kind == "angle" else 1.0
 
 
 def coordinates_at_border(record: MechanismRecord, values: Mapping[str, float]) -> dict[str, float]:
@@ -78,7 +68,7 @@ def inputs_at_border(record: MechanismRecord, inputs: Any) -> FloatArray:
 def inputs_from_border(record: MechanismRecord, inputs: Any) -> FloatArray:
     """Inputs (..., n) in rad and lengths, from the mechanism's angle unit."""
     angular = np.array([item.coordinate.kind == "angle" for item in record.inputs])
-    return np.asarray(np.asarray(inputs, dtype=float) * np.where(angular, angle_unit(record), 1.0))
+    return np.asarray(np.asarray(inputs, dtype=float) * np.where(angular, record.angle_unit, 1.0))
 
 
 def pose_at_border(record: MechanismRecord, pose: Any) -> FloatArray:
@@ -90,7 +80,7 @@ def pose_at_border(record: MechanismRecord, pose: Any) -> FloatArray:
 def pose_from_border(record: MechanismRecord, pose: Any) -> FloatArray:
     """Poses (..., m) in rad and lengths, from the mechanism's angle unit."""
     angular = np.array([is_angle(name) for name in record.platform.pose])
-    factor = angle_unit(record)
+    factor = record.angle_unit
     given = np.asarray(pose, dtype=float)
     theta = np.array([name == "theta" for name in record.platform.pose])
     if given.shape[-1:] == theta.shape and np.any(np.abs(given[..., theta]) * factor > np.pi / 2):

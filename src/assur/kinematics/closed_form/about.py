@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -25,11 +24,6 @@ def coordinates(record: MechanismRecord, problem: Problem) -> dict[str, str]:
     if problem == "direct":
         return {item.name: item.coordinate.kind for item in record.inputs}
     return {name: "angle" if is_angle(name) else "length" for name in record.platform.pose}
-
-
-def factor(record: MechanismRecord, kind: str) -> float:
-    """From the mechanism's unit of a length or an angle to the length or rad."""
-    return math.pi / 180 if kind == "angle" and record.angle == "deg" else 1.0
 
 
 def told(plan: Plan, counts: Counts) -> bytes:

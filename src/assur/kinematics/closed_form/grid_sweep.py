@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.answers.at_border import power
-from assur.kinematics.closed_form.about import coordinates, factor, told
+from assur.kinematics.closed_form.about import coordinates, told
 from assur.kinematics.closed_form.blocks import FloatArray, Progress
 from assur.kinematics.closed_form.grids import Grid
 from assur.kinematics.closed_form.streamed import KINDS, fill
@@ -180,7 +180,7 @@ def _about(sweep: GridSweep) -> dict[str, Any]:
     held: dict[str, float] = {}
     scales = sweep.grid.scales or (1.0,) * len(kinds)
     for k, (name, kind) in enumerate(kinds.items()):
-        scale = scales[k] / factor(record, kind)
+        scale = scales[k] / (record.angle_unit if kind == "angle" else 1.0)
         low, high = (value * scale for value in (sweep.grid.low[k], sweep.grid.high[k]))
         if sweep.grid.counts[k] == 1:
             held[name] = low
