@@ -15,7 +15,7 @@ TREES = {path.relative_to(SOURCE): ast.parse(path.read_text(encoding="utf-8")) f
 
 CORE = {path: tree for path, tree in TREES.items() if path.parts[0] != "mechanisms"}
 
-SHARED_CLASS_NAMES = {"Asked", "Ends", "Formula", "Point", "Style"}
+SHARED_CLASS_NAMES = {"Asked", "Ends", "Formula", "Point"}
 """Public names that several classes still have. A name that has become unique must go from this set."""
 
 PLACES = {"found", "here", "there", "item", "wanted"}
