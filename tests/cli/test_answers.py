@@ -13,7 +13,7 @@ import pytest
 
 import assur
 from assur.cli.answers import ANSWERS
-from assur.cli.main import COMMANDS
+from assur.cli.application import COMMANDS
 from assur.results.answers.schema import schema_of
 
 CLI = Path(assur.__file__).parent / "cli"

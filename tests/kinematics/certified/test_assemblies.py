@@ -60,7 +60,7 @@ def test_an_overconstrained_mechanism_says_what_is_not_proved():
     assert "4 solutions of the independent equations proved (the dependent ones hold to " in found.headline
     assert found.right.startswith("a zero of the independent equations is proved")
     assert all(0 < item.left < 1e-8 for item in found)
-    assert [item["left"] for item in answer(found)["solutions"]] == [item.left for item in found]
+    assert [item.left for item in answer(found).solutions] == [item.left for item in found]
 
 
 def test_a_mechanism_without_a_closed_form_is_proved_on_its_joint_graph(tmp_path):
