@@ -48,9 +48,9 @@ def loaded(cache, words):
     [
         (("--help",), set(), 50),
         (("list",), NUMPY | READ, 122),
-        (("show", "zeng2019"), NUMPY, 125),
-        (DIRECT, NUMPY, 134),
-        (INVERSE, NUMPY, 134),
+        (("show", "zeng2019"), NUMPY, 126),
+        (DIRECT, NUMPY, 136),
+        (INVERSE, NUMPY, 136),
     ],
 )
 def test_a_command_loads_what_it_prints_and_no_more(cache, words, packages, most):
