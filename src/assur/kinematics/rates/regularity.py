@@ -1,6 +1,6 @@
 """Regularity of many configurations by one inverse of a symmetric matrix each, without singular values.
 
-With the platform held the scaled joint rates solve D u = (0, v), D being the closure C above the rows X of the pose. The
+With the platform held the scaled joint rates solve D u = (0, v), D the closure C above the rows X of the pose. The
 trace of (D^T D + e)^-1 is the sum of 1/(s^2 + e) over the singular values s of D. Of n joint values those of rods that
 spin are none, which adds 1/e each; no other is smaller than what is left of the sum allows. It is no larger than the
 smallest of C that counts: what C reaches, it reaches by rates with which X u = 0. With R = D^+ (0, 1), A = Q R takes
