@@ -1,8 +1,7 @@
 """A closed motion from home and back, in one mode: every input swings, each a little behind the one before.
 
-From frame to frame the loops are closed with the inputs held. No rank may be lost between two frames, with the inputs
-locked and with the platform locked, so that no frame stands in another mode; where one would, or a limit of the file
-is passed, all swings are made smaller.
+It is followed from frame to frame, so that no frame stands in another mode; where it cannot be followed, or a limit of
+the file is passed, all swings are made smaller.
 """
 
 from __future__ import annotations
@@ -12,12 +11,15 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.joint_graph.geometry import characteristic_length
-from assur.kinematics.border import held_inputs, inputs_of
-from assur.kinematics.closure import assemble
+from assur.kinematics.border import inputs_of
 from assur.kinematics.home import home_values
 from assur.kinematics.limits import limits
 from assur.kinematics.near_home import distances
-from assur.kinematics.paths.locked import general_ranks, locked, matrices
+from assur.kinematics.paths.course import course
+from assur.kinematics.paths.following import walked
+from assur.kinematics.paths.locked import general_ranks
+from assur.kinematics.paths.ranks import RankGuard
+from assur.kinematics.paths.stepping import Pace
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -27,8 +29,8 @@ SWING, SLIDE = 0.8, 0.4
 SMALLER, TIMES = 0.7, 16
 """What the swings are multiplied by where a motion is stopped, and how often."""
 
-KEPT = 0.3
-"""What a frame must keep of the rank of the one before (`Locked.kept`; zero is a singularity between them)."""
+SHORTEST = 0.25
+"""Steps between two frames are a quarter of the way at least: what needs shorter ones is nearly singular."""
 
 ROUND, SAME = 1e-6, 1e-6
 """By how much, in rad or lengths, a limit may be passed; and how far from home, in characteristic lengths, home is."""
@@ -51,8 +53,8 @@ def closed_motion(record: MechanismRecord, frames: int = 60) -> FloatArray:
     home = home_values(record)
     ranks = general_ranks(record, home)
     for k in range(TIMES):
-        course = inputs_of(record, home) + SMALLER**k * _swing(record, frames)
-        values = _run(record, home, course, ranks)
+        inputs = inputs_of(record, home) + SMALLER**k * _swing(record, frames)
+        values = _run(record, home, inputs, ranks)
         if values is not None:
             return values
     raise UsageError(
@@ -61,21 +63,15 @@ def closed_motion(record: MechanismRecord, frames: int = 60) -> FloatArray:
     )
 
 
-def _run(record: MechanismRecord, home: FloatArray, course: FloatArray, ranks: dict[str, int]) -> FloatArray | None:
-    """Joint values (k, n) at inputs (k, n), each from the frame before; None where a frame is out of the mode."""
-    bounds = limits(record, home)
-    before, path = matrices(record, home), [home]
-    for row in course[1:]:
-        start = held_inputs(record, path[-1], row)
-        closed = assemble(record, start, held=record.input_indices, near=True)
-        if not closed.closed or any(float(limit.margin(closed.values)) < -ROUND for limit in bounds):
-            return None
-        after = matrices(record, closed.values)
-        if any(locked(before[name], ranks[name]).kept(after[name]) < KEPT for name in ("inputs", "poses")):
-            return None
-        before = after
-        path.append(closed.values)
-    values = np.array(path)
+def _run(record: MechanismRecord, home: FloatArray, inputs: FloatArray, ranks: dict[str, int]) -> FloatArray | None:
+    """Joint values (k, n) at inputs (k, n), followed from the first; None where a frame is out of the mode."""
+    way, guard = course(record, "inputs", inputs[0], inputs[1:], "given"), RankGuard("inputs", lambda *_: (), ranks)
+    if not walked(record, way, home, guard, Pace(SHORTEST / len(inputs))):
+        return None
+    places = np.searchsorted([point.share for point in guard.points], way.shares)
+    values = np.array([guard.points[k].joints for k in places])
+    if len(values) < len(inputs) or any(np.min(limit.margin(values)) < -ROUND for limit in limits(record, home)):
+        return None
     # inputs may come home with another pose, round a cusp
     return values if float(distances(record, values[-1:])[0]) <= SAME else None
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -63,6 +65,17 @@ def test_poses_in_a_row_are_reached_as_from_home(name):
     turns = np.array([2 * np.pi if item.coordinate.kind == "angle" else np.inf for item in record.inputs])
     difference = np.abs(inputs[0] - inputs[1])
     np.testing.assert_array_less(np.minimum(difference, np.abs(turns - difference)), 1e-6 * np.max(size))
+
+
+def test_coordinates_of_a_pose_may_stand_in_any_order():
+    record = assur.load("planar_3rrr")
+    order = [2, 0, 1]
+    turned = replace(record, platform=replace(record.platform, pose=tuple(record.platform.pose[k] for k in order)))
+    poses = pose_of(record, home_values(record)) + np.random.default_rng(1).uniform(-1, 1, (20, 3)) * [60, 60, 0.6]
+    joints, reached = followed_from_home(record, poses)
+    same, also = followed_from_home(turned, poses[:, order])
+    assert 10 < reached.sum() == np.sum(reached & also)
+    np.testing.assert_allclose(same[reached], joints[reached], atol=1e-9)
 
 
 def test_an_empty_row():

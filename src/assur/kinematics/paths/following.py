@@ -98,7 +98,7 @@ def follow(
     with stage("path") as work:
         guard = RankGuard(prescribed, lambda *_: bounds, known, work)
         try:
-            _walk(record, way, start, guard, Pace(tolerance, largest_step, LEAVING))
+            walked(record, way, start, guard, Pace(tolerance, largest_step, LEAVING))
         except KeyboardInterrupt:
             if not guard.points:
                 raise
@@ -121,13 +121,14 @@ def _checked_start(record: MechanismRecord, joints: ArrayLike) -> FloatArray:
     return start
 
 
-def _walk(record: MechanismRecord, way: Course, start: FloatArray, guard: RankGuard, pace: Pace) -> None:
-    """Let the guard have the points from the start to the end of the way, or to what blocks it."""
+def walked(record: MechanismRecord, way: Course, start: FloatArray, guard: RankGuard, pace: Pace) -> bool:
+    """Whether the end of a way is come to from joint values (n,); the guard has the points up to there."""
     matrix = system_of(record, way.prescribed, start[None], way.vertices[:1])[1]
     here, steps = Places(np.zeros(1), start[None].copy(), matrix), np.array([pace.largest])
     going = guard.begun(Stretch(record, way, 0), here)
     for segment, end in enumerate(way.shares[1:]):
         going = going and bool(followed(Stretch(record, way, segment), here, guard, pace, steps, float(end))[0])
+    return going
 
 
 def _path(record: MechanismRecord, way: Course, guard: RankGuard) -> Path:

@@ -112,12 +112,12 @@ def followed(way: Way, here: Places, guard: StepGuard, pace: Pace, steps: FloatA
     """Ways followed from `here`, which moves along them, by `steps` (N,), which change; which come to an end (N,)."""
     rows, made = np.flatnonzero(here.shares < end), 0
     while len(rows) and made < pace.most:
-        now, made = here.of(rows), made + 1
-        places, good, after = guard.step(way, now, pace.ends(now.shares, steps[rows], end), rows)
+        now, asked, made = here.of(rows), steps[rows], made + 1
+        places, good, after = guard.step(way, now, pace.ends(now.shares, asked, end), rows)
         gone, least = places.shares - now.shares, pace.least(now.shares)
         here.put(rows[good], places.of(good))
         steps[rows] = np.maximum(np.where(good, after, 0.5 * gone), least)
-        shortest = ~good & (gone <= ROUNDED * least)
+        shortest = ~good & (np.minimum(asked, gone) <= ROUNDED * least)
         rows = rows[~shortest & (here.shares[rows] < end)]
     return np.asarray(here.shares >= end)
 
