@@ -31,6 +31,10 @@ from assur.kinematics.closure import FloatArray, assemble, closure_error
 from assur.kinematics.newton import ENOUGH, Newton, NewtonStep
 from assur.kinematics.paths.from_home import followed_in_a_row
 from assur.kinematics.pose import pose_of
+from assur.kinematics.rates.finite_motion import classify_at, status_of
+from assur.kinematics.rates.instantaneous import instantaneous
+from assur.kinematics.rates.motions import closure_at_platform
+from assur.kinematics.search import search
 from assur.numerics.newton import BLOCK
 from assur.synthesis.drafting.drafting import drafted
 from assur.topology.notation import parse_chains
@@ -112,7 +116,33 @@ def followed(rows: Table, repeats: int) -> bool:
     least = 3 * timed(lambda: np.linalg.solve(matrix, matrix[..., :1]), 20 * repeats, time.process_time) / 256
     took = f"{1e6 * ours:.1f} µs a pose", f"{1e6 * least:.1f} µs", f"{ours / least:.1f}"
     rows.add_row(f"grid of a draft, {len(poses)} poses", *took, f"{count} joint values, three solutions of as many")
+    return right & statuses(rows, mechanism, joints, repeats)
+
+
+def statuses(rows: Table, mechanism: assur.Mechanism, joints: FloatArray, repeats: int) -> bool:
+    """Statuses of the grid; whether they are those by singular values, of which the yardstick is one decomposition."""
+    ours = timed(lambda: classify_at(mechanism, joints), repeats, time.process_time) / len(joints)
+    right = np.array_equal(
+        classify_at(mechanism, joints), status_of(mechanism, joints, instantaneous(mechanism, joints))
+    )
+    closure = closure_at_platform(mechanism, joints[:BLOCK])
+    least = timed(lambda: np.linalg.svd(closure), 20 * repeats, time.process_time) / len(closure)
+    took = f"{1e6 * ours:.1f} µs a pose", f"{1e6 * least:.1f} µs", f"{ours / least:.1f}"
+    rows.add_row("its statuses", *took, "one singular value decomposition of the closure")
     return right
+
+
+def met(rows: Table, repeats: int) -> bool:
+    """A search of all assemblies; whether it settles. A start is closed at least once, by as many steps as near by."""
+    mechanism = assur.load("delta_4s")
+    found = search(mechanism, "direct", np.zeros(3))
+    ours = timed(lambda: search(mechanism, "direct", np.zeros(3)), repeats, time.process_time)
+    count = len(mechanism.coordinates)
+    matrix = RNG.normal(size=(found.starts, count, count))
+    least = 5 * timed(lambda: np.linalg.solve(matrix, matrix[..., :1]), repeats, time.process_time)
+    took = f"{ours:.2f} s", f"{1e3 * least:.0f} ms", f"{ours / least:.0f}"
+    rows.add_row("search, Delta robot", *took, f"{len(found.joints)} assemblies from {found.starts} starts")
+    return found.settled
 
 
 def mujoco(rows: Table, repeats: int) -> None:
@@ -167,6 +197,7 @@ def main() -> int:
     rows = Table("what", "ours", "yardstick", "ratio", "found", box=None)
     right = closure(rows, asked.poses, asked.repeats)
     right &= followed(rows, asked.repeats)
+    right &= met(rows, asked.repeats)
     mujoco(rows, asked.repeats)
     right &= postures(rows, asked.repeats)
     Console(width=140).print(rows)

@@ -35,6 +35,7 @@ COMMANDS = (
     ("show", MECHANISM),
     ("direct", MECHANISM, "162.6907", "-143.3209", "-24.6776"),
     ("inverse", MECHANISM, "-15.4714", "9.6849", "456.3315"),
+    ("direct", "delta_4s", "0", "0", "0", "--method", "search"),
 )
 CHAIN = "R[x] R[y] P[z] R[z] R[x] P[y] R[y] R[x]"
 

@@ -1,11 +1,11 @@
 """Regularity of many configurations by one inverse of a symmetric matrix each, without singular values.
 
-With the platform held the scaled joint rates solve D u = (0, v), D the closure C above the rows X of the pose. The
-trace of (D^T D + e)^-1 is the sum of 1/(s^2 + e) over the singular values s of D. Of n joint values those of rods that
-spin are none, which adds 1/e each; no other is smaller than what is left of the sum allows. It is no larger than the
-smallest of C that counts: what C reaches, it reaches by rates with which X u = 0. With R = D^+ (0, 1), A = Q R takes
-rates of the pose to those of the inputs, and the measures of `Instant` are 1/sqrt(1 + |A|^2) and 1/sqrt(1 + |A^-1|^2).
-Frobenius norms stand for the others, which are smaller.
+With the platform held the scaled joint rates solve D u = (0, v), D being the closure C above the rows X of the pose.
+The trace of (D^T D + e)^-1 is the sum of 1/(s^2 + e) over the singular values s of D. Those that the spins of rods
+add are zero and stand in it as 1/e; no other is smaller than what is left of the sum allows. Nor is the smallest of C
+that counts: what C reaches, it reaches by rates with X u = 0. With R = D^+ (0, 1) and the rows Q of the inputs, A = Q
+R takes rates of the pose to those of the inputs, and the measures of `Instant` are 1/sqrt(1 + |A|^2) and 1/sqrt(1 +
+|A^-1|^2). Frobenius norms stand for the others, which are smaller.
 """
 
 from __future__ import annotations
