@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import secrets
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from assur.errors import MechanismFileError
 from assur.kinematics.contract.claims import DrawnProblem, Rates, Vanishing
+from assur.kinematics.contract.free_signs import taken_over
 from assur.kinematics.contract.mismatch import Mismatch
 from assur.kinematics.modes import Problem
 from assur.kinematics.status import closed_form_of
@@ -30,8 +31,9 @@ from assur.work import stage
 IntArray = NDArray[np.int64]
 DRAWS = 128
 """At once: roots of roots exist at half of them, and dozens show which radicands are tied."""
-AGAIN = 32
-"""So often at most they are drawn, with another prime each time, until the error is small enough."""
+AGAIN = 48
+"""So often at most they are drawn, with another prime each time, until the error is small enough and each choice of a
+mode's signs was met."""
 ENOUGH = 1e-24
 """An error that is small enough; as many draws as bring it about are looked at for motions, which take longest."""
 TIED = "the root of a formula's square has either sign: write the formula itself, where its sign is known"
@@ -99,8 +101,8 @@ def _exactness(record: MechanismRecord, general: bool) -> Exactness:
     random = np.random.default_rng(secrets.randbits(64))
     error, trials = 0.0, list[Trial]()
     for problem in problems_by_formulas(record):
-        missed = 1.0
-        while missed > ENOUGH and len(trials) < AGAIN:
+        missed, met = 1.0, dict[int, set[int]]()
+        while (missed > ENOUGH or not _all_met(met)) and len(trials) < AGAIN:
             try:
                 trial = Trial(record, problem, general, random)
                 broken = trial.mismatch()
@@ -110,8 +112,9 @@ def _exactness(record: MechanismRecord, general: bool) -> Exactness:
             if broken:
                 return Exactness((broken,), general=general)
             missed *= min(1.0, trial.error)
+            met[trial.kinds] = met.get(trial.kinds, set()) | trial.met
             trials.append(trial)
-        error += missed
+        error += missed if _all_met(met) else 1.0
     return Exactness(
         error=error,
         general=general,
@@ -121,6 +124,11 @@ def _exactness(record: MechanismRecord, general: bool) -> Exactness:
         places=sum(trial.sound for trial in trials),
         degree=max(trial.degree for trial in trials),
     )
+
+
+def _all_met(met: Mapping[int, set[int]]) -> bool:
+    """Whether every choice of signs was met, of as many as there are."""
+    return any(len(choices) == kinds for kinds, choices in met.items())
 
 
 def problems_by_formulas(record: MechanismRecord) -> tuple[Problem, ...]:
@@ -142,6 +150,35 @@ class Trial:
         self.question = DrawnProblem(record, problem, self.draws, general)
         self.degrees = DrawnProblem(record, problem, Degrees(self.draws.roots), general)
         self.error = self.degree = 0.0
+        self.taken, self.roots = taken_over(record, problem)
+
+    @property
+    def kinds(self) -> int:
+        """How many choices of a mode's signs there are but for what roots take over: with each the formulas differ."""
+        return int(2 ** (len(self.question.signs) - len(self._taken)))
+
+    @property
+    def _taken(self) -> tuple[frozenset[int], ...]:
+        """What roots take over, where none is tied to others."""
+        return () if self.draws.tied else self.taken
+
+    @property
+    def met(self) -> set[int]:
+        """The choices of signs that were drawn where all roots exist; none if a root is not one of its own."""
+        own = {id(name) for name, _ in self.draws.roots if name is not None}
+        if self._taken and len(own) < self.roots:
+            return set()
+        return set(self._choices[self.draws.sound].tolist())
+
+    @property
+    def _choices(self) -> IntArray:
+        """The choice of signs (D,) at each draw, as a number: roots may turn those that they take over."""
+        p = self.draws.field.p
+        minus = np.array([sign.re == p - 1 for sign in self.question.signs.values()], dtype=np.int64).reshape(-1, DRAWS)
+        for signs in self._taken:
+            rows = sorted(signs)
+            minus[rows] ^= minus[rows[0]]
+        return np.asarray(2 ** np.arange(len(minus)) @ minus)
 
     def mismatch(self) -> Mismatch | None:
         """The first claim that is broken; the error is known afterwards."""
@@ -173,7 +210,8 @@ class Trial:
 
     def _missed(self, number: Degree, draws: int) -> None:
         """Note how likely a number that is not zero was not seen: it is zero modulo p, or at all draws."""
-        unseen = self._unlike(number.bound * DRAWS / max(self.sound, 1)) ** draws  # given that all roots exist
+        share = self._unlike(number.bound * DRAWS / max(self.sound, 1))  # given that all roots exist
+        unseen = share ** (draws / self.kinds if self.draws.tied else min(draws, 1))  # with one choice of signs
         self.error += self.draws.field.missed(number.bits) + unseen
         self.degree = max(self.degree, number.bound)
 
@@ -210,7 +248,9 @@ class Trial:
         minor = _minor([*degrees.closure, *degrees.relation], len(degrees.relation[0]) + 1)
         unlike = self._unlike(minor.bound)
         needed = math.log(ENOUGH) / math.log(max(unlike, 1e-300)) if unlike < 1 else DRAWS
-        kept = np.flatnonzero(self.draws.sound)[: max(1, math.ceil(needed))]
+        sound = np.flatnonzero(self.draws.sound)
+        each = np.unique(self._choices[sound], return_index=True)[1]
+        kept = np.union1d(sound[: max(1, math.ceil(needed))], sound[each])
         for line, wrong in enumerate(unexplained(self.draws, rates, kept), 1):
             if np.any(wrong):
                 text = f"row {line} of Jp v = Jq qdot is wrong for a motion of the joint graph "
