@@ -9,9 +9,21 @@ import pytest
 
 from assur.report.render import MACROS, Page, page_html
 from assur.results import kinds
-from assur.results.kinds import Curve, Facts, Field, Formula, Formulas, Matrix, Picture, Scalar, Section, Surface, Table
+from assur.results.kinds import (
+    Curve,
+    Facts,
+    Field,
+    Formulas,
+    Matrix,
+    Picture,
+    PrintedFormula,
+    Scalar,
+    Section,
+    Surface,
+    Table,
+)
 
-LINE = Formula("<math><mi>q</mi></math>", "(7)", "said")
+LINE = PrintedFormula("<math><mi>q</mi></math>", "(7)", "said")
 TRIANGLE = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 5]])
 SAMPLES = {
     Scalar: (
@@ -40,7 +52,7 @@ SAMPLES = {
         ["3 vertices, 1 faces", "0 to 5 mm"],
     ),
     Formulas: (
-        Formulas("L", (LINE, Formula("<math></math>", "8"))),
+        Formulas("L", (LINE, PrintedFormula("<math></math>", "8"))),
         ["<mi>q</mi>", "(7)", "(8)", "said"],
     ),
     Picture: (
@@ -78,7 +90,7 @@ def test_nothing_a_result_says_is_markup():
         Facts(nasty, ((nasty, nasty),)),
         Table(nasty, (nasty,), ((nasty,),), nasty, ("ok",)),
         Matrix(nasty, np.eye(1), (nasty,), (nasty,), nasty),
-        Formulas(nasty, (Formula("", nasty, nasty),), nasty),
+        Formulas(nasty, (PrintedFormula("", nasty, nasty),), nasty),
         Picture(nasty, nasty, nasty, f"{nasty} ${nasty}$", b"", 1, 1),
         Curve(nasty, (nasty, nasty), np.zeros((2, 2)), unit=nasty),
         Field(nasty, ((nasty, np.zeros(1)),), np.zeros(1), nasty),

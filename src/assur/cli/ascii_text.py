@@ -31,11 +31,11 @@ def ascii_text(text: str) -> str:
     return kept.encode("ascii", "replace").decode("ascii")
 
 
-def ascii_rule(item: RenderableType) -> RenderableType:
+def ascii_rule(shown: RenderableType) -> RenderableType:
     """The same, a table with a rule of hyphens under its head."""
     from rich.box import Box
     from rich.table import Table
 
-    if isinstance(item, Table):
-        item.box = Box("    \n    \n -- \n" + "    \n" * 5, ascii=True)
-    return item
+    if isinstance(shown, Table):
+        shown.box = Box("    \n    \n -- \n" + "    \n" * 5, ascii=True)
+    return shown

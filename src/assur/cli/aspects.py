@@ -66,5 +66,5 @@ def aspects(
     record = shared.mechanism(mechanism)
     from assur.cli import aspects_answer
 
-    asked = aspects_answer.Asked(mode, box, stroke, at, finest, start, end, output)
+    asked = aspects_answer.AspectQuestion(mode, box, stroke, at, finest, start, end, output)
     return aspects_answer.outcome(record, asked, shared)

@@ -41,7 +41,7 @@ VERTICES = 12
 
 
 @dataclass(frozen=True)
-class Asked:
+class AspectQuestion:
     """The words, as typed."""
 
     mode: str | None
@@ -64,7 +64,7 @@ class Explored:
     place: Place | None = None
 
 
-def outcome(record: Mechanism, asked: Asked, shared: Shared) -> Outcome:
+def outcome(record: Mechanism, asked: AspectQuestion, shared: Shared) -> Outcome:
     """The aspects, as data and for a person; drawn or written where a file is named."""
     written = _target(asked)
     answer = _answer(record, asked, shared)
@@ -74,7 +74,7 @@ def outcome(record: Mechanism, asked: Asked, shared: Shared) -> Outcome:
     return Outcome(data, lambda: _shown(record, answer, data, written), exit_code=_exit_code(answer))
 
 
-def _target(asked: Asked) -> Path | None:
+def _target(asked: AspectQuestion) -> Path | None:
     if asked.end is not None and asked.start is None:
         raise UsageError("--to: from where?", hint="add --from")
     if asked.mode == "all" and asked.start is not None:
@@ -87,7 +87,7 @@ def _target(asked: Asked) -> Path | None:
     return path
 
 
-def _answer(record: Mechanism, asked: Asked, shared: Shared) -> Explored:
+def _answer(record: Mechanism, asked: AspectQuestion, shared: Shared) -> Explored:
     from assur.kinematics.modes import all_modes
     from assur.workspace.aspects.aspects import aspects
     from assur.workspace.aspects.checking import check_path
@@ -152,31 +152,31 @@ def _said(record: Mechanism, explored: Explored) -> AspectsAnswer | AspectsOfMod
     )
 
 
-def _of_mode(record: Mechanism, found: Aspects) -> AspectsOfMode:
+def _of_mode(record: Mechanism, parts: Aspects) -> AspectsOfMode:
     """What is said of a mode, angles of poses in the mechanism's angle unit."""
     from assur.kinematics.answers.at_border import box_at_border, coordinates_at_border
     from assur.results.answers.region import AspectsOfMode, ListedAspect
 
     aspects = (
-        ListedAspect(item.label, item.signs, item.volume, len(item.boxes), item.perhaps) for item in found.aspects
+        ListedAspect(item.label, item.signs, item.volume, len(item.boxes), item.perhaps) for item in parts.aspects
     )
     return AspectsOfMode(
-        mechanism=found.mechanism,
-        mode=found.mode,
-        how=found.how,
-        coordinates=found.box.names,
-        box=box_at_border(record, found.box.names, found.box.intervals),
-        held=coordinates_at_border(record, found.slice.held),
-        unit=found.unit,
-        naming=tuple(found.naming),
+        mechanism=parts.mechanism,
+        mode=parts.mode,
+        how=parts.how,
+        coordinates=parts.box.names,
+        box=box_at_border(record, parts.box.names, parts.box.intervals),
+        held=coordinates_at_border(record, parts.slice.held),
+        unit=parts.unit,
+        naming=tuple(parts.naming),
         aspects=tuple(aspects),
-        told_apart=found.told_apart,
-        paved=found.names,
-        turning=tuple(found.turning),
-        finest=coordinates_at_border(record, found.finest),
-        undecided=len(found.search.undecided),
-        stopped=found.stopped,
-        note=found.note,
+        told_apart=parts.told_apart,
+        paved=parts.names,
+        turning=tuple(parts.turning),
+        finest=coordinates_at_border(record, parts.finest),
+        undecided=len(parts.search.undecided),
+        stopped=parts.stopped,
+        note=parts.note,
     )
 
 
@@ -238,21 +238,21 @@ def _shown(
         yield f"written: {written}"
 
 
-def _modes(record: Mechanism, found: Sequence[Aspects]) -> Iterable[RenderableType]:
+def _modes(record: Mechanism, modes: Sequence[Aspects]) -> Iterable[RenderableType]:
     yield heading(f"{record.name}, aspects of every working mode")
     rows = []
-    for item in found:
+    for item in modes:
         labels = ", ".join(part.label for part in item.aspects[:8]) + (", .." if len(item) > 8 else "")
         rows.append((item.mode or "-", str(len(item)), labels or "none", item.note))
     yield table(("mode", "aspects", "labels", "note"), rows, left=("labels", "note"))
-    yield f"labels: signs of {', '.join(found[0].naming)}"
+    yield f"labels: signs of {', '.join(modes[0].naming)}"
 
 
-def _mode(record: Mechanism, found: Aspects, data: AspectsAnswer) -> Iterable[RenderableType]:
+def _mode(record: Mechanism, aspects: Aspects, data: AspectsAnswer) -> Iterable[RenderableType]:
     from assur.kinematics.limits import limits_note
 
-    of_mode = f" of working mode {found.mode}" if found.mode else ""
-    yield heading(f"{record.name}, aspects{of_mode}: {len(found)}")
+    of_mode = f" of working mode {aspects.mode}" if aspects.mode else ""
+    yield heading(f"{record.name}, aspects{of_mode}: {len(aspects)}")
     parts = [
         f"{name} {low:g} .. {high:g} {_unit(record, name)}"
         for name, (low, high) in zip(data.coordinates, data.box, strict=True)
@@ -261,23 +261,23 @@ def _mode(record: Mechanism, found: Aspects, data: AspectsAnswer) -> Iterable[Re
     if data.held:
         held = (f"{name} = {value:g} {_unit(record, name)}" for name, value in data.held.items())
         yield f"held: {', '.join(held)}"
-    if limits := limits_note(record, found.strokes):
+    if limits := limits_note(record, aspects.strokes):
         yield f"limits: {limits}"
-    if not len(found):
+    if not len(aspects):
         yield "none: no box of this size is reached and free of singularities"
     else:
         rows = [
             (item.label, *bounds(*item.volume), str(len(item.boxes)), ", ".join(item.perhaps) or "-")
-            for item in found.aspects[:LISTED]
+            for item in aspects.aspects[:LISTED]
         ]
-        titles = ("aspect", f"least [{found.unit}]", f"most [{found.unit}]", "boxes", "not told apart from")
+        titles = ("aspect", f"least [{aspects.unit}]", f"most [{aspects.unit}]", "boxes", "not told apart from")
         yield table(titles, rows, left=("aspect", "not told apart from"))
-        if len(found) > LISTED:
-            yield f"and {len(found) - LISTED} smaller ones"
-        yield f"aspect: signs of {', '.join(found.naming)}"
-    yield f"how: {found.how}, over {', '.join(found.names)}; {data.undecided} boxes are undecided"
-    if found.note:
-        yield f"note: {found.note}"
+        if len(aspects) > LISTED:
+            yield f"and {len(aspects) - LISTED} smaller ones"
+        yield f"aspect: signs of {', '.join(aspects.naming)}"
+    yield f"how: {aspects.how}, over {', '.join(aspects.names)}; {data.undecided} boxes are undecided"
+    if aspects.note:
+        yield f"note: {aspects.note}"
 
 
 def _way(record: Mechanism, path: ListedPath) -> Iterable[RenderableType]:

@@ -39,24 +39,24 @@ def outcome(record: Mechanism, folder: Path | None, shared: Shared) -> Outcome:
     return Outcome(found, lambda: _shown(found, written), 0 if found.claims_hold else CLAIM_FAILS)
 
 
-def _shown(found: Audit, written: Sequence[Path]) -> Iterable[RenderableType]:
-    yield heading(f"{found.mechanism}, audit of {found.source}")
-    yield rows_table(found.rows)
+def _shown(audit: Audit, written: Sequence[Path]) -> Iterable[RenderableType]:
+    yield heading(f"{audit.mechanism}, audit of {audit.source}")
+    yield rows_table(audit.rows)
     yield ""
-    yield summary(found)
+    yield summary(audit)
     yield ""
-    if found.errata:
+    if audit.errata:
         yield heading("errata, each by evidence that was computed just now")
         yield table(
             ("id", "holds", "finding"),
             [
                 (item.id, item.evidence.word, f"{item.where}: {item.finding}\n{item.evidence.text}")
-                for item in found.errata
+                for item in audit.errata
             ],
             left=("id", "holds", "finding"),
-            styles=["red" if item.evidence.holds is False else "" for item in found.errata],
+            styles=["red" if item.evidence.holds is False else "" for item in audit.errata],
         )
-    if not found.claims_hold:
+    if not audit.claims_hold:
         yield "A claim of ours does not hold."
     for path in written:
         yield f"written: {path}"
@@ -87,6 +87,6 @@ def _cell(text: str) -> str | Text:
     return text if NUMBER.fullmatch(text) else words(text)
 
 
-def summary(found: Audit) -> str:
+def summary(audit: Audit) -> str:
     """How many rows are what."""
-    return f"{len(found.rows)} rows: {found.ok} ok, {found.wrong} wrong, {found.missing} missing"
+    return f"{len(audit.rows)} rows: {audit.ok} ok, {audit.wrong} wrong, {audit.missing} missing"

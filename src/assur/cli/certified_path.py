@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Ends:
+class PathEnds:
     """Both poses, as typed."""
 
     start: str
@@ -28,7 +28,7 @@ class Ends:
 
 
 def outcome(
-    record: Mechanism, asked: Question, ends: Ends, finest: float, most: int, target: Path, shared: Shared
+    record: Mechanism, asked: Question, ends: PathEnds, finest: float, most: int, target: Path, shared: Shared
 ) -> Outcome:
     """The path from one pose to the other, written with its proof; told and not written where none was found."""
     from assur.certificates.paths import path_certificate
@@ -59,20 +59,20 @@ def outcome(
     return written(made, target, record, shared)
 
 
-def written(found: Certificate, target: Path, record: Mechanism, shared: Shared) -> Outcome:
+def written(certificate: Certificate, target: Path, record: Mechanism, shared: Shared) -> Outcome:
     """Write a certificate, and say what it claims; of a box or a path the exit code is that of the answer."""
     from assur.certificates.summary import claim_lines, shares, statement_lines
     from assur.results.answers.certificate import WrittenCertificate
 
     with progress("writing the certificate", shared):  # some seconds for millions of leaves
-        found.write(target)
-        document = found.to_json()
+        certificate.write(target)
+        document = certificate.to_json()
         first, *rest = [*statement_lines(document, record), *claim_lines(document, record)]
         part = shares(document["proof"])
     lines = [*rest, "how: interval arithmetic, not yet checked by `assur verify`", f"written: {target}"]
     stated = {key: value for key, value in document.items() if key not in ("program", "proof")}
     answer = WrittenCertificate(**stated, shares=part, written=str(target))
-    asked = [found.claims[name] for name in ("reached", "regular") if name in found.claims]
+    asked = [certificate.claims[name] for name in ("reached", "regular") if name in certificate.claims]
     return Outcome(answer, lambda: [heading(first), *lines], exit_codes.of_answers(asked))
 
 

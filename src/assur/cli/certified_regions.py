@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Asked:
+class ProofQuestion:
     """The words that only proofs take, as typed."""
 
     gap: str | None
@@ -42,7 +42,7 @@ class Asked:
     ratio: str | None
 
 
-def outcome(record: Mechanism, question: Question, asked: Asked, shared: Shared) -> Outcome:
+def outcome(record: Mechanism, question: Question, asked: ProofQuestion, shared: Shared) -> Outcome:
     """The proof that is wanted, as data and for a person."""
     _compatible(asked)
     if asked.prove is not None:
@@ -52,7 +52,7 @@ def outcome(record: Mechanism, question: Question, asked: Asked, shared: Shared)
     return _volume(record, question, asked, shared)
 
 
-def _compatible(asked: Asked) -> None:
+def _compatible(asked: ProofQuestion) -> None:
     if asked.prove is not None and asked.largest is not None:
         raise UsageError("--prove and --largest are two questions", hint="ask one after the other")
     if asked.largest is not None and asked.around is None:
@@ -71,7 +71,7 @@ def _compatible(asked: Asked) -> None:
         raise UsageError("--gap and --finest: give one of them", hint="--finest is in the mechanism's length unit")
 
 
-def _most(asked: Asked) -> int:
+def _most(asked: ProofQuestion) -> int:
     """Boxes that may be looked at."""
     from assur.workspace.certified.paving import MOST
 
@@ -81,7 +81,7 @@ def _most(asked: Asked) -> int:
     return most
 
 
-def _volume(record: Mechanism, question: Question, asked: Asked, shared: Shared) -> Outcome:
+def _volume(record: Mechanism, question: Question, asked: ProofQuestion, shared: Shared) -> Outcome:
     from assur.workspace.certified.region import certified_workspace
 
     gap = 1e-3 if asked.gap is None else number(asked.gap, "--gap")
@@ -100,27 +100,27 @@ def _volume(record: Mechanism, question: Question, asked: Asked, shared: Shared)
     return Outcome(data, lambda: _shown_volume(record, found, data))
 
 
-def _shown_volume(record: Mechanism, found: CertifiedWorkspace, data: CertifiedVolume) -> Iterable[RenderableType]:
-    yield heading(f"{record.name}, certified workspace of {mode_words(record, found.mode)}")
+def _shown_volume(record: Mechanism, region: CertifiedWorkspace, data: CertifiedVolume) -> Iterable[RenderableType]:
+    yield heading(f"{record.name}, certified workspace of {mode_words(record, region.mode)}")
     yield f"box: {_pairs(record, data.coordinates, data.box)}"
     if data.held:
         yield f"held: {_values(record, data.held)}"
     yield from _limits(data)
-    what = ("length", "area", "volume")[len(found.box.names) - 1]
-    low, high = outward(*found.volume)
-    yield f"{what}: {low} .. {high} {found.unit}"
-    gap = "" if found.gap_reached is None else f", gap {found.gap_reached:.2g}"
-    yield f"how: {found.how}{gap}"
+    what = ("length", "area", "volume")[len(region.box.names) - 1]
+    low, high = outward(*region.volume)
+    yield f"{what}: {low} .. {high} {region.unit}"
+    gap = "" if region.gap_reached is None else f", gap {region.gap_reached:.2g}"
+    yield f"how: {region.how}{gap}"
     boxes = data.boxes
     along = ", ".join(boxes.coordinates)
     yield f"boxes over {along}: {boxes.inside} inside, {boxes.outside} outside, {boxes.boundary} boundary"
-    if found.note:
-        yield f"note: {found.note}"
-    if found.sections:
-        last = found.sections[0].coordinate
+    if region.note:
+        yield f"note: {region.note}"
+    if region.sections:
+        last = region.sections[0].coordinate
         yield ""
         yield table(
-            (f"section at {last}", f"least [{found.sections[0].unit}]", f"most [{found.sections[0].unit}]"),
+            (f"section at {last}", f"least [{region.sections[0].unit}]", f"most [{region.sections[0].unit}]"),
             [(f"{item.at[last]:g}", *outward(*item.area)) for item in data.sections],
         )
         for item in data.sections:
@@ -168,16 +168,16 @@ def outer_box(
     return found
 
 
-def _shown_box(record: Mechanism, found: ProvedBox, data: CertifiedBox) -> Iterable[RenderableType]:
-    yield heading(f"{record.name}, a box in {mode_words(record, found.mode)}")
+def _shown_box(record: Mechanism, box: ProvedBox, data: CertifiedBox) -> Iterable[RenderableType]:
+    yield heading(f"{record.name}, a box in {mode_words(record, box.mode)}")
     yield f"box: {_pairs(record, data.coordinates, data.box)}"
     if data.held:
         yield f"held: {_values(record, data.held)}"
     yield from _limits(data)
     yield f"question: is every pose {_reached(data)}, and none singular?"
-    yield f"answer: {found.status}"
-    if found.status != "proved":
-        yield f"proved for {_floored(100 * found.share)} % of it"
+    yield f"answer: {box.status}"
+    if box.status != "proved":
+        yield f"proved for {_floored(100 * box.share)} % of it"
     if data.witness is not None:
         yield f"fails at: {_values(record, data.witness.pose)}"
         yield f"because: {data.witness.why}"
@@ -192,11 +192,11 @@ def _shown_box(record: Mechanism, found: ProvedBox, data: CertifiedBox) -> Itera
             [(word, *(f"{low:.5g} .. {high:.5g}" for low, high in item)) for word, item in rows],
             left=("the largest parts",),
         )
-    if found.stopped:
-        yield f"note: {ENDED[found.stopped]}; what was not looked at counts as undecided"
+    if box.stopped:
+        yield f"note: {ENDED[box.stopped]}; what was not looked at counts as undecided"
 
 
-def _largest(record: Mechanism, question: Question, asked: Asked, shape: ShapeName, shared: Shared) -> Outcome:
+def _largest(record: Mechanism, question: Question, asked: ProofQuestion, shape: ShapeName, shared: Shared) -> Outcome:
     from assur.kinematics.answers.at_border import coordinate_unit
     from assur.workspace.certified.largest import largest
 
@@ -215,23 +215,23 @@ def _largest(record: Mechanism, question: Question, asked: Asked, shape: ShapeNa
     return Outcome(data, lambda: _shown_largest(record, found, data), exit_code=code)
 
 
-def _shown_largest(record: Mechanism, found: LargestShape, data: CertifiedShape) -> Iterable[RenderableType]:
-    name = found.shape.name
-    yield heading(f"{record.name}, the largest {name} in {mode_words(record, found.mode)}")
+def _shown_largest(record: Mechanism, shape: LargestShape, data: CertifiedShape) -> Iterable[RenderableType]:
+    name = shape.shape.name
+    yield heading(f"{record.name}, the largest {name} in {mode_words(record, shape.mode)}")
     yield f"around: {_values(record, data.centre)}"
     if data.held:
         yield f"held: {_values(record, data.held)}"
     yield from _limits(data)
     yield f"inside: every pose is {_reached(data)}, and none is singular"
     side = "edge" if name == "cube" else "diameter"
-    more = "" if found.height is None else f", height {_floored(found.height)} {record.unit}"
-    yield f"proved up to: {side} {_floored(found.size)} {record.unit}{more}"
+    more = "" if shape.height is None else f", height {_floored(shape.height)} {record.unit}"
+    yield f"proved up to: {side} {_floored(shape.size)} {record.unit}{more}"
     if data.witness is not None:
-        yield f"not beyond: {side} {outward(found.size, found.refuted)[1]} {record.unit}"
+        yield f"not beyond: {side} {outward(shape.size, shape.refuted)[1]} {record.unit}"
         yield f"fails at: {_values(record, data.witness.pose)}"
         yield f"because: {data.witness.why}"
-    if found.stopped:
-        yield f"note: {NOTES[found.stopped]}"
+    if shape.stopped:
+        yield f"note: {NOTES[shape.stopped]}"
 
 
 def _floored(size: float) -> str:
@@ -262,7 +262,7 @@ def _known(record: Mechanism, name: str) -> None:
         raise UnknownNameError(f"pose coordinate of {record.name}", name, coordinates(record))
 
 
-def _said(record: Mechanism, question: Question, found: CertifiedWorkspace | ProvedBox | LargestShape) -> RegionProof:
+def _said(record: Mechanism, question: Question, proved: CertifiedWorkspace | ProvedBox | LargestShape) -> RegionProof:
     """What is said of every proof."""
     from assur.kinematics.answers.at_border import coordinates_at_border
     from assur.kinematics.limits import joint_limits, limits_stated
@@ -270,85 +270,85 @@ def _said(record: Mechanism, question: Question, found: CertifiedWorkspace | Pro
 
     return RegionProof(
         mechanism=record.name,
-        mode=found.mode,
-        held=coordinates_at_border(record, found.held),
-        stopped=found.stopped,
+        mode=proved.mode,
+        held=coordinates_at_border(record, proved.held),
+        stopped=proved.stopped,
         limits_stated=limits_stated(record, question.strokes),
         joint_limits=tuple(joint_limits(record)),
     )
 
 
-def _certified_volume(record: Mechanism, question: Question, found: CertifiedWorkspace) -> CertifiedVolume:
+def _certified_volume(record: Mechanism, question: Question, region: CertifiedWorkspace) -> CertifiedVolume:
     from assur.kinematics.answers.at_border import box_at_border, coordinate_unit
     from assur.results.answers.region import CertifiedVolume, PavedBoxes, SectionBounds
 
-    names, paving = found.box.names, found.paving
+    names, paving = region.box.names, region.paving
     unit = coordinate_unit(record, names[-1])
     return CertifiedVolume(
-        **vars(_said(record, question, found)),
-        volume=found.volume,
-        unit=found.unit,
-        how=found.how,
-        gap=found.gap,
-        gap_reached=found.gap_reached,
+        **vars(_said(record, question, region)),
+        volume=region.volume,
+        unit=region.unit,
+        how=region.how,
+        gap=region.gap,
+        gap_reached=region.gap_reached,
         coordinates=names,
-        box=box_at_border(record, names, found.box.intervals),
+        box=box_at_border(record, names, region.box.intervals),
         sections=tuple(
             SectionBounds(item.area, item.unit, item.stopped, {item.coordinate: item.value / unit})
-            for item in found.sections
+            for item in region.sections
         ),
         boxes=PavedBoxes(paving.names, len(paving.inside), len(paving.outside), len(paving.boundary)),
-        note=found.note,
+        note=region.note,
     )
 
 
-def _certified_box(record: Mechanism, question: Question, found: ProvedBox) -> CertifiedBox:
+def _certified_box(record: Mechanism, question: Question, proved: ProvedBox) -> CertifiedBox:
     from assur.kinematics.answers.at_border import box_at_border
     from assur.results.answers.region import CertifiedBox, ProvedParts
     from assur.workspace.certified.proving import largest_of
 
     failed, doubtful = (
-        tuple(box_at_border(record, found.names, box) for box in largest_of(boxes))
-        for boxes in (found.failed, found.doubtful)
+        tuple(box_at_border(record, proved.names, box) for box in largest_of(boxes))
+        for boxes in (proved.failed, proved.doubtful)
     )
 
     return CertifiedBox(
-        **vars(_said(record, question, found)),
-        what=found.what,
-        status=found.status,
-        coordinates=found.box.names,
-        box=box_at_border(record, found.box.names, found.box.intervals),
-        share_proved=found.share,
-        witness=_witness(record, found.witness),
+        **vars(_said(record, question, proved)),
+        what=proved.what,
+        status=proved.status,
+        coordinates=proved.box.names,
+        box=box_at_border(record, proved.box.names, proved.box.intervals),
+        share_proved=proved.share,
+        witness=_witness(record, proved.witness),
         boxes=ProvedParts(
-            *(found.names, len(found.proved), len(found.failed), len(found.doubtful)),
+            *(proved.names, len(proved.proved), len(proved.failed), len(proved.doubtful)),
             largest_failed=failed,
             largest_doubtful=doubtful,
         ),
     )
 
 
-def _certified_shape(record: Mechanism, question: Question, found: LargestShape) -> CertifiedShape:
+def _certified_shape(record: Mechanism, question: Question, shape: LargestShape) -> CertifiedShape:
     from assur.kinematics.answers.at_border import coordinates_at_border
     from assur.results.answers.region import CertifiedShape
 
     return CertifiedShape(
-        **vars(_said(record, question, found)),
-        what=found.what,
-        shape=found.shape.name,
-        centre=coordinates_at_border(record, dict(zip(found.shape.names, found.shape.centre, strict=True))),
-        size=found.size,
-        height=found.height,
-        refuted=found.refuted if math.isfinite(found.refuted) else None,
-        witness=_witness(record, found.witness),
+        **vars(_said(record, question, shape)),
+        what=shape.what,
+        shape=shape.shape.name,
+        centre=coordinates_at_border(record, dict(zip(shape.shape.names, shape.shape.centre, strict=True))),
+        size=shape.size,
+        height=shape.height,
+        refuted=shape.refuted if math.isfinite(shape.refuted) else None,
+        witness=_witness(record, shape.witness),
     )
 
 
-def _witness(record: Mechanism, found: Witness | None) -> FailingPose | None:
+def _witness(record: Mechanism, witness: Witness | None) -> FailingPose | None:
     from assur.kinematics.answers.at_border import coordinates_at_border
     from assur.results.answers.region import FailingPose
 
-    return None if found is None else FailingPose(coordinates_at_border(record, found.pose), found.why)
+    return None if witness is None else FailingPose(coordinates_at_border(record, witness.pose), witness.why)
 
 
 def _limits(data: RegionProof) -> Iterable[str]:

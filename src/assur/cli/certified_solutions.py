@@ -45,13 +45,13 @@ def way_of(method: MethodName, mode: str | None, *, crossed: bool) -> Way:
     return WAYS[method]
 
 
-def outcome(record: Mechanism, found: CertifiedSolutions) -> Outcome:
+def outcome(record: Mechanism, solutions: CertifiedSolutions) -> Outcome:
     """The outcome: exit code 4 where it is proved that there is no solution, 5 where something is undecided."""
     from assur.kinematics.certified.result import answer
 
-    data = answer(found)
-    code = exit_codes.of_answers(["open" if not found.proved else "yes" if len(found) else "no"])
-    return Outcome(data, lambda: _shown(record, data, found.headline), code)
+    data = answer(solutions)
+    code = exit_codes.of_answers(["open" if not solutions.proved else "yes" if len(solutions) else "no"])
+    return Outcome(data, lambda: _shown(record, data, solutions.headline), code)
 
 
 def _shown(record: Mechanism, data: CertifiedPositions, headline: str) -> Iterable[RenderableType]:

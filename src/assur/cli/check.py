@@ -56,7 +56,7 @@ def check(
         text.result = count(len(problems), "fault")
     if problems:
         every = [*problems, *((*faults(known), *label_faults(known)) if known else ())]
-        every.sort(key=lambda item: (not item.file.endswith(".toml"), item.file, item.line or 0))
+        every.sort(key=lambda problem: (not problem.file.endswith(".toml"), problem.file, problem.line or 0))
         return _outcome(mechanism, every, (), None)
     record = load_record(mechanism, **shared.dimensions)
     with stage("joint graph and labels") as work:

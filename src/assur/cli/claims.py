@@ -40,9 +40,9 @@ class Ledger:
         if not self.silent:
             show(items)
 
-    def claim(self, text: str, holds: Any, found: str) -> None:
+    def claim(self, text: str, holds: Any, observed: str) -> None:
         """State what has just been checked, with its outcome."""
-        made = Claim(self.title, text, bool(holds), found)
+        made = Claim(self.title, text, bool(holds), observed)
         self.claims.append(made)
         self.show([_line(made)])
 

@@ -89,7 +89,7 @@ def collisions(
     return Outcome(data, lambda: _shown(record, found, data), MEET if found.meeting else 0)
 
 
-def _written(record: Mechanism, found: Collisions, path: Path) -> Path:
+def _written(record: Mechanism, collisions: Collisions, path: Path) -> Path:
     """The picture of the closest pair."""
     from assur.errors import UsageError
     from assur.figures.clearance import drawn
@@ -97,14 +97,14 @@ def _written(record: Mechanism, found: Collisions, path: Path) -> Path:
     from assur.figures.style import styled
     from assur.results.files import write_whole
 
-    if not found.pairs:
+    if not collisions.pairs:
         raise UsageError(f"{record.name}: every two links share a joint, so there is no pair to draw in {path}")
     with styled():
-        figure = drawn(record, found.pairs[0]).figure
+        figure = drawn(record, collisions.pairs[0]).figure
     return write_whole(path, encoded(figure, path.suffix.lower()[1:]))
 
 
-def _answer(record: Mechanism, found: Collisions, over: str, mode: str | None) -> CollisionsAnswer:
+def _answer(record: Mechanism, collisions: Collisions, over: str, mode: str | None) -> CollisionsAnswer:
     from assur.results.answers.region import CollisionsAnswer
     from assur.scene.companion import companion
     from assur.scene.sampled import from_box
@@ -118,34 +118,34 @@ def _answer(record: Mechanism, found: Collisions, over: str, mode: str | None) -
         over=over,
         drawn_from=drawn,
         mode=mode if drawn == "box" else None,
-        poses=found.poses,
+        poses=collisions.poses,
         known="sampled",
         thickness=thickness(record),
         coordinates=record.platform.pose,
-        pairs=tuple(_pair(record, item, reasons.get(frozenset(item.links))) for item in found.pairs),
+        pairs=tuple(_pair(record, item, reasons.get(frozenset(item.links))) for item in collisions.pairs),
     )
 
 
-def _pair(record: Mechanism, item: Nearest, because: str | None) -> NearestLinks:
+def _pair(record: Mechanism, pair: Nearest, because: str | None) -> NearestLinks:
     from assur.kinematics.answers.at_border import pose_at_border
     from assur.kinematics.pose import pose_of
     from assur.results.answers.region import NearestLinks
 
-    pose = pose_at_border(record, pose_of(record, item.joints[None])[0]).tolist()
-    reason = because if item.meeting else None
-    return NearestLinks(item.links, item.clearance, item.parts, item.meeting, reason, pose)
+    pose = pose_at_border(record, pose_of(record, pair.joints[None])[0]).tolist()
+    reason = because if pair.meeting else None
+    return NearestLinks(pair.links, pair.clearance, pair.parts, pair.meeting, reason, pose)
 
 
-def _shown(record: Mechanism, found: Collisions, data: CollisionsAnswer) -> Iterable[RenderableType]:
+def _shown(record: Mechanism, collisions: Collisions, data: CollisionsAnswer) -> Iterable[RenderableType]:
     from assur.cli.output import heading, table
     from assur.kinematics.answers.style import style_of
     from assur.results.plain_text import count
 
     style, names = style_of(record), data.coordinates
-    said = f"{count(len(found.meeting), 'pair')} of links meet" if found.meeting else "no links meet"
+    said = f"{count(len(collisions.meeting), 'pair')} of links meet" if collisions.meeting else "no links meet"
     yield heading(f"{record.name}, collisions: {said}")
     mode = f", mode {data.mode}" if data.mode else ""
-    yield f"known at {found.poses} {WHERE[data.drawn_from]}{mode}; between them links may come nearer"
+    yield f"known at {collisions.poses} {WHERE[data.drawn_from]}{mode}; between them links may come nearer"
     yield f"flat bars are drawn {data.thickness:.3g} {record.unit} thick; --thickness says otherwise"
     if not data.pairs:
         yield "every two links share a joint: nothing to ask"
@@ -153,7 +153,7 @@ def _shown(record: Mechanism, found: Collisions, data: CollisionsAnswer) -> Iter
     rows = [
         (
             " - ".join(item.links),
-            f"meet at {item.meeting} of {found.poses}" if item.meeting else f"{item.clearance:.4g}",
+            f"meet at {item.meeting} of {collisions.poses}" if item.meeting else f"{item.clearance:.4g}",
             " - ".join(item.parts),
             style.point(names, item.pose),
         )

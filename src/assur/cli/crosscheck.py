@@ -54,23 +54,29 @@ def crosscheck(
     return _outcome(found)
 
 
-def _outcome(found: CrossCheck) -> Outcome:
-    return Outcome(found.answer(), lambda: _shown(found), 0 if found.holds else CLAIM_FAILS)
+def _outcome(comparison: CrossCheck) -> Outcome:
+    return Outcome(comparison.answer(), lambda: _shown(comparison), 0 if comparison.holds else CLAIM_FAILS)
 
 
-def _shown(found: CrossCheck) -> Iterable[RenderableType]:
+def _shown(comparison: CrossCheck) -> Iterable[RenderableType]:
     from assur.cli.output import heading, table
     from assur.results.plain_text import count
 
-    said = "agree" if found.holds else "DIFFER" if found.differences else "nothing to compare: no pose was reached"
-    yield heading(f"{found.record.name}, assur and MuJoCo {found.version}: {said}")
-    for problem, modes in found.modes.items():
+    said = (
+        "agree"
+        if comparison.holds
+        else "DIFFER"
+        if comparison.differences
+        else "nothing to compare: no pose was reached"
+    )
+    yield heading(f"{comparison.record.name}, assur and MuJoCo {comparison.version}: {said}")
+    for problem, modes in comparison.modes.items():
         yield f"{problem}: {count(sum(modes.values()), 'solution')} in {count(len(modes), 'mode')}"
     rows = [
         (item.kind, f"{item.largest:.1e}", f"{item.tolerance:.0e}", str(item.count), item.mode)
-        for item in found.differences
+        for item in comparison.differences
     ]
-    styles = ["" if item.holds else "bold red" for item in found.differences]
+    styles = ["" if item.holds else "bold red" for item in comparison.differences]
     yield ""
     columns = ("compared", "largest", "allowed", "times", "in mode")
     yield table(columns, rows, left=("compared", "in mode"), styles=styles)

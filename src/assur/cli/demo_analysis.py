@@ -168,7 +168,7 @@ def _proved(ledger: Ledger, findings: Findings, shared: Plain) -> None:
     with progress("workspace, proved", shared):
         proof, cube = findings.bounds, findings.cube
     if isinstance(proof, str) or isinstance(cube, str):
-        ledger.claim("bounds of the workspace are proved", holds=False, found=str(proof))
+        ledger.claim("bounds of the workspace are proved", holds=False, observed=str(proof))
         return
     found = findings.workspace
     pairs = [(found.volume, found.volume_error, proof.volume)]
@@ -187,34 +187,34 @@ def _proved(ledger: Ledger, findings: Findings, shared: Plain) -> None:
     )
 
 
-def _sampled(record: MechanismRecord, found: Workspace) -> tuple[float, float]:
+def _sampled(record: MechanismRecord, region: Workspace) -> tuple[float, float]:
     """Volume by random poses, and its standard deviation."""
     import numpy as np
 
-    low, high = np.array(found.box.low), np.array(found.box.high)
-    share = float(np.mean(_random(record, found)["exists"]))
+    low, high = np.array(region.box.low), np.array(region.box.high)
+    share = float(np.mean(_random(record, region)["exists"]))
     whole = float(np.prod(high - low))
     return whole * share, whole * math.sqrt(share * (1 - share) / POINTS)
 
 
-def _changes_sign(record: MechanismRecord, found: Workspace, factor: str) -> bool:
+def _changes_sign(record: MechanismRecord, region: Workspace, factor: str) -> bool:
     """Whether a factor has both signs among random poses inside."""
     import numpy as np
 
     from assur.kinematics.status import closed_form_of
 
-    sample = _random(record, found)
+    sample = _random(record, region)
     place = [item.name for item in closed_form_of(record).factor_list].index(factor)
     values = sample["factors"][place][sample["exists"]]
     return bool(np.any(values > 0) and np.any(values < 0))
 
 
-def _random(record: MechanismRecord, found: Workspace) -> dict[str, NDArray[Any]]:
+def _random(record: MechanismRecord, region: Workspace) -> dict[str, NDArray[Any]]:
     """The inverse problem at random poses of the box."""
     import numpy as np
 
     from assur.kinematics.closed_form.sweep import inverse_sweep
 
     rng = np.random.default_rng(0)
-    poses = [rng.uniform(low, high, POINTS) for low, high in zip(found.box.low, found.box.high, strict=True)]
-    return inverse_sweep(record, poses, found.mode, ("exists", "factors"))
+    poses = [rng.uniform(low, high, POINTS) for low, high in zip(region.box.low, region.box.high, strict=True)]
+    return inverse_sweep(record, poses, region.mode, ("exists", "factors"))

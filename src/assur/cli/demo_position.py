@@ -81,11 +81,11 @@ def inverse(ledger: Ledger, record: Mechanism) -> None:
         )
 
 
-def _certified(ledger: Ledger, found: SolutionSet, proof: CertifiedSolutions) -> None:
+def _certified(ledger: Ledger, solutions: SolutionSet, proof: CertifiedSolutions) -> None:
     """The certificate: that these are all."""
     ledger.claim(
         "interval arithmetic proves as many solutions, and that there is no other",
-        proof.proved and len(proof) == len(found),
+        proof.proved and len(proof) == len(solutions),
         proof.headline,
     )
 
@@ -108,11 +108,11 @@ def entry_of(record: Mechanism, kind: str) -> Any:
     return read_reference(record, FORMS).entries[kind][0]
 
 
-def _closes(ledger: Ledger, record: Mechanism, found: SolutionSet) -> None:
+def _closes(ledger: Ledger, record: Mechanism, solutions: SolutionSet) -> None:
     from assur.joint_graph.geometry import characteristic_length
     from assur.kinematics.closure import CLOSED
 
-    worst = max(item.residual for item in found)
+    worst = max(item.residual for item in solutions)
     ledger.claim(
         "every solution closes every loop of the joint graph",
         worst <= CLOSED * characteristic_length(record),
@@ -129,14 +129,14 @@ def _comes_back(ledger: Ledger, record: Mechanism, text: str, gaps: list[float])
     )
 
 
-def _nearest(rows: Any, wanted: Any) -> float:
+def _nearest(rows: Any, inputs: Any) -> float:
     """Distance of the nearest of some rows (K, n); rows of NaN do not exist."""
     import numpy as np
 
-    return float(np.nanmin(np.linalg.norm(rows - wanted, axis=-1), initial=np.inf))
+    return float(np.nanmin(np.linalg.norm(rows - inputs, axis=-1), initial=np.inf))
 
 
-def _span(found: SolutionSet) -> float:
+def _span(solutions: SolutionSet) -> float:
     """How far the platform gets on the longest curve, 0 where the loops do not close on the way."""
     import numpy as np
 
@@ -144,9 +144,9 @@ def _span(found: SolutionSet) -> float:
     from assur.kinematics.closure import CLOSED, closure_error
 
     reach = [0.0]
-    for curve in found.curves:
-        gap = float(np.max(closure_error(found.record, curve.joints())))
+    for curve in solutions.curves:
+        gap = float(np.max(closure_error(solutions.record, curve.joints())))
         poses = curve.poses()
         far = float(np.max(np.linalg.norm(poses - poses[0], axis=-1)))
-        reach.append(far if gap <= CLOSED * characteristic_length(found.record) else 0.0)
+        reach.append(far if gap <= CLOSED * characteristic_length(solutions.record) else 0.0)
     return max(reach)

@@ -56,5 +56,5 @@ def direct(
 
         way = certified_solutions.way_of(method, mode, crossed=crossed)
         return certified_solutions.outcome(record, certified_direct(record, given, way))
-    with handing_over(SolutionSet, lambda found: outcome(record, found)):  # type: ignore[type-abstract]
+    with handing_over(SolutionSet, lambda solutions: outcome(record, solutions)):  # type: ignore[type-abstract]
         return outcome(record, record.direct(given, mode, method, crossed=crossed))

@@ -116,16 +116,20 @@ def _points(record: Mechanism, along: Along, texts: Sequence[str], option: str =
     return pose_from_border(record, values) if along == "pose" else inputs_from_border(record, values)
 
 
-def _nearest_home(record: Mechanism, found: SolutionSet, default: str) -> int | None:
+def _nearest_home(record: Mechanism, solutions: SolutionSet, default: str) -> int | None:
     """The listed solution of the default mode that is nearest to home; None where there is none."""
     import numpy as np
 
     from assur.kinematics.turns import periodic
 
-    rows = [k for k in np.flatnonzero(found.exists) if not default or str(found.labels[k]).partition("/")[0] == default]
+    rows = [
+        k
+        for k in np.flatnonzero(solutions.exists)
+        if not default or str(solutions.labels[k]).partition("/")[0] == default
+    ]
     if not rows:
         return None
-    change = found.joints[rows] - record.home_values
+    change = solutions.joints[rows] - record.home_values
     turned = np.where(periodic(record), 1 - np.cos(change), 0.0)
     return int(rows[int(np.argmin(np.sum(turned, axis=-1)))])
 

@@ -90,11 +90,11 @@ def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) ->
     return Outcome(answer, lambda: _pose_shown(record, answer, units), exit_codes.of_status(answer.status))
 
 
-def _other(record: Mechanism, found: SolutionSet, home: HomeMode) -> str:
+def _other(record: Mechanism, solutions: SolutionSet, home: HomeMode) -> str:
     """Whether the first assembly of a named mode, whose indices are given, is that of home's mode."""
-    if not found.exists.any():
+    if not solutions.exists.any():
         return ""
-    same = any(home.is_home(record, joints) for joints in found.joints[found.exists][:1])
+    same = any(home.is_home(record, joints) for joints in solutions.joints[solutions.exists][:1])
     return home.words if same else f"another assembly than that of home, as far as {home.paths} paths from home tell"
 
 
@@ -151,13 +151,13 @@ def over_workspace(record: Mechanism, asked: Question, points: str, length: Leng
     return Outcome(answer, lambda: _overall_shown(record, answer))
 
 
-def _overall_index(record: Mechanism, item: Overall) -> OverallIndex:
+def _overall_index(record: Mechanism, overall: Overall) -> OverallIndex:
     from assur.kinematics.answers.at_border import pose_at_border
     from assur.results.answers.indices import OverallIndex
 
-    places = {"least_at": item.least_at, "most_at": item.most_at}
+    places = {"least_at": overall.least_at, "most_at": overall.most_at}
     at_border = {name: pose_at_border(record, pose).tolist() for name, pose in places.items()}
-    return OverallIndex(**{**vars(item), **at_border})
+    return OverallIndex(**{**vars(overall), **at_border})
 
 
 def _pose_shown(record: Mechanism, data: IndicesAnswer, units: dict[str, str]) -> Iterable[RenderableType]:

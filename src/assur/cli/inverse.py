@@ -51,5 +51,5 @@ def inverse(
 
         way = certified_solutions.way_of(method, mode, crossed=crossed)
         return certified_solutions.outcome(record, certified_inverse(record, given, way))
-    with handing_over(SolutionSet, lambda found: outcome(record, found)):  # type: ignore[type-abstract]
+    with handing_over(SolutionSet, lambda solutions: outcome(record, solutions)):  # type: ignore[type-abstract]
         return outcome(record, record.inverse(given, mode, method, crossed=crossed))

@@ -90,8 +90,8 @@ def _complain(error: AssurError, *, json: bool) -> None:
     complain(error, json=json)
 
 
-def _traceback(wanted: bool) -> None:
-    if wanted:
+def _traceback(debug: bool) -> None:
+    if debug:
         import traceback
 
         traceback.print_exc()

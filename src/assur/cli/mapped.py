@@ -109,7 +109,7 @@ def _rest(record: Mechanism, names: Sequence[str], at: Sequence[str]) -> list[st
 
 
 def _write(
-    path: Path, record: Mechanism, region: Workspace, found: IndexMaps, shown: IndexMaps, answer: MapsAnswer
+    path: Path, record: Mechanism, region: Workspace, maps: IndexMaps, shown: IndexMaps, answer: MapsAnswer
 ) -> None:
     from assur.results.files import write_whole
     from assur.results.json_text import json_text
@@ -122,7 +122,7 @@ def _write(
         from assur.figures.style import styled
 
         with styled():
-            figure = drawn(Context(record, region), found).figure
+            figure = drawn(Context(record, region), maps).figure
         write_whole(path, encoded(figure, ending[1:]))
     elif ending == ".npz":
         import numpy as np
@@ -134,19 +134,19 @@ def _write(
         write_whole(path, shown.csv() if ending == ".csv" else json_text(answer) + "\n")
 
 
-def _shown(record: Mechanism, found: IndexMaps, written: Path | None) -> Iterable[RenderableType]:
+def _shown(record: Mechanism, maps: IndexMaps, written: Path | None) -> Iterable[RenderableType]:
     import numpy as np
 
-    style, names = style_of(record), found.coordinates
-    of_mode = f" of working mode {found.mode}" if found.mode else ""
-    yield heading(f"{found.mechanism}, index maps{of_mode}")
-    axes = ", ".join(f"{name} {nodes[0]:g} .. {nodes[-1]:g}" for name, nodes in found.axes)
-    held = "".join(f", {name} = {value:g}" for name, value in found.held.items())
-    inside = int(np.sum(np.isfinite(found["transmission"])))
-    yield f"over {axes}{held}: {inside} of {found.status.size} nodes in the workspace"
+    style, names = style_of(record), maps.coordinates
+    of_mode = f" of working mode {maps.mode}" if maps.mode else ""
+    yield heading(f"{maps.mechanism}, index maps{of_mode}")
+    axes = ", ".join(f"{name} {nodes[0]:g} .. {nodes[-1]:g}" for name, nodes in maps.axes)
+    held = "".join(f", {name} = {value:g}" for name, value in maps.held.items())
+    inside = int(np.sum(np.isfinite(maps["transmission"])))
+    yield f"over {axes}{held}: {inside} of {maps.status.size} nodes in the workspace"
     yield ""
     rows, places = [], []
-    for name, item in found.maps.items():
+    for name, item in maps.maps.items():
         ends = [end for end in (item.least, item.most) if end is not None]
         unit = f"{name} [{item.unit}]" if item.unit else name
         rows.append((unit, *(short(value) for value in (item.mean, *(end.value for end in ends)))) if ends else
@@ -160,12 +160,12 @@ def _shown(record: Mechanism, found: IndexMaps, written: Path | None) -> Iterabl
         yield table((f"at {where}", "least", "most"), places, left=(f"at {where}",))
     yield ""
     yield "means and extremes are those of the nodes; without --map they come with errors"
-    if found.reach is not None:
-        beyond = int(np.sum(np.isinf(found["distance"])))
+    if maps.reach is not None:
+        beyond = int(np.sum(np.isinf(maps["distance"])))
         yield (
             "distance: from the nearest parallel singularity inside the reach, its border not counted, that rays found"
-            f" within {found.reach:g} {found.unit} (none from {beyond} nodes)"
+            f" within {maps.reach:g} {maps.unit} (none from {beyond} nodes)"
         )
-    yield length_words(record, found.length)
+    yield length_words(record, maps.length)
     if written is not None:
         yield f"written: {written}"

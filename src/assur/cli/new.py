@@ -116,19 +116,19 @@ def _draft(chains: Sequence[Chain], path: Path, actuate: str, mode: str) -> Outc
     return _outcome(path, [str(write_whole(path, found.text))], said)
 
 
-def _written_copy(found: Copied, path: Path, *, force: bool, with_closed_form: bool) -> Outcome:
+def _written_copy(copy: Copied, path: Path, *, force: bool, with_closed_form: bool) -> Outcome:
     from assur.results.files import write_whole
 
-    wanted = with_closed_form and found.closed_form is not None
+    wanted = with_closed_form and copy.closed_form is not None
     _refuse_neighbour(path, replaced=wanted and force)
     if wanted:
         _refuse_others(path)
-    files = [str(write_whole(path, found.text))]
-    if wanted and found.closed_form is not None:
-        files.append(str(write_whole(path.parent / CLOSED_FORM, found.closed_form.read_bytes())))
-    said = [f"copied from {found.model} of the catalogue"]
-    if found.closed_form is None:
-        said.append(f"{found.model} has no closed form")
+    files = [str(write_whole(path, copy.text))]
+    if wanted and copy.closed_form is not None:
+        files.append(str(write_whole(path.parent / CLOSED_FORM, copy.closed_form.read_bytes())))
+    said = [f"copied from {copy.model} of the catalogue"]
+    if copy.closed_form is None:
+        said.append(f"{copy.model} has no closed form")
     elif wanted:
         said += [
             f"its closed form stands beside it, in {CLOSED_FORM}; it holds as long as only numbers are changed",

@@ -69,7 +69,7 @@ def show(items: Iterable[RenderableType]) -> None:
             out.print(_seen(item), soft_wrap=isinstance(item, Verbatim), crop=False)
 
 
-def _seen(item: RenderableType) -> RenderableType:
+def _seen(shown: RenderableType) -> RenderableType:
     """An item whose hidden characters, such as those of a path that was typed, are written out."""
     from rich.console import ConsoleOptions
     from rich.measure import Measurement
@@ -77,11 +77,11 @@ def _seen(item: RenderableType) -> RenderableType:
 
     class Seen:
         def __rich_console__(self, console: Console, options: ConsoleOptions) -> Iterator[Segment]:
-            for part in console.render(item, options):
+            for part in console.render(shown, options):
                 yield part if part.control else Segment(visible(part.text), part.style)
 
         def __rich_measure__(self, console: Console, options: ConsoleOptions) -> Measurement:
-            return Measurement.get(console, options, item)
+            return Measurement.get(console, options, shown)
 
     return Seen()
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from assur.workspace.region import Workspace
 
 
-def largest(record: Mechanism, found: Workspace) -> dict[str, LargestCoordinate]:
+def largest(record: Mechanism, region: Workspace) -> dict[str, LargestCoordinate]:
     """Coordinate -> its largest value in size over a workspace and where; angles in the mechanism's angle unit."""
     from assur.kinematics.answers.at_border import coordinate_unit, coordinates_at_border
     from assur.results.answers.region import LargestCoordinate
@@ -26,7 +26,7 @@ def largest(record: Mechanism, found: Workspace) -> dict[str, LargestCoordinate]
 
     return {
         name: LargestCoordinate(item.value / coordinate_unit(record, name), coordinates_at_border(record, item.at))
-        for name, item in largest_parasitic(record, found).items()
+        for name, item in largest_parasitic(record, region).items()
     }
 
 

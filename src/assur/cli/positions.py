@@ -31,22 +31,22 @@ if TYPE_CHECKING:
     CertifiedPositions = CertifiedDirect | CertifiedInverse
 
 
-def outcome(record: Mechanism, found: SolutionSet) -> Outcome:
+def outcome(record: Mechanism, solutions: SolutionSet) -> Outcome:
     """The outcome of one problem.
 
     Exit code 4 where it is proved that no solution exists, 5 where that is undecided, 3 where one is not closed.
     """
     from assur.kinematics.answers.answer import answer
 
-    data = answer(found)
-    return Outcome(data, lambda: _shown(record, data, found.candidates), exit_codes.of_status(data.status))
+    data = answer(solutions)
+    return Outcome(data, lambda: _shown(record, data, solutions.candidates), exit_codes.of_status(data.status))
 
 
-def lines(record: Mechanism, found: SolutionSet) -> Iterable[RenderableType]:
+def lines(record: Mechanism, solutions: SolutionSet) -> Iterable[RenderableType]:
     """An answer as a person reads it."""
     from assur.kinematics.answers.answer import answer
 
-    return _shown(record, answer(found), found.candidates)
+    return _shown(record, answer(solutions), solutions.candidates)
 
 
 def _shown(record: Mechanism, data: Positions, branches: int) -> Iterable[RenderableType]:
@@ -136,10 +136,10 @@ def _solutions(record: Mechanism, data: Positions, style: Style) -> RenderableTy
     )
 
 
-def limits_cell(item: ListedSolution | BoundedSolution) -> str:
+def limits_cell(solution: ListedSolution | BoundedSolution) -> str:
     """The first limit that a solution exceeds, by how much, and how many more."""
-    outside = item.limits.outside
-    if item.limits.within is None:
+    outside = solution.limits.outside
+    if solution.limits.within is None:
         return ""
     if not outside:
         return "within"

@@ -56,7 +56,7 @@ def outcome(record: Mechanism, asked: Question, written: Path | None, shared: Sh
     return Outcome(data, lambda: _shown(record, data, written))
 
 
-def _answer(record: Mechanism, asked: Question, found: Workspace) -> WorkspaceAnswer:
+def _answer(record: Mechanism, asked: Question, region: Workspace) -> WorkspaceAnswer:
     """The answer, with angles in the mechanism's angle unit."""
     from assur.kinematics.answers.at_border import (
         box_at_border,
@@ -68,49 +68,49 @@ def _answer(record: Mechanism, asked: Question, found: Workspace) -> WorkspaceAn
     from assur.results.answers.region import SectionArea, WorkspaceAnswer
     from assur.workspace.region import default_resolution
 
-    names, last = found.box.names, found.box.names[-1]
+    names, last = region.box.names, region.box.names[-1]
     limits = {item.name: item.stroke for item in record.inputs if item.stroke is not None} | asked.strokes
     units = {item.name: input_unit(record, item) for item in record.inputs}
     return WorkspaceAnswer(
         mechanism=record.name,
-        volume=found.volume,
-        volume_error=found.volume_error,
-        unit=found.unit,
-        mode=found.mode,
-        how=found.how,
+        volume=region.volume,
+        volume_error=region.volume_error,
+        unit=region.unit,
+        mode=region.mode,
+        how=region.how,
         coordinates=names,
-        box=box_at_border(record, names, found.box.intervals),
-        held=coordinates_at_border(record, found.slice.held),
-        parallel_singular=found.parallel_singular,
+        box=box_at_border(record, names, region.box.intervals),
+        held=coordinates_at_border(record, region.slice.held),
+        parallel_singular=region.parallel_singular,
         sections=tuple(
             SectionArea(item.area, item.area_error, {last: item.value / coordinate_unit(record, last)})
-            for item in found.sections
+            for item in region.sections
         ),
-        resolution=asked.resolution or default_resolution(record, found.slice),
+        resolution=asked.resolution or default_resolution(record, region.slice),
         strokes={name: (low / units[name], high / units[name]) for name, (low, high) in limits.items()},
         limits_stated=limits_stated(record, asked.strokes),
         joint_limits=tuple(joint_limits(record)),
-        parasitic=parasitic.largest(record, found),
-        nowhere=_nowhere(record, asked, found),
-        empty=_empty(record, asked, found),
+        parasitic=parasitic.largest(record, region),
+        nowhere=_nowhere(record, asked, region),
+        empty=_empty(record, asked, region),
     )
 
 
-def _nowhere(record: Mechanism, asked: Question, found: Workspace) -> tuple[str, ...]:
+def _nowhere(record: Mechanism, asked: Question, region: Workspace) -> tuple[str, ...]:
     """Of the parallel factors without a locus inside those that are proved to have none."""
     from assur.workspace.aspects.nowhere import nowhere_zero
 
-    unseen = [item.factor for item in found.loci if not item.area and not item.everywhere]
-    if record.closed_form is None or not unseen or found.volume == 0:
+    unseen = [item.factor for item in region.loci if not item.area and not item.everywhere]
+    if record.closed_form is None or not unseen or region.volume == 0:
         return ()
     return tuple(sorted(nowhere_zero(record, unseen, asked.mode, asked.box, asked.strokes, asked.held)))
 
 
-def _empty(record: Mechanism, asked: Question, found: Workspace) -> Literal["proved", "sampled"] | None:
+def _empty(record: Mechanism, asked: Question, region: Workspace) -> Literal["proved", "sampled"] | None:
     """How it is known that nothing is reached, where nothing is."""
     from assur.workspace.aspects.nowhere import nothing_reached
 
-    if found.volume > 0:
+    if region.volume > 0:
         return None
     proved = record.closed_form is not None and nothing_reached(
         record, asked.mode, asked.box, asked.strokes, asked.held
@@ -118,15 +118,15 @@ def _empty(record: Mechanism, asked: Question, found: Workspace) -> Literal["pro
     return "proved" if proved else "sampled"
 
 
-def _content(path: Path, found: Workspace, data: WorkspaceAnswer) -> str:
+def _content(path: Path, region: Workspace, data: WorkspaceAnswer) -> str:
     from assur.results.answers.answer import entries
     from assur.results.json_text import json_text
 
     if path.suffix.lower() == ".obj":
-        points = [f"v {' '.join(f'{value:.9g}' for value in vertex)}" for vertex in found.vertices.tolist()]
-        faces = [f"f {' '.join(str(index + 1) for index in face)}" for face in found.faces.tolist()]
-        return "\n".join([f"# {found.mechanism}, working mode {found.mode}", *points, *faces, ""])
-    polygons = [[polygon.tolist() for polygon in section.polygons] for section in found.sections]
+        points = [f"v {' '.join(f'{value:.9g}' for value in vertex)}" for vertex in region.vertices.tolist()]
+        faces = [f"f {' '.join(str(index + 1) for index in face)}" for face in region.faces.tolist()]
+        return "\n".join([f"# {region.mechanism}, working mode {region.mode}", *points, *faces, ""])
+    polygons = [[polygon.tolist() for polygon in section.polygons] for section in region.sections]
     return json_text({**entries(data), "section_polygons": polygons}) + "\n"
 
 

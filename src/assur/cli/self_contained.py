@@ -19,7 +19,7 @@ def outside_needs(page: str) -> list[str]:
     reader = _Reader()
     reader.feed(page)
     reader.close()
-    return reader.found
+    return reader.references
 
 
 class _Reader(HTMLParser):
@@ -27,7 +27,7 @@ class _Reader(HTMLParser):
 
     def __init__(self) -> None:
         super().__init__()
-        self.found: list[str] = []
+        self.references: list[str] = []
         self.tag = ""
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
@@ -36,11 +36,11 @@ class _Reader(HTMLParser):
         for name, value in attrs:
             loaded = name in LOADED or (name in ("href", "xlink:href") and tag not in ("a", "area"))
             if value and loaded and not value.strip().startswith(("data:", "#")):
-                self.found.append(value)
+                self.references.append(value)
             if name == "style" and value and STYLE.search(value):
-                self.found.append(value)
+                self.references.append(value)
 
     def handle_data(self, data: str) -> None:
         """Look at a style sheet."""
         if self.tag == "style" and STYLE.search(data):
-            self.found.append(" ".join(data.split())[:60])
+            self.references.append(" ".join(data.split())[:60])

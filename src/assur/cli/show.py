@@ -154,10 +154,10 @@ def _form_line(form: ShownClosedForm | None, not_run: bool) -> str:
     return f"closed   closed form, complete for the {form.complete_for.replace('_', ' ')} model{because}"
 
 
-def _joint_row(item: ShownJoint, home: Mapping[str, Sequence[float]], style: Style) -> tuple[str, ...]:
-    alias = f"{item.name} ({item.alias})" if item.alias else item.name
-    values = [style.kind(kind, value) for kind, value in zip(item.kinds, home[item.name], strict=True)]
-    return alias, item.type, item.parent, item.child, " ".join(values)
+def _joint_row(joint: ShownJoint, home: Mapping[str, Sequence[float]], style: Style) -> tuple[str, ...]:
+    alias = f"{joint.name} ({joint.alias})" if joint.alias else joint.name
+    values = [style.kind(kind, value) for kind, value in zip(joint.kinds, home[joint.name], strict=True)]
+    return alias, joint.type, joint.parent, joint.child, " ".join(values)
 
 
 def _modes(modes: ShownModes) -> Iterable[RenderableType]:

@@ -132,7 +132,7 @@ def _shown(record: Mechanism, data: SingularityAnswer) -> Iterable[RenderableTyp
         yield f"no example found: {', '.join(without)}"
 
 
-def _area(item: SingularLocus) -> str:
-    if item.everywhere:
+def _area(locus: SingularLocus) -> str:
+    if locus.everywhere:
         return "the whole mode"
-    return short(item.area) if item.area else "none found"
+    return short(locus.area) if locus.area else "none found"

@@ -87,7 +87,10 @@ def synthesize(
     count = _count(top)
     folder = planned_folder(toml) if toml else None
     most = None if yes else MILLION
-    with handing_over(Synthesis, lambda found: _outcome(found, count, None)), progress("synthesis", shared) as step:
+    with (
+        handing_over(Synthesis, lambda synthesis: _outcome(synthesis, count, None)),
+        progress("synthesis", shared) as step,
+    ):
         try:
             found = synthesis(
                 motion, number, joints, degrees, symmetric=symmetric, actuators=place, step=step, most=most
@@ -133,28 +136,28 @@ def _count(text: str) -> int | None:
     return count
 
 
-def _outcome(found: Synthesis, top: int | None, folder: Path | None) -> Outcome:
+def _outcome(synthesis: Synthesis, top: int | None, folder: Path | None) -> Outcome:
     from assur.synthesis.answers import answers
 
-    data = answers(found, top)
+    data = answers(synthesis, top)
     if folder is not None:
-        data = replace(data, written=_write(found, folder, top or SHOWN))
-    return Outcome(data, lambda: _shown(found, data, top or SHOWN, folder))
+        data = replace(data, written=_write(synthesis, folder, top or SHOWN))
+    return Outcome(data, lambda: _shown(synthesis, data, top or SHOWN, folder))
 
 
-def _write(found: Synthesis, folder: Path, top: int) -> tuple[str, ...]:
+def _write(synthesis: Synthesis, folder: Path, top: int) -> tuple[str, ...]:
     from assur.cli.paths import made
     from assur.results.files import write_whole
     from assur.synthesis.answers import skeletons
 
     made(folder)
-    return tuple(str(write_whole(folder / name, text)) for name, text in skeletons(found, top).items())
+    return tuple(str(write_whole(folder / name, text)) for name, text in skeletons(synthesis, top).items())
 
 
-def _shown(found: Synthesis, data: SynthesisAnswer, top: int, folder: Path | None) -> Iterable[RenderableType]:
-    numbered = list(enumerate(found.designs, 1))
-    yield heading(f"{found.asked.motion.name}: {len(numbered)} mechanisms of {found.asked.limbs} limbs")
-    yield from _counts(found, data)
+def _shown(synthesis: Synthesis, data: SynthesisAnswer, top: int, folder: Path | None) -> Iterable[RenderableType]:
+    numbered = list(enumerate(synthesis.designs, 1))
+    yield heading(f"{synthesis.asked.motion.name}: {len(numbered)} mechanisms of {synthesis.asked.limbs} limbs")
+    yield from _counts(synthesis, data)
     if numbered:
         yield ""
         yield heading(f"the best {top}" if top < len(numbered) else "ranked")
@@ -170,9 +173,9 @@ def _shown(found: Synthesis, data: SynthesisAnswer, top: int, folder: Path | Non
         yield f"written: {len(data.written)} files in {folder}"
 
 
-def _counts(found: Synthesis, data: SynthesisAnswer) -> Iterator[str]:
+def _counts(synthesis: Synthesis, data: SynthesisAnswer) -> Iterator[str]:
     """How large the search was."""
-    types, tally = data.limb_types, found.tally
+    types, tally = data.limb_types, synthesis.tally
     kinds = ", ".join(f"{count} with {poc}" for poc, count in types.by_poc.items())
     yield f"positions    {data.positions}"
     yield f"limb types   {types.with_motion} with the motion: {kinds or 'none'}"
@@ -182,7 +185,7 @@ def _counts(found: Synthesis, data: SynthesisAnswer) -> Iterator[str]:
     rest = f", {unknown} on which only twists can tell" if unknown else ""
     yield f"coupling     {degrees or 'none'}{rest}"
     yield f"one by one   {tally.tried} by twists; the actuators of {tally.unfixed} do not fix the platform"
-    if any(not design.symmetric for design in found.designs):
+    if any(not design.symmetric for design in synthesis.designs):
         listed = data.combinations.listed_of_each_class_of_different_limbs
         yield f"Of different limbs the {listed} simplest are listed for each combination of limb motions."
 
@@ -225,7 +228,7 @@ def _pocs(design: Design) -> list[str]:
 
 def _reasons(numbered: Sequence[Numbered]) -> Iterator[str]:
     """One sentence for each run of mechanisms that it is true of."""
-    for reason, run in groupby(numbered, key=lambda item: item[1].reason):
+    for reason, run in groupby(numbered, key=lambda refused: refused[1].reason):
         ranks = [rank for rank, _ in run]
         yield f"{ranks[0]}{f'-{ranks[-1]}' if len(ranks) > 1 else ''}: {reason}."
 

@@ -43,40 +43,40 @@ def shortened(text: str) -> str:
     return _LONG.sub(lambda number: f"{float(number[0]):.4g}", text)
 
 
-def outcome(found: Topology, graph: Path | None, *, latex: bool, ascii_only: bool) -> Outcome:
+def outcome(topology: Topology, graph: Path | None, *, latex: bool, ascii_only: bool) -> Outcome:
     """The answer; the graph is written where a path is given."""
     from assur.topology.answers import answers
 
-    data = answers(found)
-    wrong = 1 if any(note.startswith("declared ") for note in found.notes) else 0  # a claim of the file fails
+    data = answers(topology)
+    wrong = 1 if any(note.startswith("declared ") for note in topology.notes) else 0  # a claim of the file fails
     if graph is not None:
-        _draw(found, graph)
+        _draw(topology, graph)
         data = replace(data, graph=str(graph))
     if latex:
         from assur.topology.latex import fragment
 
-        text = fragment(found)
+        text = fragment(topology)
         return Outcome(replace(data, latex=text), lambda: [Verbatim(text)], wrong)
-    return Outcome(data, lambda: _shown(found, graph, ascii_only=ascii_only), wrong)
+    return Outcome(data, lambda: _shown(topology, graph, ascii_only=ascii_only), wrong)
 
 
-def _draw(found: Topology, path: Path) -> None:
+def _draw(topology: Topology, path: Path) -> None:
     from assur.figures.encode import encoded
     from assur.figures.graph import graph_drawing
     from assur.figures.style import styled
     from assur.results.files import write_whole
 
     with styled():
-        drawing = graph_drawing(found.linkage, found.loops, found.assur_chains)
+        drawing = graph_drawing(topology.linkage, topology.loops, topology.assur_chains)
     write_whole(path, encoded(drawing.figure, path.suffix.lower()[1:]))
 
 
-def _shown(found: Topology, graph: Path | None, *, ascii_only: bool) -> Iterable[RenderableType]:
+def _shown(topology: Topology, graph: Path | None, *, ascii_only: bool) -> Iterable[RenderableType]:
     say: Said = ascii_text if ascii_only else str
-    yield heading(say(_title(found)))
-    yield from map(say, _result(found))
+    yield heading(say(_title(topology)))
+    yield from map(say, _result(topology))
     for title, part in PARTS.items():
-        lines = list(part(found, say))
+        lines = list(part(topology, say))
         if lines:
             yield ""
             yield heading(title)
@@ -85,51 +85,51 @@ def _shown(found: Topology, graph: Path | None, *, ascii_only: bool) -> Iterable
         yield f"written: {graph}"
 
 
-def _title(found: Topology) -> str:
+def _title(topology: Topology) -> str:
     """The name and the title; of chains that have none, how many they are."""
-    parts = [part for part in (found.name, found.title) if part]
-    return ": ".join(parts) or ("one chain" if len(found.limbs) == 1 else f"{len(found.limbs)} limbs")
+    parts = [part for part in (topology.name, topology.title) if part]
+    return ": ".join(parts) or ("one chain" if len(topology.limbs) == 1 else f"{len(topology.limbs)} limbs")
 
 
-def _result(found: Topology) -> Iterator[str]:
+def _result(topology: Topology) -> Iterator[str]:
     """The five lines that a reader came for."""
-    poc = found.poc
+    poc = topology.poc
     dependent = f", {poc.dependent} of {poc.t + poc.r} dependent" if poc.dependent else ""
     yield f"POC set      {poc}: dim {poc.dim}{dependent}"
-    internal = f", {found.internal_freedoms} of them internal" if found.internal_freedoms else ""
-    yield f"DOF          F = {found.dof}{_sum(found)}{internal}"
-    loops = "; ".join(f"ξ{k} = {loop.xi}, Δ{k} = {signed(loop.delta)}" for k, loop in enumerate(found.loops, 1))
-    yield f"loops        {len(found.loops)}" + (f": {loops}" if loops else "")
-    degree = found.coupling_degree
-    yield (f"coupling     κ = {degree}" if degree is not None else f"coupling     none: {found.coupling_refusal}")
-    redundant = found.redundant_constraints
+    internal = f", {topology.internal_freedoms} of them internal" if topology.internal_freedoms else ""
+    yield f"DOF          F = {topology.dof}{_sum(topology)}{internal}"
+    loops = "; ".join(f"ξ{k} = {loop.xi}, Δ{k} = {signed(loop.delta)}" for k, loop in enumerate(topology.loops, 1))
+    yield f"loops        {len(topology.loops)}" + (f": {loops}" if loops else "")
+    degree = topology.coupling_degree
+    yield (f"coupling     κ = {degree}" if degree is not None else f"coupling     none: {topology.coupling_refusal}")
+    redundant = topology.redundant_constraints
     yield f"redundant    {redundant.collapsed} with parallelograms as one joint, {redundant.joint_graph} of all joints"
 
 
-def _sum(found: Topology) -> str:
+def _sum(topology: Topology) -> str:
     """Eq. (3) in numbers, where every joint is in a loop."""
-    freedoms = [loop.freedoms for loop in found.loops]
-    if not found.loops or sum(freedoms) - sum(found.xi) != found.dof:
+    freedoms = [loop.freedoms for loop in topology.loops]
+    if not topology.loops or sum(freedoms) - sum(topology.xi) != topology.dof:
         return ""
     if len(freedoms) == 1:
-        return f" = {freedoms[0]} - {found.xi[0]}"
-    return f" = ({' + '.join(map(str, freedoms))}) - ({' + '.join(map(str, found.xi))})"
+        return f" = {freedoms[0]} - {topology.xi[0]}"
+    return f" = ({' + '.join(map(str, freedoms))}) - ({' + '.join(map(str, topology.xi))})"
 
 
-def _derivation(found: Topology, say: Said) -> Iterator[RenderableType]:
+def _derivation(topology: Topology, say: Said) -> Iterator[RenderableType]:
     """Lines as far in as they are, also where they are broken."""
     from rich.padding import Padding
 
-    for derivation in found.derivations:
+    for derivation in topology.derivations:
         for line in derivation.text("unicode").splitlines():
             text = line.lstrip()
             yield Padding(say(text), (0, 0, 0, len(line) - len(text)), expand=False)
-    if len(found.limbs) != 1:  # of one chain alone it stands below the table of limbs
-        yield from map(say, _refused("the platform", found.known))
+    if len(topology.limbs) != 1:  # of one chain alone it stands below the table of limbs
+        yield from map(say, _refused("the platform", topology.known))
 
 
-def _limbs(found: Topology, say: Said) -> Iterator[RenderableType]:
-    if found.limbs:
+def _limbs(topology: Topology, say: Said) -> Iterator[RenderableType]:
+    if topology.limbs:
         yield table(
             ("limb", "chain", "POC set", "dim", "dep.", "known by"),
             [
@@ -141,14 +141,14 @@ def _limbs(found: Topology, say: Said) -> Iterator[RenderableType]:
                     str(limb.poc.dependent),
                     KNOWN[limb.known.route],
                 )
-                for number, limb in enumerate(found.limbs, 1)
+                for number, limb in enumerate(topology.limbs, 1)
             ],
             left=("limb", "chain", "POC set", "known by"),
             wrap=("chain", "known by"),
         )
     else:
         yield "The graph has no limbs in the sense of POC theory: it does not reduce in series and in parallel."
-    for number, limb in enumerate(found.limbs, 1):
+    for number, limb in enumerate(topology.limbs, 1):
         yield from map(say, _refused(f"limb {number}", limb.known))
 
 
@@ -157,10 +157,10 @@ def _refused(name: str, known: Known) -> Iterator[str]:
         yield f"{name}: the rules give no answer, because {known.refusal}; the twists say {known.poc}."
 
 
-def _loops(found: Topology, say: Said) -> Iterator[RenderableType]:
-    if not found.loops:
+def _loops(topology: Topology, say: Said) -> Iterator[RenderableType]:
+    if not topology.loops:
         return
-    internal = ["internal"] if any(loop.internal for loop in found.loops) else []
+    internal = ["internal"] if any(loop.internal for loop in topology.loops) else []
     yield table(
         ("loop", "joints that it adds", say("Σf"), *internal, "I", say("ξ"), say("Δ"), "redundant"),
         [
@@ -174,32 +174,32 @@ def _loops(found: Topology, say: Said) -> Iterator[RenderableType]:
                 f"{signed(loop.delta)}",
                 str(loop.redundant_constraints),
             )
-            for number, loop in enumerate(found.loops, 1)
+            for number, loop in enumerate(topology.loops, 1)
         ],
         left=("joints that it adds",),
     )
-    inside = found.redundant_by_loop[len(found.loops) :]
+    inside = topology.redundant_by_loop[len(topology.loops) :]
     if inside:
         yield "redundant inside parallelograms: " + ", ".join(f"{name} {count}" for name, count in inside)
-    for number, chain in enumerate(found.assur_chains, 1):
+    for number, chain in enumerate(topology.assur_chains, 1):
         loops = ", ".join(str(index + 1) for index in chain.loops)
         noun = "loop" if len(chain.loops) == 1 else "loops"
         yield say(f"Assur chain {number}: {noun} {loops}, κ = {chain.coupling_degree}")
 
 
-def _plan(found: Topology, say: Said) -> Iterator[RenderableType]:
-    yield from map(say, found.plan.words)
+def _plan(topology: Topology, say: Said) -> Iterator[RenderableType]:
+    yield from map(say, topology.plan.words)
 
 
-def _decoupling(found: Topology, say: Said) -> Iterator[RenderableType]:
-    matrix = found.decoupling
-    if matrix is None and not found.loops:
+def _decoupling(topology: Topology, say: Said) -> Iterator[RenderableType]:
+    matrix = topology.decoupling
+    if matrix is None and not topology.loops:
         return
-    if matrix is None and found.decoupling_refusal:
-        yield say(f"No answer: {found.decoupling_refusal}.")
+    if matrix is None and topology.decoupling_refusal:
+        yield say(f"No answer: {topology.decoupling_refusal}.")
         return
     if matrix is None:
-        yield say(f"The inputs do not determine the platform: {found.actuation}.")
+        yield say(f"The inputs do not determine the platform: {topology.actuation}.")
         return
     yield table(
         ("output", *matrix.inputs),
@@ -213,28 +213,28 @@ def _decoupling(found: Topology, say: Said) -> Iterator[RenderableType]:
     yield say(f"× depends on the input, · does not: {kind}.")
 
 
-def _actuation(found: Topology, say: Said) -> Iterator[RenderableType]:
-    if not found.loops and found.decoupling is None:
+def _actuation(topology: Topology, say: Said) -> Iterator[RenderableType]:
+    if not topology.loops and topology.decoupling is None:
         return
-    asked = found.actuation
+    asked = topology.actuation
     yield say(f"chosen: {', '.join(asked.inputs) or 'none'}; {asked}.")
     yield f"may be actuated: {', '.join(asked.in_some) or 'none'}"
     if asked.in_every:
         yield f"in every admissible set: {', '.join(asked.in_every)}"
 
 
-def _joints(found: Topology, say: Said) -> Iterator[RenderableType]:
-    yield say(f"idle joints: {', '.join(found.idle_joints) or 'none'}")
-    yield say(f"internal freedoms of F: {found.internal_freedoms}")
-    if found.internal_joints:
-        moved = "; ".join(" ".join(joints) for joints in found.internal_joints)
+def _joints(topology: Topology, say: Said) -> Iterator[RenderableType]:
+    yield say(f"idle joints: {', '.join(topology.idle_joints) or 'none'}")
+    yield say(f"internal freedoms of F: {topology.internal_freedoms}")
+    if topology.internal_joints:
+        moved = "; ".join(" ".join(joints) for joints in topology.internal_joints)
         yield say(f"joints that move with platform and inputs at rest: {moved}")
 
 
-def _relaxation(found: Topology, say: Said) -> Iterator[RenderableType]:
+def _relaxation(topology: Topology, say: Said) -> Iterator[RenderableType]:
     from assur.topology.answers import replacements_by_kind
 
-    asked = found.relaxation
+    asked = topology.relaxation
     if not asked.redundant:
         return
     if not asked.single:
@@ -244,7 +244,7 @@ def _relaxation(found: Topology, say: Said) -> Iterator[RenderableType]:
         ("a joint", "removes", "spins", "any one of"),
         [
             (f"{item.old} to {item.new}", str(item.removed), str(item.internal), " ".join(names))
-            for item, names in replacements_by_kind(found)
+            for item, names in replacements_by_kind(topology)
         ],
         left=("a joint", "any one of"),
     )
@@ -252,8 +252,8 @@ def _relaxation(found: Topology, say: Said) -> Iterator[RenderableType]:
     yield say(f"together: {steps}; that leaves {asked.left} of {asked.redundant}.")
 
 
-def _notes(found: Topology, say: Said) -> Iterator[RenderableType]:
-    yield from map(say, found.notes)
+def _notes(topology: Topology, say: Said) -> Iterator[RenderableType]:
+    yield from map(say, topology.notes)
 
 
 PARTS: dict[str, Callable[[Topology, Said], Iterator[RenderableType]]] = {

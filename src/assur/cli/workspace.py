@@ -105,7 +105,7 @@ def workspace(
                 "--resolution, --near and -o belong to the estimate, not to a proof",
                 hint="leave them out; `assur certify` writes a proof to a file",
             )
-        proof = certified_regions.Asked(gap, finest, boxes, prove, largest, around, ratio)
+        proof = certified_regions.ProofQuestion(gap, finest, boxes, prove, largest, around, ratio)
         return certified_regions.outcome(record, asked, proof, shared)
     proofs = {"--gap": gap, "--finest": finest, "--boxes": boxes, "--around": around, "--ratio": ratio}
     for name, value in proofs.items():

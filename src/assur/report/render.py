@@ -22,10 +22,10 @@ from assur.results.kinds import (
     Curve,
     Facts,
     Field,
-    Formula,
     Formulas,
     Matrix,
     Picture,
+    PrintedFormula,
     Result,
     Scalar,
     Section,
@@ -134,7 +134,7 @@ class Hyperlinks:
 
     def cell(self, value: Cell) -> Markup:
         """A cell of a table."""
-        if isinstance(value, Formula):
+        if isinstance(value, PrintedFormula):
             return Markup(value.mathml)  # made by assur.report.formulas, which escapes
         if value is None:
             return Markup('<span class="none">–</span>')

@@ -50,7 +50,7 @@ class Facts:
 
 
 @dataclass(frozen=True)
-class Formula:
+class PrintedFormula:
     """A line of mathematics as MathML, with the number that it has in the source and what it says."""
 
     mathml: str
@@ -63,11 +63,11 @@ class Formulas:
     """Formulas that belong together, one under the other."""
 
     title: str
-    lines: tuple[Formula, ...]
+    lines: tuple[PrintedFormula, ...]
     caption: str = ""
 
 
-Cell = str | float | None | Formula
+Cell = str | float | None | PrintedFormula
 """Of a table: text, a number, None (does not exist) or mathematics."""
 
 

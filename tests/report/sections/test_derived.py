@@ -6,7 +6,7 @@ import re
 
 from assur.report.findings import Findings
 from assur.report.sections.derived import derived
-from assur.results.kinds import Facts, Formula, Formulas, Scalar, Table
+from assur.results.kinds import Facts, Formulas, PrintedFormula, Scalar, Table
 
 
 def parts(section, kind):
@@ -61,7 +61,7 @@ def test_the_plan_and_the_joints_are_in_words(findings):
 
 def test_each_step_of_the_derivation_has_its_rule_and_its_reason(findings):
     table = parts(derived(findings), Table)["The derivation, step by step"]
-    steps = [row for row in table.rows if isinstance(row[1], Formula)]
+    steps = [row for row in table.rows if isinstance(row[1], PrintedFormula)]
     assert len(steps) >= 4
     assert all(re.fullmatch(r"(linear rule|criterion C[12]|containment|location): .+", row[2]) for row in steps)
     assert table.rows[-1][1].startswith("so the platform has three translations and no rotations")

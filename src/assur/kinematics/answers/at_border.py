@@ -36,9 +36,9 @@ def coordinate_unit(record: MechanismRecord, name: str) -> float:
     return record.angle_unit if is_angle(name) else 1.0
 
 
-def input_unit(record: MechanismRecord, item: Input) -> float:
+def input_unit(record: MechanismRecord, driven: Input) -> float:
     """The unit of an input, in rad; 1 of one that is no angle."""
-    return record.angle_unit if item.coordinate.kind == "angle" else 1.0
+    return record.angle_unit if driven.coordinate.kind == "angle" else 1.0
 
 
 def coordinates_at_border(record: MechanismRecord, values: Mapping[str, float]) -> dict[str, float]:

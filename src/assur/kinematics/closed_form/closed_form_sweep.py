@@ -83,13 +83,13 @@ class ClosedFormSweep(GridSweep):
         place = all_modes(record, self.problem).index(self.mode)
         return {name: values[place], "exists": exists[place]}
 
-    def _status(self, given: FloatArray, found: Found) -> NDArray[np.int8]:
-        exists = found["exists"]
-        if "factors" not in found:
+    def _status(self, given: FloatArray, rows: Found) -> NDArray[np.int8]:
+        exists = rows["exists"]
+        if "factors" not in rows:
             return self._answered(given).reshape(exists.shape)
         form = closed_form_of(self.record)
         status = classify(
-            self.record, {item.name: row for item, row in zip(form.factor_list, found["factors"], strict=True)}
+            self.record, {item.name: row for item, row in zip(form.factor_list, rows["factors"], strict=True)}
         )
         status[~exists] = Status.unreachable
         if any(margin.zero == "degenerate" for margin in form.inverse_margins) and not np.all(exists):

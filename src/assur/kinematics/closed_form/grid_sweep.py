@@ -144,17 +144,17 @@ class GridSweep(ABC):
         self._to_file_angles(found)
         return found
 
-    def _to_file_angles(self, found: Found) -> None:
+    def _to_file_angles(self, rows: Found) -> None:
         if self.record.angle != "deg":
             return
         angles = {
             "inputs": [item.coordinate.kind == "angle" for item in self.record.inputs],
             "poses": [is_angle(name) for name in self.record.platform.pose],
         }
-        for name in found.keys() & angles.keys():
+        for name in rows.keys() & angles.keys():
             for k, angle in enumerate(angles[name]):
                 if angle:
-                    np.degrees(found[name][..., k, :], out=found[name][..., k, :])
+                    np.degrees(rows[name][..., k, :], out=rows[name][..., k, :])
 
 
 def _over(exists: NDArray[np.bool_], values: NDArray[Any]) -> NDArray[np.bool_]:
@@ -162,12 +162,12 @@ def _over(exists: NDArray[np.bool_], values: NDArray[Any]) -> NDArray[np.bool_]:
     return exists[..., None, :] if values.ndim > exists.ndim else exists
 
 
-def _counted(found: Found) -> Counts:
+def _counted(rows: Found) -> Counts:
     """Problems by the number of modes that solve them, and branches by status."""
-    modes = np.bincount(np.atleast_2d(found["exists"]).sum(axis=0))
+    modes = np.bincount(np.atleast_2d(rows["exists"]).sum(axis=0))
     counts = {"modes": {str(k): int(n) for k, n in enumerate(modes) if n}}
-    if "status" in found:
-        counts["status"] = {Status(k).name: int(n) for k, n in enumerate(np.bincount(found["status"].ravel())) if n}
+    if "status" in rows:
+        counts["status"] = {Status(k).name: int(n) for k, n in enumerate(np.bincount(rows["status"].ravel())) if n}
     return counts
 
 

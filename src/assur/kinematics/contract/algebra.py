@@ -65,9 +65,9 @@ class Algebra:
         """Products among the entries; worked out where something is not known without."""
         return Identities(self.kernel, self._general)
 
-    def margin(self, item: Margin) -> tuple[int, ...]:
+    def margin(self, claimed: Margin) -> tuple[int, ...]:
         """Entries of a margin."""
-        return self.kernel.outputs["margin"][item.name]
+        return self.kernel.outputs["margin"][claimed.name]
 
     def doubtful_divisors(self) -> tuple[int, ...]:
         """Entries, parts of divisors, of which it is not known that they are not zero."""
@@ -121,22 +121,22 @@ class Algebra:
         """Entries, with odd powers, of which no sign is known."""
         return {j for j, power in powers.items() if power % 4 and self.least(j) == "anything"}
 
-    def near(self, item: Margin) -> int | None:
+    def near(self, claimed: Margin) -> int | None:
         """Of radicands, or of divisors and factors, the one that has most in common with a margin."""
-        (own, *_), needs = self.margin(item), self.kernel.needs
-        others = self.kernel.roots if item.zero == "merge" else self._vanishing
+        (own, *_), needs = self.margin(claimed), self.kernel.needs
+        others = self.kernel.roots if claimed.zero == "merge" else self._vanishing
         shares = {k: len(needs[k] & needs[own]) / len(needs[k] | needs[own]) for k in others if k != own}
         return max(shares, key=lambda k: shares[k], default=None)
 
-    def _is_tied(self, item: Margin, k: int) -> bool:
-        if self.least(k) == "positive" or (item.zero == "merge" and self.least(k) != "anything"):
+    def _is_tied(self, claimed: Margin, k: int) -> bool:
+        if self.least(k) == "positive" or (claimed.zero == "merge" and self.least(k) != "anything"):
             return True
-        if item.zero == "degenerate":
+        if claimed.zero == "degenerate":
             return bool(self.identities.product(k, self._vanishing))
-        signs = [name for name in item.signs if name in self._asked]
+        signs = [name for name in claimed.signs if name in self._asked]
         if signs:
             return all(self._is_square(k, self.kernel.outputs["sign"].get(name, ())) for name in signs)
-        return bool(item.signs) and self._is_radicand(k)
+        return bool(claimed.signs) and self._is_radicand(k)
 
     def _is_radicand(self, k: int) -> bool:
         """Whether a margin is a positive multiple of a radicand: on a curve, whose signs are others."""

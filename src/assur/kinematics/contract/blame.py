@@ -24,29 +24,29 @@ FEW = 1 / 2
 """Where no more than this share of the joints is wrong, these are named."""
 
 
-def blamed(found: Solutions, row: int) -> list[tuple[Part, str]]:
+def blamed(solutions: Solutions, row: int) -> list[tuple[Part, str]]:
     """Margins, joints, or the branch as a whole, to blame for one solution that does not close."""
-    branch: list[tuple[Part, str]] = [("branch", str(found.labels[row]))]
-    by_signs = named_by_signs(found.record, found.problem)
-    kernel = recorded(found.record, found.problem) if by_signs else None
-    negative = _negative(kernel, found, row) if kernel else ""
+    branch: list[tuple[Part, str]] = [("branch", str(solutions.labels[row]))]
+    by_signs = named_by_signs(solutions.record, solutions.problem)
+    kernel = recorded(solutions.record, solutions.problem) if by_signs else None
+    negative = _negative(kernel, solutions, row) if kernel else ""
     if negative:
         return [("margin", negative)]
-    wrong = _wrong_joint(found, row) or _wrong_joints(found, row)
+    wrong = _wrong_joint(solutions, row) or _wrong_joints(solutions, row)
     if not wrong:
         return branch
     margin = _margin(kernel, wrong) if kernel else ""
     if margin:
         return [("margin", margin)]
-    if len(wrong) <= FEW * len(found.record.joints):
+    if len(wrong) <= FEW * len(solutions.record.joints):
         return [("joint", name) for name in sorted(wrong)]
     return branch
 
 
-def _wrong_joint(found: Solutions, row: int) -> set[str]:
+def _wrong_joint(solutions: Solutions, row: int) -> set[str]:
     """The joint that alone has to move for the loops to close; none where none or several do."""
-    record, values = found.record, found.joints[row]
-    poses = found.given[row] if found.problem == "inverse" else None
+    record, values = solutions.record, solutions.joints[row]
+    poses = solutions.given[row] if solutions.problem == "inverse" else None
     closing = set[str]()
     for name in record.joints:
         held = [item.index for item in record.coordinates if item.joint != name]
@@ -55,11 +55,11 @@ def _wrong_joint(found: Solutions, row: int) -> set[str]:
     return closing if len(closing) == 1 else set()
 
 
-def _wrong_joints(found: Solutions, row: int) -> set[str]:
+def _wrong_joints(solutions: Solutions, row: int) -> set[str]:
     """Joints whose values are not those of the assembly nearest to a solution; none where none is near."""
-    record, values = found.record, found.joints[row]
-    if found.problem == "inverse":
-        right = assemble(record, values, poses=found.given[row])
+    record, values = solutions.record, solutions.joints[row]
+    if solutions.problem == "inverse":
+        right = assemble(record, values, poses=solutions.given[row])
     else:
         right = assemble(record, values, held=record.input_indices)
     if not bool(right.closed):
@@ -73,10 +73,10 @@ def _wrong_joints(found: Solutions, row: int) -> set[str]:
     return {item.joint for item in record.coordinates if abs(change[item.index]) > DIFFERS * scale[item.index]}
 
 
-def _negative(kernel: Kernel, found: Solutions, row: int) -> str:
+def _negative(kernel: Kernel, solutions: Solutions, row: int) -> str:
     """The margin of a radicand that is negative though the branch is listed: what it says is not what it is."""
     with np.errstate(all="ignore"):
-        values = kernel.values(found.given[[row]], found.signs[[row]])
+        values = kernel.values(solutions.given[[row]], solutions.signs[[row]])
     below = {k for k in kernel.roots if float(values[k][0]) < -TINY * float(np.max(np.abs(values[k]) + 1))}
     if not below:
         return ""

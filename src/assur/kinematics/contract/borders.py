@@ -33,7 +33,7 @@ REGULAR = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
-class Ends:
+class BranchEnds:
     """Last places (B, k) at which a branch is listed, its signs (B, s), and the margin that ends it."""
 
     given: FloatArray
@@ -41,7 +41,7 @@ class Ends:
     margins: tuple[Margin, ...]
 
 
-def ends(record: MechanismRecord, problem: Problem, given: FloatArray, random: np.random.Generator) -> Ends:
+def ends(record: MechanismRecord, problem: Problem, given: FloatArray, random: np.random.Generator) -> BranchEnds:
     """Ends of branches on ways between places (N, k) at which they are listed and others.
 
     >>> from assur.model.registry import load_record
@@ -65,7 +65,7 @@ def ends(record: MechanismRecord, problem: Problem, given: FloatArray, random: n
         inside, outside = np.where(real, middle, inside), np.where(real, outside, middle)
     failing = np.argmin(_allowed(record, problem, outside, signs), axis=0) if len(kept) else np.zeros(0, dtype=int)
     listed = _margins(record, problem)
-    return Ends(inside, signs, tuple(listed[k] for k in failing))
+    return BranchEnds(inside, signs, tuple(listed[k] for k in failing))
 
 
 def named_by_signs(record: MechanismRecord, problem: Problem) -> bool:
@@ -106,7 +106,7 @@ def _allowed(record: MechanismRecord, problem: Problem, given: FloatArray, signs
     return np.array(rows).reshape(len(rows), len(given))
 
 
-def cut_short(record: MechanismRecord, problem: Problem, reached: Ends) -> list[Mismatch]:
+def cut_short(record: MechanismRecord, problem: Problem, reached: BranchEnds) -> list[Mismatch]:
     """Margins that end a branch at a regular configuration of the joint graph, which goes on beyond.
 
     A margin without signs may end a reduced model where it likes; one of a sign is said to be where two branches merge.
@@ -132,16 +132,16 @@ def cut_short(record: MechanismRecord, problem: Problem, reached: Ends) -> list[
     return list(told.values())
 
 
-def _own(found: Solutions, signs: Signs) -> NDArray[np.intp]:
+def _own(solutions: Solutions, signs: Signs) -> NDArray[np.intp]:
     """Of all solutions at places those of the branch that ends there: merged signs are zero."""
-    asked = signs[found.rows]
-    return np.flatnonzero(np.all((found.signs == asked) | (found.signs == 0), axis=-1))
+    asked = signs[solutions.rows]
+    return np.flatnonzero(np.all((solutions.signs == asked) | (solutions.signs == 0), axis=-1))
 
 
-def _told(found: Solutions, row: int, margin: Margin, size: float) -> Mismatch:
+def _told(solutions: Solutions, row: int, margin: Margin, size: float) -> Mismatch:
     text = (
-        f"it ends the branch {found.labels[row]} of the {found.problem} problem at "
-        f"{place_text(found.record, found.problem, found.given[row])}, where the joint graph is regular "
+        f"it ends the branch {solutions.labels[row]} of the {solutions.problem} problem at "
+        f"{place_text(solutions.record, solutions.problem, solutions.given[row])}, where the joint graph is regular "
         f"(smallest singular value {size:.3g}) and goes on"
     )
-    return Mismatch("margin", margin.name, found.problem, text, "where it is zero two branches must merge")
+    return Mismatch("margin", margin.name, solutions.problem, text, "where it is zero two branches must merge")

@@ -74,4 +74,4 @@ def problems(record: MechanismRecord, extent: Extent = AT_LOAD) -> tuple[tuple[P
 def _problem(record: MechanismRecord, mismatch: Mismatch) -> Problem:
     path = record.file.parent / CLOSED_FORM
     line = mismatch.line or line_of(path, mismatch)
-    return Problem(str(path), line, mismatch.title, cut(mismatch.found, LONG), mismatch.allowed, mismatch.hint)
+    return Problem(str(path), line, mismatch.title, cut(mismatch.observed, LONG), mismatch.allowed, mismatch.hint)

@@ -33,23 +33,23 @@ CONSTANT, TURNED = 1e-9, 1e-4
 of a reduced model."""
 
 
-def missing(found: Solutions, joints: FloatArray, motion: InstantaneousMotion) -> list[Mismatch]:
+def missing(solutions: Solutions, joints: FloatArray, motion: InstantaneousMotion) -> list[Mismatch]:
     """Assemblies (A, n) of the joint graph that the closed form lacks, for either problem.
 
     Args:
-        found: solutions of the closed form, by which it is judged what a reduced model leaves out.
+        solutions: solutions of the closed form, by which it is judged what a reduced model leaves out.
         joints: joint values that close every loop.
         motion: of the joint graph, there.
     """
-    record = found.record
+    record = solutions.record
     mismatches = []
     for problem in ("inverse", "direct"):
         if not solves(record, problem) or not len(joints):
             continue
         here = joints[_clear(problem, motion)]
         given = pose_of(record, here) if problem == "inverse" else border.inputs_of(record, here)
-        lacking = _unmatched(record, problem, given, here, found)
-        within = lacking[~_left_out(found, here[lacking])][:1]
+        lacking = _unmatched(record, problem, given, here, solutions)
+        within = lacking[~_left_out(solutions, here[lacking])][:1]
         mismatches += [_told(record, problem, given[k], here[k]) for k in within]
     return mismatches
 
@@ -80,18 +80,18 @@ def _clear(problem: Problem, motion: InstantaneousMotion) -> BoolArray:
 
 
 def _unmatched(
-    record: MechanismRecord, problem: Problem, given: FloatArray, joints: FloatArray, found: Solutions
+    record: MechanismRecord, problem: Problem, given: FloatArray, joints: FloatArray, answer: Solutions
 ) -> NDArray[np.intp]:
     """Problems whose assembly is not among the solutions; those that the closed form leaves undecided are not asked."""
     listed = solutions(record, problem, given)
-    near = _apart(listed, joints[listed.rows], found) <= SAME * characteristic_length(record)
+    near = _apart(listed, joints[listed.rows], answer) <= SAME * characteristic_length(record)
     matched = np.zeros(len(given), dtype=bool)
     matched[listed.rows[near]] = True
     matched[listed.undecided] = True
     return np.flatnonzero(~matched)
 
 
-def _apart(listed: Solutions, joints: FloatArray, found: Solutions) -> FloatArray:
+def _apart(listed: Solutions, joints: FloatArray, solutions: Solutions) -> FloatArray:
     """How far solutions (S,) are from assemblies (S, n) that have what is given, in length units."""
     record, length = listed.record, characteristic_length(listed.record)
     if not len(listed):
@@ -103,30 +103,30 @@ def _apart(listed: Solutions, joints: FloatArray, found: Solutions) -> FloatArra
     angular = np.array([item.coordinate.kind == "angle" for item in record.inputs])
     gap = claimed - there
     turned = length * np.abs((gap + np.pi) % (2 * np.pi) - np.pi)
-    mirrored = np.where(_one_sided(found), np.abs(np.abs(claimed) - np.abs(there)), np.abs(gap))
+    mirrored = np.where(_one_sided(solutions), np.abs(np.abs(claimed) - np.abs(there)), np.abs(gap))
     return np.asarray(np.max(np.where(angular, turned, mirrored), axis=-1))
 
 
-def _one_sided(found: Solutions) -> BoolArray:
+def _one_sided(solutions: Solutions) -> BoolArray:
     """Inputs (n,) whose joint values, lengths, all have one sign: the other, a leg turned half round, adds no pose."""
-    record = found.record
+    record = solutions.record
     lengths = np.array([item.coordinate.kind == "length" for item in record.inputs])
-    values = found.joints[:, list(record.input_indices)]
+    values = solutions.joints[:, list(record.input_indices)]
     one = np.all(values > 0, axis=0) | np.all(values < 0, axis=0)
     return np.asarray(lengths & one & (closed_form_of(record).complete_for == "reduced"))
 
 
-def _left_out(found: Solutions, joints: FloatArray) -> BoolArray:
+def _left_out(solutions: Solutions, joints: FloatArray) -> BoolArray:
     """Assemblies (A, n) that the declared model is without: crossed over, turned, or with a leg turned half round."""
-    record = found.record
+    record = solutions.record
     if closed_form_of(record).complete_for == "joint_graph" or not len(joints):
         return np.zeros(len(joints), dtype=bool)
     index = list(record.input_indices)
-    sides = np.sign(found.joints[0, index])
-    out = np.any((np.sign(joints[:, index]) != sides) & _one_sided(found), axis=-1)
-    own, others = frames(record, found.joints), frames(record, joints)
+    sides = np.sign(solutions.joints[0, index])
+    out = np.any((np.sign(joints[:, index]) != sides) & _one_sided(solutions), axis=-1)
+    own, others = frames(record, solutions.joints), frames(record, joints)
     for link, (rotations, _) in own.items():
-        first = np.broadcast_to(rotations, (len(found), 3, 3))
+        first = np.broadcast_to(rotations, (len(solutions), 3, 3))
         if np.max(np.abs(first - first[0])) <= CONSTANT:
             out |= (
                 np.max(np.abs(np.broadcast_to(others[link][0], (len(joints), 3, 3)) - first[0]), axis=(1, 2)) > TURNED

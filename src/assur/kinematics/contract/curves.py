@@ -34,21 +34,21 @@ OPEN = 1e-6
 """Share of the characteristic length: the margin is zero to its tolerance only, and curves end at a root of zero."""
 
 
-def broken_curves(kernel: Kernel, found: Solutions) -> list[Mismatch]:
+def broken_curves(kernel: Kernel, solutions: Solutions) -> list[Mismatch]:
     """Curves of self-motion that do not close the joint graph, or that need other inputs.
 
     Args:
         kernel: of the direct problem by signs.
-        found: its solutions, from which inputs of a self-motion are looked for.
+        solutions: its solutions, from which inputs of a self-motion are looked for.
     """
-    record, curve = found.record, closed_form_of(found.record).self_motion
+    record, curve = solutions.record, closed_form_of(solutions.record).self_motion
     margin = next((item for item in kernel.margins if curve and item.name == curve.margin), None)
-    if curve is None or margin is None or not len(found):
+    if curve is None or margin is None or not len(solutions):
         return []
     (place,) = kernel.outputs["margin"][margin.name]
-    order = np.argsort(np.abs(found.margins[margin.name]), kind="stable")[: 4 * PLACES]
-    given = zeros(kernel, found, place, found.given[order], found.signs[order])
-    value = kernel.values(given, found.signs[order])[place]
+    order = np.argsort(np.abs(solutions.margins[margin.name]), kind="stable")[: 4 * PLACES]
+    given = zeros(kernel, solutions, place, solutions.given[order], solutions.signs[order])
+    value = kernel.values(given, solutions.signs[order])[place]
     given = given[np.asarray(vanishes(record, margin, value))][:PLACES]
     return next((broken for inputs in given for broken in _at(record, inputs)), [])
 
@@ -72,27 +72,28 @@ def _at(record: MechanismRecord, inputs: FloatArray) -> Iterator[list[Mismatch]]
             yield [Mismatch("self-motion", "", "direct", text, "every point of a curve must close all loops")]
 
 
-def lacking_curves(there: Solutions) -> list[Mismatch]:
+def lacking_curves(solutions: Solutions) -> list[Mismatch]:
     """Poses of the inverse problem whose inputs leave the platform free to move, and that lie on no curve."""
-    record, form = there.record, closed_form_of(there.record)
+    record, form = solutions.record, closed_form_of(solutions.record)
     name = form.self_motion.margin if form.self_motion else ""
     margin = next((item for item in form.direct_margins if item.name == name), None)
-    if margin is None or not len(there):
+    if margin is None or not len(solutions):
         return []
-    found = direct(record, there.inputs, method="closed form")
+    found = direct(record, solutions.inputs, method="closed form")
     if not isinstance(found, Branches):
         return []
     free = np.all(vanishes(record, margin, found.margins[margin.name]), axis=-1)
     for row in np.flatnonzero(free)[:PLACES]:
-        curves = self_motion_curves(record, there.inputs[row])
-        poses = np.concatenate([np.zeros((0, there.poses.shape[-1])), *(curve.poses(FINE) for curve in curves)])
-        joints = np.broadcast_to(there.joints[row], (len(poses), there.joints.shape[-1]))
+        curves = self_motion_curves(record, solutions.inputs[row])
+        poses = np.concatenate([np.zeros((0, solutions.poses.shape[-1])), *(curve.poses(FINE) for curve in curves)])
+        joints = np.broadcast_to(solutions.joints[row], (len(poses), solutions.joints.shape[-1]))
         length = characteristic_length(record)
         away = np.max(np.abs(pose_error(record, joints, poses, length)), axis=-1, initial=0.0)
         if not len(poses) or np.min(away) > NEAR * length:
             text = (
-                f"a pose with inputs at which the platform moves, {place_text(record, 'inverse', there.poses[row])} at "
-                f"{place_text(record, 'direct', there.inputs[row])}, lies on none of {len(curves)} curves"
+                "a pose with inputs at which the platform moves, "
+                f"{place_text(record, 'inverse', solutions.poses[row])} at "
+                f"{place_text(record, 'direct', solutions.inputs[row])}, lies on none of {len(curves)} curves"
             )
             return [Mismatch("self-motion", "", "direct", text, "the curves must hold every pose with these inputs")]
     return []

@@ -21,41 +21,42 @@ UNEXPLAINED = 0.3
 """Where the factors explain the determinant no better than this, one is missing: none of them is to blame."""
 
 
-def wrong_factors(found: Solutions) -> list[Mismatch]:
+def wrong_factors(solutions: Solutions) -> list[Mismatch]:
     """Determinants that are not the products of their factors, with the factors to blame."""
     kinds: tuple[tuple[Literal["parallel", "serial"], FloatArray], ...] = (
-        ("parallel", found.jp),
-        ("serial", found.jq),
+        ("parallel", solutions.jp),
+        ("serial", solutions.jq),
     )
-    return [item for kind, matrix in kinds for item in _of_kind(found, kind, matrix)]
+    return [item for kind, matrix in kinds for item in _of_kind(solutions, kind, matrix)]
 
 
-def _of_kind(found: Solutions, kind: Literal["parallel", "serial"], matrix: FloatArray) -> list[Mismatch]:
-    if not len(found) or matrix.shape[-1] != matrix.shape[-2]:
+def _of_kind(solutions: Solutions, kind: Literal["parallel", "serial"], matrix: FloatArray) -> list[Mismatch]:
+    if not len(solutions) or matrix.shape[-1] != matrix.shape[-2]:
         return []
-    record, form = found.record, closed_form_of(found.record)
+    record, form = solutions.record, closed_form_of(solutions.record)
     names = [item.name for item in form.factor_list if item.kind == kind]
     determinant = np.linalg.det(np.nan_to_num(matrix, nan=np.inf, posinf=0.0, neginf=0.0))
-    product = np.prod([found.factors[name] for name in names], axis=0) * np.ones(len(found))
+    product = np.prod([solutions.factors[name] for name in names], axis=0) * np.ones(len(solutions))
     size = np.prod(np.linalg.norm(matrix, axis=-1), axis=-1) + np.abs(product)
     with np.errstate(invalid="ignore", divide="ignore"):
         share = np.nan_to_num(np.abs(determinant - product) / size, nan=0.0)
-    lost = SAME + 1e-12 / np.maximum(found.near, 1e-12)
+    lost = SAME + 1e-12 / np.maximum(solutions.near, 1e-12)
     row = int(np.argmax(share / lost))
     if share[row] <= lost[row]:
         return []
     label = {"parallel": "det Jp", "serial": "det Jq"}[kind]
-    relative = relative_factors(record, found.factors)
+    relative = relative_factors(record, solutions.factors)
     sizes = ", ".join(f"{name} = {float(relative[name][row]):.3g}" for name in names) or "none"
     text = (
         f"{label} is {determinant[row]:.6g} and the product of its factors {product[row]:.6g} in mode "
-        f"{found.labels[row]} of the {found.problem} problem at {place_text(record, found.problem, found.given[row])}; "
+        f"{solutions.labels[row]} of the {solutions.problem} problem at "
+        f"{place_text(record, solutions.problem, solutions.given[row])}; "
         f"in units of their scales: {sizes}"
     )
     allowed = f"{label} must be the product of the factors of kind '{kind}'"
-    blamed = _to_blame(determinant, [found.factors[name] for name in names], names)
-    return [Mismatch("factor", name, found.problem, text, allowed) for name in blamed] or [
-        Mismatch("factor", "", found.problem, text, allowed, "is one missing, or one too many?")
+    blamed = _to_blame(determinant, [solutions.factors[name] for name in names], names)
+    return [Mismatch("factor", name, solutions.problem, text, allowed) for name in blamed] or [
+        Mismatch("factor", "", solutions.problem, text, allowed, "is one missing, or one too many?")
     ]
 
 

@@ -45,8 +45,8 @@ def with_dimensions(record: MechanismRecord, values: dict[str, float]) -> Mechan
     return found if ranks[0] == ranks[1] else None
 
 
-def _value(record: MechanismRecord, item: Parameter, share: float) -> float:
+def _value(record: MechanismRecord, parameter: Parameter, share: float) -> float:
     """A changed value; what is zero grows to a share of the mechanism's length."""
-    if item.value:
-        return item.value * (1 + share)
-    return abs(share) * (characteristic_length(record) if item.unit == record.unit else 1.0)
+    if parameter.value:
+        return parameter.value * (1 + share)
+    return abs(share) * (characteristic_length(record) if parameter.unit == record.unit else 1.0)

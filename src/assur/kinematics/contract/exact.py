@@ -74,7 +74,7 @@ class Exactness:
     def text(self) -> str:
         """What is said of the formulas."""
         if not self.proved:
-            because = self.undecided or self.mismatches[0].found
+            because = self.undecided or self.mismatches[0].observed
             return f"the formulas were held at places only, not in exact arithmetic: {because}"
         special = "" if self.general else "with these dimensions "
         guards = " but where numbers below 1e-25 that are added to others count" if self.guarded else ""

@@ -167,25 +167,25 @@ def _first(laws: Callable[[Solutions], list[Mismatch]], asked: Sequence[Solution
     return next((broken for found in asked if (broken := laws(found))), [])
 
 
-def _positions(found: Solutions) -> list[Mismatch]:
-    return open_loops(found) or [*other_questions(found), *wrong_signs(found)]
+def _positions(solutions: Solutions) -> list[Mismatch]:
+    return open_loops(solutions) or [*other_questions(solutions), *wrong_signs(solutions)]
 
 
-def _motions(extent: Extent, there: Solutions) -> Callable[[Solutions], list[Mismatch]]:
-    """The laws of motions, and whether what moves there is found from the other side; `there` are all that is known."""
+def _motions(extent: Extent, answer: Solutions) -> Callable[[Solutions], list[Mismatch]]:
+    """The laws of motions, and whether what moves there is found from the other side; `answer`: all that is known."""
 
-    def laws(found: Solutions) -> list[Mismatch]:
-        record = found.record
-        if not len(found):
+    def laws(solutions: Solutions) -> list[Mismatch]:
+        record = solutions.record
+        if not len(solutions):
             return []
         share = min(1.0, SIZE / len(record.coordinates) ** 2)
-        some = found.spread(max(FEWEST, int(share * extent.motions)))
+        some = solutions.spread(max(FEWEST, int(share * extent.motions)))
         motion = motions(record, some.joints, RANK_GAP)
         return (
             wrong_rates(some, motion)
-            or wrong_factors(found)
+            or wrong_factors(solutions)
             or false_statuses(some, motion)
-            or missing(there, some.joints, motion)
+            or missing(answer, some.joints, motion)
         )
 
     return laws

@@ -46,13 +46,13 @@ class Mismatch:
     part: Part
     name: str
     problem: Problem
-    found: str
+    observed: str
     allowed: str
     hint: str = ""
     line: int | None = None
 
     def __str__(self) -> str:
-        return f"{self.title}: {self.found}; {self.allowed}"
+        return f"{self.title}: {self.observed}; {self.allowed}"
 
     @property
     def title(self) -> str:

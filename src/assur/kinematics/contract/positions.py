@@ -24,47 +24,47 @@ TOLD = 3
 """So many parts of a closed form are named; one wrong number often spoils several."""
 
 
-def gap_tolerance(found: Solutions) -> FloatArray:
+def gap_tolerance(solutions: Solutions) -> FloatArray:
     """The gap (S,) that counts as closed, in length units.
 
     Where two branches merge the root is known to `lost` alone; counted as zero, it misses by itself as well.
     """
-    by_roots = found.problem == "direct" and not callable(_kernel(found))
+    by_roots = solutions.problem == "direct" and not callable(_kernel(solutions))
     least = ROOTS if by_roots else CLOSED
-    lost = ROUNDING / np.maximum(found.near, ROUNDING)
-    merged = np.char.find(found.labels.astype(str), "0") >= 0  # their root counts as zero, though it is `near`
-    of_zero = np.where(merged & (not by_roots), np.minimum(found.near, lost), 0.0)
-    return np.asarray(found.size * (least + lost + of_zero))
+    lost = ROUNDING / np.maximum(solutions.near, ROUNDING)
+    merged = np.char.find(solutions.labels.astype(str), "0") >= 0  # their root counts as zero, though it is `near`
+    of_zero = np.where(merged & (not by_roots), np.minimum(solutions.near, lost), 0.0)
+    return np.asarray(solutions.size * (least + lost + of_zero))
 
 
-def _kernel(found: Solutions) -> object:
-    form = found.record.closed_form
+def _kernel(solutions: Solutions) -> object:
+    form = solutions.record.closed_form
     return form.direct if form else None
 
 
-def gaps(found: Solutions) -> FloatArray:
+def gaps(solutions: Solutions) -> FloatArray:
     """Largest gap (S, cut joints), in length units; of joint values that are no numbers, infinite."""
-    pairs = residuals(found.record, found.joints).reshape(len(found), -1, 2, 3)
+    pairs = residuals(solutions.record, solutions.joints).reshape(len(solutions), -1, 2, 3)
     return np.asarray(np.nan_to_num(np.max(np.linalg.norm(pairs, axis=-1), axis=-1), nan=np.inf))
 
 
-def open_loops(found: Solutions) -> list[Mismatch]:
+def open_loops(solutions: Solutions) -> list[Mismatch]:
     """Solutions that do not close the joint graph, by the parts of the closed form that are to blame."""
-    if not len(found):
+    if not len(solutions):
         return []
-    gap, tolerance = gaps(found), gap_tolerance(found)
+    gap, tolerance = gaps(solutions), gap_tolerance(solutions)
     share = np.max(gap, axis=-1, initial=0.0) / tolerance
     told: dict[tuple[str, str], Mismatch] = {}
-    for row in _worst_of_each_mode(share, found.labels):
-        for part, name in blamed(found, row):
-            cut = joint_graph(found.record).cut[int(np.argmax(gap[row]))]
+    for row in _worst_of_each_mode(share, solutions.labels):
+        for part, name in blamed(solutions, row):
+            cut = joint_graph(solutions.record).cut[int(np.argmax(gap[row]))]
             text = (
-                f"the branch {found.labels[row]} of the {found.problem} problem does not close at "
-                f"{place_text(found.record, found.problem, found.given[row])}: "
-                f"a gap of {quantity_text(found.record, float(np.max(gap[row])), 'length')} at joint {cut.name}"
+                f"the branch {solutions.labels[row]} of the {solutions.problem} problem does not close at "
+                f"{place_text(solutions.record, solutions.problem, solutions.given[row])}: "
+                f"a gap of {quantity_text(solutions.record, float(np.max(gap[row])), 'length')} at joint {cut.name}"
             )
             told.setdefault(
-                (part, name), Mismatch(part, name, found.problem, text, "every branch must close all loops")
+                (part, name), Mismatch(part, name, solutions.problem, text, "every branch must close all loops")
             )
         if len(told) >= TOLD:
             break
@@ -72,15 +72,17 @@ def open_loops(found: Solutions) -> list[Mismatch]:
     return named or list(told.values())
 
 
-def other_questions(found: Solutions) -> list[Mismatch]:
+def other_questions(solutions: Solutions) -> list[Mismatch]:
     """Solutions whose joint values put the platform elsewhere, or the inputs, than the solution says."""
-    if not len(found):
+    if not len(solutions):
         return []
-    record, tolerance = found.record, gap_tolerance(found)
-    asked = {"direct": (found.poses, found.given), "inverse": (found.given, found.inputs)}[found.problem]
+    record, tolerance = solutions.record, gap_tolerance(solutions)
+    asked = {"direct": (solutions.poses, solutions.given), "inverse": (solutions.given, solutions.inputs)}[
+        solutions.problem
+    ]
     length = characteristic_length(record)
-    away = pose_error(record, found.joints, asked[0], length)
-    turned = border.inputs_of(record, found.joints) - asked[1]
+    away = pose_error(record, solutions.joints, asked[0], length)
+    turned = border.inputs_of(record, solutions.joints) - asked[1]
     angular = np.array([item.coordinate.kind == "angle" for item in record.inputs])
     turned = np.where(angular, length * ((turned + np.pi) % (2 * np.pi) - np.pi), turned)
     mismatches = []
@@ -95,12 +97,18 @@ def other_questions(found: Solutions) -> list[Mismatch]:
             name = names[k] if k < len(names) else "the orientation"
             text = (
                 f"{what} {name} is {quantity_text(record, float(np.abs(missed[row, k])), 'length')} off what the joint "
-                f"values say, in the {found.problem} problem at {place_text(record, found.problem, found.given[row])}"
+                f"values say, in the {solutions.problem} problem at "
+                f"{place_text(record, solutions.problem, solutions.given[row])}"
             )
             hint = "are they in the order of the file, and each of its own joint?"
             mismatches.append(
                 Mismatch(
-                    "branch", str(found.labels[row]), found.problem, text, "pose, inputs and joints must agree", hint
+                    "branch",
+                    str(solutions.labels[row]),
+                    solutions.problem,
+                    text,
+                    "pose, inputs and joints must agree",
+                    hint,
                 )
             )
     return mismatches

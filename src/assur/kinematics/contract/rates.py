@@ -17,17 +17,17 @@ CLEAR = 1e-3
 """Near a singularity of the closure, closer than this share, its null space is not clear enough to judge by."""
 
 
-def wrong_rates(found: Solutions, motion: InstantaneousMotion) -> list[Mismatch]:
+def wrong_rates(solutions: Solutions, motion: InstantaneousMotion) -> list[Mismatch]:
     """Rows of the velocity equation that a motion of the joint graph, at the same joint values, does not obey."""
-    if not len(found):
+    if not len(solutions):
         return []
-    record = found.record
+    record = solutions.record
     judged = _clear(motion)
-    jp, jq = found.jp * pose_units(record), found.jq * _joint_rates(found)
+    jp, jq = solutions.jp * pose_units(record), solutions.jq * _joint_rates(solutions)
     left, right = jp @ motion.pose, jq @ motion.inputs
     size = np.max(np.abs(jp), axis=-1) + np.max(np.abs(jq), axis=-1)  # (S, r)
     miss = np.max(np.abs(left - right), axis=-1)
-    lost = RELATION + 1e-12 / np.maximum(found.near, 1e-12)
+    lost = RELATION + 1e-12 / np.maximum(solutions.near, 1e-12)
     with np.errstate(divide="ignore", invalid="ignore"):
         share = np.where(judged[:, None] & (size > 0), miss / (size * lost[:, None]), 0.0)
     share = np.nan_to_num(share, nan=np.inf)
@@ -36,11 +36,11 @@ def wrong_rates(found: Solutions, motion: InstantaneousMotion) -> list[Mismatch]
         return []
     text = (
         f"row {line + 1} of Jp v = Jq qdot is wrong by {miss[row, line] / size[row, line]:.2g} of its size for a "
-        f"motion of the joint graph, in mode {found.labels[row]} of the {found.problem} problem "
-        f"at {place_text(record, found.problem, found.given[row])}"
+        f"motion of the joint graph, in mode {solutions.labels[row]} of the {solutions.problem} problem "
+        f"at {place_text(record, solutions.problem, solutions.given[row])}"
     )
     allowed = "every motion of the joint graph must obey it"
-    return [Mismatch("Jp and Jq", f"row {line + 1}", found.problem, text, allowed)]
+    return [Mismatch("Jp and Jq", f"row {line + 1}", solutions.problem, text, allowed)]
 
 
 def _clear(motion: InstantaneousMotion) -> NDArray[np.bool_]:
@@ -50,6 +50,6 @@ def _clear(motion: InstantaneousMotion) -> NDArray[np.bool_]:
     return np.asarray((rank == np.max(rank)) & (least > CLEAR * np.median(least)))
 
 
-def _joint_rates(found: Solutions) -> FloatArray:
+def _joint_rates(solutions: Solutions) -> FloatArray:
     """What turns columns of Jq, per joint value, into those per scaled printed input."""
-    return np.array([item.sign for item in found.record.inputs]) * input_units(found.record)
+    return np.array([item.sign for item in solutions.record.inputs]) * input_units(solutions.record)

@@ -19,40 +19,43 @@ CLEAR = 1e-5
 """A quantity nearer to zero than this share of its scale says nothing of its sign: here two branches merge."""
 
 
-def wrong_signs(found: Solutions) -> list[Mismatch]:
+def wrong_signs(solutions: Solutions) -> list[Mismatch]:
     """Signs that the closed form gives and the file's own quantities, of the joint graph, do not have."""
-    if not len(found):
+    if not len(solutions):
         return []
-    record, form = found.record, closed_form_of(found.record)
+    record, form = solutions.record, closed_form_of(solutions.record)
     formulas: dict[str, Formula] = {**record.modes.working, **record.modes.assembly}
     names = list(formulas)
-    graph = dict(zip(names, quantities(record, formulas.values(), found.joints), strict=True))
+    graph = dict(zip(names, quantities(record, formulas.values(), solutions.joints), strict=True))
     mismatches = []
     for name in names:
         sign = form.signs[name]
-        own = found.named[name] / scale(record, sign.scale)
+        own = solutions.named[name] / scale(record, sign.scale)
         clear = (np.abs(own) > CLEAR) & (np.abs(graph[name]) > CLEAR * min(1.0, characteristic_length(record)))
         claimed = np.sign(own)
-        asked = sign_names(record, found.problem)
+        asked = sign_names(record, solutions.problem)
         if name in asked:
-            column = found.signs[:, asked.index(name)]
+            column = solutions.signs[:, asked.index(name)]
             clear &= column != 0
             claimed = np.where(column == np.sign(graph[name]), claimed, column)
         wrong = np.flatnonzero(clear & (claimed != np.sign(graph[name])))
         if len(wrong):
-            mismatches.append(_told(found, name, formulas[name], graph[name], claimed, wrong))
+            mismatches.append(_told(solutions, name, formulas[name], graph[name], claimed, wrong))
     return mismatches
 
 
 def _told(
-    found: Solutions, name: str, formula: Formula, graph: FloatArray, claimed: FloatArray, wrong: NDArray[np.intp]
+    solutions: Solutions, name: str, formula: Formula, graph: FloatArray, claimed: FloatArray, wrong: NDArray[np.intp]
 ) -> Mismatch:
-    record = found.record
+    record = solutions.record
     row = int(wrong[np.argmax(np.abs(graph[wrong]))])
     symbol = "+" if claimed[row] > 0 else "-"
     text = (
-        f"the branch with {name} {symbol} has {formula.text} = {graph[row]:.6g}, in the {found.problem} problem at "
-        f"{place_text(record, found.problem, found.given[row])}; so of {len(wrong)} of {len(found)} solutions"
+        f"the branch with {name} {symbol} has {formula.text} = {graph[row]:.6g}, in the {solutions.problem} problem at "
+        f"{place_text(record, solutions.problem, solutions.given[row])}; "
+        f"so of {len(wrong)} of {len(solutions)} solutions"
     )
-    hint = "all of them: is the sign reversed?" if len(wrong) > len(found) / 2 else ""
-    return Mismatch("mode sign", name, found.problem, text, f"{name} is the sign of '{formula.text}' in [modes]", hint)
+    hint = "all of them: is the sign reversed?" if len(wrong) > len(solutions) / 2 else ""
+    return Mismatch(
+        "mode sign", name, solutions.problem, text, f"{name} is the sign of '{formula.text}' in [modes]", hint
+    )

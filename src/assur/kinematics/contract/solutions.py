@@ -114,51 +114,51 @@ def solves(record: MechanismRecord, problem: Problem) -> bool:
     return problem == "inverse" or not (kernel is None or isinstance(kernel, PolynomialSystem))
 
 
-def _listed(record: MechanismRecord, problem: Problem, found: Branches) -> Solutions:
-    form, core = closed_form_of(record), found.branch.core
-    unsettled = np.isin(found.formula_status, (Status.undecided, Status.self_motion))
-    finite = np.all(np.isfinite(found.joints), axis=-1) & np.all(np.isfinite(found.poses), axis=-1)
-    chosen = found.exists & (found.formula_status != Status.undecided) & finite
-    jp, jq = (_matrix(rows, found) for rows in form.jacobians(Floats(), record.values, core))
-    named = {name: _expanded(getattr(core, sign.attribute), found) for name, sign in form.signs.items()}
+def _listed(record: MechanismRecord, problem: Problem, branches: Branches) -> Solutions:
+    form, core = closed_form_of(record), branches.branch.core
+    unsettled = np.isin(branches.formula_status, (Status.undecided, Status.self_motion))
+    finite = np.all(np.isfinite(branches.joints), axis=-1) & np.all(np.isfinite(branches.poses), axis=-1)
+    chosen = branches.exists & (branches.formula_status != Status.undecided) & finite
+    jp, jq = (_matrix(rows, branches) for rows in form.jacobians(Floats(), record.values, core))
+    named = {name: _expanded(getattr(core, sign.attribute), branches) for name, sign in form.signs.items()}
     margins = form.direct_margins if problem == "direct" else form.inverse_margins
-    signs = found.signs(problem) if problem == "direct" and not callable(form.direct) else found.modes
+    signs = branches.signs(problem) if problem == "direct" and not callable(form.direct) else branches.modes
     return Solutions(
         record,
         problem,
         rows=np.nonzero(chosen)[0],
-        given=np.broadcast_to(found.given[:, None], (*chosen.shape, found.given.shape[-1]))[chosen],
-        labels=mode_texts(signs)[chosen] if sign_names(record, problem) else found.labels[chosen],
+        given=np.broadcast_to(branches.given[:, None], (*chosen.shape, branches.given.shape[-1]))[chosen],
+        labels=mode_texts(signs)[chosen] if sign_names(record, problem) else branches.labels[chosen],
         signs=signs[chosen],
-        poses=found.poses[chosen],
-        inputs=found.inputs[chosen],
-        joints=found.joints[chosen],
+        poses=branches.poses[chosen],
+        inputs=branches.inputs[chosen],
+        joints=branches.joints[chosen],
         jp=jp[chosen],
         jq=jq[chosen],
-        factors={name: value[chosen] for name, value in found.factors.items()},
-        margins={item.name: found.margins[item.name][chosen] for item in margins},
+        factors={name: value[chosen] for name, value in branches.factors.items()},
+        margins={item.name: branches.margins[item.name][chosen] for item in margins},
         named={name: value[chosen] for name, value in named.items()},
-        near=_nearness(record, margins, found)[chosen],
+        near=_nearness(record, margins, branches)[chosen],
         undecided=np.flatnonzero(np.any(unsettled, axis=-1)),
     )
 
 
-def _nearness(record: MechanismRecord, margins: Sequence[Margin], found: Branches) -> FloatArray:
-    near = np.ones(found.exists.shape)
+def _nearness(record: MechanismRecord, margins: Sequence[Margin], branches: Branches) -> FloatArray:
+    near = np.ones(branches.exists.shape)
     for item in margins:
-        share = np.abs(found.margins[item.name]) / scale(record, item.scale)
+        share = np.abs(branches.margins[item.name]) / scale(record, item.scale)
         power = 2 if item.zero == "merge" else max(item.unit, 1)
         near = np.fmin(near, share ** (1 / power))
     return near
 
 
-def _expanded(value: Any, found: Branches) -> FloatArray:
+def _expanded(value: Any, branches: Branches) -> FloatArray:
     """A number of the kernel as (N, K): its sign axes, which are not expanded, come last."""
-    count = len(found.given)
-    wide = np.broadcast_to(np.asarray(value, dtype=float), (*found.sign_shape, count))
-    return np.moveaxis(wide.reshape(len(found.modes_asked), count), 0, -1)
+    count = len(branches.given)
+    wide = np.broadcast_to(np.asarray(value, dtype=float), (*branches.sign_shape, count))
+    return np.moveaxis(wide.reshape(len(branches.modes_asked), count), 0, -1)
 
 
-def _matrix(rows: Sequence[Sequence[Any]], found: Branches) -> FloatArray:
-    entries = [np.stack([_expanded(entry, found) for entry in row], axis=-1) for row in rows]
+def _matrix(rows: Sequence[Sequence[Any]], branches: Branches) -> FloatArray:
+    entries = [np.stack([_expanded(entry, branches) for entry in row], axis=-1) for row in rows]
     return np.stack(entries, axis=-2)  # (N, K, r, k)

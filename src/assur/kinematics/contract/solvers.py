@@ -24,19 +24,19 @@ STARTS = 32
 STEPS = 40
 
 
-def lacking(found: Solutions, count: int, random: np.random.Generator) -> list[Mismatch]:
+def lacking(solutions: Solutions, count: int, random: np.random.Generator) -> list[Mismatch]:
     """Solutions of the joint graph to so many problems of each kind that the closed form lacks.
 
     Args:
-        found: solutions of the closed form; the problems are theirs.
+        solutions: solutions of the closed form; the problems are theirs.
         count: how many problems of each kind.
         random: for where a search begins.
     """
-    record = found.record
-    chosen = random.permutation(len(found))[:count]
+    record = solutions.record
+    chosen = random.permutation(len(solutions))[:count]
     rows = [
         answer
-        for joints in found.joints[chosen]
+        for joints in solutions.joints[chosen]
         for problem in ("direct", "inverse")
         if solves(record, problem)
         for answer in _answers(record, problem, joints, random)
@@ -44,7 +44,7 @@ def lacking(found: Solutions, count: int, random: np.random.Generator) -> list[M
     if not rows:
         return []
     joints = np.array(rows)
-    return missing(found, joints, motions(record, joints, RANK_GAP))
+    return missing(solutions, joints, motions(record, joints, RANK_GAP))
 
 
 def _answers(

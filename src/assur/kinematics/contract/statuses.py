@@ -25,21 +25,21 @@ MOVED = 4
 """So many that are called a self-motion are moved by finite steps."""
 
 
-def false_statuses(found: Solutions, motion: InstantaneousMotion | None = None) -> list[Mismatch]:
+def false_statuses(solutions: Solutions, motion: InstantaneousMotion | None = None) -> list[Mismatch]:
     """Solutions that factors call singular and that are not, with the factors by which they do.
 
     Args:
-        found: solutions at any places, at the ends of their branches above all: there factors vanish.
+        solutions: solutions at any places, at the ends of their branches above all: there factors vanish.
         motion: the joint graph's at their joint values, where it is known.
     """
-    if not len(found):
+    if not len(solutions):
         return []
-    status = classify(found.record, found.factors)
+    status = classify(solutions.record, solutions.factors)
     told = np.flatnonzero(status >= Status.serial)
     if not len(told):
         return []
-    chosen = motions(found.record, found.joints, RANK_GAP) if motion is None else motion
-    serial, parallel, whole = _regular(found, chosen)
+    chosen = motions(solutions.record, solutions.joints, RANK_GAP) if motion is None else motion
+    serial, parallel, whole = _regular(solutions, chosen)
     both = {
         Status.serial: serial & whole,
         Status.parallel: parallel & whole,
@@ -47,29 +47,29 @@ def false_statuses(found: Solutions, motion: InstantaneousMotion | None = None) 
         Status.constraint: whole,
         Status.self_motion: parallel & whole,
     }
-    false = np.zeros(len(found), dtype=bool)
+    false = np.zeros(len(solutions), dtype=bool)
     for kind, denied in both.items():
         false |= (status == kind) & denied
     moving = np.flatnonzero((status == Status.self_motion) & ~false)[:MOVED]
     if len(moving):
-        false[moving] = ~has_finite_motion(found.record, found.joints[moving])
+        false[moving] = ~has_finite_motion(solutions.record, solutions.joints[moving])
     wrong = np.flatnonzero(false)
-    return [_told(found, int(wrong[0]), Status(int(status[wrong[0]])))] if len(wrong) else []
+    return [_told(solutions, int(wrong[0]), Status(int(status[wrong[0]])))] if len(wrong) else []
 
 
-def _regular(found: Solutions, motion: InstantaneousMotion) -> tuple[BoolArray, BoolArray, BoolArray]:
+def _regular(solutions: Solutions, motion: InstantaneousMotion) -> tuple[BoolArray, BoolArray, BoolArray]:
     """Where (S,) the platform keeps its freedoms, the inputs hold it, and the closure keeps its rank, beyond doubt."""
-    record = found.record
+    record = solutions.record
     least = [np.linalg.svd(part, compute_uv=False)[..., part.shape[-2] - 1] for part in (motion.pose, motion.inputs)]
     share = motion.values[:, int(general(record).closure) - 1] / motion.values[:, 0]
     return least[0] > REGULAR, least[1] > REGULAR, share > REGULAR * general_share(record)
 
 
-def _told(found: Solutions, row: int, status: Status) -> Mismatch:
-    form, record = closed_form_of(found.record), found.record
+def _told(solutions: Solutions, row: int, status: Status) -> Mismatch:
+    form, record = closed_form_of(solutions.record), solutions.record
     zero = {
         name: abs(float(value[row])) <= FACTOR_TOLERANCE
-        for name, value in relative_factors(record, found.factors).items()
+        for name, value in relative_factors(record, solutions.factors).items()
     }
     groups = {Status.constraint: form.constraint_singular, Status.self_motion: form.self_motion_singular}.get(status)
     if groups is None:
@@ -84,9 +84,9 @@ def _told(found: Solutions, row: int, status: Status) -> Mismatch:
             "the closure loses rank" if status == Status.constraint else "the platform moves while every input stands"
         )
         allowed, hint = f"{listed} may name a group only where {says} at its zero", ""
-    place = place_text(record, found.problem, found.given[row])
+    place = place_text(record, solutions.problem, solutions.given[row])
     text = (
-        f"{' and '.join(names)} count as zero and the status is {status.name} in mode {found.labels[row]} of the "
-        f"{found.problem} problem at {place}, where the joint graph is not"
+        f"{' and '.join(names)} count as zero and the status is {status.name} in mode {solutions.labels[row]} of the "
+        f"{solutions.problem} problem at {place}, where the joint graph is not"
     )
-    return Mismatch("status", names[0], found.problem, text, allowed, hint)
+    return Mismatch("status", names[0], solutions.problem, text, allowed, hint)

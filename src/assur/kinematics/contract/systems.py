@@ -22,36 +22,36 @@ AWAY = 1e-7
 """A pose that comes back may be so far off, as a share of the characteristic length."""
 
 
-def unsolved(found: Solutions) -> list[Mismatch]:
+def unsolved(solutions: Solutions) -> list[Mismatch]:
     """Equations of the direct problem that the poses of the inverse problem do not solve."""
-    record, system = found.record, closed_form_of(found.record).direct
-    if not isinstance(system, PolynomialSystem) or not len(found):
+    record, system = solutions.record, closed_form_of(solutions.record).direct
+    if not isinstance(system, PolynomialSystem) or not len(solutions):
         return []
     ns, p = Floats(), record.values
-    inputs = border.input_components(record, found.inputs)
-    unknowns = tuple(np.asarray(item, dtype=float) for item in system.lift(ns, p, _pose(found)))
-    random = np.random.default_rng(0).normal(size=(len(unknowns), len(found)))
+    inputs = border.input_components(record, solutions.inputs)
+    unknowns = tuple(np.asarray(item, dtype=float) for item in system.lift(ns, p, _pose(solutions)))
+    random = np.random.default_rng(0).normal(size=(len(unknowns), len(solutions)))
     others = tuple(np.mean(np.abs(item)) * row for item, row in zip(unknowns, random, strict=True))
     left, usual = (np.array(system.equations(ns, p, inputs, given), dtype=float) for given in (unknowns, others))
     share = np.abs(left) / np.median(np.abs(usual), axis=-1, keepdims=True)
     equation, row = np.unravel_index(int(np.argmax(share)), share.shape)
-    place = place_text(record, "direct", found.inputs[row])
+    place = place_text(record, "direct", solutions.inputs[row])
     if not share[equation, row] <= UNSOLVED:
         text = (
             f"equation {equation + 1} is not zero at a pose that has these inputs, {place}: {left[equation, row]:.3g}"
         )
         return [Mismatch("branch", "", "direct", text, "every pose must solve the system of the direct problem")]
     back = system.back(ns, p, inputs, unknowns).pose
-    poses = np.stack([np.broadcast_to(border.scalar(value), (len(found),)) for value in back], axis=-1)
+    poses = np.stack([np.broadcast_to(border.scalar(value), (len(solutions),)) for value in back], axis=-1)
     length = characteristic_length(record)
-    away = np.max(np.abs(pose_error(record, found.joints, poses, length)), axis=-1)
+    away = np.max(np.abs(pose_error(record, solutions.joints, poses, length)), axis=-1)
     worst = int(np.argmax(away))
     if not away[worst] <= AWAY * length:
-        place = place_text(record, "direct", found.inputs[worst])
+        place = place_text(record, "direct", solutions.inputs[worst])
         text = f"what comes back of the unknowns of a pose is another, {away[worst]:.3g} {record.unit} off, at {place}"
         return [Mismatch("branch", "", "direct", text, "`back` must undo `lift`")]
     return []
 
 
-def _pose(found: Solutions) -> tuple[FloatArray, ...]:
-    return border.pose_components(found.record, found.poses)
+def _pose(solutions: Solutions) -> tuple[FloatArray, ...]:
+    return border.pose_components(solutions.record, solutions.poses)

@@ -57,17 +57,17 @@ def is_declared(kernel: Kernel, known: Algebra) -> bool:
     return not (margins or known.doubtful_radicands() or known.doubtful_divisors())
 
 
-def undeclared(kernel: Kernel, known: Algebra, found: Solutions | None = None) -> list[Mismatch]:
+def undeclared(kernel: Kernel, known: Algebra, solutions: Solutions | None = None) -> list[Mismatch]:
     """Margins that are nothing else of the kernel; radicands and divisors that are not declared.
 
     Args:
         kernel: of a question.
         known: of its entries.
-        found: solutions, the more the better, of a question that is answered by signs.
+        solutions: solutions, the more the better, of a question that is answered by signs.
     """
-    margins = [_untied(kernel, known, item, found) for item in known.untied() if not _is_own_end(kernel, item)]
-    radicands = [_negative(kernel, k, found) for k in known.doubtful_radicands()]
-    divisors = [_vanishing(kernel, known, k, found) for k in known.doubtful_divisors()]
+    margins = [_untied(kernel, known, item, solutions) for item in known.untied() if not _is_own_end(kernel, item)]
+    radicands = [_negative(kernel, k, solutions) for k in known.doubtful_radicands()]
+    divisors = [_vanishing(kernel, known, k, solutions) for k in known.doubtful_divisors()]
     return [*margins, *radicands, *divisors]
 
 
@@ -83,93 +83,94 @@ def own_ends(kernel: Kernel, known: Algebra) -> tuple[str, ...]:
     return tuple(item.name for item in known.untied() if _is_own_end(kernel, item))
 
 
-def _is_own_end(kernel: Kernel, item: Margin) -> bool:
+def _is_own_end(kernel: Kernel, claimed: Margin) -> bool:
     """Whether a margin may be what it likes: without signs, of a model that is said to leave assemblies out."""
     reduced = closed_form_of(kernel.record).complete_for == "reduced"
-    return reduced and item.zero == "merge" and not item.signs
+    return reduced and claimed.zero == "merge" and not claimed.signs
 
 
 def _problem(kernel: Kernel) -> Problem:
     return "inverse" if kernel.question == "inverse" else "direct"
 
 
-def _untied(kernel: Kernel, known: Algebra, item: Margin, found: Solutions | None) -> Mismatch:
+def _untied(kernel: Kernel, known: Algebra, claimed: Margin, solutions: Solutions | None) -> Mismatch:
     """A margin, and what comes nearest to it: where the two differ most, in units of what they usually are."""
-    places = known.margin(item)
+    places = known.margin(claimed)
     text = kernel.text(places[0]) if places else "a plain number"
-    if places and found is not None and len(found):
-        text += _beside(kernel, found, places[0], known.near(item))
-    kind = "degenerate" if item.zero == "degenerate" else "signed" if item.signs else "unsigned"
-    return Mismatch("margin", item.name, _problem(kernel), text, ALLOWED[kind])
+    if places and solutions is not None and len(solutions):
+        text += _beside(kernel, solutions, places[0], known.near(claimed))
+    kind = "degenerate" if claimed.zero == "degenerate" else "signed" if claimed.signs else "unsigned"
+    return Mismatch("margin", claimed.name, _problem(kernel), text, ALLOWED[kind])
 
 
-def _beside(kernel: Kernel, found: Solutions, own: int, near: int | None) -> str:
+def _beside(kernel: Kernel, solutions: Solutions, own: int, near: int | None) -> str:
     """What a margin is at a solution, and what it should be if it were a multiple of another entry."""
-    values = kernel.values(found.given, found.signs)
-    share = values[own] / values[near] if near is not None else np.full(len(found), np.nan)
+    values = kernel.values(solutions.given, solutions.signs)
+    share = values[own] / values[near] if near is not None else np.full(len(solutions), np.nan)
     usual = float(np.nanmedian(share))
     expected = usual * values[near] if near is not None else values[own]
     apart = np.nan_to_num(np.abs(values[own] - expected))
     row = int(np.argmax(apart))
-    text = f" is {values[own][row]:.6g} at {place_text(kernel.record, found.problem, found.given[row])}"
+    text = f" is {values[own][row]:.6g} at {place_text(kernel.record, solutions.problem, solutions.given[row])}"
     if near is None or not np.nanmean(np.abs(share - usual) <= ALIKE * abs(usual)) > 1 / 2:
         return text
     size = f"{apart[row]:.3g}" if apart[row] > ZERO * abs(expected[row]) else "less than floats tell"
     return f"{text}, off {kernel.text(near)}, times {usual:.6g}, by {size}, and by exact arithmetic no multiple of it"
 
 
-def _negative(kernel: Kernel, k: int, found: Solutions | None) -> Mismatch:
+def _negative(kernel: Kernel, k: int, solutions: Solutions | None) -> Mismatch:
     """Where a radicand is least."""
     text, line = f"{kernel.text(k)} is not declared", line_where(kernel, "root", k, 0)
-    if found is not None and len(found):
-        values = kernel.values(found.given, found.signs)[k]
+    if solutions is not None and len(solutions):
+        values = kernel.values(solutions.given, solutions.signs)[k]
         row = int(np.argmin(np.nan_to_num(values, nan=np.inf)))
         text = (
-            f"{kernel.text(k)} is {values[row]:.6g} at {place_text(kernel.record, found.problem, found.given[row])}, "
-            f"where the branch {found.labels[row]} of the {found.problem} problem is listed"
+            f"{kernel.text(k)} is {values[row]:.6g} at "
+            f"{place_text(kernel.record, solutions.problem, solutions.given[row])}, "
+            f"where the branch {solutions.labels[row]} of the {solutions.problem} problem is listed"
         )
     return Mismatch("radicand", "", _problem(kernel), text, RADICAND, "declare it as a margin", line=line)
 
 
-def _vanishing(kernel: Kernel, known: Algebra, k: int, found: Solutions | None) -> Mismatch:
+def _vanishing(kernel: Kernel, known: Algebra, k: int, solutions: Solutions | None) -> Mismatch:
     """Where a divisor is zero unnoticed, else where it is nearest to it."""
     text = f"{kernel.text(k)} is not declared"
-    if found is not None and len(found):
-        text = _zero(kernel, found, k) or _smallest(kernel, found, k)
+    if solutions is not None and len(solutions):
+        text = _zero(kernel, solutions, k) or _smallest(kernel, solutions, k)
     whole = next(divisor for divisor in kernel.divisors if k in known.doubts(divisor))
     line = line_where(kernel, "/", whole, 1)
     hint = "declare it as a margin that degenerates, or write it as a sum of squares"
     return Mismatch("divisor", "", _problem(kernel), text, DIVISOR, hint, line=line)
 
 
-def _zero(kernel: Kernel, found: Solutions, k: int) -> str:
-    values = kernel.values(found.given, found.signs)[k]
+def _zero(kernel: Kernel, solutions: Solutions, k: int) -> str:
+    values = kernel.values(solutions.given, solutions.signs)[k]
     usual = float(np.median(np.abs(values)))
     order = np.argsort(np.abs(values), kind="stable")
     start = np.unique(np.concatenate([order[: STARTS // 2], order[:: max(1, 2 * len(order) // STARTS)]]))
-    signs = found.signs[start]
-    zero = zeros(kernel, found, k, found.given[start], signs)
+    signs = solutions.signs[start]
+    zero = zeros(kernel, solutions, k, solutions.given[start], signs)
     at = kernel.values(zero, signs)
     unnoticed = (np.abs(at[k]) <= ZERO * usual) & _listed(kernel, at) & ~_declared_zero(kernel, at)
     if not np.any(unnoticed):
         return ""
     row = int(np.flatnonzero(unnoticed)[0])
     return (
-        f"{kernel.text(k)} is zero at {place_text(kernel.record, found.problem, zero[row])}, where the branch "
-        f"{found.labels[start[row]]} of the {found.problem} problem is listed and no margin or factor vanishes"
+        f"{kernel.text(k)} is zero at {place_text(kernel.record, solutions.problem, zero[row])}, where the branch "
+        f"{solutions.labels[start[row]]} of the {solutions.problem} problem is listed and no margin or factor vanishes"
     )
 
 
-def _smallest(kernel: Kernel, found: Solutions, k: int) -> str:
-    values = kernel.values(found.given, found.signs)[k]
+def _smallest(kernel: Kernel, solutions: Solutions, k: int) -> str:
+    values = kernel.values(solutions.given, solutions.signs)[k]
     row = int(np.argmin(np.nan_to_num(np.abs(values), nan=np.inf)))
-    place = place_text(kernel.record, found.problem, found.given[row])
+    place = place_text(kernel.record, solutions.problem, solutions.given[row])
     return f"{kernel.text(k)} is {values[row]:.6g} at {place}, and nothing says that it is zero nowhere"
 
 
-def zeros(kernel: Kernel, found: Solutions, k: int, given: FloatArray, signs: NDArray[np.int8]) -> FloatArray:
+def zeros(kernel: Kernel, solutions: Solutions, k: int, given: FloatArray, signs: NDArray[np.int8]) -> FloatArray:
     """Places (N, m) to which Newton's method, for one equation in all coordinates, leads from others."""
-    units, entry = _units(found), kernel.entry(k)
+    units, entry = _units(solutions), kernel.entry(k)
     place = entry.tape.outputs["entry"]
     for _ in range(STEPS):
         value, slope = entry.values(given, signs)[place], np.zeros_like(given)
@@ -185,9 +186,9 @@ def zeros(kernel: Kernel, found: Solutions, k: int, given: FloatArray, signs: ND
     return given
 
 
-def _units(found: Solutions) -> FloatArray:
-    record, length = found.record, characteristic_length(found.record)
-    if found.problem == "direct":
+def _units(solutions: Solutions) -> FloatArray:
+    record, length = solutions.record, characteristic_length(solutions.record)
+    if solutions.problem == "direct":
         return joint_scales(record)[list(record.input_indices)]
     return np.array([length if name in LENGTHS else 1.0 for name in record.platform.pose])
 

@@ -23,21 +23,21 @@ SAME = 1e-6
 """A factor within this share of its scale is zero too."""
 
 
-def false_zeros(kernel: Kernel, found: Solutions) -> list[Mismatch]:
+def false_zeros(kernel: Kernel, solutions: Solutions) -> list[Mismatch]:
     """Factors of the determinants that vanish at a regular configuration of the joint graph.
 
     Args:
         kernel: of the inverse problem.
-        found: its solutions.
+        solutions: its solutions.
     """
-    form = closed_form_of(found.record)
+    form = closed_form_of(solutions.record)
     factors = [item for item in form.factor_list if item.kind != "other" and kernel.outputs["factor"][item.name]]
-    return [mismatch for item in factors for mismatch in _of_factor(kernel, found, item)]
+    return [mismatch for item in factors for mismatch in _of_factor(kernel, solutions, item)]
 
 
-def _of_factor(kernel: Kernel, found: Solutions, factor: Factor) -> list[Mismatch]:
-    record, (place,) = found.record, kernel.outputs["factor"][factor.name]
-    plus, minus, signs = _opposite(found, factor.name)
+def _of_factor(kernel: Kernel, answer: Solutions, factor: Factor) -> list[Mismatch]:
+    record, (place,) = answer.record, kernel.outputs["factor"][factor.name]
+    plus, minus, signs = _opposite(answer, factor.name)
     for _ in range(HALVINGS if len(plus) else 0):
         middle = (plus + minus) / 2
         positive = (kernel.values(middle, signs)[place] > 0)[:, None]
@@ -52,7 +52,7 @@ def _of_factor(kernel: Kernel, found: Solutions, factor: Factor) -> list[Mismatc
     part = motion.inputs if factor.kind == "parallel" else motion.pose
     least = np.linalg.svd(part, compute_uv=False)[..., part.shape[-2] - 1]
     usual = motion.ranks.closure == int(general(record).closure)
-    crossed = np.abs(own.factors[factor.name]) <= _jump(found, factor.name)
+    crossed = np.abs(own.factors[factor.name]) <= _jump(answer, factor.name)
     told = _unnamed(own, factor, usual, crossed) or _unseen(own, factor, (least <= REGULAR) & crossed)
     wrong = np.flatnonzero((least > REGULAR) & usual & crossed)
     if told or not len(wrong):
@@ -100,17 +100,17 @@ def _unseen(own: Solutions, factor: Factor, singular: BoolArray) -> list[Mismatc
     return [Mismatch("factor", factor.name, "inverse", text, "where it is zero the status must be singular", hint)]
 
 
-def _opposite(found: Solutions, name: str) -> tuple[FloatArray, FloatArray, NDArray[np.int8]]:
+def _opposite(solutions: Solutions, name: str) -> tuple[FloatArray, FloatArray, NDArray[np.int8]]:
     """Places (N, m) of one mode at which a factor is positive, others at which it is negative, and the mode's signs."""
-    value, pairs = found.factors[name], []
-    for label in dict.fromkeys(found.labels.tolist()):
-        own = found.labels == label
+    value, pairs = solutions.factors[name], []
+    for label in dict.fromkeys(solutions.labels.tolist()):
+        own = solutions.labels == label
         plus, minus = np.flatnonzero(own & (value > 0)), np.flatnonzero(own & (value < 0))
         pairs += [(p, m) for p, m in zip(plus[:2], minus[:2], strict=False)]
     chosen = np.array(pairs[:PAIRS], dtype=int).reshape(-1, 2)
-    return found.given[chosen[:, 0]], found.given[chosen[:, 1]], found.signs[chosen[:, 0]]
+    return solutions.given[chosen[:, 0]], solutions.given[chosen[:, 1]], solutions.signs[chosen[:, 0]]
 
 
-def _jump(found: Solutions, name: str) -> float:
+def _jump(solutions: Solutions, name: str) -> float:
     """A value this small is zero; larger where the sign changed over a gap between two parts of a mode."""
-    return 1e-9 * float(np.max(np.abs(found.factors[name])))
+    return 1e-9 * float(np.max(np.abs(solutions.factors[name])))

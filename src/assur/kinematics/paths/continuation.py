@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.paths.ending import Mode, blocks
-from assur.kinematics.paths.followed_grid import Continuation, Ends
+from assur.kinematics.paths.followed_grid import Continuation, ModeEnds
 from assur.kinematics.paths.neighbours import Steps
 
 FloatArray = NDArray[np.float64]
@@ -54,7 +54,7 @@ def continued(
     joints = np.full((*shape, len(mode.record.coordinates)), np.nan)
     none = np.zeros((0, len(axes)), dtype=np.intp)
     nowhere = np.full((*shape, 2 * len(axes)), -1)
-    ends = Ends(none, none, np.zeros(0), np.zeros((0, joints.shape[-1])), nowhere)
+    ends = ModeEnds(none, none, np.zeros(0), np.zeros((0, joints.shape[-1])), nowhere)
     found = Continuation(mode, axes, joints, np.full(shape, np.nan), ends)
     if start is None:
         return found
@@ -109,7 +109,7 @@ def _across_the_rim(found: Continuation) -> IntArray:
     return np.concatenate(new)
 
 
-def _ends(found: Continuation) -> Ends:
+def _ends(found: Continuation) -> ModeEnds:
     """Where the mode ends on every edge from a reached node to another."""
     reached = np.argwhere(np.isfinite(found.joints[..., 0]))
     tails, heads, ways = _edges(found, reached)
@@ -117,7 +117,7 @@ def _ends(found: Continuation) -> Ends:
     share, joints = found.mode.ends(found.joints[tuple(nodes.T)], found.points(nodes), found.points(heads))
     place = found.ends.place.copy()
     place[(*nodes.T, ways)] = np.arange(len(nodes))
-    return Ends(nodes, heads, share, joints, place)
+    return ModeEnds(nodes, heads, share, joints, place)
 
 
 def _steps(found: Continuation, nodes: IntArray) -> Steps:

@@ -50,7 +50,7 @@ class Followed:
 
 
 @dataclass(frozen=True, eq=False)
-class Ends:
+class ModeEnds:
     """Ways (E,) from reached nodes to neighbours that are not reached, and where the mode ends on each.
 
     Attributes:
@@ -90,7 +90,7 @@ class Continuation:
     axes: tuple[FloatArray, ...]
     joints: FloatArray
     serial: FloatArray
-    ends: Ends
+    ends: ModeEnds
     _known: dict[bytes, Followed] = field(default_factory=dict, repr=False)
 
     @property

@@ -7,7 +7,7 @@ import re
 from assur.report.findings import Findings
 from assur.report.formulas.latex import latex_mathml
 from assur.report.formulas.mathml import display, inline
-from assur.results.kinds import EXACT, RANK, Cell, Facts, Formula, Formulas, Result, Scalar, Section, Table
+from assur.results.kinds import EXACT, RANK, Cell, Facts, Formulas, PrintedFormula, Result, Scalar, Section, Table
 from assur.topology.answers import refusals, replacements_by_kind
 from assur.topology.counting.decoupling import Decoupling
 from assur.topology.facts import Topology
@@ -55,7 +55,9 @@ def _numbers(topology: Topology) -> list[Scalar]:
 
 def _equations(topology: Topology) -> Formulas:
     lines = tuple(
-        Formula(display(latex_mathml(f"{equation.left} = {equation.right}")), equation.number, _meaning(equation))
+        PrintedFormula(
+            display(latex_mathml(f"{equation.left} = {equation.right}")), equation.number, _meaning(equation)
+        )
         for equation in equations(topology)
     )
     return Formulas("POC sets, freedoms and degrees", lines, "dim M counts independent elements of t and r.")
@@ -173,6 +175,6 @@ def _derivation(topology: Topology) -> list[Result]:
 def _steps(derivation: Derivation) -> list[tuple[Cell, ...]]:
     rows = [row for part in derivation.parts for row in _steps(part)]
     for step in derivation.steps:
-        formula = Formula(inline(latex_mathml(step_latex(step)), step.text()))
+        formula = PrintedFormula(inline(latex_mathml(step_latex(step)), step.text()))
         rows.append((rounded(derivation.of), formula, f"{step.rule}: {step.reason}"))
     return [*rows, (rounded(derivation.of), derivation.conclusion, f"O' {derivation.origin}")]

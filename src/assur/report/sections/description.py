@@ -9,7 +9,7 @@ from assur.model.mechanism import Input, Joint, MechanismRecord
 from assur.report.findings import Findings
 from assur.report.formulas.latex import name_mathml, symbol_mathml
 from assur.report.formulas.mathml import inline
-from assur.results.kinds import EXACT, Formula, Result, Scalar, Section, Table
+from assur.results.kinds import EXACT, PrintedFormula, Result, Scalar, Section, Table
 from assur.results.plain_text import count
 from assur.results.typeset_text import short, shown_unit
 
@@ -77,7 +77,7 @@ def _inputs(record: MechanismRecord) -> Table:
     rows = []
     for actuated in record.inputs:
         unit = record.angle if actuated.coordinate.kind == "angle" else shown_unit(record.unit)
-        symbol = Formula(inline(symbol_mathml(actuated.latex, actuated.name), actuated.name))
+        symbol = PrintedFormula(inline(symbol_mathml(actuated.latex, actuated.name), actuated.name))
         joint = record.joints[actuated.coordinate.joint]
         rows.append(
             (symbol, record.coordinate_label(actuated.coordinate), joint.type.name, unit, _stroke(record, actuated))
@@ -134,5 +134,5 @@ def _links(record: MechanismRecord) -> Table:
     return Table(f"The {count(len(rows), 'link')}", ("link", "what it is"), rows, folded=True)
 
 
-def _name(name: str) -> Formula:
-    return Formula(inline(name_mathml(name), name))
+def _name(name: str) -> PrintedFormula:
+    return PrintedFormula(inline(name_mathml(name), name))

@@ -20,7 +20,7 @@ from assur.report.sections.polynomial import polynomial, polynomial_words, syste
 from assur.report.sections.printed import solutions_beside
 from assur.report.sections.proved import proof_words
 from assur.report.sections.solutions import solutions
-from assur.results.kinds import FLOATING, Formula, Formulas, Result, Section, Table
+from assur.results.kinds import FLOATING, Formulas, PrintedFormula, Result, Section, Table
 from assur.results.plain_text import count
 from assur.results.typeset_text import short, shown_unit
 
@@ -158,7 +158,7 @@ def _formulas(findings: Findings, problem: Problem) -> list[Result]:
     for line in read.lines:
         written = equation(letter_mathml(line.letter), term_mathml(line.term), f"{_name(line)} = {text(line.term)}")
         new = line.letter.name not in said  # cosine and sine of an angle mean the same
-        lines.append(Formula(written, line.equation if new else "", line.meaning if new else ""))
+        lines.append(PrintedFormula(written, line.equation if new else "", line.meaning if new else ""))
         said.add(line.letter.name)
     title = f"Closed form of the {problem} problem"
     caption = (
@@ -184,10 +184,10 @@ def _named(findings: Findings, problem: Problem, lines: Sequence[FormulaLine]) -
         quantity = kinds[line.letter.name]
         value = solution.quantities[quantity.name] if not line.letter.function else None
         unit = shown_unit(power(findings.record.unit, {"length": 1, "area": 2, "volume": 3}.get(quantity.kind, 0)))
-        formula = Formula(inline(term_mathml(line.term), text(line.term)))
+        formula = PrintedFormula(inline(term_mathml(line.term), text(line.term)))
         rows.append(
             (
-                Formula(inline(letter_mathml(line.letter), _name(line))),
+                PrintedFormula(inline(letter_mathml(line.letter), _name(line))),
                 formula,
                 line.equation,
                 short(value, 8),
@@ -212,10 +212,10 @@ def _margins(findings: Findings, problem: Problem) -> Table:
     return Table(f"When a branch of the {problem} problem exists", columns, rows, folded=True)
 
 
-def _condition(margin: Margin, formula: str) -> Formula:
+def _condition(margin: Margin, formula: str) -> PrintedFormula:
     written = latex_mathml(margin.latex) if is_understood(margin.latex) else formula
     relation, zero = ("≥", "not negative") if margin.zero == "merge" else ("≠", "not zero")
-    return Formula(inline(f"{written}<mo>{relation}</mo><mn>0</mn>", f"{margin.name} {zero}"))
+    return PrintedFormula(inline(f"{written}<mo>{relation}</mo><mn>0</mn>", f"{margin.name} {zero}"))
 
 
 def _zero(margin: Margin) -> str:
@@ -228,5 +228,5 @@ def _beside(findings: Findings, problem: Problem) -> list[Result | Section]:
     return [solutions_beside(findings, entry, findings.rows(problem)) for entry in entries]
 
 
-def _symbol(name: str) -> Formula:
-    return Formula(inline(name_mathml(name), name))
+def _symbol(name: str) -> PrintedFormula:
+    return PrintedFormula(inline(name_mathml(name), name))

@@ -10,7 +10,7 @@ from assur.model.closed_form import Factor
 from assur.report.findings import Findings
 from assur.report.formulas.latex import symbol_mathml
 from assur.report.formulas.mathml import inline
-from assur.results.kinds import FLOATING, RANK, Cell, Facts, Formula, Result, Scalar, Section, Table
+from assur.results.kinds import FLOATING, RANK, Cell, Facts, PrintedFormula, Result, Scalar, Section, Table
 from assur.results.typeset_text import short, shown_unit
 from assur.singularity.verdict import generic_rank
 
@@ -122,9 +122,11 @@ def _groups(findings: Findings) -> list[Table]:
     return [Table("What a singularity is beyond the determinants", columns, tuple(rows))] if rows else []
 
 
-def _together(factors: list[Factor]) -> Formula:
+def _together(factors: list[Factor]) -> PrintedFormula:
     content = "<mo>=</mo>".join(_mathml(factor) for factor in factors)
-    return Formula(inline(f"{content}<mo>=</mo><mn>0</mn>", " = ".join(factor.name for factor in factors) + " = 0"))
+    return PrintedFormula(
+        inline(f"{content}<mo>=</mo><mn>0</mn>", " = ".join(factor.name for factor in factors) + " = 0")
+    )
 
 
 def _examples(findings: Findings) -> Table:
@@ -166,9 +168,9 @@ def plain(factor: Factor) -> str:
     return factor.name.replace("_", " ")
 
 
-def written(factor: Factor) -> Formula:
+def written(factor: Factor) -> PrintedFormula:
     """A factor as mathematics."""
-    return Formula(inline(_mathml(factor), factor.name))
+    return PrintedFormula(inline(_mathml(factor), factor.name))
 
 
 def _mathml(factor: Factor) -> str:

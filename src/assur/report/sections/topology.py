@@ -15,7 +15,7 @@ from assur.report.formulas.latex import latex_mathml
 from assur.report.formulas.mathml import display
 from assur.report.sections.derived import derived
 from assur.report.sections.printed import computed, number, quantity, verdict
-from assur.results.kinds import EXACT, RANK, Formula, Formulas, Result, Scalar, Section, Table
+from assur.results.kinds import EXACT, RANK, Formulas, PrintedFormula, Result, Scalar, Section, Table
 from assur.results.plain_text import count
 from assur.results.typeset_text import short
 
@@ -106,7 +106,7 @@ def _method(findings: Findings) -> Formulas:
     entries = findings.reference.entries["decomposition"] if findings.reference else ()
     where = cast("PrintedDecomposition", entries[0]).sources if entries else {}
     lines = tuple(
-        Formula(display(latex_mathml(latex)), _number(where.get(name, "")), meaning)
+        PrintedFormula(display(latex_mathml(latex)), _number(where.get(name, "")), meaning)
         for latex, meaning, name in EQUATIONS
     )
     return Formulas("The method of POC sets", lines)

@@ -12,7 +12,7 @@ from assur.model.pose import rate_names
 from assur.report.findings import Findings
 from assur.report.formulas.latex import bracket, symbol_mathml
 from assur.report.formulas.mathml import APPLY, THIN, TIMES, display, equation, matrix_mathml
-from assur.results.kinds import FLOATING, Formula, Formulas, Matrix, Result, Scalar, Section
+from assur.results.kinds import FLOATING, Formulas, Matrix, PrintedFormula, Result, Scalar, Section
 from assur.results.typeset_text import short
 
 JP, JQ = "<msub><mi>J</mi><mi>p</mi></msub>", "<msub><mi>J</mi><mi>q</mi></msub>"
@@ -35,12 +35,12 @@ def velocity(findings: Findings) -> Section:
     read = findings.formulas("inverse")
     form, record = findings.form, findings.record
     lines = [
-        Formula(
+        PrintedFormula(
             display(f"{JP}{TIMES}<mi>v</mi><mo>=</mo>{JQ}{TIMES}{RATES}", "Jp v = Jq qdot"),
             meaning="v: rates of the pose’s coordinates; q̇: rates of the inputs",
         ),
-        Formula(equation(JP, matrix_mathml(read.jp))),
-        Formula(equation(JQ, matrix_mathml(read.jq))),
+        PrintedFormula(equation(JP, matrix_mathml(read.jp))),
+        PrintedFormula(equation(JQ, matrix_mathml(read.jq))),
         _determinant(findings, JP, "parallel"),
         _determinant(findings, JQ, "serial"),
     ]
@@ -57,14 +57,14 @@ def velocity(findings: Findings) -> Section:
     return Section("Velocity", said, results)
 
 
-def _determinant(findings: Findings, matrix: str, kind: str) -> Formula:
+def _determinant(findings: Findings, matrix: str, kind: str) -> PrintedFormula:
     """A determinant as the product of the factors of one kind, as the closed form claims."""
     factors = [symbol_mathml(factor.latex, factor.name) for factor in findings.form.factor_list if factor.kind == kind]
     written = [
         f"<mrow>{bracket('(')}{factor}{bracket(')')}</mrow>" if _is_sum(factor) else factor for factor in factors
     ]
     left = f"<mrow><mi>det</mi>{APPLY}{matrix}</mrow>"
-    return Formula(equation(left, f"{TIMES}{THIN}".join(written)), meaning=f"{kind} singularities")
+    return PrintedFormula(equation(left, f"{TIMES}{THIN}".join(written)), meaning=f"{kind} singularities")
 
 
 def _is_sum(mathml: str) -> bool:
