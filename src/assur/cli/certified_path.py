@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class PathEnds:
+class TypedEnds:
     """Both poses, as typed."""
 
     start: str
@@ -28,7 +28,7 @@ class PathEnds:
 
 
 def outcome(
-    record: Mechanism, asked: Question, ends: PathEnds, finest: float, most: int, target: Path, shared: Shared
+    record: Mechanism, asked: Question, ends: TypedEnds, finest: float, most: int, target: Path, shared: Shared
 ) -> Outcome:
     """The path from one pose to the other, written with its proof; told and not written where none was found."""
     from assur.certificates.paths import path_certificate

@@ -90,7 +90,7 @@ def certify(
     if start is not None and end is not None:
         from assur.cli import certified_path
 
-        ends = certified_path.PathEnds(start, end)
+        ends = certified_path.TypedEnds(start, end)
         return certified_path.outcome(record, asked, ends, least, leaves, target, shared)
     with progress("certify", shared) as step:
         found = certificate(

@@ -47,7 +47,7 @@ def test_ways_turn_back_where_the_closed_form_ends(name):
     record = assur.load(name)
     start, end, joints = ways(record)
     found = turnings(Straight(record, start, end), joints, held_matrix(record, joints))
-    there = found.found
+    there = found.located
     assert np.mean(there) > 0.6
     gaps = np.abs(found.share - existing(record, start, end))[there]
     assert np.median(gaps) < 1e-5
@@ -63,4 +63,4 @@ def test_a_way_that_stays_inside_never_turns():
     start, end = np.array([[0.0, 200.0]]), np.array([[10.0, 210.0]])
     joints = record.inverse(start, mode="-+").joints[:, 0]
     found = turnings(Straight(record, start, end), joints, held_matrix(record, joints))
-    assert not found.found[0]
+    assert not found.located[0]

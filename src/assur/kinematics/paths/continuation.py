@@ -77,58 +77,66 @@ def continued(
     return replace(found, ends=_ends(found))
 
 
-def _spread(found: Continuation, front: IntArray) -> IntArray:
+def _spread(continuation: Continuation, front: IntArray) -> IntArray:
     """Step from the nodes (N, d) of a front to their neighbours, each from one of them; what is new (M, d)."""
     new = [front[:0]]
     for rows in blocks(front):
-        steps = _steps(found, rows)
-        found.serial[tuple(rows.T)] = steps.held.serial
-        tails, heads, _ = _edges(found, rows)
+        steps = _steps(continuation, rows)
+        continuation.serial[tuple(rows.T)] = steps.held.serial
+        tails, heads, _ = _edges(continuation, rows)
         heads, first = np.unique(heads, axis=0, return_index=True)
-        new.append(_taken(found, heads, *steps.of(tails[first]).to(found.mode.poses(found.points(heads)))))
+        new.append(
+            _taken(continuation, heads, *steps.of(tails[first]).to(continuation.mode.poses(continuation.points(heads))))
+        )
     return np.concatenate(new)
 
 
-def _taken(found: Continuation, heads: IntArray, steps: Steps, good: BoolArray) -> IntArray:
+def _taken(continuation: Continuation, heads: IntArray, steps: Steps, good: BoolArray) -> IntArray:
     """Those of the nodes (N, d) that a step may be taken to, their joint values kept."""
-    found.joints[tuple(heads[good].T)] = steps.places.joints[good]
+    continuation.joints[tuple(heads[good].T)] = steps.places.joints[good]
     return heads[good]
 
 
-def _across_the_rim(found: Continuation) -> IntArray:
+def _across_the_rim(continuation: Continuation) -> IntArray:
     """Try what lies beside reached nodes once more, in small steps from the best neighbour; what is new (M, d)."""
-    reached = np.argwhere(np.isfinite(found.joints[..., 0]))
-    tails, heads, _ = _edges(found, reached)
-    best = np.argsort(-found.serial[tuple(reached[tails].T)], kind="stable")
+    reached = np.argwhere(np.isfinite(continuation.joints[..., 0]))
+    tails, heads, _ = _edges(continuation, reached)
+    best = np.argsort(-continuation.serial[tuple(reached[tails].T)], kind="stable")
     tails, heads = tails[best], heads[best]
     heads, first = np.unique(heads, axis=0, return_index=True)
     new = [heads[:0]]
     for rows in blocks(np.arange(len(heads))):
-        steps = _steps(found, reached[tails[first[rows]]])
-        new.append(_taken(found, heads[rows], *steps.in_parts(found.mode.poses(found.points(heads[rows])))))
+        steps = _steps(continuation, reached[tails[first[rows]]])
+        new.append(
+            _taken(
+                continuation, heads[rows], *steps.in_parts(continuation.mode.poses(continuation.points(heads[rows])))
+            )
+        )
     return np.concatenate(new)
 
 
-def _ends(found: Continuation) -> ModeEnds:
+def _ends(continuation: Continuation) -> ModeEnds:
     """Where the mode ends on every edge from a reached node to another."""
-    reached = np.argwhere(np.isfinite(found.joints[..., 0]))
-    tails, heads, ways = _edges(found, reached)
+    reached = np.argwhere(np.isfinite(continuation.joints[..., 0]))
+    tails, heads, ways = _edges(continuation, reached)
     nodes = reached[tails]
-    share, joints = found.mode.ends(found.joints[tuple(nodes.T)], found.points(nodes), found.points(heads))
-    place = found.ends.place.copy()
+    share, joints = continuation.mode.ends(
+        continuation.joints[tuple(nodes.T)], continuation.points(nodes), continuation.points(heads)
+    )
+    place = continuation.ends.place.copy()
     place[(*nodes.T, ways)] = np.arange(len(nodes))
     return ModeEnds(nodes, heads, share, joints, place)
 
 
-def _steps(found: Continuation, nodes: IntArray) -> Steps:
-    return found.mode.steps(found.joints[tuple(nodes.T)], found.points(nodes))
+def _steps(continuation: Continuation, nodes: IntArray) -> Steps:
+    return continuation.mode.steps(continuation.joints[tuple(nodes.T)], continuation.points(nodes))
 
 
-def _edges(found: Continuation, front: IntArray) -> tuple[IntArray, IntArray, IntArray]:
+def _edges(continuation: Continuation, front: IntArray) -> tuple[IntArray, IntArray, IntArray]:
     """Edges from a front: places in it (E,), neighbours (E, d) that are not reached, and which way they lie (E,)."""
-    ways = np.concatenate([np.eye(len(found.axes)), -np.eye(len(found.axes))]).astype(np.intp)
-    heads = (front[:, None] + ways).reshape(-1, len(found.axes))
+    ways = np.concatenate([np.eye(len(continuation.axes)), -np.eye(len(continuation.axes))]).astype(np.intp)
+    heads = (front[:, None] + ways).reshape(-1, len(continuation.axes))
     tails, which = (values.ravel() for values in np.indices((len(front), len(ways))))
-    inside = np.all((heads >= 0) & (heads < found.joints.shape[:-1]), axis=1)
-    inside[inside] = np.isnan(found.joints[(*heads[inside].T, 0)])
+    inside = np.all((heads >= 0) & (heads < continuation.joints.shape[:-1]), axis=1)
+    inside[inside] = np.isnan(continuation.joints[(*heads[inside].T, 0)])
     return tails[inside], heads[inside], which[inside]

@@ -78,7 +78,7 @@ class Course:
 
 
 def course(
-    record: MechanismRecord, prescribed: Prescribed, start: FloatArray, wanted: ArrayLike, turns: Turns = "short"
+    record: MechanismRecord, prescribed: Prescribed, start: FloatArray, targets: ArrayLike, turns: Turns = "short"
 ) -> Course:
     """The way from `start` to wanted inputs (n,) or a wanted pose (m,), or along several, (k, n) or (k, m).
 
@@ -95,7 +95,7 @@ def course(
         raise UnknownNameError("way to turn", str(turns), ("short", "given"))
     names = input_names(record) if prescribed == "inputs" else record.platform.pose
     what = f"{prescribed} of {record.name}"
-    given = checked(wanted, names, what) if prescribed == "inputs" else checked_poses(record, wanted)
+    given = checked(targets, names, what) if prescribed == "inputs" else checked_poses(record, targets)
     if given.ndim > 2:
         raise UsageError(f"{what}: shape {given.shape}; one target or a row of them is wanted")
     turning = _turning(record, prescribed)
@@ -137,10 +137,10 @@ def _short(turn: FloatArray) -> FloatArray:
     return np.asarray((turn + np.pi) % (2 * np.pi) - np.pi)
 
 
-def _change(names: tuple[str, ...], prescribed: Prescribed, here: FloatArray, there: FloatArray) -> FloatArray:
+def _change(names: tuple[str, ...], prescribed: Prescribed, start: FloatArray, end: FloatArray) -> FloatArray:
     if prescribed == "inputs" or not has_quaternion(names):
-        return np.asarray(there - here)
+        return np.asarray(end - start)
     columns = [names.index(name) for name in QUATERNION]
     others = [k for k, name in enumerate(names) if name not in QUATERNION]
-    first, second = (rotations.from_quaternion(item[columns]) for item in (here, there))
-    return np.concatenate([there[others] - here[others], rotations.to_vector(second @ first.T)])
+    first, second = (rotations.from_quaternion(item[columns]) for item in (start, end))
+    return np.concatenate([end[others] - start[others], rotations.to_vector(second @ first.T)])

@@ -82,7 +82,7 @@ class Mode:
         way = Straight(self.record, here.poses, self.poses(outside))
         turned = turnings(way, joints, here.places.matrix)
         far = np.max(np.abs(turned.joints - joints) / units(self.record), axis=1, initial=0.0) > FURTHEST
-        rows = np.flatnonzero(turned.found & ~far)
+        rows = np.flatnonzero(turned.located & ~far)
         found = np.zeros(len(joints), dtype=bool)
         ends = Places(turned.share[rows], turned.joints[rows], turned.matrix[rows])
         found[rows] = here.guard.kept(here.places.of(rows), ends)
@@ -108,13 +108,13 @@ class Mode:
         return self._foreseen(last, here, before, low, high), here
 
     def _foreseen(
-        self, last: FloatArray, here: FloatArray, before: FloatArray, low: FloatArray, high: FloatArray
+        self, last: FloatArray, at: FloatArray, before: FloatArray, low: FloatArray, high: FloatArray
     ) -> FloatArray:
         """Share (N,) of the way at which the serial measure vanishes, by its values at two reached points."""
         share = 0.5 * (low + high)
         rows = np.flatnonzero(low > before)
         if len(rows):
-            first, second = (platform_held(self.record, values[rows]).serial for values in (last, here))
+            first, second = (platform_held(self.record, values[rows]).serial for values in (last, at))
             fall = np.maximum(first - second, 1e-300)
             guess = low[rows] + (low[rows] - before[rows]) * second / fall
             share[rows] = np.clip(guess, low[rows], high[rows])

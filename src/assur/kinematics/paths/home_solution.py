@@ -10,7 +10,7 @@ from assur.kinematics.paths.exclusion import signs_of
 from assur.kinematics.paths.home_marks import HomeSolution, marked_words
 
 
-def home_solution(found: SolutionSet) -> HomeSolution:
+def home_solution(solutions: SolutionSet) -> HomeSolution:
     """Which of the solutions of one problem is that of home's mode.
 
     With a closed form it is the one with the signs that name home's mode. Where its modes have no signs, or several
@@ -21,23 +21,23 @@ def home_solution(found: SolutionSet) -> HomeSolution:
     >>> home_solution(direct(load_record("zeng2019"), [162.6907, -143.3209, -24.6776]))
     HomeSolution(marks=(True, False, False, False), words='home: mode +++, by its signs')
     """
-    labels = [str(label) for label in found.labels[found.exists]]
+    labels = [str(label) for label in solutions.labels[solutions.exists]]
     if not labels:
         return HomeSolution((), "")
-    if found.record.closed_form is not None:
-        same = _signs_of_home(found)
+    if solutions.record.closed_form is not None:
+        same = _signs_of_home(solutions)
         if same is not None and np.sum(same) <= 1:
             marks = tuple(bool(mark) for mark in same)
             return HomeSolution(marks, marked_words(labels, marks, "by its signs", "none of these, by their signs"))
     from assur.kinematics.paths.home_by_path import home_by_path  # followers, which signs do without
 
-    return home_by_path(found, labels)
+    return home_by_path(solutions, labels)
 
 
-def _signs_of_home(found: SolutionSet) -> np.ndarray[tuple[int], np.dtype[np.bool_]] | None:
+def _signs_of_home(solutions: SolutionSet) -> np.ndarray[tuple[int], np.dtype[np.bool_]] | None:
     """Which solutions have all the signs that name home's mode; None where there are no such signs."""
-    home = signs_of(found.record, found.problem, home_values(found.record)[None])
+    home = signs_of(solutions.record, solutions.problem, home_values(solutions.record)[None])
     if not home.size or np.any(home == 0):
         return None
-    listed = signs_of(found.record, found.problem, found.joints[found.exists])
+    listed = signs_of(solutions.record, solutions.problem, solutions.joints[solutions.exists])
     return np.asarray(np.all(listed == home, axis=1))

@@ -40,22 +40,22 @@ class SignGuard:
     record: MechanismRecord
     signs: NDArray[np.int8]
 
-    def step(self, way: Way, here: Places, ends: FloatArray, rows: IntArray) -> tuple[Places, BoolArray, FloatArray]:
+    def step(self, way: Way, places: Places, ends: FloatArray, rows: IntArray) -> tuple[Places, BoolArray, FloatArray]:
         """Where steps lead, which of them may not be taken, and steps twice as long."""
-        move = -solved(here.matrix, way.gaps(here.joints, here.shares, ends, rows)[..., None])[..., 0]
+        move = -solved(places.matrix, way.gaps(places.joints, places.shares, ends, rows)[..., None])[..., 0]
         move *= (LONG / np.maximum(np.max(np.abs(move), axis=1, initial=0.0), LONG))[:, None]
-        trial = tried(way, here, ends, move, rows)
-        far = np.max(np.abs(trial.places.joints - here.joints) / joint_units(self.record), axis=1, initial=0.0)
+        trial = tried(way, places, ends, move, rows)
+        far = np.max(np.abs(trial.places.joints - places.joints) / joint_units(self.record), axis=1, initial=0.0)
         good = trial.closed & (far <= FURTHEST)
         some = np.flatnonzero(good)
-        good[some] = self.kept(here.of(some), trial.places.of(some))
-        return settled(way, trial.places, rows), good, 2.0 * (ends - here.shares)
+        good[some] = self.kept(places.of(some), trial.places.of(some))
+        return settled(way, trial.places, rows), good, 2.0 * (ends - places.shares)
 
-    def kept(self, here: Places, there: Places) -> BoolArray:
+    def kept(self, left: Places, reached: Places) -> BoolArray:
         """Whether assemblies (N,) near others are of the mode, with no merging between."""
-        same = np.all(working_signs(self.record, there.joints) * self.signs >= 0, axis=1)
+        same = np.all(working_signs(self.record, reached.joints) * self.signs >= 0, axis=1)
         rows = np.flatnonzero(same)
-        same[rows] = ~passes_zero(self.record, here.matrix[rows], there.matrix[rows])
+        same[rows] = ~passes_zero(self.record, left.matrix[rows], reached.matrix[rows])
         return np.asarray(same)
 
 

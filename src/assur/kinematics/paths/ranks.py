@@ -87,7 +87,7 @@ class Blocked:
 
 
 @dataclass(frozen=True, eq=False)
-class Point:
+class PathPoint:
     """A place on the way.
 
     Attributes:
@@ -139,59 +139,59 @@ class RankGuard:
     bounds: Bounds
     ranks: Mapping[str, int]
     work: WorkStage = field(default_factory=lambda: WorkStage("way"))
-    points: list[Point] = field(default_factory=list)
+    points: list[PathPoint] = field(default_factory=list)
     refused: list[Blocked] = field(default_factory=list)
 
-    def begun(self, way: Way, here: Places) -> bool:
+    def begun(self, way: Way, places: Places) -> bool:
         """Whether a way can be begun; not from a singular start, nor from one outside the limits."""
-        record = way.mechanism(float(here.shares[0]))
-        self.points.append(self._point(here, other_side(record, self.held, here.joints, here.matrix)))
+        record = way.mechanism(float(places.shares[0]))
+        self.points.append(self._point(places, other_side(record, self.held, places.joints, places.matrix)))
         if _least(self.points[0]) <= SINGULAR:
             self.refused.append(Blocked("lost"))
         else:
-            self.refused.extend(self._outside(record, here.joints[0]))
+            self.refused.extend(self._outside(record, places.joints[0]))
         return not self.refused
 
-    def step(self, way: Way, here: Places, ends: FloatArray, rows: IntArray) -> tuple[Places, BoolArray, FloatArray]:
+    def step(self, way: Way, places: Places, ends: FloatArray, rows: IntArray) -> tuple[Places, BoolArray, FloatArray]:
         """Where a step leads, what forbids it, and the step that may follow."""
         try:
-            gaps = way.gaps(here.joints, here.shares, ends, rows)[0]
+            gaps = way.gaps(places.joints, places.shares, ends, rows)[0]
             change, missed = self.points[-1].own.change(-gaps)
             far = float(np.linalg.norm(change))
             if way.linear and missed > MISSED:
-                return self._refused(here, here.shares, Blocked("missed"))
+                return self._refused(places, places.shares, Blocked("missed"))
             if far > FURTHEST:
-                return self.step(way, here, here.shares + NEARER * FURTHEST / far * (ends - here.shares), rows)
-            return self._judged(way, here, ends, change, gaps, rows)
+                return self.step(way, places, places.shares + NEARER * FURTHEST / far * (ends - places.shares), rows)
+            return self._judged(way, places, ends, change, gaps, rows)
         except UsageError as error:  # between two mechanisms that are allowed there may be one that is not
-            return self._refused(here, ends, Blocked("refused", text=error.message))
+            return self._refused(places, ends, Blocked("refused", text=error.message))
 
     def _judged(
-        self, way: Way, here: Places, ends: FloatArray, change: FloatArray, gaps: FloatArray, rows: IntArray
+        self, way: Way, at: Places, ends: FloatArray, change: FloatArray, gaps: FloatArray, rows: IntArray
     ) -> tuple[Places, BoolArray, FloatArray]:
         """The same of a step whose change (n,) in first order is known."""
-        record, last, step = way.mechanism(float(ends[0])), self.points[-1], float(ends[0] - here.shares[0])
+        record, last, step = way.mechanism(float(ends[0])), self.points[-1], float(ends[0] - at.shares[0])
         move = change * (last.along(step) / step)
-        trial, moved = tried(way, here, ends, move[None], rows, last.tolerance), float(np.linalg.norm(move))
+        trial, moved = tried(way, at, ends, move[None], rows, last.tolerance), float(np.linalg.norm(move))
         reach = 1.0 + float(np.max(np.abs(trial.places.joints / joint_units(record))))
         if trial.residual[0] > max(10 * last.tolerance, ROUNDING * reach):
-            return self._refused(here, ends, Blocked("open"))
+            return self._refused(at, ends, Blocked("open"))
         if trial.away[0] > CLOSE * moved + last.noise:
-            return self._refused(here, ends, Blocked("far"))
+            return self._refused(at, ends, Blocked("far"))
         other = other_side(record, self.held, trial.places.joints, trial.places.matrix)
         kept, kept_other = last.own.kept(trial.places.matrix[0]), last.other.kept(other[0])
         if min(kept, kept_other) < KEPT:
-            return self._refused(here, ends, Blocked("lost"))
+            return self._refused(at, ends, Blocked("lost"))
         broken = self._outside(record, trial.places.joints[0])
         if broken:
-            return self._refused(here, ends, broken[0])
+            return self._refused(at, ends, broken[0])
         places = settled(way, trial.places, rows)
         if places.matrix is not trial.places.matrix:
             other = other_side(record, self.held, places.joints, places.matrix)
         point = self._point(places, other)
         if point.own.sizes[-1] < FLOOR or point.other.sizes[-1] < SAFE * point.noise:
-            return self._refused(here, ends, Blocked("lost"))
-        after = float(following(ends - here.shares, np.array([moved]), trial.away, CLOSE)[0])
+            return self._refused(at, ends, Blocked("lost"))
+        after = float(following(ends - at.shares, np.array([moved]), trial.away, CLOSE)[0])
         if kept < MERGING and point.own.needs(gaps):
             # near a merging the square of the singular value goes to zero linearly
             point = dataclasses.replace(point, ahead=step * kept**2 / (1.0 - kept**2))
@@ -204,18 +204,18 @@ class RankGuard:
         self.work.at(len(self.points), result=f"{point.share:.0%} of the way")
         return places, np.ones(1, dtype=bool), np.array([after])
 
-    def _refused(self, here: Places, ends: FloatArray, why: Blocked) -> tuple[Places, BoolArray, FloatArray]:
+    def _refused(self, places: Places, ends: FloatArray, why: Blocked) -> tuple[Places, BoolArray, FloatArray]:
         """A step to shares (1,) that is not taken."""
         self.refused.append(why)
-        return Places(ends, here.joints, here.matrix), np.zeros(1, dtype=bool), ends - here.shares
+        return Places(ends, places.joints, places.matrix), np.zeros(1, dtype=bool), ends - places.shares
 
-    def _point(self, places: Places, other: FloatArray) -> Point:
+    def _point(self, places: Places, other: FloatArray) -> PathPoint:
         """An assembly with its matrices, that of what is held and the other one (1, r, n)."""
         names = own(self.held)
         mine, others = (
             locked(matrix[0], self.ranks[name]) for name, matrix in zip(names, (places.matrix, other), strict=True)
         )
-        return Point(float(places.shares[0]), places.joints[0].copy(), mine, others)
+        return PathPoint(float(places.shares[0]), places.joints[0].copy(), mine, others)
 
     def _outside(self, record: MechanismRecord, joints: FloatArray) -> list[Blocked]:
         """The limit that joint values (n,) break most, if any."""
@@ -224,5 +224,5 @@ class RankGuard:
         return [Blocked("limit", rooms[least])] if least < 0.0 else []
 
 
-def _least(point: Point) -> float:
+def _least(point: PathPoint) -> float:
     return float(min(point.own.sizes[-1], point.other.sizes[-1]))

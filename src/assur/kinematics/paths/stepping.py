@@ -73,7 +73,7 @@ class TriedStep:
 class StepGuard(Protocol):
     """What allows steps, and how long the next ones may be."""
 
-    def step(self, way: Way, here: Places, ends: FloatArray, rows: IntArray) -> tuple[Places, BoolArray, FloatArray]:
+    def step(self, way: Way, places: Places, ends: FloatArray, rows: IntArray) -> tuple[Places, BoolArray, FloatArray]:
         """Where steps from places (k,) on some ways to shares (k,), or to nearer ones, lead.
 
         Beside that which of them (k,) may be taken, and the steps (k,) that may follow these.
@@ -108,26 +108,26 @@ class Pace:
         return np.where(ends > end - 0.5 * self.least(shares), end, ends)
 
 
-def followed(way: Way, here: Places, guard: StepGuard, pace: Pace, steps: FloatArray, end: float = 1.0) -> BoolArray:
-    """Ways followed from `here`, which moves along them, by `steps` (N,), which change; which come to an end (N,)."""
-    rows, made = np.flatnonzero(here.shares < end), 0
+def followed(way: Way, at: Places, guard: StepGuard, pace: Pace, steps: FloatArray, end: float = 1.0) -> BoolArray:
+    """Ways followed from `at`, which moves along them, by `steps` (N,), which change; which come to an end (N,)."""
+    rows, made = np.flatnonzero(at.shares < end), 0
     while len(rows) and made < pace.most:
-        now, asked, made = here.of(rows), steps[rows], made + 1
+        now, asked, made = at.of(rows), steps[rows], made + 1
         places, good, after = guard.step(way, now, pace.ends(now.shares, asked, end), rows)
         gone, least = places.shares - now.shares, pace.least(now.shares)
-        here.put(rows[good], places.of(good))
+        at.put(rows[good], places.of(good))
         steps[rows] = np.maximum(np.where(good, after, 0.5 * gone), least)
         shortest = ~good & (np.minimum(asked, gone) <= ROUNDED * least)
-        rows = rows[~shortest & (here.shares[rows] < end)]
-    return np.asarray(here.shares >= end)
+        rows = rows[~shortest & (at.shares[rows] < end)]
+    return np.asarray(at.shares >= end)
 
 
 def tried(
-    way: Way, here: Places, ends: FloatArray, move: FloatArray, rows: IntArray, tolerance: float = CLOSED
+    way: Way, at: Places, ends: FloatArray, move: FloatArray, rows: IntArray, tolerance: float = CLOSED
 ) -> TriedStep:
     """Steps to shares (k,) by foreseen moves (k, n), without dimensions, and corrections of these."""
     size = way.units(float(ends[0]))
-    foreseen = here.joints / size + move
+    foreseen = at.joints / size + move
 
     def system(values: FloatArray, some: IntArray) -> tuple[FloatArray, FloatArray]:
         return way.system(values * size, ends[some], rows[some])

@@ -13,7 +13,7 @@ from assur.kinematics.closure import Assembly, assemble
 from assur.kinematics.paths.course import Course
 from assur.kinematics.paths.locked import own
 from assur.kinematics.paths.path import Stop
-from assur.kinematics.paths.ranks import COARSE, SINGULAR, Blocked, Point
+from assur.kinematics.paths.ranks import COARSE, SINGULAR, Blocked, PathPoint
 from assur.kinematics.paths.ways import Stretch, held_rows
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
@@ -51,7 +51,7 @@ NAMES = {
 }
 
 
-def stop_at(stretch: Stretch, points: Sequence[Point], blocked: Blocked, sizes: dict[str, FloatArray]) -> Stop:
+def stop_at(stretch: Stretch, points: Sequence[PathPoint], blocked: Blocked, sizes: dict[str, FloatArray]) -> Stop:
     """The stop at the last of the points, given the smallest singular values (N,) at them."""
     record, way, last = stretch.record, stretch.course, points[-1]
     place: dict[str, Any] = {
@@ -115,7 +115,7 @@ def _kind(way: Course, blocked: Blocked, sizes: dict[str, FloatArray]) -> tuple[
 
 
 def _nearest_factor(
-    record: MechanismRecord, way: Course, kind: str, points: Sequence[Point]
+    record: MechanismRecord, way: Course, kind: str, points: Sequence[PathPoint]
 ) -> tuple[str, str, str, float | None]:
     """Kind, name, meaning and relative size of the closed form's factor that is closest to zero, if one is known."""
     if record.closed_form is None or kind in ("undecided", "unreachable"):

@@ -39,13 +39,13 @@ class Turnings:
         share: (N,) of the way at which it does.
         joints: (N, n) joint values a little before.
         matrix: D (N, r, n) there, as of `PlatformHeld`.
-        found: (N,) whether it does so on the way, as far as was found; elsewhere the rest says nothing.
+        located: (N,) whether it does so on the way, as far as was found; elsewhere the rest says nothing.
     """
 
     share: FloatArray
     joints: FloatArray
     matrix: FloatArray
-    found: BoolArray
+    located: BoolArray
 
 
 def turnings(way: Way, joints: FloatArray, matrix: FloatArray) -> Turnings:
@@ -67,7 +67,7 @@ def turnings(way: Way, joints: FloatArray, matrix: FloatArray) -> Turnings:
     >>> home = home_values(record)[None]
     >>> start, up = pose_of(record, home), np.array([[0.0, 100.0]])
     >>> found = turnings(Straight(record, start, start + up), home, held_matrix(record, home))
-    >>> bool(found.found[0])
+    >>> bool(found.located[0])
     True
     >>> float((start + found.share[:, None] * up)[0, 1].round(2)), round((294**2 - 70**2) ** 0.5, 2)
     (285.55, 285.55)
