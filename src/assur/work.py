@@ -44,6 +44,9 @@ class WorkStage:
         return f"{self.name} ({', '.join(notes)})" if notes else self.name
 
 
+LISTED = 8
+"""Names in a list of what is done, the last ones; a screen has no place for hundreds of files."""
+
 _OPEN: ContextVar[tuple[WorkStage, ...]] = ContextVar("stages that are open", default=())
 
 
@@ -87,6 +90,8 @@ def where() -> str:
 def before() -> str:
     """The stages that are done, each with its result, and the files that were written; a line for each of both.
 
+    Parts of the whole alone are told, not those inside a part; of many only the last `LISTED`, with how many more.
+
     >>> with stage("report"):
     ...     with stage("audit") as audit:
     ...         audit.at(4, 4, "4 rows")
@@ -95,9 +100,13 @@ def before() -> str:
     ('report: workspace', 'done before: audit (4 rows)')
     """
     stages = _OPEN.get()
-    ended = dict.fromkeys(
-        f"{name} ({result})" if result else name for outer in stages for name, result in outer.ended.items()
-    )
-    files = stages[0].files if stages else []
-    lines = (("done before", ended), ("written before", files))
-    return "\n".join(f"{head}: {', '.join(texts)}" for head, texts in lines if texts)
+    if not stages:
+        return ""
+    ended = [f"{name} ({result})" if result else name for name, result in stages[0].ended.items()]
+    lines = (("done before", ended), ("written before", stages[0].files))
+    return "\n".join(f"{head}: {_last(texts)}" for head, texts in lines if texts)
+
+
+def _last(texts: list[str]) -> str:
+    more = [f"{len(texts) - LISTED} more"] if len(texts) > LISTED else []
+    return ", ".join([*more, *texts[-LISTED:]])

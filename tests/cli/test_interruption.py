@@ -284,3 +284,71 @@ def test_who_ignores_the_key_still_does(assur_cli):
         signal.raise_signal(signal.SIGINT)
         assert not interruption.pressed()
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def test_what_is_printed_is_not_called_no_answer(assur_cli, at_call, tmp_path):
+    """The answer stood, and its file was written: only its printing was cut short."""
+    at_call("assur.cli.output._seen", 2)
+    path = tmp_path / "m.xml"
+    run = assur_cli("export", "fivebar", "-o", str(path))
+    assert run.code == 130
+    head, at, *_, files = run.err.splitlines()
+    assert (head, at) == (interruption.CUT, "at: export: printing the answer")
+    assert run.out
+    assert path.exists()
+    assert files == f"written before: {path}"
+
+
+@pytest.mark.parametrize(("step", "objects"), [("_circumstances", 1), ("printing", 0)])
+def test_behind_a_part_of_one_object_no_other_is_printed(assur_cli, key, monkeypatch, step, objects):
+    from assur.cli import output
+
+    original, calls = getattr(output, step), []
+
+    def pressed_once(*arguments):
+        value = original(*arguments)
+        calls.append(1)
+        if len(calls) == 1:
+            key()
+        return value
+
+    monkeypatch.setattr(output, step, pressed_once)
+    run = assur_cli("list", "--json")
+    assert (run.code, run.out.count('"error"')) == (130, objects)
+    assert run.err.startswith(interruption.CUT)
+
+
+def test_of_many_files_the_last_are_named_and_the_others_counted():
+    from assur import work
+
+    with work.stage("export"):
+        for number in range(11):
+            work.written(f"{number}.stl")
+        assert work.before() == "written before: 3 more, " + ", ".join(f"{number}.stl" for number in range(3, 11))
+
+
+def test_parts_of_a_part_are_not_listed():
+    from assur import work
+
+    with work.stage("report"):
+        with work.stage("audit"), work.stage("one row"):
+            pass
+        with work.stage("workspace"):
+            with work.stage("a box"):
+                pass
+            assert work.before() == "done before: audit"
+
+
+def test_an_answer_that_is_printed_part_by_part_is_what_was_found(assur_cli, at_call, tmp_path):
+    at_call("assur.cli.output._seen", 6)
+    run = assur_cli("demo", "-o", str(tmp_path))
+    told(run)
+    assert run.out
+
+
+def test_where_the_search_was_stopped_no_absence_is_said(assur_cli, at_call):
+    at_call("assur.workspace.certified.paving._large", 1)
+    run = assur_cli("aspects", "zeng2019", "--mode", "+++++")
+    told(run)
+    assert "none so far: " in run.out
+    assert "no box of this size" not in run.out

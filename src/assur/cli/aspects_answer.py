@@ -243,7 +243,9 @@ def _modes(record: Mechanism, modes: Sequence[Aspects]) -> Iterable[RenderableTy
     rows = []
     for item in modes:
         labels = ", ".join(part.label for part in item.aspects[:8]) + (", .." if len(item) > 8 else "")
-        rows.append((item.mode or "-", str(len(item)), labels or "none", item.note))
+        rows.append(
+            (item.mode or "-", str(len(item)), labels or ("none so far" if item.stopped else "none"), item.note)
+        )
     yield table(("mode", "aspects", "labels", "note"), rows, left=("labels", "note"))
     yield f"labels: signs of {', '.join(modes[0].naming)}"
 
@@ -264,7 +266,7 @@ def _mode(record: Mechanism, aspects: Aspects, data: AspectsAnswer) -> Iterable[
     if limits := limits_note(record, aspects.strokes):
         yield f"limits: {limits}"
     if not len(aspects):
-        yield "none: no box of this size is reached and free of singularities"
+        yield _none(aspects)
     else:
         rows = [
             (item.label, *bounds(*item.volume), str(len(item.boxes)), ", ".join(item.perhaps) or "-")
@@ -278,6 +280,13 @@ def _mode(record: Mechanism, aspects: Aspects, data: AspectsAnswer) -> Iterable[
     yield f"how: {aspects.how}, over {', '.join(aspects.names)}; {data.undecided} boxes are undecided"
     if aspects.note:
         yield f"note: {aspects.note}"
+
+
+def _none(aspects: Aspects) -> str:
+    """What is said where there is no aspect; a search that was stopped has not looked everywhere."""
+    if aspects.stopped:
+        return "none so far: the box was not looked at to the end"
+    return "none: no box of this size is proved to be reached and free of singularities"
 
 
 def _way(record: Mechanism, path: ListedPath) -> Iterable[RenderableType]:

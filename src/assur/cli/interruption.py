@@ -32,6 +32,7 @@ Answer = TypeVar("Answer")
 
 SAID = "interrupted: this is what was found so far"
 NOTHING = "interrupted: there is no answer yet"
+CUT = "interrupted: the answer is not printed whole"
 LOADING = "importlib._bootstrap>"
 """What the names of Python's own files end in that load modules."""
 
@@ -41,11 +42,16 @@ AGAIN = 0.02
 
 @dataclass
 class _Key:
-    """Whether Ctrl-C was pressed since the command began, at which stages that was, and what was done."""
+    """Whether Ctrl-C was pressed since the command began, at which stages that was, and what was done.
+
+    Also how far the answer is: whether there is one, and whether any of it was printed.
+    """
 
     pressed: bool = False
     where: str = ""
     before: str = ""
+    answered: bool = False
+    printed: bool = False
 
 
 _KEY = _Key()
@@ -62,7 +68,7 @@ class PartialOutcomeInterrupt(KeyboardInterrupt):
 @contextmanager
 def watched() -> Iterator[None]:
     """Note whether Ctrl-C is pressed inside; whoever ignores it, as a job in the background of a shell, still does."""
-    _KEY.pressed, _KEY.where, _KEY.before = False, "", ""
+    vars(_KEY).update(vars(_Key()))
     before, unraisable = signal.getsignal(signal.SIGINT), sys.unraisablehook
     if before is not signal.default_int_handler or threading.current_thread() is not threading.main_thread():
         yield
@@ -92,6 +98,21 @@ def was_the_end() -> None:
     _KEY.pressed = False
 
 
+def answered() -> None:
+    """Note that there is an answer, which is printed from now on."""
+    _KEY.answered = True
+
+
+def printing() -> None:
+    """Note that printing begins, so that what is on standard output cannot be taken back."""
+    _KEY.printed = True
+
+
+def printed() -> bool:
+    """Whether any of the answer may stand on standard output."""
+    return _KEY.printed
+
+
 @contextmanager
 def handing_over(kind: type[Answer], outcome: Callable[[Answer], Outcome]) -> Iterator[None]:
     """Make an outcome of what a work inside has so far, where Ctrl-C ends it; of an answer of that kind, no other."""
@@ -117,7 +138,7 @@ def ended(command: Callable[[], Outcome]) -> Outcome:
 
 def said(*, handed_over: bool = True) -> str:
     """What is said of a command that Ctrl-C ended: whether its answer is printed, where it was, what was done."""
-    head = SAID if handed_over else NOTHING
+    head = SAID if handed_over or (_KEY.printed and not _KEY.answered) else CUT if _KEY.answered else NOTHING
     at = f"at: {_KEY.where}" if _KEY.where else ""
     return "\n".join(line for line in (head, at, _KEY.before) if line)
 

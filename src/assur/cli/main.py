@@ -66,21 +66,27 @@ def _run(words: Sequence[str]) -> int:
             command(*bound.args, **bound.kwargs)
         return 0
     shared = bound.arguments.get("shared", bound.signature.parameters["shared"].default)
-    with leave_by(shared) as not_run:
-        with stage(words[0]):
-            outcome = interruption.ended(lambda: command(*bound.args, **bound.kwargs))
-        emit(told(outcome, not_run), json=shared.json)
+    with leave_by(shared) as not_run, stage(words[0]):
+        outcome = interruption.ended(lambda: command(*bound.args, **bound.kwargs))
+        interruption.answered()
+        with stage("printing the answer"):
+            emit(told(outcome, not_run), json=shared.json)
     if outcome.exit_code == INTERRUPTED:
         complain(InterruptedByUserError(interruption.said()))
     return int(outcome.exit_code)
 
 
 def _ended(*, json: bool) -> int:
-    """The code of a command that Ctrl-C ended with nothing to hand over; it says where that was."""
+    """The code of a command that Ctrl-C ended with nothing to hand over, or while it printed; it says where that was.
+
+    Behind a part of one JSON object no other is printed.
+    """
     from assur.cli.output import InterruptedByUserError
 
     with contextlib.suppress(KeyboardInterrupt):  # pressed once more
-        _complain(InterruptedByUserError(interruption.said(handed_over=False)), json=json)
+        _complain(
+            InterruptedByUserError(interruption.said(handed_over=False)), json=json and not interruption.printed()
+        )
     return INTERRUPTED
 
 

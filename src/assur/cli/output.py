@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Literal
 
 from assur.cli.exit_codes import INTERRUPTED
+from assur.cli.interruption import printing
 from assur.errors import AssurError, FileError, OutputError, visible
 
 if TYPE_CHECKING:
@@ -89,6 +90,7 @@ def _seen(shown: RenderableType) -> RenderableType:
 @contextmanager
 def written() -> Iterator[None]:
     """What is written inside reaches the system; a full disk is an error of the user's, a closed pipe is none."""
+    printing()
     try:
         yield
         sys.stdout.flush()

@@ -138,6 +138,8 @@ def _told(store: Store) -> Iterator[None]:
         yield
     except KeyboardInterrupt as error:
         done = f"stopped at {store.places_done} of {store.plan.length}"
+        if not (store.folder.is_dir() and any(store.folder.iterdir())):
+            raise InterruptedByUserError(f"interrupted: {done}; nothing is written in {store.folder} yet") from error
         raise InterruptedByUserError(f"interrupted: {done}, in {store.folder}", hint=AGAIN) from error
     except OSError as error:
         done = f"{store.places_done} of {store.plan.length} are done"

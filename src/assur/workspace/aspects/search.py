@@ -90,7 +90,7 @@ def search(frame: BoxQuestion, finest: Mapping[str, float], progress: Progress |
     least = np.array([finest[name] for name in paving.names]) / DEEPER
     room = int(MORE * len(state.undecided)) + SPARE
     try:
-        for k in range(ROUNDS):
+        for k in range(0 if paving.stopped == "interrupted" else ROUNDS):
             if progress is not None:
                 progress(STEPS + STEPS * k // ROUNDS, 2 * STEPS)
             chosen = _between(state, least)
