@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.paths.locked import matrices, units
+from assur.kinematics.paths.locked import matrices
 from assur.kinematics.paths.platform_held import held_matrix, passes_zero, platform_held
 from assur.kinematics.position import inverse
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.rates.motions import input_units, pose_units
+from assur.kinematics.turns import joint_units
 
 NAMES = ("fivebar", "planar_3rrr", "zeng2019", "delta_4s", "three_rps", "three_upu")
 
@@ -76,7 +77,7 @@ def test_branches_on_two_sides_of_a_merging_are_told_apart_and_one_branch_is_not
     border = np.sqrt((100 + 194) ** 2 - 70**2)
     poses = np.array([[5.0, border - 2.0], [5.0, border - 3.0]])
     one, two = (inverse(record, poses, mode).joints[:, 0] for mode in ("-+", "++"))
-    assert np.max(np.abs(one - two) / units(record)) < 1.0
+    assert np.max(np.abs(one - two) / joint_units(record)) < 1.0
     d_one, d_two = held_matrix(record, one), held_matrix(record, two)
     assert np.all(passes_zero(record, d_one, d_two))
     assert not np.any(passes_zero(record, d_one[:1], d_one[1:]))

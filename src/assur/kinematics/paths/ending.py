@@ -12,13 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.paths.locked import units
 from assur.kinematics.paths.neighbours import FURTHEST, SignGuard, Steps, steps_at
 from assur.kinematics.paths.platform_held import platform_held
 from assur.kinematics.paths.stepping import Places
 from assur.kinematics.paths.turning import turnings
 from assur.kinematics.paths.ways import Straight
 from assur.kinematics.pose import whole_orientation
+from assur.kinematics.turns import joint_units
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -81,7 +81,7 @@ class Mode:
         here = self.steps(joints, inside)
         way = Straight(self.record, here.poses, self.poses(outside))
         turned = turnings(way, joints, here.places.matrix)
-        far = np.max(np.abs(turned.joints - joints) / units(self.record), axis=1, initial=0.0) > FURTHEST
+        far = np.max(np.abs(turned.joints - joints) / joint_units(self.record), axis=1, initial=0.0) > FURTHEST
         rows = np.flatnonzero(turned.located & ~far)
         found = np.zeros(len(joints), dtype=bool)
         ends = Places(turned.share[rows], turned.joints[rows], turned.matrix[rows])

@@ -36,14 +36,9 @@ NEEDED = 1e-3
 Matrices = dict[str, FloatArray]
 
 
-def units(record: MechanismRecord) -> FloatArray:
-    """Per joint value (n,): the characteristic length, one rad, or the turns of a screw for that length."""
-    return joint_units(record)
-
-
 def matrices(record: MechanismRecord, values: FloatArray) -> Matrices:
     """`closure` (..., 6 v, n), and with the rows of what is locked below it `inputs` and `poses`; no dimensions."""
-    size = units(record)
+    size = joint_units(record)
     closure = closure_at_platform(record, values) * size
     moves = turning_rates(record, values) * size / pose_units(record)[:, None]
     driven = np.eye(values.shape[-1])[list(record.input_indices)]
@@ -61,7 +56,7 @@ def general_ranks(record: MechanismRecord, values: FloatArray) -> dict[str, int]
     platform moves alone everywhere is singular everywhere.
     """
     rng = np.random.default_rng(0)
-    away = AWAY * units(record) * rng.normal(size=(NEIGHBOURS, len(values)))
+    away = AWAY * joint_units(record) * rng.normal(size=(NEIGHBOURS, len(values)))
     near = assemble(record, values + away, max_steps=30)
     around = np.concatenate([values[None], near.values[near.closed]])
     found = {}

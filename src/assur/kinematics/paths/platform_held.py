@@ -12,9 +12,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.paths.locked import units
 from assur.kinematics.paths.ways import held_system
 from assur.kinematics.rates.motions import input_units, pose_units
+from assur.kinematics.turns import joint_units
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.newton import damped, solved
 
@@ -37,10 +37,6 @@ class PlatformHeld:
     matrix: FloatArray
     rates: FloatArray
     inputs: FloatArray
-
-    def of(self, rows: NDArray[np.intp]) -> PlatformHeld:
-        """Those of some of the assemblies, which may repeat."""
-        return PlatformHeld(self.matrix[rows], self.rates[rows], self.inputs[rows])
 
     @cached_property
     def serial(self) -> FloatArray:
@@ -87,7 +83,7 @@ def held_by(record: MechanismRecord, matrix: FloatArray) -> PlatformHeld:
     """As `platform_held`, of the matrix D (N, r, n) there."""
     wanted = len(pose_units(record))
     rates = solved(matrix, np.eye(matrix.shape[-2])[:, -wanted:])
-    size = units(record)
+    size = joint_units(record)
     own = np.array([item.sign for item in record.inputs]) * size[list(record.input_indices)] / input_units(record)
     return PlatformHeld(matrix, rates, rates[..., list(record.input_indices), :] * own[:, None])
 

@@ -19,7 +19,7 @@ from assur.errors import UsageError
 from assur.kinematics.limits import Limit
 from assur.kinematics.paths.course import Prescribed
 from assur.kinematics.paths.locked import Locked, locked, own
-from assur.kinematics.paths.stepping import Places, following, settled, tried
+from assur.kinematics.paths.stepping import Places, settled, tried
 from assur.kinematics.paths.ways import Way, other_side
 from assur.kinematics.turns import joint_units
 from assur.model.mechanism import MechanismRecord
@@ -31,6 +31,9 @@ IntArray = NDArray[np.intp]
 Bounds = Callable[[MechanismRecord, FloatArray], Sequence[Limit]]
 CLOSE = 0.1
 """A correction is at most this share of its step; half the angle, in rad, by which the tangent may turn."""
+
+AIM = 0.7
+"""The next step is meant to need a correction of this share of the largest allowed; at most twice the step before."""
 
 FURTHEST = 0.25
 """How far the joint values move in one step at most, in rad or characteristic lengths, all of them together."""
@@ -176,7 +179,8 @@ class RankGuard:
         reach = 1.0 + float(np.max(np.abs(trial.places.joints / joint_units(record))))
         if trial.residual[0] > max(10 * last.tolerance, ROUNDING * reach):
             return self._refused(at, ends, Blocked("open"))
-        if trial.away[0] > CLOSE * moved + last.noise:
+        away = float(trial.away[0])
+        if away > CLOSE * moved + last.noise:
             return self._refused(at, ends, Blocked("far"))
         other = other_side(record, self.held, trial.places.joints, trial.places.matrix)
         kept, kept_other = last.own.kept(trial.places.matrix[0]), last.other.kept(other[0])
@@ -191,7 +195,7 @@ class RankGuard:
         point = self._point(places, other)
         if point.own.sizes[-1] < FLOOR or point.other.sizes[-1] < SAFE * point.noise:
             return self._refused(at, ends, Blocked("lost"))
-        after = float(following(ends - at.shares, np.array([moved]), trial.away, CLOSE)[0])
+        after = step * min(2.0, AIM * CLOSE * moved / away if away > 0.0 else 2.0)
         if kept < MERGING and point.own.needs(gaps):
             # near a merging the square of the singular value goes to zero linearly
             point = dataclasses.replace(point, ahead=step * kept**2 / (1.0 - kept**2))

@@ -26,9 +26,6 @@ CLEAR = 10.0
 ROUNDED = 1.01
 """A step counts as the shortest where rounding of the shares makes it a little longer."""
 
-AIM = 0.7
-"""The next step is meant to need a correction of this share of the largest allowed; at most twice the step before."""
-
 
 @dataclass(frozen=True, eq=False)
 class Places:
@@ -145,10 +142,3 @@ def settled(way: Way, places: Places, rows: IntArray) -> Places:
     turned, matrix = np.flatnonzero(np.any(joints != places.joints, axis=1)), places.matrix.copy()
     matrix[turned] = way.system(joints[turned], places.shares[turned], rows[turned])[1]
     return Places(places.shares, joints, matrix)
-
-
-def following(step: FloatArray, moved: FloatArray, away: FloatArray, close: float) -> FloatArray:
-    """Steps (N,) after others of which corrections are at most the share `close` of the move."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        factor = np.where(away > 0.0, AIM * close * moved / away, np.inf)
-    return step * np.minimum(2.0, factor)
