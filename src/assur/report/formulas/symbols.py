@@ -14,13 +14,15 @@ GREEK = {
     "tau": "τ", "phi": "φ", "varphi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Gamma": "Γ", "Delta": "Δ",
     "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ", "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω",
 }  # fmt: skip
-FUNCTIONS = ("sin", "cos", "tan", "cot", "arccos", "arcsin", "arctan", "det", "dim", "sgn")
+FUNCTIONS = ("sin", "cos", "tan", "cot", "arccos", "arcsin", "arctan", "det", "dim", "sgn", "log", "exp", "deg")
 OPERATORS = {
     "angle": "∠", "cdot": "·", "pm": "±", "parallel": "∥", "perp": "⊥", "times": "×", "cup": "∪", "cap": "∩",
     "Diamond": "◇", "partial": "∂", "le": "≤", "ge": "≥", "ne": "≠", "approx": "≈", "in": "∈", "to": "→",
+    "equiv": "≡", "ldots": "…", "cdots": "⋯",
 }  # fmt: skip
 LIMITS = {
-    "sum": "<mo>∑</mo>", "bigcup": "<mo>⋃</mo>", "bigcap": "<mo>⋂</mo>", "min": "<mi>min</mi>", "max": "<mi>max</mi>",
+    "sum": "<mo>∑</mo>", "prod": "<mo>∏</mo>", "bigcup": "<mo>⋃</mo>", "bigcap": "<mo>⋂</mo>",
+    "min": "<mi>min</mi>", "max": "<mi>max</mi>",
 }  # fmt: skip
 """What carries its limits under and over it."""
 
