@@ -17,12 +17,13 @@ from assur.model.topologies import load_topology, means_topology
 from assur.topology.analysis import Mode, analyse
 from assur.topology.chains import Chain
 from assur.topology.counting.inputs import default_inputs, numbered_inputs
-from assur.topology.facts import Topology
+from assur.topology.facts import InputsBy, Topology
 from assur.topology.linkages.configurations import ImmobileError
 from assur.topology.linkages.placing import place
 from assur.topology.linkages.recognition import recognised
 from assur.topology.linkages.twists import ShakyError
 from assur.topology.notation import parse_chains
+from assur.topology.shaky import analyse_shaky
 
 PLACINGS = 3
 """Random dimensions that are tried for chains that do not move, or are shaky."""
@@ -55,7 +56,7 @@ def topology(
         NotationError: a chain that cannot be read. UnknownNameError, MechanismFileError: as `load`.
         UsageError: more actuated joints than degrees of freedom, links that nothing connects, an unknown mode.
         RoutesDisagreeError: the two routes give different answers; the message names the chain.
-        ShakyError: loops that close only where they are singular. ImmobileError: freedoms at home that lead nowhere.
+        ShakyError, ImmobileError: instantaneous freedoms that lead nowhere, where the second order does not prove it.
 
     Example:
         >>> found = topology("zeng2019")
@@ -101,7 +102,14 @@ def _of_record(record: MechanismRecord, actuate: Sequence[str] | None, mode: Mod
         names = numbered_inputs(chains, actuate)
         hinges = {name: group.joints[0] for name, group in built.groups.items()}
         built = dataclasses.replace(built, inputs=tuple((hinges.get(name, name), 0) for name in names))
-    return analyse(built, chains, name=record.name, title=record.title, source=record.source, mode=mode or "home")
+    name, title, source = record.name, record.title, record.source
+    try:
+        return analyse(built, chains, name=name, title=title, source=source, mode=mode or "home")
+    except (ShakyError, ImmobileError):
+        proved = analyse_shaky(built, chains, name=name, title=title, source=source) if mode in (None, "home") else None
+        if proved is None:
+            raise
+        return proved
 
 
 def _of_chains(
@@ -112,21 +120,21 @@ def _of_chains(
     title: str = "",
     source: str = "",
 ) -> Topology:
+    """Of some dimensions with which the chains move as others do; else of some with which their motion is proved."""
     names = numbered_inputs(chains, actuate) if actuate else default_inputs(chains)
-    answers = partial(
-        analyse,
-        chains=chains,
-        name=name,
-        title=title,
-        source=source,
-        mode=mode,
-        inputs_by="given" if actuate else "first joints",
-    )
-    for seed in range(PLACINGS - 1):
+    inputs_by: InputsBy = "given" if actuate else "first joints"
+    told = partial(analyse, name=name, title=title, source=source, mode=mode, inputs_by=inputs_by)
+    placed = [place(chains, seed=seed, actuated=names) for seed in range(PLACINGS)]
+    for seed, built in enumerate(placed):
         try:
-            found = answers(place(chains, seed=seed, actuated=names))
-        except (ShakyError, ImmobileError):
+            found = told(built, chains)
+        except (ShakyError, ImmobileError) as error:
+            refused = error
             continue
         return dataclasses.replace(found, notes=(*found.notes, SOME_DIMENSIONS)) if seed else found
-    last = answers(place(chains, seed=PLACINGS - 1, actuated=names))
-    return dataclasses.replace(last, notes=(*last.notes, SOME_DIMENSIONS))
+    told_of_shaky = partial(analyse_shaky, name=name, title=title, source=source, inputs_by=inputs_by)
+    shaky = (told_of_shaky(built, chains) for built in placed)
+    proved = next(filter(None, shaky), None) if mode == "home" else None
+    if proved is None:
+        raise refused
+    return proved

@@ -367,6 +367,40 @@ def outcomes(texts, seed=0, count=12):
     return Counter(outcome(linkage, values, number) for number, values in enumerate(ends))
 
 
+def finite_outcomes(texts, seed=0, count=8):
+    """What finite steps follow: how often each (F, t, r, dim) is met around home, also where loops close singularly.
+
+    Steps of two lengths are taken from an assembly in all instantaneous directions, and the loops are closed. In
+    directions of motions both lengths get on alike; in others the longer step gets on by its square, or not at all.
+    """
+    linkage = Linkage(placed(texts, seed))
+    ends = walks(linkage, count, seed)
+    ends = ends if len(ends) else np.zeros((1, linkage.count))
+    return Counter(_followed(linkage, values, number) for number, values in enumerate(ends))
+
+
+def _followed(linkage, values, seed, tries=30):
+    rng = np.random.default_rng(seed)
+    _, jacobian = linkage.differentiated(values[None])
+    _, singular, turned = np.linalg.svd(jacobian[0]) if jacobian.shape[1] else (0, np.zeros(0), np.eye(linkage.count))
+    # at double solutions joints are known to the root of what is left of the loops
+    basis = turned[np.sum(singular > 2e-5 * max(singular.max(initial=0), 1e-9)) :].T
+    if not basis.shape[1]:
+        return 0, 0, 0, 0
+    ways = rng.normal(size=(tries, basis.shape[1])) @ basis.T
+    ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+    spans = []
+    for step in (4e-2, 1e-2):
+        after, good = closed(linkage, values + step * ways, steps=120)
+        steps = (after - values)[good] / step
+        spans.append(basis.T @ steps.T @ steps @ basis / max(good.sum(), 1))
+    share, directions = np.linalg.eigh(spans[1] - 0.5 * spans[0])
+    motion = basis @ directions[:, share > 0.05 * max(np.max(share), 1e-3)]
+    twists = linkage.platform(values[None])[0] @ motion
+    t, r, dim = (int(np.sum(np.linalg.svd(part, compute_uv=False) > 1e-3)) for part in (twists[3:], twists[:3], twists))
+    return motion.shape[1], t, r, dim
+
+
 # ---- coupling -------------------------------------------------------------------------------------------------
 
 

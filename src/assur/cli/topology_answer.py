@@ -234,6 +234,9 @@ def _joints(topology: Topology, say: Said) -> Iterator[RenderableType]:
 def _relaxation(topology: Topology, say: Said) -> Iterator[RenderableType]:
     from assur.topology.answers import replacements_by_kind
 
+    if topology.is_shaky:
+        yield say(f"No answer: {topology.plan.shaky}.")
+        return
     asked = topology.relaxation
     if not asked.redundant:
         return

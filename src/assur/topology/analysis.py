@@ -148,7 +148,7 @@ def analyse(
     if inputs_by == "first joints" and collapsed.loops and not _are_valid(home):
         inputs = admissible_drives(home.collapsed, linkage, chains or ())
         if inputs is not None:
-            said = _driven_words(linkage, inputs)
+            said = driven_words(linkage, inputs)
             driven = dataclasses.replace(linkage, inputs=inputs)
             return analyse(
                 driven,
@@ -169,7 +169,7 @@ def analyse(
     still, held = home.keeps_orientation, mode == "translation"
     at = point_of_platform(linkage, chains or ())
     rules = by_rules(chains, still=still, held=held, at=at)
-    limbs = _limbs(home, chains or (), rules)
+    limbs = known_limbs(home, chains or (), rules)
     rules = as_the_limbs_are(rules, limbs)
     order = coupling(home.collapsed, motions(home.collapsed, base, platform).internal)
     if not home.is_branch_point:  # the rules may speak of another mode
@@ -183,7 +183,7 @@ def analyse(
         title=title,
         source=source,
         mode=mode,
-        limbs=tuple(_limb(chain, limb.known) for chain, limb in zip(chains or (), limbs, strict=True)),
+        limbs=tuple(limb_facts(chain, limb.known) for chain, limb in zip(chains or (), limbs, strict=True)),
         known=_platform_known(rules.platform, home),
         dof=collapsed.dof,
         internal_freedoms=collapsed.internal_freedoms,
@@ -193,8 +193,8 @@ def analyse(
         assur_chains=order.assur_chains if solvable else (),
         coupling_degree=order.coupling_degree if solvable else None,
         redundant_constraints=RedundantConstraints(collapsed.redundant_constraints, whole.redundant_constraints),
-        redundant_by_loop=(*_of_loops(order.loops), *_of_parallelograms(home)),
-        inputs=_input_names(home),
+        redundant_by_loop=(*of_loops(order.loops), *of_parallelograms(home)),
+        inputs=input_names(home),
         inputs_by=inputs_by,
         decoupling=decoupling.decoupling,
         decoupling_refusal=decoupling.refusal,
@@ -256,14 +256,16 @@ def _decoupling(
     return judged(decoupled_by_rules(chains, twists.inputs), twists)
 
 
-def _limbs(home: Sample, chains: Sequence[Chain], rules: Rules) -> list[KnownLimb]:
+def known_limbs(home: Sample, chains: Sequence[Chain], rules: Rules) -> list[KnownLimb]:
+    """Every limb by both routes, at the configurations of a sample."""
     return [
         limb_known(f"limb {number}, {_text(chain)}", motions, home.linkage, chain, home.values)
         for number, (chain, *motions) in enumerate(zip(chains, rules.still, rules.free, strict=True), 1)
     ]
 
 
-def _limb(chain: Chain, known: Known) -> LimbFacts:
+def limb_facts(chain: Chain, known: Known) -> LimbFacts:
+    """A limb for the reader."""
     return LimbFacts(_text(chain), symbolic_text(chain), sum(joint.freedoms for joint in chain.joints), known)
 
 
@@ -271,18 +273,19 @@ def _text(chain: Chain) -> str:
     return chain.text or plain_text(chain)
 
 
-def _of_loops(loops: Sequence[Loop]) -> list[tuple[str, int]]:
+def of_loops(loops: Sequence[Loop]) -> list[tuple[str, int]]:
+    """Redundant constraints of each loop."""
     return [(f"loop {number}", loop.redundant_constraints) for number, loop in enumerate(loops, 1)]
 
 
-def _of_parallelograms(home: Sample) -> list[tuple[str, int]]:
+def of_parallelograms(home: Sample) -> list[tuple[str, int]]:
     """Redundant constraints of the loop inside each parallelogram."""
     place = {edge.name: edge for edge in home.joints}
     inside = {name: [place[joint] for joint in group.joints] for name, group in home.linkage.groups.items()}
     return [(name, 6 - rank(closure(joints))) for name, joints in inside.items()]
 
 
-def _input_names(home: Sample) -> tuple[str, ...]:
+def input_names(home: Sample) -> tuple[str, ...]:
     """The inputs as joints, or "C1.1" where a joint has several components, in the order of the linkage."""
     names = []
     for joint, component in home.linkage.inputs:
@@ -296,7 +299,7 @@ def _are_valid(home: Sample) -> bool:
     return actuation(home.collapsed, home.linkage.base, home.linkage.platform, limit=0).verdict == "valid"
 
 
-def _driven_words(linkage: Linkage, inputs: Sequence[tuple[str, int]]) -> str:
+def driven_words(linkage: Linkage, inputs: Sequence[tuple[str, int]]) -> str:
     """What is driven in the place of the first joints of the branches."""
     firsts = ", ".join(joint for joint, _ in linkage.inputs) or "none that can be driven"
     groups = {name: group for group in linkage.groups.values() for name in group.joints}

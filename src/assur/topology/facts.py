@@ -149,6 +149,11 @@ class Topology:
         return self.plan.refusal
 
     @property
+    def is_shaky(self) -> bool:
+        """Whether the loops close only where they are singular: F and the POC set are then those of finite motions."""
+        return bool(self.plan.shaky)
+
+    @property
     def delta(self) -> tuple[int, ...]:
         """Constraint degrees of the loops, Eq. (5)."""
         return tuple(loop.delta for loop in self.loops)

@@ -118,7 +118,13 @@ def limb_known(
     if isinstance(rules[1], Refusal):
         return KnownLimb(both(what, rules[1], space), None)
     # the mechanism may hold the limb where it is special; by itself it is not
-    return KnownLimb(both(what, rules[1], _space(limb, configurations(limb))), None)
+    return limb_alone(what, rules[1], linkage, chain)
+
+
+def limb_alone(what: str, rules: Motion | Refusal, linkage: Linkage, chain: Chain) -> KnownLimb:
+    """The POC set of one limb as it moves by itself, by both routes; arguments as for `limb_known`."""
+    limb = limb_linkage(linkage, chain)
+    return KnownLimb(both(what, rules, _space(limb, configurations(limb))), None)
 
 
 def _space(limb: Linkage, values: FloatArray) -> FloatArray:

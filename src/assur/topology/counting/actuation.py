@@ -108,7 +108,9 @@ def locked_freedoms(edges: Sequence[Edge], inputs: Sequence[int], base: str, pla
     return freedoms - rank(space.useful[:, list(inputs)], scale=1.0)
 
 
-def actuation(edges: Sequence[Edge], base: str, platform: str, limit: int = SETS) -> Actuation:
+def actuation(
+    edges: Sequence[Edge], base: str, platform: str, limit: int = SETS, finite: FloatArray | None = None
+) -> Actuation:
     """The inputs that the edges name, judged, and every admissible set of components.
 
     Components of joints but ball joints, and of parallelograms with one freedom may be actuated; those of ball joints
@@ -120,6 +122,7 @@ def actuation(edges: Sequence[Edge], base: str, platform: str, limit: int = SETS
         base: a link.
         platform: a link.
         limit: sets to try.
+        finite: as for `motions`.
 
     >>> turn = lambda *point: np.array([0, 0, 1, *np.cross(point, (0, 0, 1))], float).reshape(1, 6, 1)
     >>> links = ("base", "crank", "rod", "rocker", "base")
@@ -129,7 +132,7 @@ def actuation(edges: Sequence[Edge], base: str, platform: str, limit: int = SETS
     >>> print(actuation(bars, "base", "rod"))
     valid: 1 input for 1 freedom; 4 admissible sets
     """
-    space = motions(edges, base, platform)
+    space = motions(edges, base, platform, finite=finite)
     names, chosen = column_names(edges), input_columns(edges)
     needed = space.useful.shape[-1]
     rows = driven_columns(edges, space.internal)

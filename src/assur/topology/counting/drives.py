@@ -34,7 +34,7 @@ class _Candidate:
 
 
 def admissible_drives(
-    edges: Sequence[Edge], linkage: Linkage, chains: Sequence[Chain]
+    edges: Sequence[Edge], linkage: Linkage, chains: Sequence[Chain], finite: FloatArray | None = None
 ) -> tuple[tuple[str, int], ...] | None:
     """Components (joint, index) that determine the platform, as `Linkage.inputs` has them.
 
@@ -47,12 +47,14 @@ def admissible_drives(
         edges: parallelograms as one, with twists at generic configurations.
         linkage: that they were made of.
         chains: its limbs, with the names of its joints.
+        finite: as for `motions`.
 
     Returns:
         None where joints that may be driven do not determine the platform.
     """
-    least = motions(edges, linkage.base, linkage.platform, inputs=())
-    every = motions(edges, linkage.base, linkage.platform, inputs=driven_columns(edges, least.internal[..., :0]))
+    least = motions(edges, linkage.base, linkage.platform, inputs=(), finite=finite)
+    driven = driven_columns(edges, least.internal[..., :0])
+    every = motions(edges, linkage.base, linkage.platform, inputs=driven, finite=finite)
     for moving in (least, every):
         candidates = _candidates(edges, chains, driven_columns(edges, moving.internal))
         needed = moving.useful.shape[-1]

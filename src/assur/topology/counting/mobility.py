@@ -109,7 +109,13 @@ class Motions:
     platform: FloatArray
 
 
-def motions(edges: Sequence[Edge], base: str, platform: str, inputs: Sequence[int] | None = None) -> Motions:
+def motions(
+    edges: Sequence[Edge],
+    base: str,
+    platform: str,
+    inputs: Sequence[int] | None = None,
+    finite: FloatArray | None = None,
+) -> Motions:
     """All motions, split into useful and internal ones.
 
     Args:
@@ -117,9 +123,11 @@ def motions(edges: Sequence[Edge], base: str, platform: str, inputs: Sequence[in
         base: a link.
         platform: a link.
         inputs: actuated columns of the closure; those that the edges name by default.
+        finite: (N, c, F) basis of the motions, where they are fewer than the closure leaves: of a shaky linkage.
     """
-    edges = at_generic(edges)
-    free = null_basis(closure(edges))
+    if finite is None:
+        edges = at_generic(edges)
+    free = null_basis(closure(edges)) if finite is None else finite
     moves = along(edges, base, platform) @ free
     actuated = list(input_columns(edges) if inputs is None else inputs)
     seen = np.concatenate([moves, free[:, actuated]], axis=1)  # (N, 6 + n, k)
@@ -132,8 +140,10 @@ def motions(edges: Sequence[Edge], base: str, platform: str, inputs: Sequence[in
     return Motions(free @ parts[..., :useful], free @ parts[..., useful:], moves @ parts[..., :useful])
 
 
-def mobility(edges: Sequence[Edge], base: str, platform: str) -> Mobility:
+def mobility(edges: Sequence[Edge], base: str, platform: str, finite: FloatArray | None = None) -> Mobility:
     """F of Eq. (3) and what it is made of, for generalised joints or for all joints, as the edges are.
+
+    Of a shaky linkage `finite` (N, c, F) has the motions that it really has, as for `motions`.
 
     Raises UnknownNameError for a link that no edge names, UsageError where links hang together with no joint.
 
@@ -147,7 +157,7 @@ def mobility(edges: Sequence[Edge], base: str, platform: str) -> Mobility:
     (1, 1, 3)
     """
     built = _connected(edges, base, platform)
-    space = motions(edges, base, platform)
+    space = motions(edges, base, platform, finite=finite)
     moving = np.concatenate([space.useful, space.internal], axis=-1)
     still = np.max(np.abs(moving), axis=(0, 2), initial=0.0) < AT_REST
     owner = _owners(edges)

@@ -60,28 +60,31 @@ class SolutionPlan:
     """The order in which the direct problem is solved, Assur chain by Assur chain.
 
     `free` is how many freedoms the mechanism has left, beyond internal ones, when the inputs are locked; unless it is 0
-    there is no plan.
+    there is no plan. Nor is there one of a shaky mechanism, of which `shaky` says why.
     """
 
     parts: tuple[AssurPlan, ...]
     free: int = 0
+    shaky: str = ""
 
     @property
     def search(self) -> int | None:
         """The largest dimension of a search that is left, 0 if every loop is solved in turn; None without a plan."""
-        return None if self.free else max((part.search for part in self.parts), default=0)
+        return None if self.refusal else max((part.search for part in self.parts), default=0)
 
     @property
     def refusal(self) -> str:
         """Why there is no plan and no coupling degree; empty where there are both."""
-        if not self.free:
-            return ""
+        if self.shaky or not self.free:
+            return self.shaky
         left = "1 freedom" if self.free == 1 else f"{self.free} freedoms"
         return f"with all inputs locked the mechanism has {left} left"
 
     @property
     def words(self) -> tuple[str, ...]:
         """The plan in sentences."""
+        if self.shaky:
+            return (f"No order of loops is told: {self.shaky}.",)
         if self.free:
             return (f"These inputs determine no solution: {self.refusal}.",)
         return tuple(

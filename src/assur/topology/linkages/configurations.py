@@ -233,6 +233,39 @@ def lasting(linkage: Linkage, values: FloatArray, seed: int = 0, hold: Hold | No
     return every
 
 
+def follows(linkage: Linkage, values: FloatArray, bases: FloatArray, seed: int = 0) -> bool:
+    """Whether finite steps from assemblies (N, n) along directions (N, n, k) are steps of motions.
+
+    Args:
+        linkage: assembled at home.
+        values: assemblies of it, which may be singular.
+        bases: orthonormal directions of joint values, rad and lengths of the linkage.
+        seed: of the directions that are tried, as many as there are and more.
+    """
+    tree = screw_tree(linkage)
+    system = _System.of(linkage, tree, None)
+    tries = bases.shape[-1] + WAYS
+    at = np.repeat(values / tree.scales, tries, axis=0)
+    rates = np.random.default_rng(seed).normal(size=(len(at), bases.shape[-1], 1))
+    direction = (np.repeat(bases, tries, axis=0) @ rates)[..., 0]
+    direction /= np.linalg.norm(direction, axis=1, keepdims=True)
+    shares = []
+    for step in FINITE:
+        aim = at + step * direction
+        closed = minimise(system.at, aim, tolerance=CLOSED, max_steps=60)
+        # as in walks: joints at double solutions are known to the root of what is left of the loops
+        polished = minimise(system.at, closed.x, tolerance=EXACTLY, max_steps=25)
+        share = np.linalg.norm(polished.x - aim, axis=1) / step
+        shares.append(np.where(closed.converged, share, np.inf))
+    return bool(np.all((shares[1] < STRAIGHT) | (shares[1] < 2 * FINITE[1] / FINITE[0] * shares[0])))
+
+
+def loop_system(linkage: Linkage, at: FloatArray) -> FloatArray:
+    """Derivatives (N, rows, n) of the loop equations at joint values (N, n), rad and lengths of the linkage."""
+    system = _System.of(linkage, screw_tree(linkage), None)
+    return system.at(at, np.arange(len(at)))[1]
+
+
 def finite_directions(linkage: Linkage, value: FloatArray, hold: Hold | None = None) -> FloatArray:
     """Orthonormal directions (n, k) of joint values in which an assembly (n,) can really be left, by finite steps.
 
