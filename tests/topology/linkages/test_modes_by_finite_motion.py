@@ -12,9 +12,9 @@ from assur.topology.linkages.second_order import finite_motion, second_order
 from assur.topology.notation import parse_chains
 from mobility_oracle import finite_outcomes, least_sum_of_degrees, outcomes, random_mechanism
 
-QUICK, ALL, TOGETHER = 50, 1000, 50
+QUICK, ALL, TOGETHER = 50, 1000, 250
 REFUSED = 0.03
-"""Share of mechanisms that may be refused: those that are shaky, and those that only seem to move at home."""
+"""Share of mechanisms that may be refused, which ends `assur topology` with another exit code than 0."""
 
 BRANCH_POINT = ["R[x] R[y] P[z] R[y] R[x]", "P[x] R[1,0,2] R[1,0,2] R[1,0,2] R[y]", "R[y] R[y] R[y] R[1,0,2] R[1,0,2]"]
 
@@ -81,8 +81,7 @@ def test_what_is_said_of_random_mechanisms_is_what_they_do(start, record_propert
 @pytest.mark.deep
 @pytest.mark.parametrize("start", range(0, ALL, TOGETHER))
 def test_what_is_said_of_a_thousand_random_mechanisms_is_what_they_do(start, record_property):
-    # of fifty mechanisms five may be refused by chance where three in a hundred are
-    assert share_refused(range(start, start + TOGETHER), record_property) <= 5
+    assert share_refused(range(start, start + TOGETHER), record_property) < REFUSED * TOGETHER
 
 
 @pytest.mark.parametrize(
