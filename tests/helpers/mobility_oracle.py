@@ -370,6 +370,8 @@ def outcomes(texts, seed=0, count=12):
 def finite_outcomes(texts, seed=0, count=8):
     """What finite steps follow: how often each (F, t, r, dim) is met around home, also where loops close singularly.
 
+    A rank is None where the steps do not tell it.
+
     Steps of two lengths are taken from an assembly in all instantaneous directions, and the loops are closed. In
     directions of motions both lengths get on alike; in others the longer step gets on by its square, or not at all.
     """
@@ -397,9 +399,14 @@ def _followed(linkage, values, seed, tries=30):
     share, directions = np.linalg.eigh(spans[1] - 0.5 * spans[0])
     motion = basis @ directions[:, share > 0.05 * max(np.max(share), 1e-3)]
     twists = linkage.platform(values[None])[0] @ motion
-    # directions from finite steps are known to the square of the longer one, some 1e-3; what is real is 0.1 and more
-    t, r, dim = (int(np.sum(np.linalg.svd(part, compute_uv=False) > 1e-2)) for part in (twists[3:], twists[:3], twists))
+    t, r, dim = (_clear_rank(part) for part in (twists[3:], twists[:3], twists))
     return motion.shape[1], t, r, dim
+
+
+def _clear_rank(matrix):
+    """Rank, None where it is not clear: finite steps tell directions to 1e-3, and some motions turn hardly more."""
+    size = np.linalg.svd(matrix, compute_uv=False)
+    return None if np.any((size > 2e-4) & (size < 1e-2)) else int(np.sum(size > 5e-3))
 
 
 # ---- coupling -------------------------------------------------------------------------------------------------

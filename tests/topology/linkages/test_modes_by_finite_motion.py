@@ -31,6 +31,11 @@ def places(texts, inputs):
     ]
 
 
+def clear(followed):
+    """Outcomes of which finite steps tell every rank, the usual one first."""
+    return [outcome for outcome, _ in followed.most_common() if None not in outcome]
+
+
 def compared(number):
     """Whether a mechanism was refused, with the reason; whatever is answered must have been met."""
     texts = mechanism(number)
@@ -48,9 +53,10 @@ def compared(number):
         return refusal
     if found.is_shaky:
         followed = finite_outcomes(texts, number)
-        usual = followed.most_common(1)[0][0]
+        usual = (clear(followed) or [outcome for outcome, _ in followed.most_common()])[0]
+        said = (found.dof, found.poc.t, found.poc.r, found.poc.dim)
         assert not real, (number, texts, dict(met), found.notes)
-        assert (found.dof, found.poc.t, found.poc.r, found.poc.dim) == usual, (number, texts, followed, found.notes)
+        assert all(told in (None, other) for told, other in zip(usual, said, strict=True)), (number, texts, followed)
         return ""
     modes = [(mode.dof, mode.t, mode.r, mode.dim) for mode in found.modes if mode.real]
     assert modes[0] == (found.dof, found.poc.t, found.poc.r, found.poc.dim)
@@ -159,7 +165,7 @@ def test_of_a_shaky_mechanism_the_finite_motion_is_said():
     assert (found.dof, found.poc.t, found.poc.r, found.poc.dim) == (2, 2, 0, 2)
     assert [mode.real for mode in found.modes] == [False]
     assert (found.coupling_degree, found.decoupling, found.actuation.verdict) == (None, None, "valid")
-    assert set(finite_outcomes(texts)) == {(2, 2, 0, 2)}
+    assert set(clear(finite_outcomes(texts))) == {(2, 2, 0, 2)}
     assert {item.freedoms for item in outcomes(texts)} == {3}
 
 
@@ -169,7 +175,7 @@ def test_a_shaky_mechanism_with_inner_loops_moves_as_finite_steps_do():
     found = assur.topology(texts)
     assert (found.dof, found.poc.t, found.poc.r, found.poc.dim) == (7, 3, 1, 4)
     assert {item.freedoms for item in outcomes(texts)} == {8}
-    assert finite_outcomes(texts).most_common(1)[0][0] == (7, 3, 1, 4)
+    assert clear(finite_outcomes(texts))[0] == (7, 3, 1, 4)
 
 
 def test_of_freedoms_that_are_blocked_together_nothing_is_claimed():
