@@ -43,10 +43,12 @@ from assur.topology.linkages.twists import UnclearRankError, edges
 from assur.topology.poc import PocSet
 from assur.topology.routes import KnownLimb, Rules, as_the_limbs_are, by_rules, limb_alone
 from assur.topology.rules.refusals import Refusal
+from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 
 
+@stage("finite motion of a shaky mechanism")
 def analyse_shaky(
     linkage: Linkage,
     chains: Sequence[Chain] | None = None,
