@@ -35,8 +35,8 @@ WAY = 16
 """Starts on the way from home, where turns count."""
 AGAIN, LEAST = 24, 4
 """A search ends when so many assemblies in a row, for each that is known, were known already; for so many at least; or
-after MOST starts. One start by chance in 8000 leads to the rarest assembly of the Delta robot's inverse problem: 16 times
-40 that close missed it, 24 times do not."""
+after MOST starts. One start by chance in 8000 leads to the rarest assembly of the Delta robot's inverse problem: 16
+times 40 that close missed it, 24 times do not."""
 
 SAME = 1e-5
 """Assemblies whose joints are all nearer than this share of the characteristic length are one."""
