@@ -60,7 +60,7 @@ def problems(record: MechanismRecord, extent: Extent = AT_LOAD) -> tuple[tuple[P
         if not found:
             found, general = at_other_dimensions(record, extent)
         if not found:
-            exact = exactness(record)
+            exact = exactness(record, extent.primes)
             found, general = list(exact.mismatches), general and (exact.general or bool(exact.undecided))
         if not found:
             found, declared = of_declarations(record, extent)

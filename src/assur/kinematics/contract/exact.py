@@ -32,8 +32,8 @@ IntArray = NDArray[np.int64]
 DRAWS = 128
 """At once: roots of roots exist at half of them, and dozens show which radicands are tied."""
 AGAIN = 48
-"""So often at most they are drawn, with another prime each time, until the error is small enough and each choice of a
-mode's signs was met."""
+"""So often at most they are drawn for each problem, with another prime each time, until the error is small enough and
+each choice of a mode's signs was met."""
 ENOUGH = 1e-24
 """An error that is small enough; as many draws as bring it about are looked at for motions, which take longest."""
 TIED = "the root of a formula's square has either sign: write the formula itself, where its sign is known"
@@ -83,26 +83,30 @@ class Exactness:
 
 @lru_cache(maxsize=64)
 @stage("closed form in exact arithmetic")
-def exactness(record: MechanismRecord) -> Exactness:
+def exactness(record: MechanismRecord, most: int = AGAIN) -> Exactness:
     """Whether the formulas close the joint graph, with any dimensions or with those of the record.
+
+    Args:
+        record: with a closed form.
+        most: so many primes at most for each problem; few show what is wrong, and may prove nothing.
 
     >>> from assur.model.registry import load_record
     >>> exactness(load_record("fivebar")).proved
     True
     """
-    general = _exactness(record, general=True)
-    if general.proved:
+    general = _exactness(record, general=True, most=most)
+    if general.proved or (most < AGAIN and general.places and not general.mismatches):
         return general
-    own = _exactness(record, general=False)
+    own = _exactness(record, general=False, most=most)
     return own if own.proved or own.mismatches or not general.undecided else general
 
 
-def _exactness(record: MechanismRecord, general: bool) -> Exactness:
+def _exactness(record: MechanismRecord, general: bool, most: int) -> Exactness:
     random = np.random.default_rng(secrets.randbits(64))
     error, trials = 0.0, list[Trial]()
     for problem in problems_by_formulas(record):
-        missed, met = 1.0, dict[int, set[int]]()
-        while (missed > ENOUGH or not _all_met(met)) and len(trials) < AGAIN:
+        missed, met, first = 1.0, dict[int, set[int]](), len(trials)
+        while (missed > ENOUGH or not _all_met(met)) and len(trials) - first < most:
             try:
                 trial = Trial(record, problem, general, random)
                 broken = trial.mismatch()
