@@ -1,6 +1,7 @@
 """`assur view` from outside: its link, how it ends, and what it refuses."""
 
 import http.client
+import io
 import re
 import signal
 import stat
@@ -69,6 +70,20 @@ def test_without_viser_it_says_what_to_install(monkeypatch, capsys):
     said = capsys.readouterr().err
     assert "the live view needs viser, which is not installed" in said
     assert "pip install '.[view]'" in said
+
+
+@pytest.mark.view
+def test_ctrl_c_at_the_very_moment_at_which_the_link_is_said_ends_it_well(monkeypatch, capsys):
+    class Pressed(io.StringIO):
+        """What stands on the terminal is read at once, and the key is pressed."""
+
+        def flush(self):
+            if "Ctrl-C ends the view" in self.getvalue():
+                raise KeyboardInterrupt
+
+    monkeypatch.setattr(sys, "stderr", Pressed())
+    assert main(["view", "fivebar", "--no-open"]) == 0
+    assert "the view of fivebar has ended" in capsys.readouterr().out
 
 
 @pytest.fixture

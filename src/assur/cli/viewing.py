@@ -45,9 +45,9 @@ def outcome(record: MechanismRecord, *, host: str, port: int, allow_network: boo
         windows.append(window)
         window.restore(link)
         said = [WARNING] if not is_loopback(host) else []
-        sys.stderr.write("\n".join([*said, f"{record.name}: {served.url}", "Ctrl-C ends the view.", ""]))
-        sys.stderr.flush()
-        with contextlib.suppress(KeyboardInterrupt):
+        with contextlib.suppress(KeyboardInterrupt):  # from the moment on at which it says that Ctrl-C ends the view
+            sys.stderr.write("\n".join([*said, f"{record.name}: {served.url}", "Ctrl-C ends the view.", ""]))
+            sys.stderr.flush()
             if opens:
                 webbrowser.open(ends.enter_context(leading_to(served.url)).as_uri())
             wait()
