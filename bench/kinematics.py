@@ -28,8 +28,8 @@ from rich.table import Table
 import assur
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closure import FloatArray, assemble, closure_error
+from assur.kinematics.following.from_home import followed_in_a_row
 from assur.kinematics.newton import ENOUGH, Newton, NewtonStep
-from assur.kinematics.paths.from_home import followed_in_a_row
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.finite_motion import classify_at, status_of
 from assur.kinematics.rates.instantaneous import instantaneous

@@ -19,11 +19,11 @@ from rich.console import Console
 from rich.table import Table
 
 import assur
-from assur.kinematics.paths.following import follow
+from assur.kinematics.following.following import follow
 from assur.kinematics.pose import pose_of
 from assur.numerics.polynomials import roots
 from assur.topology.notation import parse_chain
-from assur.topology.rules.union import serial
+from assur.topology.symbolic.union import serial
 from assur.workspace.aspects.adjacency import shared_faces
 from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.region import certified_workspace

@@ -20,8 +20,8 @@ from rich.table import Table
 
 import assur
 from assur.topology.facts import Topology
-from assur.topology.linkages.edges import closure
-from assur.topology.linkages.twists import edges
+from assur.topology.screws.edges import closure
+from assur.topology.screws.twists import edges
 
 NAMES = ("zeng2019", "tripteron", "delta_4s", "gough_stewart")
 

@@ -10,7 +10,7 @@ from assur import errors
 from assur.kinematics import closure, status
 from assur.kinematics.rates import motions
 from assur.topology import directions
-from assur.topology.linkages import edges, twists
+from assur.topology.screws import edges, twists
 
 PAGE = (Path(__file__).parents[1] / "CONVENTIONS.md").read_text(encoding="utf-8")
 

@@ -18,11 +18,11 @@ from assur.topology.analysis import Mode, analyse
 from assur.topology.chains import Chain
 from assur.topology.counting.inputs import default_inputs, numbered_inputs
 from assur.topology.facts import InputsBy, Topology
-from assur.topology.linkages.configurations import ImmobileError
-from assur.topology.linkages.placing import place
-from assur.topology.linkages.recognition import recognised
-from assur.topology.linkages.twists import ShakyError
 from assur.topology.notation import parse_chains
+from assur.topology.screws.configurations import ImmobileError
+from assur.topology.screws.placing import place
+from assur.topology.screws.recognition import recognised
+from assur.topology.screws.twists import ShakyError
 from assur.topology.shaky import analyse_shaky
 
 PLACINGS = 3

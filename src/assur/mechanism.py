@@ -25,7 +25,7 @@ from assur.model.mechanism import MechanismRecord
 if TYPE_CHECKING:
     from assur.kinematics.certified.certify import Way as ProofWay
     from assur.kinematics.certified.result import CertifiedSolutions
-    from assur.kinematics.paths.path import Path as Way
+    from assur.kinematics.following.path import Path as Way
     from assur.kinematics.rates.instantaneous import Instant
     from assur.kinematics.rates.velocity import VelocityMap
     from assur.performance.dexterity import Dexterity
@@ -145,8 +145,8 @@ class Mechanism(MechanismRecord):
         return indices(self, poses, mode, characteristic_length)
 
     def follow(self, joint_values: Named, **options: Any) -> Way:
-        """The way from an assembly to inputs or to a pose, the mode kept: see `assur.kinematics.paths.following`."""
-        from assur.kinematics.paths.following import follow
+        """The way from an assembly to inputs or to a pose, the mode kept; see `kinematics.following.following`."""
+        from assur.kinematics.following.following import follow
 
         return follow(self, checked_joints(self, joint_values), **options)
 

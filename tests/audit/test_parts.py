@@ -17,9 +17,9 @@ from assur.kinematics.home import home_values
 from assur.model.registry import load_record
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.analysis import sample
-from assur.topology.linkages.edges import closure, rank
-from assur.topology.linkages.recognition import recognised
 from assur.topology.poc import Mark, PocSet
+from assur.topology.screws.edges import closure, rank
+from assur.topology.screws.recognition import recognised
 
 RECORD = load_record("zeng2019")
 RECORD_HOME = home_values(RECORD)

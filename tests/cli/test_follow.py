@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.paths.following import follow
+from assur.kinematics.following.following import follow
 
 
 def test_the_path_is_that_of_the_library(assur_cli):

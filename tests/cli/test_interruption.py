@@ -153,7 +153,7 @@ def test_what_was_compared_with_the_engine_is_printed(assur_cli, at_call):
 
 
 def test_a_path_is_printed_as_far_as_it_was_followed(assur_cli, at_call):
-    at_call("assur.kinematics.paths.ranks.tried", 4)
+    at_call("assur.kinematics.following.ranks.tried", 4)
     run = assur_cli("follow", "fivebar", "--from", "0", "200", "--to", "60", "220", "--json")
     told(run)
     assert len(run.json["shares"]) == 4

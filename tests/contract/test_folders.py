@@ -10,7 +10,7 @@ import pytest
 import assur
 from assur.kinematics.border import inputs_of
 from assur.kinematics.home import home_values
-from assur.kinematics.soundness.check import doubts, faults
+from assur.kinematics.validation.check import doubts, faults
 from assur.model.closed_form import Eliminant
 
 ROOT = Path(__file__).parents[2]

@@ -16,7 +16,7 @@ from assur.figures.style import ORANGE, SERIES, styled
 from assur.joints.catalogue import JOINT_TYPES
 from assur.model.registry import topology_names
 from assur.topology.counting.coupling import AssurChain, Loop
-from assur.topology.linkages.linkage import Group, Linkage, LinkageJoint
+from assur.topology.screws.linkage import Group, Linkage, LinkageJoint
 from catalogue import each
 
 TYPES = {item.letter: item for item in JOINT_TYPES.values()}

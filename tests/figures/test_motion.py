@@ -18,7 +18,7 @@ from assur.errors import UsageError
 from assur.figures.motion import check_film, encoded_film, ffmpeg, film, there_and_back
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closure import closure_error
-from assur.kinematics.paths.neighbours import working_signs
+from assur.kinematics.following.neighbours import working_signs
 from assur.kinematics.pose import pose_of
 from assur.numerics import rotations
 from assur.scene.mesh import rgb

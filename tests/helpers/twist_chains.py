@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from assur.topology.linkages.edges import Edge
+from assur.topology.screws.edges import Edge
 
 X, Y, Z = np.eye(3)
 

@@ -12,7 +12,7 @@ import pytest
 
 from assur.cli.main import main
 from assur.joint_graph.geometry import characteristic_length
-from assur.kinematics.paths.following import follow
+from assur.kinematics.following.following import follow
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.rates.units import is_mixed
 from assur.kinematics.rates.velocity import velocity_map_at

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from assur.kinematics.paths.following import follow
+from assur.kinematics.following.following import follow
 from assur.mechanism import load
 from assur.page.content import content
 from spherical import ANGLES, OBLIQUE, spherical

@@ -10,8 +10,8 @@ from assur.errors import UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import closure_error
+from assur.kinematics.following.neighbours import working_signs
 from assur.kinematics.limits import limits
-from assur.kinematics.paths.neighbours import working_signs
 from assur.scene import motion
 from assur.scene.motion import closed_motion
 

@@ -10,7 +10,7 @@ from assur.synthesis.assembly import MEMBERS, Range, assemble
 from assur.synthesis.classes import classes
 from assur.synthesis.expected import Counts
 from assur.synthesis.wanted import MOTIONS
-from assur.topology.rules.refusals import Refusal
+from assur.topology.symbolic.refusals import Refusal
 
 SPACE, ANY = MOTIONS["3T"], Range(0, 9)
 

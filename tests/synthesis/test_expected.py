@@ -5,8 +5,8 @@ import pytest
 from assur.synthesis.expected import Counts, Expected, expected
 from assur.synthesis.wanted import MOTIONS
 from assur.topology.notation import parse_chain
-from assur.topology.rules.refusals import Refusal
-from assur.topology.rules.union import serial
+from assur.topology.symbolic.refusals import Refusal
+from assur.topology.symbolic.union import serial
 
 
 def of(name, *texts):

@@ -10,7 +10,7 @@ from assur.synthesis.limbs import LimbType
 from assur.synthesis.positions import positions
 from assur.synthesis.wanted import MOTIONS
 from assur.topology.notation import parse_chain
-from assur.topology.rules.union import serial
+from assur.topology.symbolic.union import serial
 
 SPACE, TURNING, PLANE = (MOTIONS[name] for name in ("3T", "3T1R", "2T1R"))
 

@@ -7,8 +7,8 @@ from assur.errors import UsageError
 from assur.numerics.rotations import about_axis
 from assur.synthesis.poses import is_special, twists_at_poses
 from assur.topology.analysis import sample
-from assur.topology.linkages.placing import place
 from assur.topology.notation import parse_chain
+from assur.topology.screws.placing import place
 
 UNTURNED = np.broadcast_to(np.eye(3), (3, 3, 3))
 ABOUT_Z = about_axis(np.array([0.0, 0.0, 1.0]), np.array([0.3, -0.5, 0.7]))

@@ -13,7 +13,7 @@ from assur.synthesis.isomorphism import mechanism_key
 from assur.synthesis.synthesis import synthesis
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.notation import parse_chain
-from assur.topology.rules.union import serial
+from assur.topology.symbolic.union import serial
 
 KNOWN_AT_BASE = [
     "tsai_platform",

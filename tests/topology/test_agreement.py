@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from assur.topology.agreement import RoutesDisagreeError, agreed, by_twists
-from assur.topology.linkages.configurations import configurations
-from assur.topology.linkages.placing import place
-from assur.topology.linkages.twists import edges, motion_space
 from assur.topology.notation import parse_chain
 from assur.topology.poc import Mark, PocSet
-from assur.topology.rules.union import serial
+from assur.topology.screws.configurations import configurations
+from assur.topology.screws.placing import place
+from assur.topology.screws.twists import edges, motion_space
+from assur.topology.symbolic.union import serial
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 OBLIQUE = (0.6, 0.8, 0.0)

@@ -8,9 +8,9 @@ from assur.errors import UsageError
 from assur.joints.revolute import REVOLUTE
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.analysis import analyse, sample
-from assur.topology.linkages.linkage import Linkage, LinkageJoint
-from assur.topology.linkages.placing import place
 from assur.topology.notation import parse_chains
+from assur.topology.screws.linkage import Linkage, LinkageJoint
+from assur.topology.screws.placing import place
 
 PAPER = ["{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", "P[y] P(4R)[x] P(4R)[y]"]
 

@@ -9,8 +9,8 @@ import pytest
 from assur.topology.counting.coupling import Loop
 from assur.topology.counting.solution_plan import SolutionPlan
 from assur.topology.facts import Known, LimbFacts, RedundantConstraints, Topology
-from assur.topology.linkages.linkage import Linkage
 from assur.topology.poc import PocSet
+from assur.topology.screws.linkage import Linkage
 
 AGREED = Known(PocSet(3, 0, 3), "both")
 REFUSED = Known(PocSet(3, 2, 5), "twists", "a pitch")

@@ -11,11 +11,11 @@ import assur
 from assur.topology.agreement import RoutesDisagreeError
 from assur.topology.counting.coupling import coupling, coupling_of
 from assur.topology.counting.inputs import default_inputs
-from assur.topology.linkages.placing import place
-from assur.topology.linkages.twists import ShakyError, generic_edges
 from assur.topology.notation import parse_chains
 from assur.topology.routes import check_xi
-from assur.topology.rules.union import serial
+from assur.topology.screws.placing import place
+from assur.topology.screws.twists import ShakyError, generic_edges
+from assur.topology.symbolic.union import serial
 
 HYBRID = "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]"
 INNER = "P[z] {P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]"

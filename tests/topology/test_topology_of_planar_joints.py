@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 
 from assur.topology.analysis import analyse
-from assur.topology.linkages.placing import place
 from assur.topology.notation import NotationError, parse_chain, parse_chains
-from assur.topology.rules.locking import locked
-from assur.topology.rules.motion import Motion
-from assur.topology.rules.union import serial
+from assur.topology.screws.placing import place
+from assur.topology.symbolic.locking import locked
+from assur.topology.symbolic.motion import Motion
+from assur.topology.symbolic.union import serial
 
 SAME = {"E[z]": "P[x] P[y] R[z]", "E[x]": "P[y] P[z] R[x]", "E[y]": "P[z] P[x] R[y]"}
 LIMBS = ["{z}", "R[z] {y} R[z]", "R[x] {x} R[x]", "{z} S", "S {z}", "{x} {y}", "R[x] {z}", "{z} R[x] R[x]"]

@@ -7,7 +7,7 @@ import pytest
 
 import assur
 from assur.kinematics.closure import assemble
-from assur.kinematics.paths.following import follow
+from assur.kinematics.following.following import follow
 from assur.kinematics.pose import pose_of
 from assur.numerics import rotations
 from assur.view import missing

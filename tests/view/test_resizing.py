@@ -7,7 +7,7 @@ import assur
 from assur.errors import UsageError
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import assemble
-from assur.kinematics.paths.locked import general_ranks
+from assur.kinematics.following.locked import general_ranks
 from assur.kinematics.pose import pose_of
 from assur.model.dimensions import with_parameters
 from assur.view.resizing import TOLERANCE, resized

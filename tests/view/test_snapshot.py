@@ -8,7 +8,7 @@ import pytest
 import assur
 from assur.errors import UsageError
 from assur.joint_graph.geometry import characteristic_length
-from assur.kinematics.paths.locked import general_ranks
+from assur.kinematics.following.locked import general_ranks
 from assur.view import snapshot
 from assur.view.dials import dials, read
 from assur.view.dials import inputs as input_dials

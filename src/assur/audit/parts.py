@@ -16,15 +16,15 @@ from assur.kinematics.structure import linkage
 from assur.model.mechanism import MechanismRecord
 from assur.topology.agreement import agreed, by_twists
 from assur.topology.analysis import Sample, sample
-from assur.topology.linkages.edges import Edge
-from assur.topology.linkages.limb_linkage import limb_values
-from assur.topology.linkages.linkage import Linkage, part
-from assur.topology.linkages.recognition import recognised
-from assur.topology.linkages.twists import dimensions, edges, motion_space
 from assur.topology.poc import PocSet
 from assur.topology.routes import by_rules
-from assur.topology.rules.motion import Motion
-from assur.topology.rules.refusals import Refusal
+from assur.topology.screws.edges import Edge
+from assur.topology.screws.limb_linkage import limb_values
+from assur.topology.screws.linkage import Linkage, part
+from assur.topology.screws.recognition import recognised
+from assur.topology.screws.twists import dimensions, edges, motion_space
+from assur.topology.symbolic.motion import Motion
+from assur.topology.symbolic.refusals import Refusal
 
 FloatArray = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ from assur.model.mechanism import MechanismRecord
 from assur.topology.analysis import COUNT
 from assur.topology.counting.coupling import coupling, coupling_of
 from assur.topology.counting.mobility import mobility, motions
-from assur.topology.rules.derivation import counted, matrix
+from assur.topology.symbolic.derivation import counted, matrix
 
 TWISTS = f"rank of twists at {COUNT} random finite displacements"
 COLLAPSED = "parallelograms as one joint"

@@ -46,7 +46,7 @@ def check(
         assur check my.toml
         assur check my.toml --json
     """
-    from assur.kinematics.soundness.check import doubts, faults
+    from assur.kinematics.validation.check import doubts, faults
     from assur.model.examination import examine
     from assur.model.registry import load_record
     from assur.report.labels import label_faults

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from assur.kinematics.answers.solution_set import SolutionSet
-    from assur.kinematics.paths.course import Turns
-    from assur.kinematics.paths.path import Path, Stop
+    from assur.kinematics.following.course import Turns
+    from assur.kinematics.following.path import Path, Stop
     from assur.mechanism import Mechanism
     from assur.results.answers.path import PathAnswer
 
@@ -66,7 +66,7 @@ def _from_home_mode(
     record: Mechanism, along: Along, place: NDArray[Any], goal: NDArray[Any], *, turns: Turns, use_limits: bool
 ) -> Outcome:
     """The path from where home's mode is at --from; without a closed form that is followed from home."""
-    from assur.kinematics.paths.home_mode import home_mode_at
+    from assur.kinematics.following.home_mode import home_mode_at
     from assur.results.answers.path import NoPath
 
     start = home_mode_at(record, place, "poses" if along == "pose" else "inputs")
@@ -85,8 +85,8 @@ def _followed(
     record: Mechanism, joints: NDArray[Any], along: Along, goal: NDArray[Any], *, turns: Turns, use_limits: bool
 ) -> Outcome:
     from assur.cli.interruption import handing_over
-    from assur.kinematics.paths.following import follow
-    from assur.kinematics.paths.path import Path
+    from assur.kinematics.following.following import follow
+    from assur.kinematics.following.path import Path
 
     poses, inputs = (goal, None) if along == "pose" else (None, goal)
     with handing_over(Path, lambda path: _outcome(record, path)):

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from assur.kinematics.answers.solution_set import SolutionSet
-    from assur.kinematics.paths.home_mode import HomeMode
+    from assur.kinematics.following.home_mode import HomeMode
     from assur.mechanism import Mechanism
     from assur.performance.overall import Overall
     from assur.results.answers.indices import IndicesAnswer, NearestSingularity, OverallAnswer, OverallIndex
@@ -51,7 +51,7 @@ def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) ->
     from assur.kinematics.answers.answer import missing
     from assur.kinematics.answers.at_border import pose_at_border
     from assur.kinematics.border import input_names
-    from assur.kinematics.paths.home_mode import home_mode_at
+    from assur.kinematics.following.home_mode import home_mode_at
     from assur.kinematics.status import Status
     from assur.performance.indices import INDICES, indices
     from assur.results.answers.indices import IndicesAnswer

@@ -20,7 +20,7 @@ from assur.joint_graph.frames import Frame, child_frame, frames
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.home import home_values
-from assur.kinematics.soundness.check import METRES
+from assur.kinematics.validation.check import METRES
 from assur.model.mechanism import Joint, MechanismRecord
 
 FloatArray = NDArray[np.float64]

@@ -21,7 +21,7 @@ from assur.figures.letters import letter
 from assur.figures.spec import Drawing, FigureKind, always
 from assur.figures.style import GREY, INK, ORANGE, PAPER, SERIES, SMALL, TEXT, new_figure
 from assur.figures.symbols import hatching
-from assur.topology.linkages.linkage import Linkage
+from assur.topology.screws.linkage import Linkage
 
 if TYPE_CHECKING:
     from assur.topology.counting.coupling import AssurChain, Loop

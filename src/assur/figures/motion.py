@@ -22,9 +22,9 @@ from assur.figures.context import Context
 from assur.figures.raster import SAMPLES, filled, lit
 from assur.figures.solid import model_camera
 from assur.figures.style import RED
+from assur.kinematics.following.course import course
+from assur.kinematics.following.following import LARGEST_STEP, follow
 from assur.kinematics.home import home_values
-from assur.kinematics.paths.course import course
-from assur.kinematics.paths.following import LARGEST_STEP, follow
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
 from assur.scene.mesh import Mesh, box, joined, rgb

@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import Interrupted
-from assur.kinematics.found import Found
 from assur.kinematics.home import home_values
+from assur.kinematics.joint_graph_solutions import JointGraphSolutions
+from assur.kinematics.loops.loops import crossed_parallelograms, solve_by_loops
 from assur.kinematics.modes import Method, Problem
 from assur.kinematics.near_home import nearest_first
-from assur.kinematics.ordered.loops import crossed_parallelograms, solve_by_loops
 from assur.kinematics.search import search
-from assur.kinematics.soundness.check import check
+from assur.kinematics.validation.check import check
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -22,7 +22,7 @@ FloatArray = NDArray[np.float64]
 
 def assemblies(
     record: MechanismRecord, problem: Problem, given: FloatArray, only: str, method: Method, *, crossed: bool
-) -> Found:
+) -> JointGraphSolutions:
     """What is found on the joint graph, problem by problem: loop by loop where that is complete, else by a search."""
     check(record)
     found = []
@@ -35,7 +35,7 @@ def assemblies(
     for row, item in zip(joints, found, strict=True):
         row[: len(item.joints)] = item.joints[nearest_first(record, item.joints)]
     batch = given.shape[:-1]
-    answer = Found(
+    answer = JointGraphSolutions(
         record,
         problem,
         given,

@@ -9,7 +9,7 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.home import home_values
 from assur.model.mechanism import Joint, MechanismRecord
-from assur.topology.linkages.linkage import FloatArray, Group, Linkage, LinkageJoint
+from assur.topology.screws.linkage import FloatArray, Group, Linkage, LinkageJoint
 
 
 def linkage(record: MechanismRecord) -> Linkage:

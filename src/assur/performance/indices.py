@@ -25,7 +25,7 @@ from assur.kinematics import border
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.closed_form.branches import Branches
 from assur.kinematics.closed_form.mode_reading import ModeReading
-from assur.kinematics.paths.home_mode import home_mode_at
+from assur.kinematics.following.home_mode import home_mode_at
 from assur.kinematics.position import branches_at, inverse
 from assur.kinematics.rates.units import factor_unit, scaled
 from assur.kinematics.rates.velocity import VelocityMap, velocity_map_at, velocity_map_of

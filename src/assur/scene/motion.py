@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import inputs_of
+from assur.kinematics.following.course import course
+from assur.kinematics.following.following import walked
+from assur.kinematics.following.locked import general_ranks
+from assur.kinematics.following.ranks import RankGuard
+from assur.kinematics.following.stepping import Pace
 from assur.kinematics.home import home_values
 from assur.kinematics.limits import limits
 from assur.kinematics.near_home import distances
-from assur.kinematics.paths.course import course
-from assur.kinematics.paths.following import walked
-from assur.kinematics.paths.locked import general_ranks
-from assur.kinematics.paths.ranks import RankGuard
-from assur.kinematics.paths.stepping import Pace
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]

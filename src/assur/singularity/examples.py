@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.kinematics.border import in_range
 from assur.kinematics.closed_form.mode_reading import mode_reading_at
+from assur.kinematics.following.following import follow
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import all_modes
-from assur.kinematics.paths.following import follow
 from assur.kinematics.position import inverse
 from assur.kinematics.rates.finite_motion import classify_at
 from assur.kinematics.status import FACTOR_TOLERANCE, Status, closed_form_of, relative_factors

@@ -13,7 +13,7 @@ from assur.errors import UsageError
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.border import Named, checked_joints, checked_poses
 from assur.kinematics.closure import mobility
-from assur.kinematics.paths.home_mode import home_mode_at
+from assur.kinematics.following.home_mode import home_mode_at
 from assur.kinematics.position import inverse
 from assur.kinematics.rates.finite_motion import sides, status_of
 from assur.kinematics.rates.instantaneous import instantaneous

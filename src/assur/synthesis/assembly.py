@@ -16,7 +16,7 @@ from assur.synthesis.wanted import WantedMotion
 from assur.topology.facts import Known
 from assur.topology.notation import parse_chains
 from assur.topology.poc import PocSet
-from assur.topology.rules.refusals import Refusal
+from assur.topology.symbolic.refusals import Refusal
 
 MEMBERS = 20
 """Of mechanisms with different limbs so many are listed for each set of classes, the simplest first."""

@@ -12,8 +12,8 @@ import numpy as np
 
 from assur.synthesis.limb_motions import CandidateLimb
 from assur.topology.directions import span
-from assur.topology.rules.orientations import Orientations, orientations
-from assur.topology.rules.spans import Span
+from assur.topology.symbolic.orientations import Orientations, orientations
+from assur.topology.symbolic.spans import Span
 
 Class = tuple[CandidateLimb, ...]
 """Limbs with the same motion, the simplest first."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from assur.synthesis.limb_motions import CandidateLimb
 from assur.topology.counting.coupling import Decomposition, coupling
-from assur.topology.linkages.edges import Edge, closure, input_columns, rank
+from assur.topology.screws.edges import Edge, closure, input_columns, rank
 
 BASE, PLATFORM = "base", "platform"
 

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from itertools import combinations, pairwise, permutations
 
 from assur.synthesis.wanted import WantedMotion
-from assur.topology.rules.intersection import parallel
-from assur.topology.rules.motion import Mode, Motion
-from assur.topology.rules.refusals import Refusal
+from assur.topology.symbolic.intersection import parallel
+from assur.topology.symbolic.motion import Mode, Motion
+from assur.topology.symbolic.refusals import Refusal
 
 Set = frozenset[int]
 
@@ -78,7 +78,7 @@ def expected(motions: Sequence[Motion], motion: WantedMotion) -> Expected | Refu
 
     >>> from assur.synthesis.wanted import MOTIONS
     >>> from assur.topology.notation import parse_chain
-    >>> from assur.topology.rules.union import serial
+    >>> from assur.topology.symbolic.union import serial
     >>> limbs = [serial(parse_chain(f"C[{u}] R[{u}] R[{u}]"), "translation") for u in "xyz"]
     >>> found = expected(limbs, MOTIONS["3T"])
     >>> found.reaches, found.counts.coupling_degree, found.counts.xi((0, 1, 2))

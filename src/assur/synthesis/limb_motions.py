@@ -19,12 +19,12 @@ from assur.synthesis.wanted import WantedMotion
 from assur.topology.agreement import RoutesDisagreeError, agreed, by_twists
 from assur.topology.chains import Chain
 from assur.topology.facts import Known
-from assur.topology.linkages.edges import rank
 from assur.topology.notation import parse_chain, plain_text
-from assur.topology.rules.motion import Motion, motion_of
-from assur.topology.rules.orientations import Orientations
-from assur.topology.rules.refusals import Refusal
-from assur.topology.rules.union import serial
+from assur.topology.screws.edges import rank
+from assur.topology.symbolic.motion import Motion, motion_of
+from assur.topology.symbolic.orientations import Orientations
+from assur.topology.symbolic.refusals import Refusal
+from assur.topology.symbolic.union import serial
 
 FloatArray = NDArray[np.float64]
 

@@ -16,7 +16,7 @@ from assur.errors import UsageError
 from assur.numerics.least_squares import IndexArray, minimise
 from assur.numerics.rotations import about_axis, to_vector
 from assur.topology.chains import Chain, ChainJoint, Parallelogram
-from assur.topology.linkages.edges import rank
+from assur.topology.screws.edges import rank
 
 FloatArray = NDArray[np.float64]
 

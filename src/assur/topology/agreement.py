@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from assur.errors import AssurError
 from assur.topology.directions import span
-from assur.topology.linkages.twists import dimensions, fixed_directions
 from assur.topology.poc import Mark, PocSet
+from assur.topology.screws.twists import dimensions, fixed_directions
 
 FloatArray = NDArray[np.float64]
 

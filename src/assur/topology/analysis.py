@@ -24,18 +24,18 @@ from assur.topology.counting.mobility import Mobility, mobility, motions
 from assur.topology.counting.relaxation import relaxation
 from assur.topology.counting.solution_plan import solution_plan
 from assur.topology.facts import InputsBy, Known, LimbFacts, OperationModeFacts, RedundantConstraints, Topology
-from assur.topology.linkages.configurations import Hold, home_is_special
-from assur.topology.linkages.edges import Edge, closure, rank
-from assur.topology.linkages.linkage import Linkage
-from assur.topology.linkages.modes import OperationMode, operation_modes
-from assur.topology.linkages.recognition import recognised
-from assur.topology.linkages.shared_points import point_of_platform
-from assur.topology.linkages.twists import dimensions, edges, motion_space
 from assur.topology.notation import plain_text, symbolic_text
 from assur.topology.poc import PocSet
 from assur.topology.routes import KnownLimb, Rules, as_the_limbs_are, both, by_rules, check_xi, limb_known
-from assur.topology.rules.motion import Motion
-from assur.topology.rules.refusals import Refusal
+from assur.topology.screws.configurations import Hold, home_is_special
+from assur.topology.screws.edges import Edge, closure, rank
+from assur.topology.screws.linkage import Linkage
+from assur.topology.screws.modes import OperationMode, operation_modes
+from assur.topology.screws.recognition import recognised
+from assur.topology.screws.shared_points import point_of_platform
+from assur.topology.screws.twists import dimensions, edges, motion_space
+from assur.topology.symbolic.motion import Motion
+from assur.topology.symbolic.refusals import Refusal
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]

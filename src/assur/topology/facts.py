@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from assur.topology.counting.coupling import AssurChain, Loop
     from assur.topology.counting.decoupling import Decoupling
     from assur.topology.counting.relaxation import Relaxation
-    from assur.topology.linkages.linkage import Linkage
-    from assur.topology.rules.derivation import Derivation
+    from assur.topology.screws.linkage import Linkage
+    from assur.topology.symbolic.derivation import Derivation
 
 Route = Literal["both", "twists"]
 """By which routes a POC set is known: rules and twists, which agree, or twists alone where the rules refuse."""

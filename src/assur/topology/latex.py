@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from assur.topology.facts import LimbFacts, Topology
 from assur.topology.poc import Mark, PocSet
-from assur.topology.rules.derivation import Derivation, DerivationStep
+from assur.topology.symbolic.derivation import Derivation, DerivationStep
 
 NEEDS = r"\usepackage{amsmath,amssymb}"
 XI = r"\dim\left\{\left(\bigcap_{i=1}^{j} M_{b_i}\right) \cup M_{b_{j+1}}\right\}"

@@ -13,15 +13,15 @@ from assur.topology.agreement import SPECIAL, RoutesDisagreeError, agreed, by_tw
 from assur.topology.chains import Chain, InnerLoop
 from assur.topology.counting.coupling import Loop
 from assur.topology.facts import Known
-from assur.topology.linkages.configurations import configurations
-from assur.topology.linkages.limb_linkage import limb_linkage, limb_values
-from assur.topology.linkages.linkage import Linkage
-from assur.topology.linkages.twists import dimensions, edges, motion_space
-from assur.topology.rules.derivation import Derivation
-from assur.topology.rules.intersection import parallel, xi_of_next
-from assur.topology.rules.motion import Mode, Motion, motion_of
-from assur.topology.rules.refusals import Refusal
-from assur.topology.rules.union import serial
+from assur.topology.screws.configurations import configurations
+from assur.topology.screws.limb_linkage import limb_linkage, limb_values
+from assur.topology.screws.linkage import Linkage
+from assur.topology.screws.twists import dimensions, edges, motion_space
+from assur.topology.symbolic.derivation import Derivation
+from assur.topology.symbolic.intersection import parallel, xi_of_next
+from assur.topology.symbolic.motion import Mode, Motion, motion_of
+from assur.topology.symbolic.refusals import Refusal
+from assur.topology.symbolic.union import serial
 
 FloatArray = NDArray[np.float64]
 

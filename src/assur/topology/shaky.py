@@ -34,15 +34,15 @@ from assur.topology.counting.mobility import mobility, motions
 from assur.topology.counting.relaxation import Relaxation
 from assur.topology.counting.solution_plan import SolutionPlan
 from assur.topology.facts import InputsBy, Known, OperationModeFacts, RedundantConstraints, Topology
-from assur.topology.linkages.configurations import UNSTEADY
-from assur.topology.linkages.edges import Edge, along
-from assur.topology.linkages.linkage import Linkage
-from assur.topology.linkages.recognition import recognised
-from assur.topology.linkages.second_order import FiniteMotion, finite_motion
-from assur.topology.linkages.twists import UnclearRankError, edges
 from assur.topology.poc import PocSet
 from assur.topology.routes import KnownLimb, Rules, as_the_limbs_are, by_rules, limb_alone
-from assur.topology.rules.refusals import Refusal
+from assur.topology.screws.configurations import UNSTEADY
+from assur.topology.screws.edges import Edge, along
+from assur.topology.screws.linkage import Linkage
+from assur.topology.screws.recognition import recognised
+from assur.topology.screws.second_order import FiniteMotion, finite_motion
+from assur.topology.screws.twists import UnclearRankError, edges
+from assur.topology.symbolic.refusals import Refusal
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]
@@ -71,7 +71,7 @@ def analyse_shaky(
     Errors:
         UsageError: more inputs than the finite motion has freedoms.
 
-    >>> from assur.topology.linkages.placing import place
+    >>> from assur.topology.screws.placing import place
     >>> from assur.topology.notation import parse_chains
     >>> print(analyse_shaky(place(parse_chains(["C[z] C[1,0,2]", "C[x] C[1,0,2]"]))).poc)
     t² r⁰

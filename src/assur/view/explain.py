@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.border import held_inputs
 from assur.kinematics.closure import assemble, residuals
+from assur.kinematics.following.path import Path, Stop
 from assur.kinematics.limits import Limit, limits
-from assur.kinematics.paths.path import Path, Stop
 from assur.model.mechanism import MechanismRecord
 from assur.view.missing import Miss, misses
 
@@ -30,7 +30,7 @@ class Reason:
     """Why a change stopped.
 
     Attributes:
-        kind: "limit", "dimension", "input", or the kind of a singularity (`assur.kinematics.paths.path.Stop`).
+        kind: "limit", "dimension", "input", or the kind of a singularity (`assur.kinematics.following.path.Stop`).
         text: one line for a person.
     """
 
@@ -45,7 +45,7 @@ def explain(path: Path, target: FloatArray) -> Reason | None:
     """Why a path ended before the inputs or the pose (k,) that were wanted; None where it did not.
 
     >>> from assur.kinematics.home import home_values
-    >>> from assur.kinematics.paths.following import follow
+    >>> from assur.kinematics.following.following import follow
     >>> from assur.model.registry import load_record
     >>> record = load_record("fivebar")
     >>> path = follow(record, home_values(record), poses=[0.0, 300.0])

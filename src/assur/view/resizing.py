@@ -1,6 +1,6 @@
 """Resizing: a dimension is changed in steps, the inputs or the pose held, so that neither mode is left on the way.
 
-The dimension is followed as inputs and poses are, under the same guard (`assur.kinematics.paths.ranks`).
+The dimension is followed as inputs and poses are, under the same guard (`assur.kinematics.following.ranks`).
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.border import inputs_of
+from assur.kinematics.following.course import Prescribed
+from assur.kinematics.following.locked import own
+from assur.kinematics.following.ranks import RankGuard
+from assur.kinematics.following.stepping import Pace, Places, followed
+from assur.kinematics.following.stopping import LESS
+from assur.kinematics.following.ways import DimensionWay, system_of
 from assur.kinematics.limits import limits
-from assur.kinematics.paths.course import Prescribed
-from assur.kinematics.paths.locked import own
-from assur.kinematics.paths.ranks import RankGuard
-from assur.kinematics.paths.stepping import Pace, Places, followed
-from assur.kinematics.paths.stopping import LESS
-from assur.kinematics.paths.ways import DimensionWay, system_of
 from assur.kinematics.pose import pose_of
 from assur.model.dimensions import with_parameters
 from assur.model.mechanism import MechanismRecord
@@ -65,14 +65,14 @@ def resized(
         name: the dimension.
         value: what it shall be.
         held: what stays: the "inputs", or the pose of the platform ("poses").
-        ranks: of `assur.kinematics.paths.locked.general_ranks` there.
+        ranks: of `assur.kinematics.following.locked.general_ranks` there.
 
     Errors: AssurError where the dimension is none, or one that the file does not allow.
 
     Example: with the cranks of the five-bar at rest its rods can be made shorter until they lie in line, from knee to
     knee.
 
-    >>> from assur.kinematics.paths.locked import general_ranks
+    >>> from assur.kinematics.following.locked import general_ranks
     >>> from assur.mechanism import load
     >>> bar = load("fivebar")
     >>> home = bar.home_values

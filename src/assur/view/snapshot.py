@@ -1,6 +1,6 @@
 """Snapshots: what is shown, one configuration, and how a change of an input, a coordinate or a dimension moves it.
 
-Every change keeps the mode: it is followed (`assur.kinematics.paths.following`), and where it cannot go on it stops
+Every change keeps the mode: it is followed (`assur.kinematics.following.following`), and where it cannot go on it stops
 there and says why. Nothing here knows of a window.
 """
 
@@ -15,10 +15,10 @@ from assur.errors import AssurError, UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import CLOSED, assemble, closure_error
+from assur.kinematics.following.course import Prescribed, Turns
+from assur.kinematics.following.following import follow, mode_names
+from assur.kinematics.following.locked import general_ranks
 from assur.kinematics.home import home_values
-from assur.kinematics.paths.course import Prescribed, Turns
-from assur.kinematics.paths.following import follow, mode_names
-from assur.kinematics.paths.locked import general_ranks
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
 from assur.view.dials import dials, pose_with, read
@@ -44,7 +44,7 @@ class Snapshot:
         record: the mechanism with its dimensions.
         values: (n,) joint values, an assembly, in rad or lengths.
         reason: why the last change stopped short; None where it did not.
-        ranks: those in general on this branch (`assur.kinematics.paths.locked`); None where they are not known yet.
+        ranks: those in general on this branch (`assur.kinematics.following.locked`); None where they are not known yet.
     """
 
     record: MechanismRecord

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.kinematics.paths.course import course
-from assur.kinematics.paths.following import follow
-from assur.kinematics.paths.path import Path
+from assur.kinematics.following.course import course
+from assur.kinematics.following.following import follow
+from assur.kinematics.following.path import Path
 from assur.model.pose import LENGTHS
 from assur.view import dials
 from assur.view.explain import Reason, explain

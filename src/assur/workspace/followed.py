@@ -21,14 +21,14 @@ from scipy.ndimage import distance_transform_edt
 from assur.errors import UsageError
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.answers.at_border import angle_at_border
+from assur.kinematics.following.continuation import continued
+from assur.kinematics.following.ending import Mode
+from assur.kinematics.following.followed_grid import Continuation, Followed
+from assur.kinematics.following.following import follow
+from assur.kinematics.following.neighbours import working_signs
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import mode_signs, sign_names
 from assur.kinematics.parasitic import all_coordinates
-from assur.kinematics.paths.continuation import continued
-from assur.kinematics.paths.ending import Mode
-from assur.kinematics.paths.followed_grid import Continuation, Followed
-from assur.kinematics.paths.following import follow
-from assur.kinematics.paths.neighbours import working_signs
 from assur.kinematics.position import inverse
 from assur.kinematics.turns import periodic
 from assur.model.mechanism import MechanismRecord

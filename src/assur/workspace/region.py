@@ -2,8 +2,9 @@
 
 The region is the set of poses of a box that the mode reaches with every input inside its stroke and every joint
 inside its limits, where there are any. With a closed form the mode reaches a pose where every margin of its inverse
-problem is at least zero. Without one it is followed over the box from home (`kinematics/paths/continuation.py`), and
-the region is the part of the mode that hangs together with home inside the box.
+problem is at least zero. Without one it is followed over the box from home
+(`kinematics/following/continuation.py`), and the region is the part of the mode that hangs together with home inside
+the box.
 """
 
 from __future__ import annotations

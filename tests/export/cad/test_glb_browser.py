@@ -17,7 +17,7 @@ from PIL import Image
 import assur
 from assur.export.cad.glb import glb
 from assur.joint_graph.frames import frames
-from assur.kinematics.soundness.check import METRES
+from assur.kinematics.validation.check import METRES
 from assur.scene.bodies import home_skeleton
 from assur.scene.companion import companion
 from assur.scene.motion import closed_motion

@@ -99,7 +99,7 @@ def test_volumes_of_meshes_tend_to_those_of_the_exact_solids(name, monkeypatch):
     """Triangles and exact surfaces are two kernels: their difference falls with the square of the sides of a circle."""
     from assur.export.cad import kernel
     from assur.export.cad.step import link_solids
-    from assur.kinematics.soundness.check import METRES
+    from assur.kinematics.validation.check import METRES
 
     record = assur.load(name)
     scale = 1e3 * METRES[record.unit]

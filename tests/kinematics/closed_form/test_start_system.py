@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from assur.errors import UsageError
-from assur.kinematics.closed_form.start_system import FILE, dimensions, family, found_start, start_system, start_text
+from assur.kinematics.closed_form.start_system import FILE, dimensions, family, start_of, start_system, start_text
 from assur.model.closed_form import PolynomialSystem
 from assur.model.registry import load_record, names
 from assur.numerics.homotopy import PathEnd, distinct, solve
@@ -36,7 +36,7 @@ def test_a_start_from_nothing_leads_to_the_solutions_of_the_stored_one(record):
     """Two starts chosen by chance, of which one stands in the file: each of its solutions is reached, and no other."""
     system = record.closed_form.direct
     stored, solutions = start_system(record, system)
-    parameters, found = found_start(record, system, seed=3)
+    parameters, found = start_of(record, system, seed=3)
     assert len(found) == system.degree
     ends = solve(family(record, system, parameters, stored[None]), found)
     assert np.all(ends.end == PathEnd.regular)

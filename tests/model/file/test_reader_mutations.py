@@ -25,7 +25,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from assur.errors import MechanismFileError, Problem, UsageError
-from assur.kinematics.soundness.check import doubts, faults
+from assur.kinematics.validation.check import doubts, faults
 from assur.model.file.reader import read_text
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import names

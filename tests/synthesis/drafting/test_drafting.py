@@ -15,8 +15,8 @@ from assur.errors import AssurError, UsageError
 from assur.kinematics.closure import closure_error
 from assur.kinematics.home import home_values
 from assur.kinematics.rates.finite_motion import classify_at
-from assur.kinematics.soundness.check import faults
 from assur.kinematics.status import Status
+from assur.kinematics.validation.check import faults
 from assur.model.dimensions import with_parameters
 from assur.model.file.reader import read_text
 from assur.model.mechanism import MechanismRecord

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from assur.topology.counting.actuation import actuation, locked_freedoms
-from assur.topology.linkages.edges import closure, column_names, input_columns
+from assur.topology.screws.edges import closure, column_names, input_columns
 from twist_chains import X, Y, Z, ball, slide, turn, turns
 from twist_chains import chain as named_chain
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from assur.topology.counting.branches import LoopBranch, branches, names_along, next_loops
-from assur.topology.linkages.edges import Edge
+from assur.topology.screws.edges import Edge
 
 
 def edges(text):

@@ -13,7 +13,7 @@ from assur.model.registry import load_record
 from assur.topology.counting.coupling import coupling, coupling_of
 from assur.topology.counting.mobility import motions
 from assur.topology.counting.solution_plan import solution_plan
-from assur.topology.linkages.twists import generic_edges
+from assur.topology.screws.twists import generic_edges
 from coupled_mechanisms import (
     crr,
     delta_4r,

@@ -15,13 +15,13 @@ from assur.topology import analysis
 from assur.topology.answers import answers
 from assur.topology.counting.decoupling import Decoupling, JudgedPattern, by_jacobian, by_rules, jacobian, judged
 from assur.topology.counting.inputs import default_inputs
-from assur.topology.linkages.configurations import configurations
-from assur.topology.linkages.edges import Edge, along, closure, column_names, input_columns, null_basis
-from assur.topology.linkages.placing import place
-from assur.topology.linkages.screws import closure_jacobian, poses, residuals
-from assur.topology.linkages.twists import edges
 from assur.topology.notation import parse_chains
-from assur.topology.rules.refusals import Refusal
+from assur.topology.screws.configurations import configurations
+from assur.topology.screws.edges import Edge, along, closure, column_names, input_columns, null_basis
+from assur.topology.screws.placing import place
+from assur.topology.screws.screws import closure_jacobian, poses, residuals
+from assur.topology.screws.twists import edges
+from assur.topology.symbolic.refusals import Refusal
 
 TRIPTERON = [f"P[{u}] R[{u}] R[{u}] R[{u}]" for u in "xyz"]
 CRR = [f"C[{u}] R[{u}] R[{u}]" for u in "xyz"]

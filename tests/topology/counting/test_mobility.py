@@ -9,7 +9,7 @@ from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.structure import linkage
 from assur.model.registry import load_record
 from assur.topology.counting.mobility import InternalFreedom, mobility, motions
-from assur.topology.linkages.edges import Edge, along, closure, rank
+from assur.topology.screws.edges import Edge, along, closure, rank
 from twist_chains import X, Y, Z, ball, chain, slide, turn, turns
 
 

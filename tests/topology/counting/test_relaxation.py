@@ -17,7 +17,7 @@ from assur.model.registry import load_record
 from assur.topology.counting.coupling import coupling
 from assur.topology.counting.mobility import mobility
 from assur.topology.counting.relaxation import Replacement, relaxation
-from assur.topology.linkages.twists import generic_edges
+from assur.topology.screws.twists import generic_edges
 from twist_chains import X, Y, Z, slide, turn
 from twist_chains import chain as named_chain
 

@@ -16,12 +16,12 @@ from assur.topology.counting.coupling import coupling, coupling_of
 from assur.topology.counting.inputs import default_inputs, numbered_inputs
 from assur.topology.counting.mobility import motions
 from assur.topology.counting.solution_plan import AssurPlan, PlanStep, SolutionPlan, solution_plan
-from assur.topology.linkages.configurations import configurations
-from assur.topology.linkages.linkage import part
-from assur.topology.linkages.placing import place
-from assur.topology.linkages.screws import closure_jacobian, poses
-from assur.topology.linkages.twists import edges, generic_values
 from assur.topology.notation import parse_chains
+from assur.topology.screws.configurations import configurations
+from assur.topology.screws.linkage import part
+from assur.topology.screws.placing import place
+from assur.topology.screws.screws import closure_jacobian, poses
+from assur.topology.screws.twists import edges, generic_values
 
 NAMES = (*assur.names(), *topology_names())
 HYBRID = "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]"

@@ -10,13 +10,13 @@ import pytest
 
 from assur.topology.counting.inputs import default_inputs
 from assur.topology.counting.special_constraints import connected, special_constraints, way_to
-from assur.topology.linkages.configurations import configurations
-from assur.topology.linkages.edges import Edge
-from assur.topology.linkages.limb_linkage import limb_linkage
-from assur.topology.linkages.placing import place
-from assur.topology.linkages.screws import poses
-from assur.topology.linkages.twists import edges, generic_values
 from assur.topology.notation import parse_chains
+from assur.topology.screws.configurations import configurations
+from assur.topology.screws.edges import Edge
+from assur.topology.screws.limb_linkage import limb_linkage
+from assur.topology.screws.placing import place
+from assur.topology.screws.screws import poses
+from assur.topology.screws.twists import edges, generic_values
 
 AROUND = ("0,1,0", "-0.8660254037844386,-0.5,0", "0.8660254037844386,-0.5,0")
 H4 = ["{R[x] P(4S)[x] | R[y] P(4S)[y]} R[z]"] * 2

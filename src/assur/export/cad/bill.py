@@ -13,7 +13,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.soundness.check import METRES
+from assur.kinematics.validation.check import METRES
 from assur.model.mechanism import Input, Joint, MechanismRecord
 from assur.results.answers.files import BillRow
 from assur.scene.bodies import LinkBody, bodies, corners, fused

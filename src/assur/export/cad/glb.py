@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.frames import frames
-from assur.kinematics.soundness.check import METRES
+from assur.kinematics.validation.check import METRES
 from assur.model.mechanism import MechanismRecord
 from assur.numerics import rotations
 from assur.scene.bodies import home_skeleton

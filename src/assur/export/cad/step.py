@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from assur.errors import AssurError
 from assur.export.cad import kernel
 from assur.joint_graph.frames import frames
-from assur.kinematics.soundness.check import METRES
+from assur.kinematics.validation.check import METRES
 from assur.model.mechanism import MechanismRecord
 from assur.scene.bodies import CHIP, LinkBody, bodies
 from assur.scene.mesh import rgb

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from manifold3d import Manifold, OpType
 
-from assur.kinematics.soundness.check import METRES
+from assur.kinematics.validation.check import METRES
 from assur.model.mechanism import MechanismRecord
 from assur.scene.bodies import bodies, fused, solid
 

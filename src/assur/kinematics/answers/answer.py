@@ -18,9 +18,9 @@ from assur.kinematics.answers.at_border import (
 from assur.kinematics.answers.remarks import angles_remark, doubles
 from assur.kinematics.answers.solution import Failure, Solution
 from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.following.home_solution import home_solution
 from assur.kinematics.limits import limits_stated
 from assur.kinematics.parasitic import all_coordinates, moving
-from assur.kinematics.paths.home_solution import home_solution
 from assur.kinematics.status import Status
 from assur.model.mechanism import MechanismRecord
 from assur.results.answers.position import (

@@ -15,7 +15,7 @@ from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import CLOSED, residuals
 from assur.kinematics.limits import Limit, stated_limits, turns_to
 from assur.kinematics.modes import Problem
-from assur.kinematics.soundness.gaps import loops
+from assur.kinematics.validation.gaps import loops
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]

@@ -22,7 +22,7 @@ from assur.kinematics.position import direct, inverse
 from assur.kinematics.status import Status, classify, closed_form_of
 from assur.results.store.layout import block_length
 
-Found = Mapping[str, NDArray[Any]]
+SolutionRows = Mapping[str, NDArray[Any]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +83,7 @@ class ClosedFormSweep(GridSweep):
         place = all_modes(record, self.problem).index(self.mode)
         return {name: values[place], "exists": exists[place]}
 
-    def _status(self, given: FloatArray, rows: Found) -> NDArray[np.int8]:
+    def _status(self, given: FloatArray, rows: SolutionRows) -> NDArray[np.int8]:
         exists = rows["exists"]
         if "factors" not in rows:
             return self._answered(given).reshape(exists.shape)

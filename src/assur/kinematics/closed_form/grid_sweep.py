@@ -26,7 +26,7 @@ from assur.results.store.layout import Array, Plan, Shard
 from assur.results.store.note import Counts
 from assur.results.store.store import SolvedBlock, Store
 
-Found = Mapping[str, NDArray[Any]]
+SolutionRows = Mapping[str, NDArray[Any]]
 
 _ROWS = {"inputs": "input", "poses": "coordinate", "factors": "factor"}
 
@@ -134,7 +134,7 @@ class GridSweep(ABC):
         found = self.solve(given)
         return SolvedBlock({name: found[name] for name in self.keep}, _counted(found))
 
-    def solve(self, given: FloatArray) -> Found:
+    def solve(self, given: FloatArray) -> SolutionRows:
         """What is kept of problems (m, b), and whether each exists: exists and status (K, b) or (b,), and so on."""
         found = self.answers(given)
         for values in found.values():
@@ -144,7 +144,7 @@ class GridSweep(ABC):
         self._to_file_angles(found)
         return found
 
-    def _to_file_angles(self, rows: Found) -> None:
+    def _to_file_angles(self, rows: SolutionRows) -> None:
         if self.record.angle != "deg":
             return
         angles = {
@@ -162,7 +162,7 @@ def _over(exists: NDArray[np.bool_], values: NDArray[Any]) -> NDArray[np.bool_]:
     return exists[..., None, :] if values.ndim > exists.ndim else exists
 
 
-def _counted(rows: Found) -> Counts:
+def _counted(rows: SolutionRows) -> Counts:
     """Problems by the number of modes that solve them, and branches by status."""
     modes = np.bincount(np.atleast_2d(rows["exists"]).sum(axis=0))
     counts = {"modes": {str(k): int(n) for k, n in enumerate(modes) if n}}

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closed_form.blocks import FloatArray
 from assur.kinematics.closed_form.grid_sweep import GridSweep
-from assur.kinematics.paths.from_home import followed_in_a_row
+from assur.kinematics.following.from_home import followed_in_a_row
 from assur.kinematics.rates.finite_motion import classify_at
 from assur.kinematics.status import Status
 from assur.results.store.layout import block_length

@@ -73,7 +73,7 @@ def start_system(record: MechanismRecord, system: PolynomialSystem) -> tuple[Com
     """Dimensions and inputs (q,) of the start, and all its solutions (K, n)."""
     path = record.folder / FILE if record.folder else None
     if path is None or not path.is_file():
-        return found_start(record, system)
+        return start_of(record, system)
     data = read_toml(file_text(path), str(path)).data
     parameters = np.array([complex(*data["start"][name]) for name in _names(record)])
     rough = np.array(data["solutions"]).reshape(-1, len(system.unknowns), 2) @ [1, 1j]
@@ -82,7 +82,7 @@ def start_system(record: MechanismRecord, system: PolynomialSystem) -> tuple[Com
     return parameters, solutions
 
 
-def found_start(record: MechanismRecord, system: PolynomialSystem, seed: int = 0) -> tuple[ComplexArray, ComplexArray]:
+def start_of(record: MechanismRecord, system: PolynomialSystem, seed: int = 0) -> tuple[ComplexArray, ComplexArray]:
     """Dimensions and inputs (q,) of a start, and its solutions (K, n), from nothing.
 
     Dimensions and a pose are chosen by chance, its inputs follow, and the other solutions are found by monodromy.
@@ -106,7 +106,7 @@ def found_start(record: MechanismRecord, system: PolynomialSystem, seed: int = 0
 
 def start_text(record: MechanismRecord, system: PolynomialSystem, seed: int = 0) -> str:
     """The text of the file `start.toml`: parts real and imaginary, rounded; the reader polishes the solutions."""
-    parameters, solutions = found_start(record, system, seed)
+    parameters, solutions = start_of(record, system, seed)
     lines = [
         f"# Written by start_text of start_system.py, seed {seed}: a start with generic complex dimensions",
         "# (lengths over the characteristic length) and its solutions, the unknowns one after the other.",

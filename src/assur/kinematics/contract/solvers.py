@@ -11,8 +11,8 @@ from assur.kinematics.closure import RANK_GAP, assemble
 from assur.kinematics.contract.completeness import missing
 from assur.kinematics.contract.mismatch import Mismatch
 from assur.kinematics.contract.solutions import Solutions, solves
+from assur.kinematics.loops.loops import solve_by_loops
 from assur.kinematics.modes import Problem
-from assur.kinematics.ordered.loops import solve_by_loops
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.motions import motions
 from assur.model.mechanism import MechanismRecord

@@ -12,7 +12,7 @@ from assur.topology.answers import refusals, replacements_by_kind
 from assur.topology.counting.decoupling import Decoupling
 from assur.topology.facts import Topology
 from assur.topology.latex import Equation, equations, step_latex
-from assur.topology.rules.derivation import Derivation
+from assur.topology.symbolic.derivation import Derivation
 
 KNOWN = {"both": "rules and twists", "twists": "twists alone"}
 _DECIMALS = re.compile(r"-?\d+\.\d{5,}")

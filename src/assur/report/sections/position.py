@@ -128,7 +128,7 @@ def among(findings: Findings, problem: Problem) -> str:
     return f"there {verb} {count(len(answer), 'real solution')}{candidates}"
 
 
-def how_found(answer: SolutionSet) -> str:
+def source_of(answer: SolutionSet) -> str:
     """How solutions were found where there is no kernel."""
     return "by solving loop after loop" if answer.complete else "found by search"
 

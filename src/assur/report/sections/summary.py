@@ -11,7 +11,7 @@ from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.rates.units import is_mixed
 from assur.report.findings import Findings
 from assur.report.sections.performance import SPREAD
-from assur.report.sections.position import how_found, noun
+from assur.report.sections.position import noun, source_of
 from assur.report.sections.proved import right
 from assur.report.sections.reach import extents, held_words, share
 from assur.results.attempt import REFUSED
@@ -48,7 +48,7 @@ def _solutions(findings: Findings) -> list[Scalar]:
         table, kernel = findings.table(problem), findings.kernel(problem)
         model = "joint graph" if answer.complete_for == "joint_graph" else "reduced model"
         where = f"at the {given} of {table.source if table else 'home'}"
-        candidates = f"of {count(answer.candidates, noun(kernel))}" if kernel else how_found(answer)
+        candidates = f"of {count(answer.candidates, noun(kernel))}" if kernel else source_of(answer)
         complete = f"{where}; complete for the {model}" if answer.complete else where
         known, low, high = right(findings, problem)
         name = f"real {problem} solutions"

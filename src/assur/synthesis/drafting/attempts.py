@@ -14,8 +14,8 @@ from assur.joint_graph.points import quantity
 from assur.kinematics.closure import RANK_GAP
 from assur.kinematics.home import home_values
 from assur.kinematics.rates.motions import motions
-from assur.kinematics.soundness.check import faults
 from assur.kinematics.structure import linkage
+from assur.kinematics.validation.check import faults
 from assur.model.file.reader import read_text
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION

@@ -10,7 +10,7 @@ from assur.topology.analysis import Mode, analyse
 from assur.topology.chains import Chain
 from assur.topology.counting.inputs import default_inputs, numbered_inputs
 from assur.topology.facts import Topology
-from assur.topology.linkages.placing import place
+from assur.topology.screws.placing import place
 
 
 def inputs_for(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mode) -> tuple[tuple[str, ...], Topology]:

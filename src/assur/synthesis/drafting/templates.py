@@ -16,8 +16,8 @@ from assur.synthesis.drafting.limb import HEIGHT_NAME, LimbDrawing
 from assur.synthesis.drafting.tables import Dimension, DraftChain, Template
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, flattened
 from assur.topology.directions import NAMED, parallel, perpendicular
-from assur.topology.linkages.shared_points import common_end
 from assur.topology.notation import plain_text
+from assur.topology.screws.shared_points import common_end
 
 SCALES = (1.0, 1.1, 0.9, 1.2, 0.8)
 PRIME = "'"

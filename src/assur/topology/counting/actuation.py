@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.topology.counting.mobility import AT_REST, motions
-from assur.topology.linkages.edges import Edge, column_names, input_columns, rank
+from assur.topology.screws.edges import Edge, column_names, input_columns, rank
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.intp]

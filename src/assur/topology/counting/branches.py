@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import networkx as nx
 
-from assur.topology.linkages.edges import Edge, graph
+from assur.topology.screws.edges import Edge, graph
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
 from assur.topology.counting.branches import LoopBranch, branches, names_along, next_loops
-from assur.topology.linkages.edges import Edge, closure, rank
+from assur.topology.screws.edges import Edge, closure, rank
 
 FloatArray = NDArray[np.float64]
 

@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 
 from assur.topology.chains import Chain
 from assur.topology.directions import NAMED
-from assur.topology.linkages.edges import Edge, along, at_generic, closure, column_names, input_columns, null_basis
-from assur.topology.rules.intersection import parallel
-from assur.topology.rules.locking import locked
-from assur.topology.rules.motion import Motion
-from assur.topology.rules.refusals import Refusal
-from assur.topology.rules.union import serial
+from assur.topology.screws.edges import Edge, along, at_generic, closure, column_names, input_columns, null_basis
+from assur.topology.symbolic.intersection import parallel
+from assur.topology.symbolic.locking import locked
+from assur.topology.symbolic.motion import Motion
+from assur.topology.symbolic.refusals import Refusal
+from assur.topology.symbolic.union import serial
 
 FloatArray = NDArray[np.float64]
 

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.counting.actuation import driven_columns, spanning
 from assur.topology.counting.mobility import motions
-from assur.topology.linkages.edges import Edge, column_names, rank
-from assur.topology.linkages.linkage import Linkage
+from assur.topology.screws.edges import Edge, column_names, rank
+from assur.topology.screws.linkage import Linkage
 
 FloatArray = NDArray[np.float64]
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
-from assur.topology.linkages.edges import (
+from assur.topology.screws.edges import (
     Edge,
     along,
     at_generic,

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.topology.counting.mobility import motions
-from assur.topology.linkages.edges import Edge, closure, rank
+from assur.topology.screws.edges import Edge, closure, rank
 
 FloatArray = NDArray[np.float64]
 

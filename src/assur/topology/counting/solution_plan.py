@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from assur.topology.counting.actuation import locked_freedoms
 from assur.topology.counting.coupling import AssurChain, Decomposition, Loop
 from assur.topology.counting.special_constraints import SpecialConstraint, connected, special_constraints, way_to
-from assur.topology.linkages.edges import Edge, along, at_generic, closure, input_columns, null_basis, rank
+from assur.topology.screws.edges import Edge, along, at_generic, closure, input_columns, null_basis, rank
 
 FloatArray = NDArray[np.float64]
 

@@ -19,7 +19,7 @@ import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.topology.linkages.edges import Edge, along, closure, graph, input_columns, null_basis
+from assur.topology.screws.edges import Edge, along, closure, graph, input_columns, null_basis
 
 FloatArray = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.kinematics.paths.following import follow
+from assur.kinematics.following.following import follow
 from assur.kinematics.position import inverse
 from assur.model.mechanism import MechanismRecord
 from assur.workspace.aspects.aspects import Aspects

@@ -18,8 +18,8 @@ from assur.model.formula import parse
 from assur.topology.analysis import sample
 from assur.topology.counting.coupling import coupling_of
 from assur.topology.counting.mobility import mobility as counted
-from assur.topology.linkages.edges import closure, rank
-from assur.topology.linkages.recognition import recognised
+from assur.topology.screws.edges import closure, rank
+from assur.topology.screws.recognition import recognised
 
 CLOSE = 1e-9
 

@@ -1,0 +1,127 @@
+"""Ending: where a working mode ends on straight ways from poses that it reaches to poses that it does not.
+
+Nearly always it turns back into another branch (`turning`), which is found to rounding nearly. Where it does not, as
+where a sign that names the mode changes by itself, the way is halved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.kinematics.following.neighbours import FURTHEST, SignGuard, Steps, steps_at
+from assur.kinematics.following.platform_held import platform_held
+from assur.kinematics.following.stepping import Places
+from assur.kinematics.following.turning import turnings
+from assur.kinematics.following.ways import Straight
+from assur.kinematics.pose import whole_orientation
+from assur.kinematics.turns import joint_units
+from assur.model.mechanism import MechanismRecord
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+IntArray = NDArray[np.intp]
+Poses = Callable[[FloatArray], FloatArray]
+"""Points (N, d) of a grid to poses (N, m)."""
+
+HALVINGS = 4
+"""Where a mode does not turn back its end is found to 2^-4 of the way at worst."""
+
+NEARINGS, MOST = 2, 0.9
+"""Steps towards where it is foreseen, and what share of the way there each goes."""
+
+BLOCK = 1024
+
+
+@dataclass(frozen=True, eq=False)
+class Mode:
+    """A working mode over points of a grid.
+
+    Attributes:
+        record: the mechanism.
+        signs: (s,) the signs that name the mode.
+        poses: points (N, d) to poses (N, m).
+    """
+
+    record: MechanismRecord
+    signs: NDArray[np.int8]
+    poses: Poses
+
+    def steps(self, joints: FloatArray, points: FloatArray) -> Steps:
+        """Steps from assemblies (N, n) at points (N, d)."""
+        return steps_at(SignGuard(self.record, self.signs), self.poses(points), joints)
+
+    def stepped(self, joints: FloatArray, start: FloatArray, end: FloatArray) -> tuple[FloatArray, BoolArray]:
+        """Joint values (N, n) after a step between points (N, d), and where the step may be taken (N,)."""
+        steps, good = self.steps(joints, start).to(self.poses(end))
+        return steps.places.joints, good
+
+    def ends(self, joints: FloatArray, inside: FloatArray, outside: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Where the mode ends between points (N, d) that it reaches, with joint values (N, n), and others.
+
+        Returns:
+            share (N,) of the way, and joint values (N, n) a little before.
+        """
+        shares, last = np.ones(len(joints)), joints.copy()
+        for rows in blocks(np.arange(len(joints))):
+            shares[rows], last[rows], found = self._turnings(joints[rows], inside[rows], outside[rows])
+            other = rows[~found]
+            if len(other):
+                shares[other], last[other] = self._halved(joints[other], inside[other], outside[other])
+        return shares, last
+
+    def _turnings(
+        self, joints: FloatArray, inside: FloatArray, outside: FloatArray
+    ) -> tuple[FloatArray, FloatArray, BoolArray]:
+        if whole_orientation(self.record.platform.pose):  # its rates change along the way
+            return np.ones(len(joints)), joints, np.zeros(len(joints), dtype=bool)
+        here = self.steps(joints, inside)
+        way = Straight(self.record, here.poses, self.poses(outside))
+        turned = turnings(way, joints, here.places.matrix)
+        far = np.max(np.abs(turned.joints - joints) / joint_units(self.record), axis=1, initial=0.0) > FURTHEST
+        rows = np.flatnonzero(turned.located & ~far)
+        found = np.zeros(len(joints), dtype=bool)
+        ends = Places(turned.share[rows], turned.joints[rows], turned.matrix[rows])
+        found[rows] = here.guard.kept(here.places.of(rows), ends)
+        return turned.share, turned.joints, found
+
+    def _halved(self, joints: FloatArray, inside: FloatArray, outside: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The way is halved, from the last reached point each time.
+
+        Then the measure of the serial side, which falls linearly to zero where branches merge, says where it ends:
+        first most of the way is gone, at last all of it.
+        """
+        here, last = joints.copy(), joints.copy()
+        low, high, before = np.zeros(len(inside)), np.ones(len(inside)), np.zeros(len(inside))
+        for turn in range(HALVINGS + NEARINGS):
+            share = 0.5 * (low + high)
+            if turn >= HALVINGS:
+                share = low + MOST * (self._foreseen(last, here, before, low, high) - low)
+            start, end = (inside + part[:, None] * (outside - inside) for part in (low, share))
+            found, good = self.stepped(here, start, end)
+            last[good], before[good] = here[good], low[good]
+            here[good], low[good] = found[good], share[good]
+            high[~good] = share[~good]
+        return self._foreseen(last, here, before, low, high), here
+
+    def _foreseen(
+        self, last: FloatArray, at: FloatArray, before: FloatArray, low: FloatArray, high: FloatArray
+    ) -> FloatArray:
+        """Share (N,) of the way at which the serial measure vanishes, by its values at two reached points."""
+        share = 0.5 * (low + high)
+        rows = np.flatnonzero(low > before)
+        if len(rows):
+            first, second = (platform_held(self.record, values[rows]).serial for values in (last, at))
+            fall = np.maximum(first - second, 1e-300)
+            guess = low[rows] + (low[rows] - before[rows]) * second / fall
+            share[rows] = np.clip(guess, low[rows], high[rows])
+        return share
+
+
+def blocks(rows: IntArray) -> Iterator[IntArray]:
+    """Rows (N, ..) in blocks; none where there are no rows."""
+    for first in range(0, len(rows), BLOCK):
+        yield rows[first : first + BLOCK]

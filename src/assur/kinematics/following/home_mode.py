@@ -1,0 +1,233 @@
+"""Home's mode elsewhere: the configuration to which home is followed, which numbers of solutions cannot name.
+
+Without a closed form the solutions of a pose are told apart by a search, whose numbers begin anew at every pose. Which
+of them belongs to home's mode is decided by following: straight from home, and where that stops by a few detours. What
+no path leads to may still belong to it. That it does not is proved where
+
+- all solutions are known, and each has another sign than home among those that name modes, or another value of what
+  stands still in all of home's mode (`assur.kinematics.following.exclusion`); or there is none at all;
+- there is one coordinate to follow, and home's branch folds back before the target whichever way it is followed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from assur.errors import UsageError
+from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.border import in_range, inputs_of
+from assur.kinematics.following.course import Prescribed, Turns
+from assur.kinematics.following.exclusion import of_other_signs, otherwise, signs_of
+from assur.kinematics.following.following import follow
+from assur.kinematics.following.path import Path, Stop
+from assur.kinematics.home import home_values
+from assur.kinematics.modes import mode_text
+from assur.kinematics.pose import pose_of
+from assur.kinematics.position import direct, inverse
+from assur.kinematics.search import SAME, places
+from assur.kinematics.status import Status
+from assur.kinematics.turns import periodic_inputs
+from assur.model.mechanism import MechanismRecord
+from assur.work import stage
+
+FloatArray = NDArray[np.float64]
+DETOURS = 6
+"""Ways by a pose by chance that are tried where the straight one stops."""
+
+ASIDE = 0.5
+"""How far aside these poses lie, as a share of the way, and of the file's box where it has one."""
+
+CLEARLY = 1e-5
+"""Share of the way that must be left where a branch folds back: nearer than that the target may be its end."""
+
+ALL_ROUND = ("phi", "psi")
+"""Angles of a pose that come back after a turn; theta turns back at a right angle."""
+
+LISTED = 12
+"""Modes that a sentence names."""
+
+
+@dataclass(frozen=True, eq=False)
+class HomeMode:
+    """What following from home says of a pose or of inputs.
+
+    Attributes:
+        joints: (n,) joint values of home's mode there; None where no path led there.
+        paths: how many paths were followed.
+        stopped: before what the straight one stopped; None where it did not.
+        never: what proves that home's mode does not reach it; empty where that is not proved.
+        others: where it is not reached, the modes of the solutions that are known.
+        all_known: whether these are known to be all.
+    """
+
+    joints: FloatArray | None
+    paths: int
+    stopped: Stop | None
+    never: str = ""
+    others: tuple[str, ...] = ()
+    all_known: bool = False
+
+    @property
+    def reached(self) -> bool:
+        """Whether a path from home leads there."""
+        return self.joints is not None
+
+    @property
+    def status(self) -> Status:
+        """Of a place that is not reached: `unreachable` where that is proved, else `undecided`."""
+        return Status.unreachable if self.never else Status.undecided
+
+    @property
+    def words(self) -> str:
+        """By what it is decided.
+
+        >>> print(HomeMode(np.zeros(3), 1, None).words)
+        home's mode, followed straight from home
+        """
+        if self.joints is not None:
+            return (
+                "home's mode, followed straight from home" if self.paths == 1 else "home's mode, followed by a detour"
+            )
+        if self.never:
+            return f"home's mode does not reach it, which is proved: {self.never}{self._elsewhere}"
+        straight = f": the straight one {self.stopped}" if self.stopped is not None else ""
+        return f"none of {self.paths} paths from home leads there in home's mode, which is no proof{straight}"
+
+    @property
+    def _elsewhere(self) -> str:
+        """The solutions in other modes."""
+        if not self.others:
+            return ""
+        more = f" and {len(self.others) - LISTED} more" if len(self.others) > LISTED else ""
+        return f"; {'the' if self.all_known else 'a search met'} solutions in other modes: {_modes(self.others)}{more}"
+
+    def is_home(self, record: MechanismRecord, joints: FloatArray) -> bool:
+        """Whether joint values (n,) are the configuration that was followed to; rods may spin."""
+        if self.joints is None:
+            return False
+        here, there = places(record, np.stack([self.joints, joints]))
+        return bool(np.max(np.abs(here - there)) <= 10 * SAME)
+
+
+@stage("way of home's mode to the pose")
+def home_mode_at(
+    record: MechanismRecord,
+    target: ArrayLike,
+    prescribed: Prescribed = "poses",
+    detours: int = DETOURS,
+    known: SolutionSet | None = None,
+) -> HomeMode:
+    """Home's mode at a pose (m,) or at printed inputs (n,), in lengths and rad, by paths from home.
+
+    Strokes and limits are left aside. Where no path leads there it says whether that is proved.
+
+    Args:
+        record: the mechanism.
+        target: the pose or the inputs.
+        prescribed: which of the two.
+        detours: how many are tried where the straight way stops.
+        known: all solutions there that are known, in every mode; by default they are looked for where they are needed.
+
+    >>> from assur.model.registry import load_record
+    >>> found = home_mode_at(load_record("fivebar"), [10.0, 220.0])
+    >>> found.reached, found.words
+    (True, "home's mode, followed straight from home")
+    """
+    home, goal = home_values(record), np.asarray(target, dtype=float)
+    straight = _path(record, home, goal, prescribed)
+    if straight.stopped is None:
+        return HomeMode(straight.joints[-1], 1, None)
+    solve = direct if prescribed == "inputs" else inverse
+    # loops in turn are quick, and all of them may prove that no way leads there
+    solutions = known or solve(record, goal, method="auto" if record.closed_form else "loops")
+    never, stops, tried = _all_excluded(record, solutions), [straight.stopped], 1
+    for way, turns in () if never else _other_ways(record, prescribed, home, goal, detours):
+        tried += 1
+        try:
+            path = _path(record, home, way, prescribed, turns)
+        except UsageError:  # a pose by chance that is none
+            continue
+        if path.stopped is None:
+            return HomeMode(path.joints[-1], tried, straight.stopped)
+        stops.append(path.stopped)
+    if not never and len(goal) == 1:
+        never = _folded(prescribed, stops)
+    if known is None and not solutions.complete:
+        solutions = solve(record, goal)
+    modes = tuple(str(label) for label in solutions.labels[solutions.exists])
+    return HomeMode(None, tried, straight.stopped, never, modes, solutions.complete)
+
+
+def _all_excluded(record: MechanismRecord, solutions: SolutionSet) -> str:
+    """Why none of all solutions is of home's mode; empty where these are not all, or one of them may be."""
+    if not solutions.complete or solutions.curves or solutions.overall_status == Status.undecided:
+        return ""
+    joints = solutions.joints[solutions.exists]
+    if not len(joints):
+        return "there is no solution in any mode"
+    signed = of_other_signs(record, solutions.problem, joints)
+    reasons = otherwise(record, joints[~signed])
+    if not all(reasons):
+        return ""
+    parts = []
+    if np.any(signed):
+        home = mode_text(signs_of(record, solutions.problem, home_values(record)[None])[0])
+        parts.append(f"none of all {len(joints)} has its signs {home}" if np.all(signed) else f"its signs are {home}")
+    if reasons:
+        parts.append(f"in all of it {' and '.join(dict.fromkeys(reasons))} stays as at home, in these it is another")
+    return "; ".join(parts)
+
+
+def _folded(prescribed: Prescribed, stops: Sequence[Stop]) -> str:
+    """Why no path along one coordinate leads there: home's branch folds back before it on every way."""
+    kind = "parallel" if prescribed == "inputs" else "serial"
+    ended = all(stop.kind == kind and stop.turns_back and stop.share < 1.0 - CLEARLY for stop in stops)
+    ways = "" if len(stops) == 1 else ", either way round"
+    return f"its branch ends before it{ways}, where it folds back at a {kind} singularity" if ended else ""
+
+
+def _modes(names: Sequence[str]) -> str:
+    return ", ".join(names[:LISTED])
+
+
+def _path(
+    record: MechanismRecord, home: FloatArray, goal: FloatArray, prescribed: Prescribed, turns: Turns = "short"
+) -> Path:
+    if prescribed == "poses":
+        return follow(record, home, poses=goal, turns=turns, use_limits=False)
+    return follow(record, home, inputs=goal, turns=turns, use_limits=False)
+
+
+def _other_ways(
+    record: MechanismRecord, prescribed: Prescribed, home: FloatArray, goal: FloatArray, detours: int
+) -> Iterator[tuple[FloatArray, Turns]]:
+    """Ways beside the straight one; of a single coordinate there is the other way round alone, if it is an angle."""
+    if len(goal) > 1:
+        for aside in _detours(record, prescribed, home, goal, detours):
+            yield np.stack([aside, goal]), "short"
+        return
+    poses = prescribed == "poses"
+    turning = record.platform.pose[0] in ALL_ROUND if poses else bool(periodic_inputs(record)[0])
+    if turning:
+        start = float((pose_of if poses else inputs_of)(record, home)[0])
+        short = float(np.remainder(goal[0] - start + np.pi, 2 * np.pi) - np.pi)
+        yield np.array([start + short - np.copysign(2 * np.pi, short)]), "given"
+
+
+def _detours(
+    record: MechanismRecord, prescribed: Prescribed, home: FloatArray, goal: FloatArray, count: int
+) -> Iterator[FloatArray]:
+    """Places beside the way."""
+    rng = np.random.default_rng(0)
+    start = pose_of(record, home) if prescribed == "poses" else inputs_of(record, home)
+    size = np.full(len(goal), float(np.max(np.abs(goal - start))))
+    if prescribed == "poses":
+        spans = [np.subtract(*record.box[name][::-1]) if name in record.box else 0.0 for name in record.platform.pose]
+        size = np.where(np.array(spans) > 0, spans, np.abs(goal - start))
+    for _ in range(count):
+        aside = 0.5 * (start + goal) + ASIDE * size * rng.uniform(-1.0, 1.0, len(goal))
+        yield in_range(record, aside) if prescribed == "poses" else aside

@@ -1,0 +1,113 @@
+"""Steps to neighbouring poses: along the tangent, corrected, and taken only where the working mode is kept."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assur.joint_graph.points import quantities
+from assur.kinematics.following.platform_held import PlatformHeld, held_by, held_matrix, passes_zero
+from assur.kinematics.following.stepping import Pace, Places, followed, settled, tried
+from assur.kinematics.following.ways import Straight, Way
+from assur.kinematics.turns import joint_units
+from assur.model.mechanism import MechanismRecord
+from assur.numerics.newton import solved
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+IntArray = NDArray[np.intp]
+
+FURTHEST = 1.0
+"""How far a joint value may move in one step, in rad or characteristic lengths."""
+
+LONG = 0.3
+"""How far a step goes along the tangent at most."""
+
+PARTS = 4
+"""What cannot be reached in one step is tried in so many."""
+
+
+@dataclass(frozen=True, eq=False)
+class SignGuard:
+    """The guard of many ways of poses: the signs of one working mode stay, and no two branches merge between.
+
+    Of these two, the first is what names the mode, the second is told by one determinant (`passes_zero`).
+    """
+
+    record: MechanismRecord
+    signs: NDArray[np.int8]
+
+    def step(self, way: Way, places: Places, ends: FloatArray, rows: IntArray) -> tuple[Places, BoolArray, FloatArray]:
+        """Where steps lead, which of them may not be taken, and steps twice as long."""
+        move = -solved(places.matrix, way.gaps(places.joints, places.shares, ends, rows)[..., None])[..., 0]
+        move *= (LONG / np.maximum(np.max(np.abs(move), axis=1, initial=0.0), LONG))[:, None]
+        trial = tried(way, places, ends, move, rows)
+        far = np.max(np.abs(trial.places.joints - places.joints) / joint_units(self.record), axis=1, initial=0.0)
+        good = trial.closed & (far <= FURTHEST)
+        some = np.flatnonzero(good)
+        good[some] = self.kept(places.of(some), trial.places.of(some))
+        return settled(way, trial.places, rows), good, 2.0 * (ends - places.shares)
+
+    def kept(self, left: Places, reached: Places) -> BoolArray:
+        """Whether assemblies (N,) near others are of the mode, with no merging between."""
+        same = np.all(working_signs(self.record, reached.joints) * self.signs >= 0, axis=1)
+        rows = np.flatnonzero(same)
+        same[rows] = ~passes_zero(self.record, left.matrix[rows], reached.matrix[rows])
+        return np.asarray(same)
+
+
+@dataclass(frozen=True, eq=False)
+class Steps:
+    """Steps from assemblies at poses (N, m)."""
+
+    guard: SignGuard
+    poses: FloatArray
+    places: Places
+
+    def of(self, rows: IntArray | BoolArray) -> Steps:
+        """Those of some of the assemblies, which may repeat."""
+        return Steps(self.guard, self.poses[rows], self.places.of(rows))
+
+    @cached_property
+    def held(self) -> PlatformHeld:
+        """The first-order motion there."""
+        return held_by(self.guard.record, self.places.matrix)
+
+    def to(self, poses: FloatArray) -> tuple[Steps, BoolArray]:
+        """Steps from assemblies at other poses (N, m), and where they may be reached (N,); elsewhere they are near."""
+        if not len(poses):
+            return self, np.zeros(0, dtype=bool)
+        way, rows = Straight(self.guard.record, self.poses, poses), np.arange(len(poses))
+        places, good, _ = self.guard.step(way, self.places, np.ones(len(poses)), rows)
+        return steps_from(self.guard, poses, places), good
+
+    def in_parts(self, poses: FloatArray) -> tuple[Steps, BoolArray]:
+        """The same in several parts, none of which may fail."""
+        places = self.places.of(np.arange(len(poses)))
+        way, part = Straight(self.guard.record, self.poses, poses), np.full(len(poses), 1.0 / PARTS)
+        good = followed(way, places, self.guard, Pace(1.0 / PARTS, 1.0 / PARTS), part)
+        return steps_from(self.guard, poses, places), good
+
+
+def steps_from(guard: SignGuard, poses: FloatArray, places: Places) -> Steps:
+    """Steps from places at poses (N, m), where new ways begin."""
+    return Steps(guard, poses, Places(np.zeros(len(poses)), places.joints, places.matrix))
+
+
+def steps_at(guard: SignGuard, poses: FloatArray, joints: FloatArray) -> Steps:
+    """Steps from assemblies (N, n) at poses (N, m)."""
+    return Steps(guard, poses, Places(np.zeros(len(poses)), joints, held_matrix(guard.record, joints)))
+
+
+def working_signs(record: MechanismRecord, joints: FloatArray) -> NDArray[np.int8]:
+    """Signs (..., s) of the quantities that name working modes, at joint values (..., n)."""
+    signs = [np.sign(value) for value in quantities(record, record.modes.working.values(), joints)]
+    shape = joints.shape[:-1]
+    return (
+        np.stack([np.broadcast_to(item, shape) for item in signs], axis=-1).astype(np.int8)
+        if signs
+        else np.zeros((*shape, 0), dtype=np.int8)
+    )

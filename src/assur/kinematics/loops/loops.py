@@ -1,0 +1,264 @@
+"""Every assembly at given inputs, or at a given pose, loop by loop; and by what right these are all."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from assur.errors import UsageError
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.points import point
+from assur.joint_graph.turns import turn_relations
+from assur.kinematics import border
+from assur.kinematics.closure import assemble
+from assur.kinematics.home import home_values
+from assur.kinematics.loops.circles import System, joint_values, system
+from assur.kinematics.loops.hinges import NoAssemblyError, NotCirclesError, middle
+from assur.kinematics.loops.orientations import Turning, turnings
+from assur.kinematics.loops.solving import DOUBTFUL, CurveError, Solved, solve
+from assur.kinematics.modes import Problem
+from assur.kinematics.search import SAME, distinct, search
+from assur.kinematics.turns import told_by_turns, with_turns_of_home
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion
+from assur.numerics import rotations
+from assur.work import stage
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class LoopSolutions:
+    """Assemblies that were found loop by loop.
+
+    Attributes:
+        joints: (K, n) joint values, in lengths and rad.
+        complete: whether these are all assemblies, as far as `right` says.
+        right: by what right they are all, or why they are not known to be; one sentence.
+        searched: roots that were looked at, complex ones too.
+    """
+
+    joints: FloatArray
+    complete: bool
+    right: str
+    searched: int
+
+
+@stage("loops solved in turn")
+def solve_by_loops(
+    record: MechanismRecord, inputs: ArrayLike | None = None, *, pose: ArrayLike | None = None, crossed: bool = False
+) -> LoopSolutions:
+    """Every assembly at printed inputs (n,), or at a pose (m,), the loops solved one after another.
+
+    Where every link turns about one direction, or not at all, the loops are linear equations in points on circles;
+    so they are with rods, which are points on spheres, and platforms on three ball joints, which are triangles. They
+    are solved in the order of the mechanism's Assur chains, each for all its complex roots at once.
+
+    Args:
+        record: the mechanism.
+        inputs: printed, in lengths and rad; the direct problem.
+        pose: the inverse problem.
+        crossed: whether P(4R) parallelograms may cross over; otherwise they stay parallelograms.
+
+    Example: the planar five-bar.
+
+    >>> from assur.model.registry import load_record
+    >>> found = solve_by_loops(load_record("fivebar"), np.radians([127.0, 53.0]))
+    >>> len(found.joints), found.complete
+    (2, True)
+    >>> found.right
+    'its loops in turn, each for all its roots: B1 and B2 (2)'
+    """
+    if (inputs is None) == (pose is None):
+        raise UsageError("solve_by_loops: give either inputs or a pose")
+    if inputs is not None:
+        given = border.checked(inputs, border.input_names(record), f"inputs of {record.name}")
+    else:
+        given = border.checked_poses(record, pose if pose is not None else ())
+    if given.ndim != 1:
+        raise UsageError(f"solve_by_loops: one problem at a time, not a batch of shape {given.shape[:-1]}")
+    question = _Question(record, "direct" if inputs is not None else "inverse", given)
+    if not crossed:
+        return _at_once(question, frozenset(record.generalised))
+    return _with_crossed(question)
+
+
+@dataclass(frozen=True, eq=False)
+class _Question:
+    """Printed inputs (n,) or a pose (m,), as what is locked or where the platform is."""
+
+    record: MechanismRecord
+    problem: Problem
+    given: FloatArray
+
+    @property
+    def locked(self) -> dict[int, float]:
+        """Index in the joint values -> value."""
+        if self.problem == "inverse":
+            return {}
+        held = border.held_inputs(self.record, self.record.home, self.given)
+        inputs = {index: float(held[index]) for index in self.record.input_indices}
+        return inputs | told_by_turns(self.record, inputs)
+
+    @property
+    def place(self) -> dict[str, float]:
+        """Coordinates of the platform's point."""
+        if self.problem == "direct":
+            return {}
+        named = zip(self.record.platform.pose, self.given, strict=True)
+        return {name: float(value) for name, value in named if name in LENGTHS}
+
+    @property
+    def orientation(self) -> FloatArray | None:
+        """Of the platform (3, 3), where the pose gives one."""
+        if self.problem == "direct":
+            return None
+        named = dict(zip(self.record.platform.pose, self.given, strict=True))
+        if not named.keys() & {*ANGLES, *QUATERNION}:
+            return None
+        if has_quaternion(self.record.platform.pose):
+            return rotations.from_quaternion(np.array([named[name] for name in QUATERNION]))
+        return rotations.from_angles(*(np.asarray(named.get(name, 0.0)) for name in ANGLES))
+
+    @property
+    def tilt_open(self) -> bool:
+        """Whether the pose leaves angles of the platform open, which are taken as zero, and the joints do not."""
+        open_angles = 0 < len({*ANGLES} & {*self.record.platform.pose}) < len(ANGLES)
+        if self.problem == "direct" or not open_angles:
+            return False
+        try:
+            free = turnings(self.record, {}, None, parallel=tuple(self.record.generalised))[self.record.platform.link]
+        except NotCirclesError:
+            return True
+        level = np.array([0.0, 0.0, 1.0])
+        turns = free.axis is not None and free.hinge is None and np.allclose(free.axis, level, rtol=0, atol=1e-9)
+        return not (turns and np.allclose(free.rotation @ level, level, rtol=0, atol=1e-9))
+
+    def closed(self, starts: FloatArray) -> FloatArray:
+        """The starts (N, n) that are assemblies, each once, closed to rounding."""
+        if not len(starts):
+            return starts
+        if self.problem == "direct":
+            found = assemble(self.record, starts, held=self.record.input_indices)
+        else:
+            found = assemble(self.record, starts, poses=self.given)
+        return self.once(found.values[found.closed])
+
+    def once(self, joints: FloatArray) -> FloatArray:
+        """Joint values (N, n) without repetition, angles within one turn where turns do not count."""
+        held = self.record.input_indices if self.problem == "direct" else ()
+        turned, same = with_turns_of_home(self.record, joints, held)
+        return turned[same][distinct(self.record, turned[same])]
+
+
+def _at_once(question: _Question, parallel: frozenset[str]) -> LoopSolutions:
+    """The assemblies in which these generalised joints stay parallelograms."""
+    record, locked = question.record, question.locked
+    if record.generalised and parallel & {*crossed_parallelograms(record, home_values(record))}:
+        return _nothing(record, False, "not proved, since a parallelogram is crossed at home")
+    try:
+        turning = turnings(record, locked, question.orientation, parallel=parallel)
+        equations = system(record, turning, locked, question.place)
+    except NoAssemblyError as error:
+        return _nothing(record, True, f"there is no assembly: {error}")
+    except NotCirclesError as error:
+        return _nothing(record, False, f"not proved, since the loops are no system of circles and spheres: {error}")
+    try:
+        found = solve(equations)
+    except NotCirclesError as error:
+        return _nothing(record, False, f"not proved: {error}")
+    except CurveError as error:
+        names = _names(equations)
+        listed = " and ".join(names[number] for number in error.groups)
+        nearly = "nearly " if error.error else ""
+        return _nothing(record, False, f"not proved, since {listed} {nearly}have infinitely many values, real or not")
+    starts = np.array([joint_values(equations, row, locked) for row in found.unknowns])
+    starts = starts.reshape(-1, len(record.coordinates))
+    joints = question.closed(starts)
+    kept = [name for name in record.generalised if name in parallel]
+    note = f"; {' and '.join(kept)} stay{'s' if len(kept) == 1 else ''} parallel" if kept else ""
+    if len(turn_relations(record)):
+        note += "; screws have the turns of home"
+    right = _right(equations, found) + note
+    if question.tilt_open:
+        return LoopSolutions(
+            joints, False, f"not proved, since the pose leaves the platform's tilt open: {right}", found.looked
+        )
+    sure = np.repeat(found.bent <= DOUBTFUL, len(starts) // max(len(found.bent), 1))
+    if not sure.all() and len(question.closed(starts[sure])) < len(joints):
+        return LoopSolutions(joints, False, f"not proved, since roots are too near to tell them: {right}", found.looked)
+    return LoopSolutions(joints, True, right, found.looked)
+
+
+def _with_crossed(question: _Question) -> LoopSolutions:
+    """Crossed assemblies too: at once where that can be, else with some parallelograms kept, and by a search."""
+    record = question.record
+    names = tuple(record.generalised)
+    whole = _at_once(question, frozenset())
+    if whole.complete or not names:
+        return whole
+    parts = [_at_once(question, frozenset(names) - {name}) for name in names]
+    more = search(record, question.problem, question.given)
+    joints = question.once(np.concatenate([*(part.joints for part in parts), more.joints]))
+    proved = [name for name, part in zip(names, parts, strict=True) if part.complete]
+    right = f"not proved: found from {more.starts} starts"
+    if proved:
+        alone = " or ".join(proved)
+        right += (
+            f"; those in which nothing is crossed, or {alone} alone, are all, since their loops were solved in turn"
+        )
+    return LoopSolutions(joints, False, right, more.starts + sum(part.searched for part in parts))
+
+
+def crossed_parallelograms(record: MechanismRecord, joints: FloatArray) -> tuple[str, ...]:
+    """Names of the generalised joints whose four joints are no parallelogram at joint values (n,).
+
+    >>> from assur.kinematics.home import home_values
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("zeng2019")
+    >>> crossed_parallelograms(record, home_values(record))
+    ()
+    """
+    found = []
+    for name, group in record.generalised.items():
+        first, second, third, fourth = (point(record, joint, joints) for joint in group.joints)
+        if np.linalg.norm(first - second + third - fourth) > SAME * characteristic_length(record):
+            found.append(name)
+    return tuple(found)
+
+
+def _nothing(record: MechanismRecord, complete: bool, right: str) -> LoopSolutions:
+    return LoopSolutions(np.zeros((0, len(record.coordinates))), complete, right, 0)
+
+
+def _right(equations: System, solved: Solved) -> str:
+    names = _names(equations)
+    sets = [f"{' and '.join(names[number] for number in group.groups)} ({group.roots})" for group in solved.sets]
+    return (
+        f"its loops in turn, each for all its roots: {', then '.join(sets)}" if sets else "its loops, which are linear"
+    )
+
+
+def _names(equations: System) -> Mapping[int, str]:
+    """UnknownGroup -> the joint that slides, or the first that turns its link."""
+    names: dict[int, str] = {}
+    rods = [number for number, group in enumerate(equations.groups) if group.kind == "rod"]
+    balls = [number for number, group in enumerate(equations.groups) if group.kind == "ball"]
+    circles = {group.circle // 2: number for number, group in enumerate(equations.groups) if group.kind == "circle"}
+    triangles = [number for number, group in enumerate(equations.groups) if group.kind == "triangle"]
+    sliders = {number: group.name for number, group in enumerate(equations.groups) if group.kind == "slider"}
+    for joint in equations.record.joints.values():
+        for link in (joint.child, joint.parent, middle(joint)):
+            turning = equations.turnings.get(link, Turning(np.eye(3)))
+            if turning.triangle is not None:
+                names.setdefault(triangles[turning.triangle], link)
+            elif turning.ball is not None:
+                names.setdefault(balls[turning.ball], joint.name)
+            elif turning.rod is not None:
+                names.setdefault(rods[turning.rod], joint.name)
+            elif turning.circle in circles:
+                names.setdefault(circles[turning.circle], joint.name)
+    return names | sliders

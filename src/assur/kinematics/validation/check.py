@@ -1,0 +1,233 @@
+"""What only the closed joint graph tells of a file: whether it moves, as its inputs, pose and limits claim."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from assur.errors import MechanismFileError, Problem
+from assur.joint_graph.geometry import characteristic_length
+from assur.joint_graph.tree import joint_graph
+from assur.kinematics.home import home_values
+from assur.kinematics.limits import Limit, limits
+from assur.kinematics.pose import pose_of
+from assur.kinematics.turns import periodic, unwrapped
+from assur.kinematics.validation.claims import Claims, axis_name, claims
+from assur.kinematics.validation.freedoms import freedom_problems, pose_problems
+from assur.kinematics.validation.gaps import gap_problems
+from assur.model.file.key_path import KeyPath
+from assur.model.file.place import input_place, place, problem, table_place
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import is_angle
+from assur.work import stage
+
+SMALLEST, LARGEST = 1e-3, 50.0
+"""A mechanism smaller or larger than this, in metres, has probably its lengths in another unit."""
+
+METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
+TINY = 1 / 500
+"""A length below this share of the longest may be in another unit."""
+
+TURNS = 1e-6
+"""A platform whose angular velocity, of a motion of size one, stays below this keeps its orientation."""
+
+AWAY, AWAY_OF_LENGTH = float(np.radians(1.0)), 0.01
+"""A stated home value is noted that is further from the closed one: an angle, a share of the characteristic length."""
+MOST_AWAY = 3
+
+ROUND = 1e-7
+"""Home may stand on a bound: beyond it by this (rad, or share of the characteristic length) is not outside."""
+
+
+@lru_cache(maxsize=64)
+@stage("soundness of the joint graph")
+def faults(record: MechanismRecord) -> tuple[Problem, ...]:
+    """Faults of a mechanism whose file reads well: loops that do not close, no freedom, too few or too many inputs,
+    inputs or a pose that say the same twice, a constant orientation that turns, a home beyond its limits.
+
+    All that do not follow from one another, in the order of the file.
+
+    >>> from assur.model.registry import load_record
+    >>> faults(load_record("zeng2019"))
+    ()
+    """
+    if not joint_graph(record).cut:
+        what = "no loop: nothing but serial chains"
+        hint = "its joint values are its position; assur is for closed loops"
+        return (problem(record, table_place(record, "joints"), what, "at least one closed loop", hint),)
+    gaps = () if record.overrides else gap_problems(record)
+    if gaps:
+        return _ordered(gaps)
+    here = claims(record)
+    found = freedom_problems(record, here)
+    if here.moving:
+        found += [*pose_problems(record, here), *_orientation(record, here)]
+    return _ordered([*found, *_limits(record)])
+
+
+def _ordered(problems: list[Problem] | tuple[Problem, ...]) -> tuple[Problem, ...]:
+    return tuple(sorted(problems, key=lambda problem: problem.line or 0))
+
+
+def check(record: MechanismRecord) -> None:
+    """Raise `MechanismFileError` with every fault, if there is one.
+
+    >>> from assur.model.registry import load_record
+    >>> check(load_record("fivebar"))
+    """
+    found = faults(record)
+    if found:
+        raise MechanismFileError(found)
+
+
+def doubts(record: MechanismRecord) -> tuple[Problem, ...]:
+    """What is no fault but probably not meant: a mechanism of the size of a pin or of a house, a length that is tiny
+    against the others, a home of many turns, one from which the loops close only far off, a workspace box without home
+    in it.
+
+    >>> from assur.model.registry import load_record
+    >>> doubts(load_record("zeng2019"))
+    ()
+    """
+    return _ordered([*_size(record), *_tiny(record), *_turns(record), *_away(record), *_box(record)])
+
+
+def _size(record: MechanismRecord) -> list[Problem]:
+    length = characteristic_length(record)
+    size = length * METRES[record.unit]
+    if SMALLEST <= size <= LARGEST:
+        return []
+    hint = f"is it {'m' if size < SMALLEST else 'mm'} that is meant?"
+    found = f"the longest link measures {length:.3g} {record.unit}, that is {size:.3g} m"
+    return [problem(record, ("unit",), found, f"it is unusual, but may be: {SMALLEST:g} m to {LARGEST:g} m", hint)]
+
+
+def _tiny(record: MechanismRecord) -> list[Problem]:
+    length = characteristic_length(record)
+    return [
+        problem(
+            record,
+            ("parameters", name, "value"),
+            f"{item.value:.4g} {item.unit}, where the longest link measures {length:.4g} {record.unit}",
+            "it is unusual, but may be",
+            f"is it in another unit than {item.unit}?",
+        )
+        for name, item in record.parameters.items()
+        if item.unit == record.unit and 0 < abs(item.value) < TINY * length
+    ]
+
+
+def _turns(record: MechanismRecord) -> list[Problem]:
+    found: list[Problem] = []
+    for item in record.coordinates:
+        if periodic(record)[item.index] and abs(record.home[item.index]) > 4 * np.pi:
+            turns = record.home[item.index] / (2 * np.pi)
+            hint = "are the angles in deg?" if record.angle == "rad" else ""
+            text = f"{record.coordinate_label(item)} begins at {turns:.3g} turns"
+            found.append(problem(record, place(record, "home", item.joint), text, "it is unusual, but may be", hint))
+    return _one_each(found)
+
+
+def _away(record: MechanismRecord) -> list[Problem]:
+    """Home values of the file that are not those of the assembly to which the loops close from them."""
+    if record.overrides:  # whose home is not the file's
+        return []
+    home, length = home_values(record), characteristic_length(record)
+    angular = np.array([item.kind == "angle" for item in record.coordinates])
+    turned = unwrapped(record, home - record.home)
+    share = np.abs(turned) / np.where(angular, AWAY, AWAY_OF_LENGTH * length)
+    largest = [int(index) for index in np.argsort(-share, kind="stable") if share[index] > 1][:MOST_AWAY]
+    if not largest:
+        return []
+    told = [
+        f"{record.coordinate_label(record.coordinates[index])} = "
+        f"{_rounded(record, record.home[index] + turned[index], angular=bool(angular[index]))}, "
+        f"the file says {_rounded(record, record.home[index], angular=bool(angular[index]))}"
+        for index in largest
+    ]
+    hint = "is it the assembly that is meant?"
+    path = table_place(record, "home")
+    return [
+        problem(record, path, f"the loops close at {'; '.join(told)}", "values near an assembled configuration", hint)
+    ]
+
+
+def _box(record: MechanismRecord) -> list[Problem]:
+    """Sides of the workspace box beyond which home stands: then all of it may be out of reach."""
+    home = dict(zip(record.platform.pose, pose_of(record, home_values(record)).tolist(), strict=True))
+    found = []
+    for name, (low, high) in record.box.items():
+        angular = is_angle(name)
+        spare = ROUND * (1.0 if angular else characteristic_length(record))
+        if not low - spare <= home[name] <= high + spare:
+            own, least, most = (_quantity(record, item, angular=angular) for item in (home[name], low, high))
+            text, hint = f"home has {name} = {own}, outside {least} to {most}", "look for the workspace about home"
+            found.append(problem(record, ("workspace", "box", name), text, "it is unusual, but may be", hint))
+    return found
+
+
+def _orientation(record: MechanismRecord, claims: Claims) -> list[Problem]:
+    turning = claims.motion.twists[..., :3, :]
+    if record.platform.orientation != "constant" or float(np.max(np.abs(turning), initial=0.0)) <= TURNS:
+        return []
+    found = f'"constant", but the platform turns as it moves, about {axis_name(turning)}'
+    hint = "leave it out; or which axes should be parallel, which rods equally long?"
+    path: KeyPath = ("platform", "orientation")
+    return [problem(record, path, found, '"constant" only where it keeps its orientation', hint)]
+
+
+def _limits(record: MechanismRecord) -> list[Problem]:
+    """Home against limits and cones of joints and strokes of inputs; of repeated limbs the first that is out."""
+    home = home_values(record)
+    length = characteristic_length(record)
+    written = [float(limit.value(record.home)) for limit in limits(record, record.home)]
+    return _one_each(
+        [
+            _outside(record, limit, float(limit.value(home)), before)
+            for limit, before in zip(limits(record, home), written, strict=True)
+            if float(limit.margin(home)) < -ROUND * (1.0 if limit.angular else length)
+        ]
+    )
+
+
+def _outside(record: MechanismRecord, limit: Limit, value: float, written: float) -> Problem:
+    kind, _, name = limit.name.partition(" of ")
+    joint = record.coordinates[limit.index].joint
+    own, low, high = (_shown(record, limit, item) for item in (value, limit.low, limit.high))
+    inside = limit.low <= written <= limit.high
+    hint = (
+        f"the file's home has {_shown(record, limit, written)}; from there the loops close at {own}" if inside else ""
+    )
+    if kind == "cone":
+        path = (*place(record, "joints", joint), "cone")
+        found = f"home tilts {joint} by {own}, out of its cone of {high}"
+        hint = hint or "the cone's axis has the same components in both frames: is it the middle of the motion?"
+        return problem(record, path, found, "a home inside", hint)
+    if kind == "stroke":
+        path = (*input_place(record, record.coordinates[limit.index]), "stroke")
+    else:
+        path = (*place(record, "joints", joint), "limits")
+    found = f"home has {name} = {own}, outside {low} to {high}"
+    return problem(record, path, found, "a home inside", hint)
+
+
+def _shown(record: MechanismRecord, limit: Limit, value: float) -> str:
+    return _quantity(record, value, angular=limit.angular)
+
+
+def _quantity(record: MechanismRecord, value: float, *, angular: bool) -> str:
+    if not angular:
+        return f"{value:.6g} {record.unit}"
+    return f"{np.degrees(value):.6g} deg" if record.angle == "deg" else f"{value:.6g} rad"
+
+
+def _rounded(record: MechanismRecord, value: float, *, angular: bool) -> str:
+    """To four digits of the file's unit, which is finer than a home needs."""
+    shown = np.degrees(value) if angular and record.angle == "deg" else value
+    return f"{round(float(shown), 9):.4g} {record.angle if angular else record.unit}"
+
+
+def _one_each(problems: list[Problem]) -> list[Problem]:
+    """Of several problems at one place, as the limbs of a template have, the first."""
+    return list({item.path: item for item in reversed(problems)}.values())[::-1]

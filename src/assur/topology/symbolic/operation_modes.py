@@ -1,0 +1,175 @@
+"""Operation modes: how the platform of some limbs can move on from the configuration as written.
+
+It may keep its orientation, turn about one axis, or take every orientation that its limbs leave it. Where it can go
+on in several of these ways, there is no one answer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+
+from assur.topology.symbolic.blocks import Block, Structure
+from assur.topology.symbolic.constraints import Resisted, resisted
+from assur.topology.symbolic.elementary import Turn
+from assur.topology.symbolic.motion import Limb, Motion, motion_at_home, motion_of
+from assur.topology.symbolic.orientations import (
+    EVERY,
+    UNTURNED,
+    Orientations,
+    at_rest,
+    axes_around,
+    orientations,
+    returns,
+    without_axes,
+)
+from assur.topology.symbolic.refusals import Refusal
+from assur.topology.symbolic.spaces import rotations, translations
+from assur.topology.symbolic.spans import Span
+from assur.topology.symbolic.vectors import aligned
+
+
+@dataclass(frozen=True)
+class HeldLimbs:
+    """Limbs held to the orientations of the platform that they carry, and what they resist."""
+
+    limbs: tuple[Motion, ...]
+    taken: Orientations
+    resisted: Resisted
+
+    @property
+    def turned(self) -> Span:
+        """Directions that the platform rotates about."""
+        return self.resisted.couples.complement
+
+    @property
+    def has_rods(self) -> bool:
+        """Whether some limbs rotate about rods, which is no finite rotation while they are parallelograms."""
+        return any(limb.structure is not None and limb.structure.rods for limb in self.limbs)
+
+    @property
+    def freedoms(self) -> int:
+        """Freedoms of the mechanism: of the platform, and those that leave it at rest."""
+        return self.resisted.dim + sum(limb.passive for limb in self.limbs)
+
+
+def assembled(limbs: Sequence[Limb], taken: Orientations) -> HeldLimbs | Refusal:
+    """Limbs whose platform takes given orientations."""
+    return _together([motion_of(limb, taken) for limb in limbs], taken)
+
+
+def _together(motions: Sequence[Motion | Refusal], taken: Orientations) -> HeldLimbs | Refusal:
+    refusal = next((motion for motion in motions if isinstance(motion, Refusal)), None)
+    if refusal is not None:
+        return refusal
+    carried = tuple(motion for motion in motions if isinstance(motion, Motion))
+    fewer = [motion.orientations for motion in carried if motion.orientations.dim < taken.dim]
+    least = _common(fewer) if fewer else taken
+    if isinstance(least, Refusal):
+        return least
+    constraint = resisted(carried, least)
+    return constraint if isinstance(constraint, Refusal) else HeldLimbs(carried, least, constraint)
+
+
+def as_written(limbs: Sequence[Limb]) -> HeldLimbs | Refusal:
+    """Limbs as they can move from the configuration as written.
+
+    The mechanism leaves it in as many directions as it has freedoms there, and moves on in one mode where it keeps
+    as many: with the platform unturned, turning about one axis, or taking every orientation that the limbs leave.
+    """
+    home = _together([motion_at_home(limb) for limb in limbs], UNTURNED)
+    if isinstance(home, Refusal):
+        return home
+    still = assembled(limbs, UNTURNED)
+    if isinstance(still, Refusal):
+        returning = any(returns(limb.structure) for limb in limbs)
+        return still if returning else _narrowed(limbs, _allowed(limbs))
+    for mode in _modes(limbs, home, still):
+        if isinstance(mode, Refusal) or _goes_on(home, mode):
+            return mode
+    return Refusal("as written, the limbs are in a position from which they can move on in several modes")
+
+
+def _goes_on(home: HeldLimbs, mode: HeldLimbs) -> bool:
+    """Whether a mode starts at home: as many freedoms as there, and a platform that can do no less."""
+    more = mode.resisted.dim >= home.resisted.dim and mode.turned.dim >= home.turned.dim
+    return more and mode.freedoms == home.freedoms
+
+
+def _modes(limbs: Sequence[Limb], home: HeldLimbs, still: HeldLimbs) -> Iterator[HeldLimbs | Refusal]:
+    """Ways in which a platform may turn, the least first."""
+    common = _allowed(limbs)
+    if not still.turned.dim or (common == UNTURNED and still.has_rods):
+        yield still
+    for turned in (home.turned, still.turned):
+        if turned.dim == 1 and turned.is_fixed:
+            about = assembled(limbs, Orientations(1, turned.fixed))
+            if isinstance(about, HeldLimbs) and about.turned.dim == about.taken.dim == 1:
+                yield about
+    if common != UNTURNED:
+        yield _narrowed(limbs, common)
+
+
+def unturned(limbs: Sequence[Limb]) -> HeldLimbs | Refusal:
+    """Limbs whose platform keeps its orientation.
+
+    First and last axes of a limb that turn against each other do so only where the platform's translations need it,
+    or where the limb moves within itself.
+    """
+    assembly = assembled(limbs, UNTURNED)
+    if isinstance(assembly, Refusal):
+        return assembly
+    motions, moved = list(assembly.limbs), [limb.translations for limb in assembly.limbs]
+    for index, motion in enumerate(assembly.limbs):
+        around = axes_around(motion.structure) if motion.structure else None
+        if motion.structure is None or around is None:
+            continue
+        rest = without_axes(motion.structure, around)
+        fewer = [*moved[:index], translations(rest), *moved[index + 1 :]]
+        if _common_translations(fewer) == _common_translations(moved) and _idle(motion, around, rest) == motion.passive:
+            kept = at_rest(motion.structure, around)
+            motions[index] = replace(motion, structure=kept, rotations=rotations(kept), translations=translations(kept))
+            moved = fewer
+    return _together(motions, UNTURNED)
+
+
+def _common_translations(spans: Sequence[Span]) -> int:
+    return reduce(Span.meet, spans).dim
+
+
+def _idle(motion: Motion, around: Block, rest: Structure) -> int:
+    """Freedoms of a limb that do not move its end link, without the axes around the rest."""
+    chain = motion.limb.chain if motion.limb else ()
+    axes = [part.direction for part in chain if isinstance(part, Turn) and part.direction is not None]
+    removed = sum(around.direction is not None and aligned(axis, around.direction) for axis in axes)
+    return motion.freedoms - removed - translations(rest).dim - rotations(rest).dim
+
+
+def _narrowed(limbs: Sequence[Limb], taken: Orientations | Refusal) -> HeldLimbs | Refusal:
+    """Limbs whose platform takes every one of some orientations that they leave it."""
+    while not isinstance(taken, Refusal):
+        assembly = assembled(limbs, taken)
+        if isinstance(assembly, Refusal) or assembly.turned.dim >= assembly.taken.dim == taken.dim:
+            return assembly
+        if assembly.taken.dim < taken.dim:
+            taken = assembly.taken
+            continue
+        fixed = assembly.turned.dim == 1 and assembly.turned.is_fixed
+        taken = Orientations(assembly.turned.dim, assembly.turned.fixed if fixed else ())
+    return taken
+
+
+def _allowed(limbs: Sequence[Limb]) -> Orientations | Refusal:
+    """The orientations that every limb takes."""
+    return _common(orientations(limb.structure) for limb in limbs)
+
+
+def _common(sets: Iterable[Orientations]) -> Orientations | Refusal:
+    """The orientations in every set."""
+    common: Orientations | Refusal = EVERY
+    for taken in sets:
+        if isinstance(common, Refusal):
+            return common
+        common = common.meet(taken)
+    return common

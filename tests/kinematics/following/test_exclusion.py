@@ -1,0 +1,142 @@
+"""What proves that home's mode does not reach a place, by routes of its own: trigonometry, and the closed form."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+from assur.cli.main import main
+from assur.kinematics.following.exclusion import of_other_signs, otherwise, signs_of
+from assur.kinematics.following.home_mode import home_mode_at
+from assur.kinematics.joint_graph_solutions import JointGraphSolutions
+from assur.kinematics.position import inverse
+from assur.kinematics.status import Status
+from assur.mechanism import load
+from assur.performance.indices import indices
+from assur.singularity.verdict import verdict
+
+SLIDER_CRANK = ["R[z] R[z]", "P[x] R[z]"]
+TURNING = ["{P[z] R[y] R[y] | P[z] R[y] R[y]} R[z]", "P[x] R[y] R[y] R[z]"]
+
+
+def drafted(folder, name, chains):
+    path = str(folder / f"{name}.toml")
+    assert main(["new", path, *(word for chain in chains for word in ("--chain", chain))]) == 0
+    return path
+
+
+@pytest.fixture(scope="module")
+def path(tmp_path_factory):
+    return drafted(tmp_path_factory.mktemp("drafts"), "crank", SLIDER_CRANK)
+
+
+@pytest.fixture(scope="module")
+def record(path):
+    return load(path)
+
+
+@pytest.fixture(scope="module")
+def bare():
+    """The mechanism of the paper without its closed form."""
+    return dataclasses.replace(load("zeng2019"), closed_form=None)
+
+
+def branch(record):
+    """x of the platform along home's branch, by trigonometry: crank angles by small steps, until x turns back."""
+    known = vars(record.values)
+    a, b, d = (np.array([known[f"{name}_x"], known[f"{name}_y"]]) for name in "ABD")
+    rod = d - b
+
+    def x_at(angle):
+        cosine, sine = np.cos(angle), np.sin(angle)
+        pin = a + np.array([[cosine, -sine], [sine, cosine]]) @ (b - a)
+        slider = np.array([pin[0] + np.sign(rod[0]) * np.sqrt(rod @ rod - (d[1] - pin[1]) ** 2), d[1]])
+        turn = np.arctan2(*(slider - pin)[::-1]) - np.arctan2(*rod[::-1])
+        return pin[0] - np.cos(turn) * b[0] + np.sin(turn) * b[1]
+
+    ends = []
+    for sense in (1, -1):
+        values = np.array([x_at(sense * angle) for angle in np.arange(0.0, 3.0, 1e-3)])
+        turned = int(np.argmax(np.diff(values) * np.sign(values[1] - values[0]) < 0))
+        ends.append(values[turned])
+    return min(ends), max(ends)
+
+
+def test_one_coordinate_folds_back_where_trigonometry_says(record):
+    low, high = branch(record)
+    for x in (low + 0.5, 0.0, high - 0.5):
+        assert home_mode_at(record, [x]).reached
+    beyond = home_mode_at(record, [high + 0.5])
+    assert (beyond.reached, beyond.status) == (False, Status.unreachable)
+    assert "folds back at a serial singularity" in beyond.words
+    there = inverse(record, [high + 0.5])
+    assert there.complete
+    assert beyond.others == tuple(there.labels[there.exists])
+    assert len(beyond.others) == 2
+
+
+def test_where_there_is_no_solution_at_all_the_words_say_so(record):
+    low, _ = branch(record)
+    nowhere = home_mode_at(record, [low - 0.5])
+    assert nowhere.status is Status.unreachable
+    assert nowhere.words.endswith("which is proved: there is no solution in any mode")
+
+
+@pytest.mark.parametrize("command", ["singularity", "indices"])
+def test_commands_exit_4_and_name_the_other_modes(path, record, command, capsys):
+    beyond = f"{branch(record)[1] + 20:.3f}"
+    assert main([command, path, "--pose", beyond]) == 4
+    said = " ".join(capsys.readouterr().out.split())
+    assert "home's mode does not reach it, which is proved" in said
+    assert "the solutions in other modes: 1, 2" in said
+    assert main([command, path, "--pose", beyond, "--json"]) == 4
+    assert json.loads(capsys.readouterr().out)["known_modes"] == ["1", "2"]
+    assert main(["follow", path, "--from", beyond, "--to", "0"]) == 4
+    assert "does not reach it, which is proved" in " ".join(capsys.readouterr().out.split())
+
+
+def test_signs_exclude_what_the_closed_form_says_is_not_there(bare):
+    pose = [2.752, -17.475, -8.507]
+    whole = load("zeng2019")
+    found = home_mode_at(bare, pose)
+    assert found.status is Status.unreachable
+    assert "none of all 16 has its signs ++-++" in found.words
+    by_formulas = inverse(whole, pose)
+    assert sorted(found.others) == sorted(by_formulas.labels[by_formulas.exists])
+    assert verdict(bare, pose).kind == verdict(whole, pose).kind == "unreachable"
+    assert sorted(verdict(bare, pose).known_modes) == sorted(verdict(whole, pose).known_modes)
+    assert indices(bare, pose).status == Status.unreachable
+
+
+def test_a_solution_with_the_signs_of_home_proves_nothing(bare):
+    """Home's own signs are there, but the straight way meets a parallel singularity: nothing is proved."""
+    pose = [-90.0, 10.0, 118.0]
+    there = inverse(bare, pose)
+    joints = there.joints[there.exists]
+    assert there.complete
+    assert not np.all(of_other_signs(bare, "inverse", joints))
+    assert np.array_equal(signs_of(bare, "inverse", bare.home_values[None])[0], [1, 1, -1, 1, 1])
+    found = home_mode_at(bare, pose, detours=1)
+    assert (found.status, found.never) == (Status.undecided, "")
+    assert "which is no proof" in found.words
+
+
+def test_a_platform_that_home_never_turns_over_is_in_another_mode_where_it_is(tmp_path):
+    """The proof wants all solutions: what a search found is turned over too, but may not be all."""
+    turning = load(drafted(tmp_path, "turning", TURNING))
+    pose = np.array([10.0, 300.0, np.radians(5)])
+    there = inverse(turning, pose)
+    joints = there.joints[there.exists]
+    assert otherwise(turning, joints) == ["how the platform is turned"] * len(joints)
+    moved = inverse(turning, [10.0, 300.0, 0.0])
+    upright = moved.joints[moved.exists][0]
+    assert otherwise(turning, np.stack([turning.home_values, upright])) == ["", ""]
+    assert home_mode_at(turning, pose, detours=0, known=there).status is Status.undecided
+    proved = dataclasses.replace(there, all_known=True)
+    assert isinstance(proved, JointGraphSolutions)
+    found = home_mode_at(turning, pose, detours=0, known=proved)
+    assert found.status is Status.unreachable
+    assert "how the platform is turned stays as at home" in found.words

@@ -1,0 +1,83 @@
+"""Poses followed to from home, many at once: against closed forms, where there are some."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import assur
+from assur.kinematics import border
+from assur.kinematics.following.from_home import followed_from_home, followed_in_a_row
+from assur.kinematics.home import home_values
+from assur.kinematics.pose import pose_of
+from assur.kinematics.status import Status
+
+NAMES = ("fivebar", "delta_4s", "zeng2019", "planar_3rrr", "three_crr")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_what_is_reached_is_home_s_branch_of_the_closed_form(name):
+    record = assur.load(name)
+    home = home_values(record)
+    start = pose_of(record, home)
+    size = np.ptp([record.box[name] for name in record.platform.pose], axis=1)
+    poses = start + np.random.default_rng(3).uniform(-0.25, 0.25, (60, len(start))) * size
+    joints, reached = followed_from_home(record, poses)
+    assert reached.sum() > 10
+    np.testing.assert_allclose(pose_of(record, joints[reached]), poses[reached], rtol=0, atol=1e-7 * np.max(size))
+    inputs = border.inputs_of(record, joints)
+    mode = next(item.mode for item in record.inverse(start) if np.allclose(item.inputs, border.inputs_of(record, home)))
+    answer = record.inverse(poses, mode)
+    real = np.asarray(answer.overall_status) != Status.unreachable
+    assert not np.any(reached & ~real)
+    turns = np.array([2 * np.pi if item.coordinate.kind == "angle" else np.inf for item in record.inputs])
+    difference = np.abs(inputs - answer.inputs[:, 0])[reached]
+    np.testing.assert_array_less(np.minimum(difference, np.abs(turns - difference)), 1e-6 * np.max(size))
+
+
+def test_what_a_pose_gets_depends_on_that_pose_alone():
+    record = assur.load("fivebar")
+    poses = np.array([[0.0, 280.0], [40.0, 250.0], [0.0, 290.0], [-60.0, 200.0], [500.0, 0.0]])
+    joints, reached = followed_from_home(record, poses)
+    assert reached.tolist() == [True, True, False, True, False]
+    for k, pose in enumerate(poses):
+        alone, _ = followed_from_home(record, pose[None])
+        np.testing.assert_allclose(alone[0], joints[k], rtol=1e-12, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_poses_in_a_row_are_reached_as_from_home(name):
+    """Lines of a grid, several of them, longer than the distance of what is followed from home."""
+    record = assur.load(name)
+    start = pose_of(record, home_values(record))
+    size = np.ptp([record.box[name] for name in record.platform.pose], axis=1)
+    lines = [start + np.outer(np.linspace(-0.2, 0.2, 90), size * way) for way in np.eye(len(start))[:2]]
+    poses = np.concatenate(lines)
+    straight, alone = followed_from_home(record, poses)
+    joints, reached = followed_in_a_row(record, poses)
+    assert reached.sum() > 20
+    assert np.all(reached[alone])
+    assert np.mean(reached == alone) > 0.9
+    np.testing.assert_allclose(pose_of(record, joints[reached]), poses[reached], rtol=0, atol=1e-7 * np.max(size))
+    inputs = [border.inputs_of(record, part)[alone] for part in (straight, joints)]
+    turns = np.array([2 * np.pi if item.coordinate.kind == "angle" else np.inf for item in record.inputs])
+    difference = np.abs(inputs[0] - inputs[1])
+    np.testing.assert_array_less(np.minimum(difference, np.abs(turns - difference)), 1e-6 * np.max(size))
+
+
+def test_coordinates_of_a_pose_may_stand_in_any_order():
+    record = assur.load("planar_3rrr")
+    order = [2, 0, 1]
+    turned = replace(record, platform=replace(record.platform, pose=tuple(record.platform.pose[k] for k in order)))
+    poses = pose_of(record, home_values(record)) + np.random.default_rng(1).uniform(-1, 1, (20, 3)) * [60, 60, 0.6]
+    joints, reached = followed_from_home(record, poses)
+    same, also = followed_from_home(turned, poses[:, order])
+    assert 10 < reached.sum() == np.sum(reached & also)
+    np.testing.assert_allclose(same[reached], joints[reached], atol=1e-9)
+
+
+def test_an_empty_row():
+    joints, reached = followed_in_a_row(assur.load("fivebar"), np.empty((0, 2)))
+    assert (joints.shape, reached.shape) == ((0, 5), (0,))

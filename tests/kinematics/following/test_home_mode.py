@@ -1,0 +1,90 @@
+"""Home's mode is what home is followed to; another assembly at the same pose is never taken for it."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from assur.cli.main import main
+from assur.joint_graph.frames import frames
+from assur.kinematics.following.following import follow
+from assur.kinematics.following.home_mode import home_mode_at
+from assur.kinematics.pose import pose_of
+from assur.kinematics.status import Status
+from assur.mechanism import load
+from assur.performance.indices import indices
+from assur.singularity.verdict import verdict
+
+CHAINS = ["{P[z] R[y] R[y] | P[z] R[y] R[y]} R[z]", "P[x] R[y] R[y] R[z]"]
+REACHED, UNREACHED = np.array([10.0, 300.0, 0.0]), np.array([10.0, 300.0, np.radians(5)])
+
+
+@pytest.fixture(scope="module")
+def path(tmp_path_factory):
+    path = str(tmp_path_factory.mktemp("drafts") / "m2.toml")
+    assert main(["new", path, *(word for chain in CHAINS for word in ("--chain", chain))]) == 0
+    return path
+
+
+@pytest.fixture(scope="module")
+def drafted(path):
+    return load(path)
+
+
+def turned_over(record, joints):
+    """Whether the platform's own vertical points down: the assembly that no path from home leads to."""
+    rotation = frames(record, joints)[record.platform.link][0]
+    return float(rotation[0, 0]) < 0
+
+
+def test_where_a_path_leads_the_verdict_is_that_of_its_end(drafted):
+    there = home_mode_at(drafted, REACHED)
+    assert np.allclose(pose_of(drafted, there.joints), REACHED, atol=1e-6)
+    assert not turned_over(drafted, there.joints)
+    back = follow(drafted, there.joints, poses=pose_of(drafted, drafted.home_values))
+    assert np.allclose(back.joints[-1], drafted.home_values, atol=1e-6)
+    here = verdict(drafted, REACHED)
+    assert (here.kind, here.home, here.home_by) == ("regular", True, "home's mode, followed straight from home")
+    assert verdict(drafted, REACHED, "1").home
+
+
+def test_where_only_another_assembly_is_the_answer_is_undecided(drafted):
+    found = drafted.inverse(UNREACHED)
+    assert len(found) == 8
+    assert all(turned_over(drafted, joints) for joints in found.joints[found.exists])
+    here = verdict(drafted, UNREACHED)
+    assert (here.kind, here.home) == ("undecided", False)
+    assert "none of 7 paths from home" in here.home_by
+    index = indices(drafted, np.stack([REACHED, UNREACHED]))
+    assert index.status.tolist() == [Status.regular, Status.undecided]
+    assert np.isnan(index["condition"][1])
+    named = verdict(drafted, UNREACHED, "1")
+    assert (named.kind, named.home) == ("regular", False)
+    assert "another assembly than that of home" in named.home_by
+
+
+def test_a_mode_of_a_closed_form_is_the_one_that_following_keeps():
+    """A second route: without its closed form the five-bar's indices are those of the default mode."""
+    record = load("fivebar")
+    bare = dataclasses.replace(record, closed_form=None)
+    poses = np.array([[0.0, 200.0], [20.0, 210.0], [-30.0, 190.0]])
+    for name in ("condition", "transmission"):
+        assert np.allclose(indices(bare, poses)[name], indices(record, poses)[name], rtol=1e-6)
+
+
+@pytest.mark.parametrize("command", ["indices", "singularity"])
+def test_commands_say_by_what_it_is_home_and_exit_5_where_it_is_not_reached(path, command, capsys):
+    assert main([command, path, "--pose", "10", "300", "0"]) == 0
+    assert "home's mode, followed straight from home" in capsys.readouterr().out
+    assert main([command, path, "--pose", "10", "300", "5"]) == 5
+    assert "paths from home leads there in home's mode, which is no proof" in " ".join(capsys.readouterr().out.split())
+    assert main([command, path, "--pose", "10", "300", "5", "--mode", "1"]) == 0
+    assert "another assembly than that of home" in capsys.readouterr().out
+
+
+def test_a_path_does_not_begin_in_another_assembly(path, capsys):
+    assert main(["follow", path, "--from", "10", "300", "5", "--to", "10", "300", "6"]) == 5
+    assert "is not reached in home's mode" in " ".join(capsys.readouterr().out.split())
+    assert main(["follow", path, "--from", "10", "300", "0", "--to", "12", "300", "0"]) == 0
