@@ -27,7 +27,7 @@ from assur.kinematics.turns import (
 )
 from assur.model.dimensions import with_parameters
 from assur.model.registry import load_record
-from assur.numerics import components
+from assur.numerics import rotations
 from assur.workspace.region import workspace
 from screw_mechanisms import DIFFERENTIAL, FIVEBAR, JACK, TRIPOD, loaded
 
@@ -225,7 +225,7 @@ def test_rotation_vectors_are_those_of_the_same_rotation_at_most_half_a_turn_lon
     joints = np.zeros(len(record.coordinates))
     joints[place] = length * np.array([2.0, -1.0, 2.0]) / 3.0
     short = in_one_turn(record, joints)[place]
-    assert np.allclose(components.from_vector(short), components.from_vector(joints[place]), rtol=0, atol=1e-14)
+    assert np.allclose(rotations.from_vector(short), rotations.from_vector(joints[place]), rtol=0, atol=1e-14)
     assert np.linalg.norm(short) <= np.pi + 1e-12
 
 

@@ -104,7 +104,7 @@ def test_spheres_that_touch_meet_once_and_those_apart_do_not():
 
 def test_centres_in_one_line_have_no_normal():
     with np.errstate(divide="ignore", invalid="ignore"):
-        _, _, square = three_spheres(Floats(), ((0.0, 0, 0), (np.float64(1), 0, 0), (2.0, 0, 0)), (5.0, 5.0, 5.0), 1.0)
+        _, _, square = three_spheres(Floats(), tuple(np.outer([0.0, 1.0, 2.0], [1.0, 0.0, 0.0])), (5.0, 5.0, 5.0), 1.0)
     assert square == 0.0
 
 

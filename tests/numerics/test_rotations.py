@@ -76,3 +76,19 @@ def test_angles_and_rotations_are_one_another():
     assert np.max(np.abs(angles[1])) <= np.pi / 2
     upright = rotations.from_angles(np.array(0.3), np.array(np.pi / 2), np.array(0.1))
     np.testing.assert_allclose(rotations.from_angles(*rotations.to_angles(upright)), upright, rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-3, 0.0099, 0.0101, 0.5, 3.0])
+def test_the_left_jacobian_is_the_rate_of_turning(size):
+    vector = size * np.array([2.0, -1.0, 2.0]) / 3
+    step = 1e-6
+    for k, column in enumerate(rotations.left_jacobian(vector).T):
+        ahead, behind = (rotations.from_vector(vector + sign * step * np.eye(3)[k]) for sign in (1, -1))
+        np.testing.assert_allclose(rotations.to_vector(ahead @ behind.T) / (2 * step), column, atol=1e-9)
+
+
+@pytest.mark.parametrize("batch", [(), (7,), (2, 3)])
+def test_the_rates_matrix_undoes_the_left_jacobian(batch):
+    vector = np.random.default_rng(3).normal(size=(*batch, 3))
+    both = rotations.vector_rates_matrix(vector) @ rotations.left_jacobian(vector)
+    np.testing.assert_allclose(both, np.broadcast_to(np.eye(3), both.shape), rtol=0, atol=1e-13)

@@ -10,6 +10,7 @@ import sympy
 
 from assur.numerics import rotations, vectors
 from assur.numerics.dual import Dual
+from assur.numerics.intervals.interval import Interval
 from assur.numerics.number_types import Floats
 
 RNG = np.random.default_rng(7)
@@ -115,3 +116,14 @@ def test_dual_numbers_carry_derivatives_through():
     x, y, _ = vectors.apply(vectors.about_z(turn), (2.0, 1.0, 0.0))
     assert float(x.derivative) == pytest.approx(-float(y.value), abs=1e-15)
     assert float(y.derivative) == pytest.approx(float(x.value), abs=1e-15)
+
+
+def test_integer_zeros_stay_exact_beside_intervals():
+    x = Interval.of(0.1)
+    product = vectors.product(((x, 0, 0), (0, 1, 0), (0, 0, 1)), ((1, 0, 0), (0, x, 0), (0, 0, 1)))
+    assert [[type(entry) for entry in row] for row in product] == [
+        [Interval, int, int],
+        [int, Interval, int],
+        [int, int, int],
+    ]
+    assert product[0][0] is x

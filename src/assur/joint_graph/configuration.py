@@ -15,7 +15,7 @@ from assur.joint_graph.geometry import Geometry
 from assur.joint_graph.tree import JointGraph
 from assur.joints.steps import STILL, UNTURNED
 from assur.model.mechanism import Joint
-from assur.numerics.sparse_vectors import Matrix, Vector, add, apply, cross, product, subtract, times, transposed
+from assur.numerics.vectors import Matrix, Vector, add, apply, cross, product, subtract, times, transposed
 
 State = Mapping[str, Sequence[Any]]
 """The numbers of each joint, those of its steps one after the other (`assur.joint_graph.state`)."""

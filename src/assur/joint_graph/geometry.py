@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from assur.joints.steps import STILL, UNTURNED
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.model.written import NumberReading
-from assur.numerics.sparse_vectors import Matrix, Vector
+from assur.numerics.vectors import Matrix, Vector
 
 FloatArray = NDArray[np.float64]
 ROUNDED = 1e-15

@@ -11,7 +11,6 @@ from assur.errors import UnknownNameError
 from assur.joint_graph.frames import Frame, frames
 from assur.model.formula import Formula
 from assur.model.mechanism import MechanismRecord
-from assur.numerics import components
 
 FloatArray = NDArray[np.float64]
 
@@ -69,9 +68,9 @@ def _placed(record: MechanismRecord, name: str, placed: Mapping[str, Frame]) -> 
     if name in record.points:
         letter = record.points[name]
         rotation, origin = placed[letter.link]
-        return np.asarray(components.applied(rotation, letter.at) + origin)
+        return np.asarray(rotation @ letter.at + origin)
     if any(name in (joint.name, joint.alias) for joint in record.joints.values()):
         joint = record.joint(name)
         rotation, origin = placed[joint.parent]
-        return np.asarray(components.applied(rotation, joint.at) + origin)
+        return np.asarray(rotation @ joint.at + origin)
     raise UnknownNameError(f"point of {record.name}", name, (*record.points, *record.joints))

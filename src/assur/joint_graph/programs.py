@@ -22,7 +22,7 @@ from assur.joint_graph.tree import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.recording.straight_line import StraightLine
 from assur.numerics.recording.tape import Recorded, Recorder, Tape, without_unused
-from assur.numerics.sparse_vectors import Matrix
+from assur.numerics.vectors import Matrix
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]

@@ -12,7 +12,7 @@ from assur.joint_graph.tree import joint_graph
 from assur.joints.joint_type import JointType
 from assur.joints.steps import Step
 from assur.model.mechanism import MechanismRecord
-from assur.numerics import components
+from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
@@ -86,6 +86,6 @@ def ball_rates(record: MechanismRecord, values: FloatArray) -> FloatArray:
     """
     for own in _alike(record):
         if own.step.kind == "ball":
-            matrices = components.left_jacobian(np.moveaxis(values[own.coordinates], 0, -1))  # (s, b, 3, 3)
+            matrices = rotations.left_jacobian(np.moveaxis(values[own.coordinates], 0, -1))  # (s, b, 3, 3)
             return np.moveaxis(matrices, 1, -1).reshape(-1, values.shape[1])
     return np.empty((0, values.shape[1]))

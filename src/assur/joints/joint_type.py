@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from assur.joints.steps import STILL, UNTURNED, CoordinateKind, Motion, Step, Twist
-from assur.numerics.sparse_vectors import Matrix, Vector, add, apply, product
+from assur.numerics.vectors import Matrix, Vector, add, apply, product
 
 Directions = Callable[[Sequence[Vector]], tuple[Vector, ...]]
 

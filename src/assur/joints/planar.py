@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from assur.joints.joint_type import JointType
 from assur.joints.steps import SLIDE, TURN
-from assur.numerics.sparse_vectors import Vector, cross
+from assur.numerics.vectors import Vector, cross
 
 BASIS: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 

@@ -14,7 +14,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.numerics.sparse_vectors import Matrix, Vector, minus, plus, scaled, times, transposed
+from assur.numerics.vectors import Matrix, Vector, minus, plus, scaled, times, transposed
 
 FloatArray = NDArray[np.float64]
 CoordinateKind = Literal["angle", "length"]

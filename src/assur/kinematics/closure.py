@@ -28,7 +28,7 @@ from assur.kinematics.pose import error_of, error_rates, frame_of, platform_move
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
 from assur.numerics import least_squares, rotations
-from assur.numerics.sparse_vectors import add, apply, cross, subtract, times
+from assur.numerics.vectors import add, apply, cross, subtract, times
 
 FloatArray = NDArray[np.float64]
 

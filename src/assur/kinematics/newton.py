@@ -25,7 +25,7 @@ from assur.model.pose import ANGLES, LENGTHS, QUATERNION, Pose, has_quaternion
 from assur.numerics import rotations
 from assur.numerics.newton import NewtonResult, iterated
 from assur.numerics.normal_equations import least_squares_step
-from assur.numerics.sparse_vectors import dot, minus, plus, times
+from assur.numerics.vectors import dot, minus, plus, times
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]

@@ -10,8 +10,7 @@ from assur.joints.joint_type import Directions
 from assur.joints.steps import UNTURNED, about
 from assur.model.formula import Formula
 from assur.model.syntax import Functions, Literal, Negative, Number, Operands, Pi
-from assur.numerics.sparse_vectors import Matrix, Vector, apply, dot
-from assur.numerics.vectors import taking
+from assur.numerics.vectors import Matrix, Vector, apply, dot, taking
 
 Triple = tuple[Formula, Formula, Formula]
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from assur.numerics.sparse_vectors import plus, times
+from assur.numerics.vectors import plus, times
 
 Entries = Mapping[tuple[int, int], Any]
 

@@ -6,6 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
+SMALL = 1e-2
+"""Rotation vectors below this, in rad, have their left Jacobian by a series, where its closed expression cancels."""
 SHORT = 1e-3
 """Rotation vectors below this, in rad, are taken by the first term of a series: the next is 1e-9 of it."""
 
@@ -38,20 +40,30 @@ def about_axis(axis: FloatArray, angle: FloatArray) -> FloatArray:
     >>> about_axis(np.array([0.0, 0.0, 1.0]), np.array(np.pi / 2)).round(12) @ [1.0, 0.0, 0.0]
     array([0., 1., 0.])
     """
-    cross = skew(axis)
-    sine = np.sin(angle)[..., None, None]
-    versine = (1.0 - np.cos(angle))[..., None, None]
-    return np.asarray(np.eye(3) + sine * cross + versine * (cross @ cross))
+    return _combined(axis, np.sin(angle), 1.0 - np.cos(angle))
 
 
 def from_vector(vector: FloatArray) -> FloatArray:
     """Rotation (..., 3, 3) of a rotation vector (..., 3) in rad."""
     angle = np.linalg.norm(vector, axis=-1)
-    cross = skew(vector)
     # np.sinc(x) = sin(pi x)/(pi x): both coefficients are exact at angle 0
-    first = np.sinc(angle / np.pi)[..., None, None]
-    second = (0.5 * np.sinc(angle / (2 * np.pi)) ** 2)[..., None, None]
-    return np.asarray(np.eye(3) + first * cross + second * (cross @ cross))
+    return _combined(vector, np.sinc(angle / np.pi), 0.5 * np.sinc(angle / (2 * np.pi)) ** 2)
+
+
+def left_jacobian(vector: FloatArray) -> FloatArray:
+    """Angular velocity per rate of each part of a rotation vector (..., 3), as the columns of (..., 3, 3).
+
+    >>> left_jacobian(np.array([0.0, 0.0, np.pi])).round(3)
+    array([[ 0.   , -0.637,  0.   ],
+           [ 0.637,  0.   ,  0.   ],
+           [ 0.   ,  0.   ,  1.   ]])
+    """
+    angle = np.linalg.norm(vector, axis=-1)
+    square = angle**2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        exact = (1.0 - np.sinc(angle / np.pi)) / square
+    along = np.where(angle < SMALL, 1 / 6 - square / 120 + square**2 / 5040, exact)
+    return _combined(vector, 0.5 * np.sinc(angle / (2 * np.pi)) ** 2, along)
 
 
 def vector_rates(vector: FloatArray, angular: FloatArray) -> FloatArray:
@@ -68,11 +80,10 @@ def vector_rates(vector: FloatArray, angular: FloatArray) -> FloatArray:
 
 def vector_rates_matrix(vector: FloatArray) -> FloatArray:
     """The matrix (..., 3, 3) of `vector_rates`."""
-    size = np.linalg.norm(vector, axis=-1)[..., None, None]
+    size = np.linalg.norm(vector, axis=-1)
     safe = np.maximum(size, SHORT)
     along = np.where(size < SHORT, 1 / 12, (1 - 0.5 * safe / np.tan(0.5 * safe)) / safe**2)
-    once = skew(vector)
-    return np.asarray(np.eye(3) - 0.5 * once + along * (once @ once))
+    return _combined(vector, -0.5, along)
 
 
 def to_vector(rotation: FloatArray) -> FloatArray:
@@ -134,9 +145,7 @@ def taking(start: FloatArray, end: FloatArray) -> FloatArray:
     >>> taking(np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])) @ [1.0, 0.0, 0.0]
     array([0., 1., 0.])
     """
-    cross = skew(np.cross(start, end))
-    result: FloatArray = np.eye(3) + cross + cross @ cross / (1.0 + float(start @ end))
-    return result
+    return _combined(cross(start, end), 1.0, 1.0 / (1.0 + start @ end))
 
 
 def from_quaternion(quaternion: FloatArray) -> FloatArray:
@@ -147,9 +156,7 @@ def from_quaternion(quaternion: FloatArray) -> FloatArray:
            [ 0., -1.,  0.],
            [ 0.,  0.,  1.]])
     """
-    scalar, vector = quaternion[..., :1, None], quaternion[..., 1:]
-    cross = skew(vector)
-    return np.asarray(np.eye(3) + 2.0 * (scalar * cross + cross @ cross))
+    return _combined(quaternion[..., 1:], 2.0 * quaternion[..., 0], 2.0)
 
 
 def to_quaternion(rotation: FloatArray) -> FloatArray:
@@ -201,3 +208,14 @@ def from_angles(phi: FloatArray, theta: FloatArray, psi: FloatArray) -> FloatArr
     """Rotation (..., 3, 3) = Rz(phi) Ry(theta) Rx(psi) of angles (...) in rad."""
     x, y, z = np.eye(3)
     return np.asarray(about_axis(z, phi) @ about_axis(y, theta) @ about_axis(x, psi))
+
+
+def _combined(vector: FloatArray, once: FloatArray | float, twice: FloatArray | float) -> FloatArray:
+    """1 + a [v x] + b [v x]^2 (..., 3, 3), of vectors v (..., 3) and factors a and b (...)."""
+    matrix = np.empty((*np.broadcast_shapes(vector.shape[:-1], np.shape(once), np.shape(twice)), 3, 3))
+    for k in range(3):
+        i, j = (k + 1) % 3, (k + 2) % 3
+        matrix[..., k, k] = 1.0 - twice * (vector[..., i] ** 2 + vector[..., j] ** 2)
+        even, odd = twice * (vector[..., i] * vector[..., j]), once * vector[..., k]
+        matrix[..., i, j], matrix[..., j, i] = even - odd, even + odd
+    return matrix

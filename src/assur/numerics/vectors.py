@@ -1,6 +1,8 @@
-"""Vectors and matrices of components for kernels: tuples of numbers of any type, with + - * / and `ns.sqrt` only.
+"""Vectors and matrices of components over any number type: tuples of numbers, with + - * / and `ns.sqrt` only.
 
-A vector is a tuple (x, y, z), a matrix a tuple of rows, a direction in a plane a pair (cosine, sine).
+A vector is a tuple (x, y, z), a matrix a tuple of rows, a direction in a plane a pair (cosine, sine). An integer 0 or 1
+stays what it is. Over intervals that is more than speed: a component that is zero for every configuration, as those
+across the plane of a planar loop are, comes out as the integer 0, and not as bounds about it.
 """
 
 from __future__ import annotations
@@ -13,33 +15,71 @@ Matrix = tuple[Vector, Vector, Vector]
 Pair = tuple[Number, Number]
 
 
+def times(a: Number, b: Number) -> Number:
+    """Product; an integer 0 or +-1 is one exactly.
+
+    >>> times(0, 2.5), times(2.5, -1), times(2.0, 2.5)
+    (0, -2.5, 5.0)
+    """
+    for factor, other in ((a, b), (b, a)):
+        if type(factor) is int and factor in (0, 1, -1):
+            return 0 if factor == 0 else other if factor == 1 else -other
+    return a * b
+
+
+def plus(a: Number, b: Number) -> Number:
+    """Sum; an integer 0 adds nothing.
+
+    >>> plus(0, 2.5), plus(2.5, 0)
+    (2.5, 2.5)
+    """
+    if type(a) is int and a == 0:
+        return b
+    return a if type(b) is int and b == 0 else a + b
+
+
+def minus(a: Number, b: Number) -> Number:
+    """Difference.
+
+    >>> minus(0, 2.5), minus(2.5, 0)
+    (-2.5, 2.5)
+    """
+    if type(a) is int and a == 0:
+        return times(-1, b)
+    return a if type(b) is int and b == 0 else a - b
+
+
 def add(a: Vector, b: Vector) -> Vector:
-    """Sum a + b."""
-    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+    """Sum of two vectors."""
+    return plus(a[0], b[0]), plus(a[1], b[1]), plus(a[2], b[2])
 
 
 def subtract(a: Vector, b: Vector) -> Vector:
-    """Difference a - b."""
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+    """Difference of two vectors."""
+    return minus(a[0], b[0]), minus(a[1], b[1]), minus(a[2], b[2])
 
 
 def scaled(a: Vector, factor: Number) -> Vector:
-    """Product factor a."""
-    return (factor * a[0], factor * a[1], factor * a[2])
+    """Product of a vector and a number."""
+    return times(a[0], factor), times(a[1], factor), times(a[2], factor)
 
 
 def dot(a: Vector, b: Vector) -> Number:
-    """Inner product a . b."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    """Scalar product."""
+    return plus(plus(times(a[0], b[0]), times(a[1], b[1])), times(a[2], b[2]))
 
 
 def cross(a: Vector, b: Vector) -> Vector:
-    """Cross product a x b.
+    """Vector product.
 
-    >>> cross((1, 0, 0), (0, 1, 0))
-    (0, 0, 1)
+    >>> cross((1, 0, 0), (0, 2.0, 0))
+    (0, 0, 2.0)
     """
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+    return (
+        minus(times(a[1], b[2]), times(a[2], b[1])),
+        minus(times(a[2], b[0]), times(a[0], b[2])),
+        minus(times(a[0], b[1]), times(a[1], b[0])),
+    )
 
 
 def length(ns: Any, a: Vector) -> Number:
@@ -58,21 +98,25 @@ def triple(a: Vector, b: Vector, c: Vector) -> Number:
 
 
 def apply(matrix: Matrix, a: Vector) -> Vector:
-    """Matrix times vector."""
-    return (dot(matrix[0], a), dot(matrix[1], a), dot(matrix[2], a))
+    """A matrix, by its rows, times a vector."""
+    return dot(matrix[0], a), dot(matrix[1], a), dot(matrix[2], a)
 
 
 def transposed(matrix: Matrix) -> Matrix:
-    """Rows for columns."""
-    (a, b, c), (d, e, f), (g, h, i) = matrix
-    return ((a, d, g), (b, e, h), (c, f, i))
+    """The matrix with rows and columns exchanged."""
+    first, second, third = zip(*matrix, strict=True)
+    return first, second, third
 
 
 def product(first: Matrix, second: Matrix) -> Matrix:
-    """Matrix times matrix."""
+    """Product of two matrices.
+
+    >>> product(((0, -1, 0), (1, 0, 0), (0, 0, 1)), ((0, -1, 0), (1, 0, 0), (0, 0, 1)))
+    ((-1, 0, 0), (0, -1, 0), (0, 0, 1))
+    """
     columns = transposed(second)
-    a, b, c = ((dot(row, columns[0]), dot(row, columns[1]), dot(row, columns[2])) for row in first)
-    return (a, b, c)
+    rows = [(dot(row, columns[0]), dot(row, columns[1]), dot(row, columns[2])) for row in first]
+    return rows[0], rows[1], rows[2]
 
 
 def about_z(turn: Pair) -> Matrix:

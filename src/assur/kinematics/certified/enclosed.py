@@ -22,7 +22,7 @@ from assur.kinematics.certified.given import turn
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.numerics.intervals.functions import TURN
 from assur.numerics.intervals.interval import Interval
-from assur.numerics.sparse_vectors import Matrix, Vector, add, cross, dot, minus, plus, scaled
+from assur.numerics.vectors import Matrix, Vector, add, cross, dot, minus, plus, scaled
 
 FloatArray = NDArray[np.float64]
 

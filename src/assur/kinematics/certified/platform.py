@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from assur.joint_graph.configuration import Placed
 from assur.kinematics.certified.given import turn
@@ -14,9 +12,7 @@ from assur.model.pose import ANGLES, LENGTHS, QUATERNION, Pose, has_quaternion, 
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.krawczyk import parts
 from assur.numerics.number_types import Intervals
-from assur.numerics.sparse_vectors import minus, plus, times
-
-FloatArray = NDArray[np.float64]
+from assur.numerics.vectors import minus, plus, product, times, transposed
 
 
 def pose_parts(names: Pose, platform: Placed) -> list[Any]:
@@ -99,10 +95,6 @@ def _wanted_rotation(pose: dict[str, Interval]) -> Any:
 
 def _turned_to(rotation: Any, target: Any) -> tuple[list[Any], list[Any]]:
     """Skew part and trace of the turn from a wanted rotation to a rotation."""
-    gap = [[_dot([row[i] for row in target], [row[j] for row in rotation]) for j in range(3)] for i in range(3)]
+    gap = product(transposed(target), rotation)
     skew = [minus(gap[2][1], gap[1][2]), minus(gap[0][2], gap[2][0]), minus(gap[1][0], gap[0][1])]
     return skew, [plus(plus(gap[0][0], gap[1][1]), gap[2][2])]
-
-
-def _dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
-    return plus(plus(times(a[0], b[0]), times(a[1], b[1])), times(a[2], b[2]))

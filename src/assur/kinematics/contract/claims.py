@@ -27,7 +27,7 @@ from assur.model.pose import ANGLES, LENGTHS, QUATERNION, is_angle, rate_names
 from assur.model.written import NumberReading
 from assur.numerics import vectors
 from assur.numerics.drawn_angles import DrawnAngle, InexactError
-from assur.numerics.sparse_vectors import Matrix, Vector, minus, plus, times
+from assur.numerics.vectors import Matrix, Vector, minus, plus, times
 
 
 class DrawnNumbers(Protocol):

@@ -25,7 +25,7 @@ from assur.model.written import (
     is_zero,
     share_of_turn,
 )
-from assur.numerics.sparse_vectors import Vector
+from assur.numerics.vectors import Vector
 
 FloatArray = NDArray[np.float64]
 SMALL = 1e-9

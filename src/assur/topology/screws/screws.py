@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
-from assur.numerics.rotations import skew, to_vector
+from assur.numerics.rotations import cross, skew, to_vector, vector_rates_matrix
 from assur.topology.screws.linkage import Linkage, LinkageJoint
 
 FloatArray = NDArray[np.float64]
@@ -64,7 +64,7 @@ class ScrewTree:
         rotation, origin = behind[..., :3, :3], behind[..., :3, 3]
         turned = rotation @ self.screws.reshape(-1, 2, 3).swapaxes(-1, -2)  # (N, n, 3, 2)
         omega = turned[..., 0]
-        twists = np.concatenate([omega, turned[..., 1] + _cross(origin, omega)], axis=-1).swapaxes(-1, -2)
+        twists = np.concatenate([omega, turned[..., 1] + cross(origin, omega)], axis=-1).swapaxes(-1, -2)
         return PlacedLinks(frames, twists)
 
     def misfit(self, placed: PlacedLinks, first: IndexArray, second: IndexArray) -> tuple[FloatArray, FloatArray]:
@@ -75,7 +75,7 @@ class ScrewTree:
         residual = np.concatenate([vector, near[..., :3, 3] - far[..., :3, 3]], axis=-1)
         twist = placed.twists[:, None]
         one_twist, two_twist = twist * self.paths[first][:, None], twist * self.paths[second][:, None]
-        spin = _inverse_left(vector) @ (one_twist[..., :3, :] - between @ two_twist[..., :3, :])
+        spin = vector_rates_matrix(vector) @ (one_twist[..., :3, :] - between @ two_twist[..., :3, :])
         gap = _velocity(one_twist, near[..., :3, 3]) - _velocity(two_twist, far[..., :3, 3])
         return residual, np.concatenate([spin, gap], axis=-2)
 
@@ -248,26 +248,7 @@ class _Growing:
         return screws
 
 
-def _cross(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Cross product over the last axis; np.cross takes several times as long."""
-    x, y, z = first[..., 0], first[..., 1], first[..., 2]
-    u, v, w = second[..., 0], second[..., 1], second[..., 2]
-    return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-1)
-
-
 def _velocity(twists: FloatArray, point: FloatArray) -> FloatArray:
     """Velocity (..., 3, n) of a point (..., 3) by twists (..., 6, n)."""
     moved: FloatArray = twists[..., 3:, :] - skew(point) @ twists[..., :3, :]
     return moved
-
-
-def _inverse_left(vector: FloatArray) -> FloatArray:
-    """Matrix (..., 3, 3) from angular velocity to the rate of the rotation vector (..., 3)."""
-    angle = np.linalg.norm(vector, axis=-1)
-    safe = np.where(angle > 1e-3, angle, 1.0)
-    # (1 - (a/2) cot(a/2)) / a^2 = 1/12 + a^2/720 + ...
-    exact = (1.0 - 0.5 * safe / np.tan(0.5 * safe)) / safe**2
-    second = np.where(angle > 1e-3, exact, 1.0 / 12.0 + angle**2 / 720.0)[..., None, None]
-    cross = skew(vector)
-    inverse: FloatArray = np.eye(3) - 0.5 * cross + second * (cross @ cross)
-    return inverse
