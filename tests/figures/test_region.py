@@ -11,7 +11,7 @@ from assur.figures.coordinates import axis_title, symbol
 from assur.kinematics.modes import all_modes
 from assur.kinematics.status import scale
 from assur.model.pose import is_angle
-from assur.workspace.fields import at_points, factor_fields
+from assur.workspace.fields import at_points, closed_form_fields
 from assur.workspace.region import workspace
 from assur.workspace.slices import coordinates
 from catalogue import each
@@ -36,7 +36,7 @@ def test_the_drawn_surface_encloses_the_volume(data):
 
 
 def test_the_loci_are_zeros_of_their_factors(context, data):
-    fields = factor_fields(context.record, context.workspace.mode)
+    fields = closed_form_fields(context.record, context.workspace.mode)[1]
     for item in data("workspace")["loci"]:
         if len(item["vertices"]):
             values = at_points(fields[item["factor"]], len(context.record.platform.pose), item["vertices"])

@@ -12,7 +12,7 @@ from assur.kinematics.limits import joint_limits, limits
 from assur.kinematics.position import inverse
 from assur.numerics import rotations
 from assur.workspace.bounds import bounds, not_reached
-from assur.workspace.fields import margin_fields
+from assur.workspace.fields import closed_form_fields
 from assur.workspace.slices import slice_at
 
 PLANAR, DELTA = assur.load("planar_3rrr"), assur.load("delta_4s")
@@ -36,8 +36,8 @@ def test_the_limit_of_a_passive_angle_is_kept_exactly_where_the_joint_value_is_i
     poses, joints = solutions(PLANAR, 4000)
     low, high = np.quantile(joints[:, index], shares)
     record = limited(PLANAR, "leg2.C", limits=((low, high),))
-    (name,) = set(margin_fields(record, "+++")) - set(margin_fields(PLANAR, "+++"))
-    field = margin_fields(record, "+++")[name]
+    (name,) = set(closed_form_fields(record, "+++")[0]) - set(closed_form_fields(PLANAR, "+++")[0])
+    field = closed_form_fields(record, "+++")[0][name]
     inside = (joints[:, index] >= low) & (joints[:, index] <= high)
     clear = np.minimum(np.abs(joints[:, index] - low), np.abs(joints[:, index] - high)) > 1e-9
     assert 50 < np.sum(inside) < len(inside) - 50
@@ -48,7 +48,7 @@ def test_the_limit_of_a_length_gives_two_margins():
     record = assur.load("zeng2019")
     record = limited(record, "P1", limits=((-100.0, 50.0),))
     poses, joints = solutions(record)
-    fields = margin_fields(record, "++-++")
+    fields = closed_form_fields(record, "++-++")[0]
     index = record.joint_coordinates("P1")[0].index
     np.testing.assert_allclose(fields["P1 >= -100"](tuple(poses.T)), joints[:, index] + 100, atol=1e-9)
     np.testing.assert_allclose(fields["P1 <= 50"](tuple(poses.T)), 50 - joints[:, index], atol=1e-9)
@@ -59,7 +59,7 @@ def test_a_cone_is_kept_exactly_where_the_tilt_is_within_it():
     record = limited(DELTA, "leg1.B1", cone=0.6, cone_axis=axis)
     poses, joints = solutions(record)
     (limit,) = (item for item in limits(record, joints[0]) if "cone" in item.name)
-    field = margin_fields(record, "+++")["tilt of leg1.B1 <= 34.3775 deg"]
+    field = closed_form_fields(record, "+++")[0]["tilt of leg1.B1 <= 34.3775 deg"]
     inside = limit.margin(joints) >= 0
     assert 10 < np.sum(inside) < len(inside) - 10
     np.testing.assert_array_equal(field(tuple(poses.T)) >= 0, inside)

@@ -56,14 +56,12 @@ class Zeros:
         isolated: (K, n) narrow boxes that hold exactly one zero each, no two the same.
         labels: (K,) the label of each.
         undecided: (U, n) boxes in which nothing is proved, neighbours joined; every other zero would be in one of them.
-        undecided_labels: (U,) theirs; -1 where boxes of several labels were joined.
         examined: how many boxes were looked at.
     """
 
     isolated: Interval
     labels: IntArray
     undecided: Interval
-    undecided_labels: IntArray
     examined: int
 
 
@@ -130,8 +128,8 @@ def _zeros(
         boxes, labels = _halved(boxes[~done], labels[~done], size)
     isolated, of_isolated, doubtful = _distinct(conditions, proved, boxes.shape[-1])
     left.append(doubtful)
-    rest, of_rest = _clusters(*_joined(left, boxes.shape[-1]), 4 * smallest * size)
-    return Zeros(isolated, of_isolated, rest, of_rest, examined)
+    rest = _clusters(_joined(left, boxes.shape[-1])[0], 4 * smallest * size)
+    return Zeros(isolated, of_isolated, rest, examined)
 
 
 def excluded(conditions: Conditions, boxes: Interval, labels: IntArray) -> NDArray[np.bool_]:
@@ -229,19 +227,15 @@ def _within(inner: Interval, outer: Interval) -> bool:
     return bool(np.all(inner.within(outer)))
 
 
-def _clusters(boxes: Interval, labels: IntArray, near: FloatArray) -> tuple[Interval, IntArray]:
+def _clusters(boxes: Interval, near: FloatArray) -> Interval:
     """Hulls of boxes that lie together."""
     if len(boxes.low) > MOST_CLUSTERED:
-        hull = Interval.of(np.min(boxes.low, axis=0)[None], np.max(boxes.high, axis=0)[None])
-        return hull, np.array([labels[0] if np.all(labels == labels[0]) else -1], dtype=np.intp)
-    groups: list[tuple[FloatArray, FloatArray, int]] = []
-    for low, high, label in zip(boxes.low, boxes.high, labels.tolist(), strict=True):
+        return Interval.of(np.min(boxes.low, axis=0)[None], np.max(boxes.high, axis=0)[None])
+    groups: list[tuple[FloatArray, FloatArray]] = []
+    for low, high in zip(boxes.low, boxes.high, strict=True):
         touching = [g for g in groups if np.all(g[0] <= high + near) and np.all(low <= g[1] + near)]
         groups = [g for g in groups if not any(g is other for other in touching)]
         low = np.min([low, *(g[0] for g in touching)], axis=0)
         high = np.max([high, *(g[1] for g in touching)], axis=0)
-        groups.append((low, high, label if all(g[2] == label for g in touching) else -1))
-    if not groups:
-        return boxes, labels
-    hulls = Interval.of(np.array([g[0] for g in groups]), np.array([g[1] for g in groups]))
-    return hulls, np.array([g[2] for g in groups], dtype=np.intp)
+        groups.append((low, high))
+    return Interval.of(np.array([g[0] for g in groups]), np.array([g[1] for g in groups])) if groups else boxes

@@ -10,13 +10,11 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.powers import whole_power
 
-FloatArray = NDArray[np.float64]
-Real: TypeAlias = "FloatArray | float | Any"  # or an interval
+Real: TypeAlias = "NDArray[np.float64] | float | Any"  # or an interval
 
 
 @dataclass(frozen=True, eq=False)

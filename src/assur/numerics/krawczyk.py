@@ -33,6 +33,9 @@ Equations = Callable[[Any, tuple[Any, ...]], Sequence[Any]]
 SMALL = 6
 """Unknowns up to which an image may be worked out by a program, whose length grows with their cube."""
 
+NARROWINGS = 4
+"""Images by which a box is made as narrow as rounding lets it: each takes its width to the square, nearly."""
+
 INFLATION = 0.1
 """Part of its width by which a box is widened before it is tested: a zero on its border is then inside."""
 
@@ -124,9 +127,9 @@ def inflated(box: Interval, floor: FloatArray | float = 0.0) -> Interval:
     return Interval(box.low - more, box.high + more, box.defined)
 
 
-def tightened(equations: Equations, box: Interval, times: int = 4) -> Interval:
+def tightened(equations: Equations, box: Interval) -> Interval:
     """Boxes (N, n) with one zero each, made as narrow as rounding lets them by taking the image again."""
-    for _ in range(times):
+    for _ in range(NARROWINGS):
         narrowed, apart = common(image(equations, box), box)
         usable = narrowed.defined & ~apart
         box = Interval(np.where(usable, narrowed.low, box.low), np.where(usable, narrowed.high, box.high), box.defined)

@@ -30,10 +30,9 @@ one, makes the slope sixty times as steep. So stopped, the residual is within 1e
 
 @dataclass(frozen=True)
 class LeastSquaresResult:
-    """Result per problem: `x` (N, n), `cost` (N,) = largest |residual|, `converged` (N,), steps taken."""
+    """Result per problem: `x` (N, n), `converged` (N,), steps taken."""
 
     x: FloatArray
-    cost: FloatArray
     converged: NDArray[np.bool_]
     steps: int
 
@@ -91,8 +90,7 @@ def minimise(
         raised[accepted], raised[refused] = RAISED, raised[refused] * 2.0
         if np.all(damped[active] >= 1e8):
             break
-    cost = np.max(np.abs(residual), axis=1, initial=0.0)
-    return LeastSquaresResult(x, cost, cost <= tolerance, steps)
+    return LeastSquaresResult(x, np.max(np.abs(residual), axis=1, initial=0.0) <= tolerance, steps)
 
 
 def _in_valley(residual: FloatArray, jacobian: FloatArray) -> BoolArray:

@@ -24,6 +24,7 @@ AIM = 0.1
 FIRST_STEP = 0.1
 SMALLEST_STEP = 1e-9
 MOST_STEPS = 1000
+POLISHINGS = 8
 
 
 def along(
@@ -67,9 +68,8 @@ def along(
         x[moved] = after[good]
         last = length[good] == 1.0 - done[moved]
         done[moved] = np.where(last, 1.0, done[moved] + length[good])
-        growth = (
-            0.8 * (0.1 * close / np.maximum(error, 1e-300)) ** 0.2
-        )  # the error grows with the fifth power of a step
+        # the error grows with the fifth power of a step
+        growth = 0.8 * (AIM * close / np.maximum(error, 1e-300)) ** 0.2
         step[active] = length * np.where(good, np.clip(growth, 0.3, 3.0), 0.35)
         active = active[(done[active] < 1.0) & (step[active] > SMALLEST_STEP)]
     return x, done >= 1.0, steps
@@ -122,12 +122,12 @@ def _newton_step(
 
 
 def polished(
-    system: ExpandedSystem, x: ComplexArray, t: NDArray[np.inexact], problem: IndexArray, steps: int = 8
+    system: ExpandedSystem, x: ComplexArray, t: NDArray[np.inexact], problem: IndexArray
 ) -> tuple[ComplexArray, BoolArray]:
     """Points (N, n) of length 1 after Newton's steps at t (N,), and whether the last one changed next to nothing."""
     x = x / np.linalg.norm(x, axis=1, keepdims=True)
     rows, size = np.arange(len(x)), np.full(len(x), np.inf)
-    for _ in range(steps):
+    for _ in range(POLISHINGS):
         x[rows], size[rows] = _newton_step(system, x[rows], t[rows], problem[rows])
         rows = rows[size[rows] > CONVERGED]
         if not len(rows):

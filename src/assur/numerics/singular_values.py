@@ -6,8 +6,7 @@ discriminant, a sum of squares that does not cancel where two eigenvalues meet (
 determinant of I, S and S^2). cos(t/3), as a function of cos(t/2), is analytic on [0, 1]: a polynomial replaces acos.
 
 The functions read over every number type that has + - * / abs and a root. Over floats the largest singular value has
-a relative error of at most `LARGEST_ERROR`, the smallest one of at most `LARGEST_ERROR` s1^2 / (s2 s3); a test compares
-both with LAPACK.
+a relative error of at most 2e-14; a test compares it with LAPACK's.
 """
 
 from __future__ import annotations
@@ -24,8 +23,6 @@ from assur.numerics.small_matrices import adjugate, by_cofactors, product
 
 Rows = Sequence[Sequence[Any]]
 
-LARGEST_ERROR = 2e-14
-"""Bound of the relative error of a largest singular value, checked over random and nearly degenerate matrices."""
 DEGREE = 21
 """Of the polynomial: its error is below the last digit."""
 TINY = 1e-290
@@ -56,27 +53,6 @@ def largest_singular_value(ns: Any, rows: Rows) -> Any:
         (a, b), (c, d) = rows
         return (_hypotenuse(ns, a + d, c - b) + _hypotenuse(ns, a - d, b + c)) * 0.5
     return ns.sqrt(largest_eigenvalue(ns, _gram(rows)))
-
-
-def singular_values(ns: Any, rows: Rows) -> tuple[Any, ...]:
-    """All singular values of a k x k matrix, k = 1, 2 or 3, from the largest one down.
-
-    The smallest one comes from the determinant, s3 = |det A| / (s1 s2), and s1 s2 is the largest one of the cofactors.
-
-    Example:
-        >>> from assur.numerics.number_types import Floats
-        >>> [round(float(value) ** 2, 12) for value in singular_values(Floats(), [[3.0, 4.0], [0, 5.0]])]
-        [45.0, 5.0]
-    """
-    _check(rows)
-    first = largest_singular_value(ns, rows)
-    if len(rows) == 1:
-        return (first,)
-    size = abs(by_cofactors(rows) + 0.0)
-    if len(rows) == 2:
-        return first, size / (first + TINY)
-    two = largest_singular_value(ns, adjugate(rows))
-    return first, two / (first + TINY), size / (two + TINY)
 
 
 def condition_index(ns: Any, first: Rows, second: Rows) -> tuple[Any, Any]:

@@ -14,7 +14,7 @@ All are of J_L, the Jacobian J = Jp^-1 Jq with lengths divided by the characteri
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -279,25 +279,6 @@ def indices_at(record: MechanismRecord, joints: ArrayLike, characteristic_length
     flat = values.reshape(-1, values.shape[-1])
     parts = [_at_joints(record, flat[start : start + BLOCK]) for start in range(0, max(1, len(flat)), BLOCK)]
     return _gathered(record, parts, batch, characteristic_length)
-
-
-def maps(
-    record: MechanismRecord,
-    poses: ArrayLike,
-    names: Iterable[str] = tuple(INDICES),
-    mode: str | None = None,
-    characteristic_length: Length = None,
-) -> dict[str, FloatArray]:
-    """Fields (...) of some indices over poses (..., m), as a grid through a workspace: see `indices`.
-
-    >>> from assur.model.registry import load_record
-    >>> grid = np.stack(np.meshgrid([-50.0, 0.0, 50.0], [180.0, 220.0]), axis=-1)  # (2, 3, 2)
-    >>> {name: field.shape for name, field in maps(load_record("fivebar"), grid, ["condition", "transmission"]).items()}
-    {'condition': (2, 3), 'transmission': (2, 3)}
-    """
-    wanted = {name: index_named(name) for name in names}
-    found = indices(record, poses, mode, characteristic_length)
-    return {name: index.of(found) for name, index in wanted.items()}
 
 
 Part = tuple[NDArray[np.int8], FloatArray, FloatArray, FloatArray]

@@ -13,7 +13,6 @@ from functools import partial
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.turns import periodic
@@ -21,7 +20,6 @@ from assur.model.mechanism import Coordinate, Input, Joint, MechanismRecord
 from assur.numerics.intervals.functions import cosine_sine, from_degrees
 from assur.numerics.intervals.interval import Interval
 
-FloatArray = NDArray[np.float64]
 Stroke = tuple[float, float]
 Kind = Literal["turn", "value"]
 """An angle that is the same after a whole turn, or a number."""

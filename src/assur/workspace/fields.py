@@ -45,38 +45,24 @@ class Column:
         return self.of(self.read(columns))
 
 
-def margin_fields(
-    record: MechanismRecord,
-    mode: str,
-    strokes: Mapping[str, Stroke | None] | None = None,
-    slice_: Slice | None = None,
-) -> dict[str, Field]:
-    """Every margin of a working mode over the free coordinates of a slice, those of strokes and limits included.
-
-    Margins at whose zero the formulas merely degenerate forbid no open set of poses and are left out.
-
-    >>> from assur.model.registry import load_record
-    >>> fields = margin_fields(load_record("zeng2019"), "++-++", {"yA1": (-300, 300)})
-    >>> list(fields)
-    ['n_alpha', 'n_beta', 'M12', 'M3', 'yA1 >= -300', 'yA1 <= 300']
-    >>> float(fields["M3"]((np.array(100.0), np.array(0.0), np.array(260.0))))
-    52900.0
-    """
-    return closed_form_fields(record, mode, strokes, slice_)[0]
-
-
-def factor_fields(record: MechanismRecord, mode: str, slice_: Slice | None = None) -> dict[str, Field]:
-    """Every factor of det Jp ("parallel") of a working mode as a function of the free coordinates of a slice."""
-    return closed_form_fields(record, mode, None, slice_)[1]
-
-
 def closed_form_fields(
     record: MechanismRecord,
     mode: str,
     strokes: Mapping[str, Stroke | None] | None = None,
     slice_: Slice | None = None,
 ) -> tuple[dict[str, Field], dict[str, Field]]:
-    """Margins and parallel factors of a working mode, as `margin_fields` and `factor_fields`, of the same readings."""
+    """Every margin and every factor of det Jp ("parallel") of a working mode over the free coordinates of a slice.
+
+    The margins of strokes and limits are among them. Those at whose zero the formulas merely degenerate forbid no open
+    set of poses and are left out. All are columns of the same readings.
+
+    >>> from assur.model.registry import load_record
+    >>> margins, factors = closed_form_fields(load_record("zeng2019"), "++-++", {"yA1": (-300, 300)})
+    >>> list(margins)
+    ['n_alpha', 'n_beta', 'M12', 'M3', 'yA1 >= -300', 'yA1 <= 300']
+    >>> float(margins["M3"]((np.array(100.0), np.array(0.0), np.array(260.0))))
+    52900.0
+    """
     form, poses = closed_form_of(record), slice_ or slice_at(record)
 
     def read(columns: Columns) -> ModeReading:

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.workspace.reach import Reach
 from assur.workspace.sections import flat_polygons, turned
-from assur.workspace.solids import cuboid
 
 FloatArray = NDArray[np.float64]
 
@@ -45,29 +44,3 @@ def projection(region: Reach, plane: tuple[str, ...]) -> Projection:
         raise UsageError(f"projection: two different coordinates wanted, not {', '.join(plane)}")
     area, polygons = shadow(region.solid, 3 - sum(axes))
     return Projection(tuple(box.names[k] for k in axes), area, polygons)
-
-
-def everywhere(region: Reach, plane: tuple[str, ...]) -> Projection:
-    """Where on the plane of two of its coordinates a region holds every value of the third one that its box has.
-
-    With an angle as the third coordinate this is the dexterous workspace, and `projection` the total one.
-
-    >>> from assur.model.registry import load_record
-    >>> from assur.workspace.region import workspace
-    >>> box = {"x": (-60, 60), "y": (-60, 60), "phi": (-0.2, 0.2)}
-    >>> found = workspace(load_record("planar_3rrr"), box=box, resolution=12)
-    >>> everywhere(found.region, ("x", "y")).area < found.volume / 0.4 < found.projection("x", "y").area
-    True
-    """
-    box = region.grid.box
-    axes = sorted({box.axis(name) for name in plane})
-    if len(axes) != 2 or region.grid.dimension != 3:
-        raise UsageError(
-            f"two of three coordinates wanted, not {', '.join(plane)} of {', '.join(box.names)}",
-            hint="leave three coordinates free",
-        )
-    axis = 3 - sum(axes)
-    missing = CrossSection(turned(cuboid(region.grid) - region.solid, axis).project().to_polygons(), FillRule.Positive)
-    whole = CrossSection(turned(cuboid(region.grid), axis).project().to_polygons(), FillRule.Positive)
-    flat = whole - missing
-    return Projection(tuple(box.names[k] for k in axes), float(flat.area()), flat_polygons(flat, axis))

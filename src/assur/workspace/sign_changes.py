@@ -16,7 +16,6 @@ from assur.singularity.loci import OUTPUT
 from assur.workspace.followed import FollowedField
 from assur.workspace.region import Workspace
 
-FloatArray = NDArray[np.float64]
 MOST = 16
 """Ways along one axis across a surface, and ways beyond the border, at most."""
 

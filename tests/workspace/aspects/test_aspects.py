@@ -12,7 +12,7 @@ from assur.model.registry import load_record
 from assur.workspace.aspects import neighbours as neighbours_module
 from assur.workspace.aspects import search as search_module
 from assur.workspace.aspects.adjacency import contacts
-from assur.workspace.aspects.aspects import aspects, aspects_of_all_modes
+from assur.workspace.aspects.aspects import aspects
 from assur.workspace.aspects.components import components
 from assur.workspace.aspects.neighbours import neighbours
 from assur.workspace.certified.boxes import Boxes
@@ -88,7 +88,7 @@ def test_aspects_are_the_parts_that_a_flood_fill_finds(name, mode, box, strokes,
 
 def test_the_parallel_singularity_parts_a_working_mode_of_the_five_bar():
     """sin_rods = 0, the rods in line. With elbows to one side it cuts two crescents off, else it halves the reach."""
-    found = {item.mode: item for item in aspects_of_all_modes(FIVEBAR, box=WIDE)}
+    found = {mode: aspects(FIVEBAR, mode, box=WIDE) for mode in ("++", "+-", "-+", "--")}
     assert {item.naming for item in found.values()} == {("sin_rods",)}
     assert all(item.told_apart for item in found.values())
     labels = {mode: [part.label for part in item.aspects] for mode, item in found.items()}

@@ -20,7 +20,7 @@ from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.criteria import criteria
 from assur.workspace.certified.planes import BoxQuestion
 from assur.workspace.domain import box_of
-from assur.workspace.fields import factor_fields, margin_fields
+from assur.workspace.fields import closed_form_fields
 
 RNG = np.random.default_rng(2)
 NAMES = [name for name in assur.names() if assur.load(name).closed_form is not None]
@@ -39,7 +39,10 @@ def test_margins_and_factors_of_poses_lie_within_those_of_their_boxes(name):
     over = asked.over([Interval.of(a, b) for a, b in zip(start, start + size, strict=True)])
     sloped = asked.sloped([Interval.of(a, b) for a, b in zip(start, start + size, strict=True)], list(start + size / 2))
     mode = record.modes.default_working
-    fields = {**margin_fields(record, mode, None, asked.slice), **factor_fields(record, mode, asked.slice)}
+    fields = {
+        **closed_form_fields(record, mode, None, asked.slice)[0],
+        **closed_form_fields(record, mode, None, asked.slice)[1],
+    }
     reached = np.ones(300, dtype=bool)
     for margin in asked.margins:
         reached &= fields[margin](tuple(points)) >= 0

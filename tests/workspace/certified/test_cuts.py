@@ -12,9 +12,13 @@ import pytest
 from assur.numerics.intervals.interval import Interval
 from assur.numerics.intervals.sloped import SlopedNumbers, coordinate
 from assur.workspace.certified import cuts
-from assur.workspace.certified.cuts import share, shares
+from assur.workspace.certified.cuts import share_bound, shares
 
 RNG = np.random.default_rng(5)
+
+
+def bounds(height, slopes):
+    return [share_bound(height, slopes, upper=upper) for upper in (False, True)]
 
 
 def exact(height, slopes):
@@ -30,7 +34,7 @@ def exact(height, slopes):
 def test_the_exact_share_lies_within_the_bounds(size):
     slopes = 10.0 ** RNG.uniform(-6, 0, size=(size, 300))
     height = RNG.uniform(-1.3, 1.3, size=300) * np.sum(slopes, axis=0)
-    low, high = share(height, slopes)
+    low, high = bounds(height, slopes)
     for k in range(300):
         wanted = exact(Fraction(float(height[k])), [Fraction(float(row[k])) for row in slopes])
         wanted = min(max(wanted, Fraction(0)), Fraction(1))
@@ -40,13 +44,13 @@ def test_the_exact_share_lies_within_the_bounds(size):
 
 
 def test_shares_known_by_hand():
-    low, high = share(np.array([0.0, -1.0, 2.1, -2.1]), np.ones((2, 4)))
+    low, high = bounds(np.array([0.0, -1.0, 2.1, -2.1]), np.ones((2, 4)))
     np.testing.assert_allclose(low, [0.5, 0.125, 1.0, 0.0], atol=1e-12)
     np.testing.assert_allclose(high, [0.5, 0.125, 1.0, 0.0], atol=1e-12)
 
 
 def test_slopes_that_vanish_or_overflow_say_nothing_wrong():
-    low, high = share(np.array([0.0, 1e-3, 1e200]), np.array([[0.0, 0.0, 1e200], [0.0, 1.0, 1e200]]))
+    low, high = bounds(np.array([0.0, 1e-3, 1e200]), np.array([[0.0, 0.0, 1e200], [0.0, 1.0, 1e200]]))
     assert np.all((low >= 0) & (low <= high) & (high <= 1))
     assert low[1] < 0.5005 < high[1] + 1e-9
 

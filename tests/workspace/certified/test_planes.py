@@ -12,7 +12,7 @@ from assur.workspace.certified.boxes import Boxes
 from assur.workspace.certified.criteria import Criteria, criteria
 from assur.workspace.certified.planes import BoxQuestion, joined, judged
 from assur.workspace.domain import Box, box_of
-from assur.workspace.fields import margin_fields
+from assur.workspace.fields import closed_form_fields
 from assur.workspace.slices import Slice
 
 RNG = np.random.default_rng(8)
@@ -36,7 +36,7 @@ def lot(frame, count=200, share=0.06):
 def reached_share(record, frame, boxes):
     """Share (N,) of samples of each box at which every margin allows the mode."""
     points = boxes.low[..., None] + RNG.uniform(size=(*boxes.low.shape, SAMPLES)) * (boxes.high - boxes.low)[..., None]
-    fields = margin_fields(record, record.modes.default_working, None, frame.criteria.slice)
+    fields = closed_form_fields(record, record.modes.default_working, None, frame.criteria.slice)[0]
     reached = np.ones(points.shape[1:], dtype=bool)
     for name in frame.criteria.margins:
         reached &= np.broadcast_to(fields[name](tuple(points)), reached.shape) >= 0

@@ -30,7 +30,6 @@ from assur.numerics.number_types import Intervals
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 BoolArray = NDArray[np.bool_]
 NEARLY_REAL = 1e-6
 """Imaginary part, the largest unknown being 1, below which a solution in floats is tried as a real one."""

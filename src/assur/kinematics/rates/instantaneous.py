@@ -30,7 +30,6 @@ from assur.kinematics.rates.motions import (
     input_units,
     motions,
     pose_units,
-    twist_units,
 )
 from assur.model.mechanism import MechanismRecord
 
@@ -53,8 +52,6 @@ class Instant:
             most 1.
         ranks, general: here, and in general (see `general`).
         gap: of all ranks here, the least ratio of a singular value kept to the largest dropped.
-        constraint_jacobian: (..., c, 6), rows that annul the platform's twist (angular velocity, velocity of the
-            platform's point): orthonormal constraint wrenches. Zero where the platform has gained a freedom.
         closed: whether the joint values close the loops; elsewhere all matrices and measures are NaN.
         no_rates: (...) where phi, theta and psi have no rates of their own, theta being a right angle: the mechanism
             need not be singular there, and measures and ranks, which count angular velocities, do not say so.
@@ -66,7 +63,6 @@ class Instant:
     ranks: Ranks
     general: Ranks
     gap: FloatArray
-    constraint_jacobian: FloatArray
     closed: BoolArray
     motion: InstantaneousMotion
     no_rates: BoolArray
@@ -139,7 +135,6 @@ def instantaneous(record: MechanismRecord, joints: Named) -> Instant:
     whole = np.asarray(motion.ranks.related == usual.related)
     share = motion.values[..., int(usual.closure) - 1] / motion.values[..., 0] / general_share(record)
     measures = {"output": _smallest(jp) * whole, "input": _smallest(jq) * whole, "closure": np.minimum(share, 1.0)}
-    wrenches = _complement(motion.twists_left, motion.ranks.twists, int(usual.twists))  # (..., c, 6)
     unknown = ~closed[..., None, None]
     turning = turning_matrix(record, values)
     return Instant(
@@ -149,7 +144,6 @@ def instantaneous(record: MechanismRecord, joints: Named) -> Instant:
         ranks=motion.ranks,
         general=usual,
         gap=motion.gap,
-        constraint_jacobian=np.where(unknown, np.nan, wrenches / twist_units(record)),
         closed=np.asarray(closed),
         motion=motion,
         no_rates=np.asarray(closed & (np.abs(np.linalg.det(turning)) <= SINGULAR)),

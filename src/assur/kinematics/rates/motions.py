@@ -78,7 +78,6 @@ class InstantaneousMotion:
     ranks: Ranks
     gap: FloatArray
     related_left: FloatArray
-    twists_left: FloatArray
 
 
 def pose_units(record: MechanismRecord) -> FloatArray:
@@ -156,9 +155,9 @@ def motions(record: MechanismRecord, values: FloatArray, threshold: float | None
         "related": np.concatenate([pose, inputs], axis=-2),
         "moving": np.concatenate([twists, inputs], axis=-2),
     }
-    bases, ranks, gaps = {}, {}, [gap]
+    ranks, gaps = {}, [gap]
     for name, part in parts.items():
-        bases[name], sizes, _ = np.linalg.svd(part @ null)
+        sizes = np.linalg.svd(part @ null, compute_uv=False)
         ranks[name], gap = _rank(sizes, SINGULAR * np.linalg.norm(part, axis=(-1, -2)))
         gaps.append(gap)
     return InstantaneousMotion(
@@ -172,8 +171,7 @@ def motions(record: MechanismRecord, values: FloatArray, threshold: float | None
         twists=twists @ null,
         ranks=Ranks(closure=rank, freedoms=values.shape[-1] - rank, **ranks),
         gap=np.min(gaps, axis=0),
-        related_left=bases["related"],
-        twists_left=bases["twists"],
+        related_left=np.linalg.svd(parts["related"] @ null)[0],
     )
 
 

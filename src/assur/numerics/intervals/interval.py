@@ -218,21 +218,6 @@ def as_interval(number: Interval | ArrayLike) -> Interval:
     return number if isinstance(number, Interval) else Interval(*_parts(number))
 
 
-def minimum(a: Interval, b: Interval) -> Interval:
-    """The smaller of two numbers, elementwise."""
-    return Interval(np.minimum(a.low, b.low), np.minimum(a.high, b.high), a.defined & b.defined)
-
-
-def maximum(a: Interval, b: Interval) -> Interval:
-    """The larger of two numbers, elementwise."""
-    return Interval(np.maximum(a.low, b.low), np.maximum(a.high, b.high), a.defined & b.defined)
-
-
-def hull(a: Interval, b: Interval) -> Interval:
-    """The smallest interval that holds both."""
-    return Interval(np.minimum(a.low, b.low), np.maximum(a.high, b.high), a.defined & b.defined)
-
-
 def common(a: Interval, b: Interval) -> tuple[Interval, BoolArray]:
     """What two intervals have in common, and where (...) that is certainly nothing; there the first one is returned.
 

@@ -10,14 +10,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
 from assur.joint_graph.geometry import characteristic_length
-from assur.kinematics.modes import all_modes
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.numerics.intervals.interval import Interval, as_interval
@@ -248,17 +246,6 @@ def aspects(
         order=tuple(np.argsort(order).tolist()),
         stopped=found.stopped,
     )
-
-
-def aspects_of_all_modes(record: MechanismRecord, **options: Any) -> tuple[Aspects, ...]:
-    """The aspects of every working mode, with the options of `aspects`.
-
-    >>> from assur.model.registry import load_record
-    >>> found = aspects_of_all_modes(load_record("fivebar"), box={"x": (-300, 300), "y": (-300, 300)})
-    >>> [(item.mode, len(item)) for item in found]
-    [('++', 2), ('+-', 3), ('-+', 3), ('--', 2)]
-    """
-    return tuple(aspects(record, mode, **options) for mode in all_modes(record, "inverse"))
 
 
 def _extents(

@@ -61,32 +61,27 @@ def _mean(start: FloatArray, rises: FloatArray, *, upper: bool) -> FloatArray:
     lost = np.sum(np.abs(rises), axis=0) * 4 * UNIT + 1e-290
     middle = start + np.sum(rises, axis=0) / 2
     lost += np.abs(middle) * 8 * UNIT + np.abs(start) * 8 * UNIT
-    found = _bound(middle + lost if upper else middle - lost, rises / 2, upper=upper)
+    found = share_bound(middle + lost if upper else middle - lost, rises / 2, upper=upper)
     size = found.shape[0] * 2 * UNIT
     return np.asarray(np.clip(np.mean(found, axis=0) + (size if upper else -size), 0.0, 1.0))
 
 
-def share(height: FloatArray, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Bounds (...) of the share of the cube [-1, 1]^k in which height + slopes . t >= 0.
+def share_bound(height: FloatArray, slopes: FloatArray, *, upper: bool) -> FloatArray:
+    """A bound (...) of the share of the cube [-1, 1]^k in which height + slopes . t >= 0.
 
     Args:
         height: (...) value at the middle.
         slopes: (k, ...), by how much the value rises from the middle to each face; k from 1 to 3.
+        upper: which bound.
 
     The share is the sum over corners of +- max(0, value there)^k, over k! 2^k times the product of the slopes. With
     A the sum of the slopes, |height| < A and u the rounding unit, a value is wrong by at most 2 k u A, its power by
     (k^2 + k) u (2 A)^k and the sum by less than 256 u (2 A)^k. A slope that is small beside A is made larger, and the
     height moved by the difference to stay a bound.
 
-    >>> low, high = share(np.array([0.0, 1.0]), np.array([[1.0, 1.0], [0.5, 0.0]]))
-    >>> low.round(6), high.round(6)
-    (array([0.5, 1. ]), array([0.5, 1. ]))
+    >>> share_bound(np.array([0.0, 1.0]), np.array([[1.0, 1.0], [0.5, 0.0]]), upper=True).round(6)
+    array([0.5, 1. ])
     """
-    return _bound(height, slopes, upper=False), _bound(height, slopes, upper=True)
-
-
-def _bound(height: FloatArray, slopes: FloatArray, *, upper: bool) -> FloatArray:
-    """One of both bounds: the corners are gone through once."""
     rise = np.abs(slopes)
     size = len(rise)
     least = np.maximum(FLATTEST[size - 1] * np.sum(rise, axis=0), 1e-90)
