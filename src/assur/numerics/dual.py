@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.powers import whole_power
