@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from assur.joint_graph.geometry import characteristic_length
-from assur.kinematics.closure import loop_twists, mobility
+from assur.kinematics.closure import closure_jacobian, mobility
 from assur.kinematics.modes import all_modes
 from assur.kinematics.pose import pose_rates
 from assur.kinematics.rates.velocity import printed_velocity_map
@@ -59,10 +59,8 @@ def test_jacobian_agrees_with_the_null_space_of_the_joint_graph(mechanism, regul
 def _null_space(mechanism, joints, rank):
     """Rates (n, F) that keep the loops closed, lengths counted in units of the characteristic length."""
     length = characteristic_length(mechanism)
-    matrix = loop_twists(mechanism, joints)
     units = np.array([length if item.kind == "length" else 1.0 for item in mechanism.coordinates])
-    weights = np.tile([1.0, 1.0, 1.0, 1 / length, 1 / length, 1 / length], len(matrix) // 6)
-    _, _, rows = np.linalg.svd(matrix * weights[:, None] * units)
+    _, _, rows = np.linalg.svd(closure_jacobian(mechanism, joints) * units)
     return units[:, None] * rows[rank:].T
 
 

@@ -12,9 +12,9 @@ import assur
 from assur.joint_graph.frames import child_frame, frames
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
-from assur.kinematics.closure import assemble, closing_system, closure_error, loop_twists, mobility, residuals
+from assur.kinematics.closure import assemble, closing_system, closure_error, closure_jacobian, mobility, residuals
 from assur.kinematics.home import home_values
-from assur.kinematics.pose import pose_of
+from assur.kinematics.pose import platform_frame, pose_of
 from assur.model.registry import load_record
 from catalogue import each
 
@@ -121,22 +121,20 @@ def test_what_cannot_close_is_reported_as_it_stands():
 def test_the_derivative_of_the_residual_is_the_screws_at_an_assembly():
     mechanism = assur.load("zeng2019")
     values, step = mechanism.home_values, 1e-6
-    matrix = loop_twists(mechanism, values)
-    placed = frames(mechanism, values)
+    matrix, length = closure_jacobian(mechanism, values), characteristic_length(mechanism)
+    placed, (_, point) = frames(mechanism, values), platform_frame(mechanism, values)
     differences = np.empty_like(matrix)
     for index in range(len(values)):
         change = np.zeros_like(values)
         change[index] = step
         gap = (residuals(mechanism, values + change) - residuals(mechanism, values - change)) / (2 * step)
         differences[:, index] = gap.ravel()
-    length = characteristic_length(mechanism)
     for row, joint in enumerate(joint_graph(mechanism).cut):
         rotation, origin = placed[joint.child]
-        at = rotation @ joint.child_at + origin
+        arm = rotation @ joint.child_at + origin - point
         block = matrix[6 * row : 6 * row + 6]
-        np.testing.assert_allclose(
-            differences[6 * row : 6 * row + 3], block[3:] + np.cross(block[:3], at[:, None], axis=0), atol=1e-5
-        )
+        velocity = length * block[3:] + np.cross(block[:3], arm[:, None], axis=0)
+        np.testing.assert_allclose(differences[6 * row : 6 * row + 3], velocity, atol=1e-5)
         np.testing.assert_allclose(differences[6 * row + 3 : 6 * row + 6], length * block[:3], atol=1e-4)
 
 

@@ -12,7 +12,7 @@ from assur.errors import UsageError
 from assur.joint_graph.frames import frames
 from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.kinematics.border import in_range
-from assur.kinematics.closure import assemble, loop_twists
+from assur.kinematics.closure import assemble, closure_jacobian
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import all_modes
 from assur.kinematics.position import inverse
@@ -112,10 +112,7 @@ def null_space(matrix: FloatArray, relative: float = 1e-8) -> FloatArray:
 
 def scaled_closure(record: MechanismRecord, values: FloatArray) -> FloatArray:
     """Closure Jacobian (..., 6v, n) in numbers of one size: lengths in units of the characteristic length."""
-    matrix = loop_twists(record, values)
-    length = characteristic_length(record)
-    rows = np.tile([1.0, 1.0, 1.0, 1 / length, 1 / length, 1 / length], matrix.shape[-2] // 6)
-    return np.asarray(matrix * rows[:, None] * joint_scales(record))
+    return np.asarray(closure_jacobian(record, values) * joint_scales(record))
 
 
 def freedoms_with_inputs_locked(record: MechanismRecord, values: FloatArray, threshold: float = 1e-7) -> int:

@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.configuration import Configuration
 from assur.joint_graph.geometry import geometry
-from assur.joint_graph.state import ball_rates, state_names, state_of
+from assur.joint_graph.state import ball_rates, changes_of, state_names, state_of
 from assur.joint_graph.tree import joint_graph
 from assur.model.mechanism import MechanismRecord
+from assur.numerics.dual import Dual
 from assur.numerics.recording.straight_line import StraightLine
 from assur.numerics.recording.tape import Recorded, Recorder, Tape, without_unused
 from assur.numerics.vectors import Matrix
@@ -53,6 +54,27 @@ class GraphProgram:
         numbers = self._varying(record, np.ascontiguousarray(values.T), given)
         self.straight_line.fill(answer, self._rows, numbers, dimensions(record))
         answer[self._constant_rows] = self._constant_values[:, None]
+        return answer
+
+    def derivative(
+        self, record: MechanismRecord, values: FloatArray, rates: FloatArray, given: FloatArray | None = None
+    ) -> FloatArray:
+        """How fast all outputs (m, N) change at joint rates (N, n), given numbers held; the program over dual numbers.
+
+        The rates of a ball joint are its angular velocity in the parent's frame. Outputs that ask for the angular
+        velocities of rotation vectors have no derivative here.
+        """
+        columns = np.ascontiguousarray(values.T)
+        numbers = self._varying(record, columns, given)
+        changes = np.zeros_like(numbers)
+        moving = changes_of(record, columns, rates.T)
+        own = [row for row, place in enumerate(self.places) if place < len(moving)]
+        changes[own] = moving[[self.places[row] for row in own]]
+        outputs = self.tape.evaluate(list(map(Dual, numbers, changes)), dimensions(record))
+        answer = np.zeros((len(self.names), len(values)))
+        for row in self._rows:
+            number = outputs[self.names[row]]
+            answer[row] = number.derivative if isinstance(number, Dual) else 0.0
         return answer
 
     def _varying(self, record: MechanismRecord, columns: FloatArray, given: FloatArray | None) -> FloatArray:

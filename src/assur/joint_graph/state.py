@@ -74,6 +74,18 @@ def state_of(record: MechanismRecord, values: FloatArray) -> FloatArray:
     return state
 
 
+def changes_of(record: MechanismRecord, values: FloatArray, rates: FloatArray) -> FloatArray:
+    """How fast the state (k, b) of joint values (n, b) changes at rates (n, b).
+
+    Those of a ball joint are its angular velocity in the parent's frame.
+    """
+    state = state_of(record, values)
+    changes = np.empty_like(state)
+    for own in _alike(record):
+        changes[own.numbers] = own.step.changes(state[own.numbers], rates[own.coordinates])
+    return changes
+
+
 def joint_state(joint_type: JointType, values: FloatArray) -> FloatArray:
     """The numbers (k, b) of one joint at its values (f, b)."""
     return np.concatenate([step.state(values[first : first + len(step.kinds)]) for step, first in joint_type.places])

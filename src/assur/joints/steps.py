@@ -14,6 +14,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.numerics.rotations import quaternion_rates
 from assur.numerics.vectors import Matrix, Vector, minus, plus, scaled, times, transposed
 
 FloatArray = NDArray[np.float64]
@@ -36,6 +37,8 @@ class Step:
         kinds: of its coordinates.
         numbers: names of the numbers that say where it stands.
         state: these numbers (k, ...) of joint values (c, ...).
+        changes: how fast the numbers (k, ...) change at rates (c, ...); a ball's are its angular velocity in the frame
+            before the step.
         motion: turn and shift by them along a unit vector; a screw advances by a length per rad.
         twists: one for each coordinate; a ball's are given by a matrix, as its columns.
         direction: which of the joint's axes it is along.
@@ -45,6 +48,7 @@ class Step:
     kinds: tuple[CoordinateKind, ...]
     numbers: tuple[str, ...]
     state: Callable[[FloatArray], FloatArray]
+    changes: Callable[[FloatArray, FloatArray], FloatArray]
     motion: Callable[[Vector, Any, tuple[Any, ...]], Motion]
     twists: Callable[[Vector, Any, Matrix], tuple[Twist, ...]]
     direction: int = 0
@@ -104,6 +108,7 @@ TURN = Step(
     kinds=("angle",),
     numbers=("cos", "sin"),
     state=lambda values: np.concatenate([np.cos(values), np.sin(values)]),
+    changes=lambda numbers, rates: rates * np.stack([-numbers[1], numbers[0]]),
     motion=lambda axis, _advance, numbers: (about(axis, *numbers), STILL),
     twists=lambda axis, _advance, _rates: ((axis, STILL),),
 )
@@ -114,6 +119,7 @@ SLIDE = Step(
     kinds=("length",),
     numbers=("length",),
     state=lambda values: values,
+    changes=lambda _numbers, rates: rates,
     motion=lambda axis, _advance, numbers: (UNTURNED, scaled(axis, numbers[0])),
     twists=lambda axis, _advance, _rates: ((STILL, axis),),
 )
@@ -124,6 +130,7 @@ SCREW = Step(
     kinds=("angle",),
     numbers=("cos", "sin", "angle"),
     state=lambda values: np.concatenate([np.cos(values), np.sin(values), values]),
+    changes=lambda numbers, rates: rates * np.stack([-numbers[1], numbers[0], np.ones_like(numbers[2])]),
     motion=lambda axis, advance, numbers: (about(axis, *numbers[:2]), scaled(axis, times(advance, numbers[2]))),
     twists=lambda axis, advance, _rates: ((axis, scaled(axis, advance)),),
 )
@@ -134,6 +141,7 @@ BALL = Step(
     kinds=("angle", "angle", "angle"),
     numbers=("w", "x", "y", "z"),
     state=quaternions,
+    changes=lambda numbers, rates: quaternion_rates(numbers.T, rates.T).T,
     motion=lambda _axis, _advance, numbers: (of_quaternion(*numbers), STILL),
     twists=lambda _axis, _advance, rates: tuple((column, STILL) for column in transposed(rates)),
 )

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.joint_graph.configuration import Configuration
-from assur.joint_graph.frames import flat, screws
+from assur.joint_graph.frames import flat
 from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.joint_graph.programs import Outputs, program
 from assur.joint_graph.tree import joint_graph
@@ -106,47 +106,27 @@ def _largest(gaps: FloatArray) -> FloatArray:
     return np.asarray(np.max(np.linalg.norm(pairs, axis=-1), axis=(-1, -2), initial=0.0))
 
 
-def loop_twists(record: MechanismRecord, values: FloatArray) -> FloatArray:
-    """Closure Jacobian (..., 6 v, n): per loop the joint twists, signed along it; J qdot = 0 at an assembly."""
-    return _loop_twists(record, screws(record, values))
+def closure_jacobian(record: MechanismRecord, values: FloatArray) -> FloatArray:
+    """Derivative J (..., 6 v, n) of the loops: per loop its joints' twists, signed along it; J qdot = 0 at an assembly.
 
-
-def _loop_twists(record: MechanismRecord, twists: FloatArray) -> FloatArray:
-    graph = joint_graph(record)
-    matrix = np.zeros((*twists.shape[:-2], len(graph.cut), 6, twists.shape[-1]))
-    for index, (joint, loop) in enumerate(zip(graph.cut, graph.loops, strict=True)):
-        for name, sense in ((joint.name, 1), *loop.items()):
-            columns = graph.slices[name]
-            matrix[..., index, :, columns] = sense * twists[..., columns]
-    return matrix.reshape(*twists.shape[:-2], 6 * len(graph.cut), twists.shape[-1])
-
-
-def _about_cut_joints(record: MechanismRecord, values: FloatArray) -> FloatArray:
-    """Closure Jacobian (..., 6 v, n) with each loop's velocities taken at its cut joint.
-
-    The rank is the same; but far from the base's origin the moments of the rotations would drown it.
+    Angular velocities, then velocities at the platform's point in characteristic lengths. Far from the base's origin
+    the moments of the rotations about it would drown the rank.
     """
-    derivative = program(record, _derivative)
-    shape = 6 * len(joint_graph(record).cut), len(record.coordinates)
-    matrix = derivative.matrix("derivative", derivative(record, flat(record, values)), shape)
-    return matrix.reshape(*values.shape[:-1], *shape)
+    twists, loops = program(record, _loop_twists), len(joint_graph(record).cut)
+    matrix = twists.matrix("twist", twists(record, flat(record, values)), (6 * loops, len(record.coordinates)))
+    matrix.reshape(len(matrix), loops, 6, len(record.coordinates))[:, :, 3:] /= characteristic_length(record)
+    return matrix.reshape(*values.shape[:-1], *matrix.shape[1:])
 
 
-def _derivative(configuration: Configuration) -> Outputs:
-    """Twists around each loop at its cut joint, those entries that are not always zero: "derivative row,column"."""
+def _loop_twists(configuration: Configuration) -> Outputs:
+    """Twists around each loop at the platform's point, those entries that are not always zero: "twist row,column"."""
+    graph, (_, point) = configuration.graph, configuration.platform
     return {
-        f"derivative {6 * index + row},{column}": number for index, row, column, number in _loop_entries(configuration)
+        f"twist {6 * index + row},{column}": number
+        for index, (cut, loop) in enumerate(zip(graph.cut, graph.loops, strict=True))
+        for name, sense in ((cut.name, 1), *loop.items())
+        for row, column, number in configuration.entries(graph.joint(name), sense, point)
     }
-
-
-def _loop_entries(configuration: Configuration) -> Iterator[tuple[int, int, int, Any]]:
-    """Loop, row, coordinate and value of the twists around the loops."""
-    graph = configuration.graph
-    for index, (cut, loop) in enumerate(zip(graph.cut, graph.loops, strict=True)):
-        point = configuration.child_point(cut)
-        for name, sense in ((cut.name, 1), *loop.items()):
-            for row, column, number in configuration.entries(graph.joint(name), sense, point):
-                yield index, row, column, number
 
 
 def _gaps_and_rates(configuration: Configuration) -> Outputs:
@@ -334,14 +314,20 @@ def mobility(record: MechanismRecord, values: FloatArray, *, threshold: float = 
 
     Translations are counted in units of the characteristic length, so that the rank does not depend on the unit.
     """
-    length = characteristic_length(record)
-    matrix = _about_cut_joints(record, values)
-    rows = np.tile([1.0, 1.0, 1.0, 1 / length, 1 / length, 1 / length], matrix.shape[-2] // 6)
-    singular = np.linalg.svd(matrix * rows[:, None] * joint_scales(record), compute_uv=False)
-    kept = singular > threshold * singular[..., :1]
-    rank = np.sum(kept, axis=-1)
-    smallest = np.min(np.where(kept, singular, np.inf), axis=-1)
-    dropped = np.max(np.where(kept, 0.0, singular), axis=-1)
-    with np.errstate(divide="ignore"):
-        gap = np.where(dropped > 0.0, smallest / dropped, np.inf)
+    matrix = closure_jacobian(record, values) * joint_scales(record)
+    singular = np.asarray(np.linalg.svd(matrix, compute_uv=False), dtype=float)
+    rank, gap = rank_of(singular, threshold * singular[..., 0])
     return AssemblyMobility(rank, values.shape[-1] - rank, matrix.shape[-2] - rank, gap)
+
+
+def rank_of(singular: FloatArray, zero: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
+    """Rank (...) and gap (...) of matrices with singular values (..., k), those up to `zero` (...) counting as zero.
+
+    The gap is the smallest one kept over the largest dropped: inf where none is dropped.
+    """
+    kept = singular > zero[..., None]
+    least = np.min(np.where(kept, singular, np.inf), axis=-1, initial=np.inf)
+    dropped = np.max(np.where(kept, 0.0, singular), axis=-1, initial=0.0)
+    smallest = np.where(np.isfinite(least), least, zero)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.sum(kept, axis=-1), np.where(dropped > 0.0, smallest / dropped, np.inf)

@@ -159,6 +159,17 @@ def from_quaternion(quaternion: FloatArray) -> FloatArray:
     return _combined(quaternion[..., 1:], 2.0 * quaternion[..., 0], 2.0)
 
 
+def quaternion_rates(quaternion: FloatArray, angular: FloatArray) -> FloatArray:
+    """Rates (..., 4) of quaternions (..., 4) at angular velocities (..., 3) in the base frame: q' = (0, w) q / 2.
+
+    >>> quaternion_rates(np.array([1.0, 0.0, 0.0, 0.0]), np.array([0.0, 0.0, 2.0]))
+    array([-0.,  0.,  0.,  1.])
+    """
+    scalar, vector = quaternion[..., :1], quaternion[..., 1:]
+    along = -np.sum(angular * vector, axis=-1, keepdims=True)
+    return np.asarray(0.5 * np.concatenate([along, scalar * angular + cross(angular, vector)], axis=-1))
+
+
 def to_quaternion(rotation: FloatArray) -> FloatArray:
     """Unit quaternion (..., 4), scalar first and not negative, of a rotation (..., 3, 3).
 

@@ -27,6 +27,7 @@ from assur.kinematics.rates.velocity import velocity_map
 from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle, rate_names
+from assur.numerics import rotations
 from assur.numerics.dual import Dual, Duals
 from assur.performance.scaling import Length, chosen_length
 
@@ -106,13 +107,12 @@ def _moving(record: MechanismRecord, poses: FloatArray) -> tuple[Any, ...]:
     for k, rate in enumerate(rates):
         if rate in ways:
             ways[rate][k] = 1.0
-    if has_quaternion(names):  # q' = (0, w) q / 2
-        scalar, *vector = (poses[:, names.index(name)] for name in QUATERNION)
-        for axis in range(3):
-            row = rates.index(("wx", "wy", "wz")[axis])
-            turned = np.cross(np.eye(3)[axis], np.stack(vector, axis=-1)) + scalar[:, None] * np.eye(3)[axis]
-            for name, slope in zip(QUATERNION, (-vector[axis], *turned.T), strict=True):
-                ways[name][row] = 0.5 * slope
+    if has_quaternion(names):
+        quaternion = poses[:, [names.index(name) for name in QUATERNION]]
+        for name, angular in zip(("wx", "wy", "wz"), np.eye(3), strict=True):
+            slopes = rotations.quaternion_rates(quaternion, angular).T
+            for part, slope in zip(QUATERNION, slopes, strict=True):
+                ways[part][rates.index(name)] = slope
     return tuple(
         (Dual(value[0], -value[1] * ways[name]), Dual(value[1], value[0] * ways[name]))
         if is_angle(name)

@@ -12,7 +12,7 @@ from assur.errors import UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.points import point
 from assur.kinematics.border import inputs_of
-from assur.kinematics.closure import assemble, closure_error, loop_twists
+from assur.kinematics.closure import assemble, closure_error, closure_jacobian
 from assur.kinematics.loops.loops import crossed_parallelograms, solve_by_loops
 from assur.kinematics.pose import pose_of
 from assur.kinematics.search import places, search
@@ -92,8 +92,7 @@ def test_no_random_assembly_is_missing(name: str) -> None:
 
 def _determined(mechanism: MechanismRecord, joints: np.ndarray) -> bool:
     """Whether the inputs leave no motion: there are assemblies of the paper's mechanism that lie on a self-motion."""
-    rates = np.delete(loop_twists(mechanism, joints), mechanism.input_indices, axis=-1)
-    rates[3:] /= characteristic_length(mechanism)
+    rates = np.delete(closure_jacobian(mechanism, joints), mechanism.input_indices, axis=-1)
     return bool(np.linalg.matrix_rank(rates, tol=1e-6) == rates.shape[-1])
 
 

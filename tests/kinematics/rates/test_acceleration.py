@@ -33,10 +33,9 @@ def test_it_is_that_of_the_closed_form(name, mode):
     assert np.sum(regular) > 10
     rates, second = rng.normal(size=(2, int(np.sum(regular)), len(mechanism.inputs)))
     velocity, acceleration = mechanism.acceleration(poses[regular], rates, second, mode)
-    here = acceleration_at(mechanism, found.joints[regular, 0], rates, second)
-    assert np.all(here.known)
-    np.testing.assert_allclose(here.velocity, velocity, atol=1e-7 * np.abs(velocity).max())
-    np.testing.assert_allclose(here.acceleration, acceleration, atol=1e-7 * np.abs(acceleration).max())
+    there = acceleration_at(mechanism, found.joints[regular, 0], rates, second)
+    np.testing.assert_allclose(there[0], velocity, atol=1e-7 * np.abs(velocity).max())
+    np.testing.assert_allclose(there[1], acceleration, atol=1e-7 * np.abs(acceleration).max())
 
 
 def _path(mechanism, rates, second):
@@ -77,11 +76,11 @@ def test_coordinates_agree_with_differences(file, pose, tmp_path):
     rates, second = rng.normal(size=(2, len(mechanism.inputs))) * units
     home, values = _path(mechanism, rates, second)
     poses = pose_of(mechanism, values)
-    found = acceleration_at(mechanism, home, rates, second)
+    velocity, acceleration = acceleration_at(mechanism, home, rates, second)
     scale = np.where([name in LENGTHS for name in mechanism.platform.pose], characteristic_length(mechanism), 1.0)
-    np.testing.assert_allclose(found.velocity / scale, _first(poses) / scale, atol=1e-7)
-    np.testing.assert_allclose(found.acceleration / scale, _second(poses) / scale, atol=2e-6)
-    assert np.abs(found.acceleration / scale).min() > 1e-3, "every coordinate must accelerate for this to mean anything"
+    np.testing.assert_allclose(velocity / scale, _first(poses) / scale, atol=1e-7)
+    np.testing.assert_allclose(acceleration / scale, _second(poses) / scale, atol=2e-6)
+    assert np.abs(acceleration / scale).min() > 1e-3, "every coordinate must accelerate for this to mean anything"
 
 
 def test_quaternions_have_angular_velocity_and_acceleration():
@@ -91,31 +90,19 @@ def test_quaternions_have_angular_velocity_and_acceleration():
     home, values = _path(mechanism, rates, second)
     rotation = mechanism.frames(values)["platform"][0]
     turns = rotations.to_vector(rotation @ rotation[2].T)
-    found = acceleration_at(mechanism, home, rates, second)
-    np.testing.assert_allclose(found.velocity[3:], _first(turns), atol=1e-7)
+    velocity, acceleration = acceleration_at(mechanism, home, rates, second)
+    np.testing.assert_allclose(velocity[3:], _first(turns), atol=1e-7)
     # of a rotation vector v from the identity: w = v' + v x v' / 2 + ..., so w' = v'' where v = 0
-    np.testing.assert_allclose(found.acceleration[3:], _second(turns), atol=2e-6)
-    assert np.linalg.norm(found.acceleration[3:]) > 0.05
-
-
-def test_joint_accelerations_keep_the_loops_closed():
-    """The motion with these rates and accelerations leaves the assembly by the third power of time."""
-    mechanism = assur.load(DELTA)
-    home = mechanism.home_values
-    found = acceleration_at(mechanism, home, [0.3, -0.5, 0.7], [0.2, 0.1, -0.4])
-    times = np.array([[0.02], [0.01]])
-    gaps = mechanism.closure_error(home + times * found.joint_rates + times**2 / 2 * found.joint_accelerations)
-    assert 6.0 < gaps[0] / gaps[1] < 10.0
+    np.testing.assert_allclose(acceleration[3:], _second(turns), atol=2e-6)
+    assert np.linalg.norm(acceleration[3:]) > 0.05
 
 
 def test_it_is_known_at_a_serial_singularity_and_not_at_a_parallel_one():
     paper = assur.load("zeng2019")
     serial = paper.inverse([80.0, -74.3479, 237.9038], "++-++").joints[0]  # sin(alpha) = 0
     parallel = paper.inverse([-15.4714, 9.6849, 456.3315], "+++++").joints[0]  # self-motion
-    found = acceleration_at(paper, np.array([serial, parallel]), [1.0, 2.0, 3.0], [0.0, 0.0, 0.0])
-    assert found.known.tolist() == [True, False]
-    assert np.all(np.isfinite(found.acceleration[0]))
-    for numbers in (found.velocity, found.acceleration, found.joint_rates, found.joint_accelerations):
+    for numbers in acceleration_at(paper, np.array([serial, parallel]), [1.0, 2.0, 3.0], [0.0, 0.0, 0.0]):
+        assert np.all(np.isfinite(numbers[0]))
         assert np.all(np.isnan(numbers[1]))
 
 

@@ -12,7 +12,7 @@ import sympy
 import assur
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import held_inputs, inputs_of
-from assur.kinematics.closure import assemble, loop_twists
+from assur.kinematics.closure import assemble, closure_jacobian
 from assur.kinematics.pose import pose_of, pose_rates
 from assur.kinematics.rates.instantaneous import SINGULAR, instantaneous
 from assur.kinematics.rates.velocity import velocity_map
@@ -91,7 +91,7 @@ def test_the_relation_holds_at_singularities_too(name):
     mechanism = assur.load(name)
     for example in singular_examples(mechanism):
         here = instantaneous(mechanism, example.joints)
-        _, sizes, rows = np.linalg.svd(loop_twists(mechanism, example.joints))
+        _, sizes, rows = np.linalg.svd(closure_jacobian(mechanism, example.joints))
         null = rows[np.sum(sizes > 1e-9 * sizes[0]) :].T
         signs = np.array([item.sign for item in mechanism.inputs])
         left = here.jp @ pose_rates(mechanism, example.joints) @ null

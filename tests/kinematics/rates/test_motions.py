@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.closure import loop_twists, mobility
-from assur.kinematics.rates.motions import closure_at_platform, general, general_share, motions
+from assur.kinematics.closure import closure_jacobian, mobility
+from assur.kinematics.rates.motions import general, general_share, motions
 
 HERE = Path(__file__).parent
 DELTA = HERE.parents[1] / "model" / "file" / "delta.toml"
@@ -33,7 +33,7 @@ def test_spinning_rods_are_internal(balls):
 def test_the_null_space_keeps_the_loops_closed_and_is_all_that_does():
     mechanism = assur.load("zeng2019")
     motion = motions(mechanism, mechanism.home_values)
-    matrix = loop_twists(mechanism, mechanism.home_values)
+    matrix = closure_jacobian(mechanism, mechanism.home_values)
     np.testing.assert_allclose(matrix @ (motion.scale[:, None] * motion.null), 0.0, atol=1e-10 * np.abs(matrix).max())
     assert np.linalg.matrix_rank(motion.null) == int(mobility(mechanism, mechanism.home_values).freedoms)
 
@@ -44,7 +44,7 @@ def test_rank_is_that_of_mobility_and_does_not_depend_on_the_place():
         values = mechanism.home_values.copy()
         values[:3] += far
         assert motions(mechanism, values).ranks.closure == mobility(mechanism, values).rank == 14
-    assert closure_at_platform(mechanism, values).shape == (24, 17)
+    assert closure_jacobian(mechanism, values).shape == (24, 17)
 
 
 def test_what_is_general_holds_around_home_and_not_at_a_home_that_is_singular():

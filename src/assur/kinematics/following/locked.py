@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.closure import assemble
+from assur.kinematics.closure import assemble, closure_jacobian
 from assur.kinematics.following.course import Prescribed
 from assur.kinematics.pose import turning_rates
-from assur.kinematics.rates.motions import closure_at_platform, general, pose_units
+from assur.kinematics.rates.motions import general, pose_units
 from assur.kinematics.turns import joint_units
 from assur.model.mechanism import MechanismRecord
 
@@ -39,7 +39,7 @@ Matrices = dict[str, FloatArray]
 def matrices(record: MechanismRecord, values: FloatArray) -> Matrices:
     """`closure` (..., 6 v, n), and with the rows of what is locked below it `inputs` and `poses`; no dimensions."""
     size = joint_units(record)
-    closure = closure_at_platform(record, values) * size
+    closure = closure_jacobian(record, values) * size
     moves = turning_rates(record, values) * size / pose_units(record)[:, None]
     driven = np.eye(values.shape[-1])[list(record.input_indices)]
     return {

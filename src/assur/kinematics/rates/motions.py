@@ -12,9 +12,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joint_graph.frames import frames
 from assur.joint_graph.geometry import characteristic_length
-from assur.kinematics.closure import RANK_GAP, assemble, loop_twists
+from assur.kinematics.closure import RANK_GAP, assemble, closure_jacobian, rank_of
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import platform_twists, turning_rates
 from assur.kinematics.turns import joint_units
@@ -62,14 +61,12 @@ class Ranks:
 class InstantaneousMotion:
     """Null space of the closure (..., n, n; columns that are none are zero), and what it moves, scaled to numbers.
 
-    `left`, `values`, `right` are the singular value decomposition of the scaled closure Jacobian, `scale` (n,) turns
+    `values` are the singular values of the scaled closure Jacobian, `scale` (n,) turns
     scaled joint rates into rates; `inputs` (..., F, n), `pose` (..., k, n) and `twists` (..., 6, n) are per motion, the
     pose's rates being those of `assur.kinematics.pose.turning_rates`.
     """
 
-    left: FloatArray
     values: FloatArray
-    right: FloatArray
     scale: FloatArray
     null: FloatArray
     inputs: FloatArray
@@ -138,9 +135,9 @@ def motions(record: MechanismRecord, values: FloatArray, threshold: float | None
     """
     threshold = SINGULAR * general_share(record) if threshold is None else threshold
     scale = joint_units(record)
-    closure = closure_at_platform(record, values) * scale  # (..., 6 v, n)
-    left, singular, right = np.linalg.svd(closure, full_matrices=closure.shape[-2] < closure.shape[-1])
-    rank, gap = _rank(singular, threshold * singular[..., 0])
+    closure = closure_jacobian(record, values) * scale  # (..., 6 v, n)
+    _, singular, right = np.linalg.svd(closure, full_matrices=closure.shape[-2] < closure.shape[-1])
+    rank, gap = rank_of(singular, threshold * singular[..., 0])
     null = np.swapaxes(right, -1, -2) * (np.arange(values.shape[-1]) >= rank[..., None])[..., None, :]
     inputs = np.zeros((len(record.inputs), values.shape[-1]))
     for row, item in enumerate(record.inputs):
@@ -158,12 +155,10 @@ def motions(record: MechanismRecord, values: FloatArray, threshold: float | None
     ranks, gaps = {}, [gap]
     for name, part in parts.items():
         sizes = np.linalg.svd(part @ null, compute_uv=False)
-        ranks[name], gap = _rank(sizes, SINGULAR * np.linalg.norm(part, axis=(-1, -2)))
+        ranks[name], gap = rank_of(sizes, SINGULAR * np.linalg.norm(part, axis=(-1, -2)))
         gaps.append(gap)
     return InstantaneousMotion(
-        left=left,
         values=singular,
-        right=right,
         scale=scale,
         null=null,
         inputs=inputs @ null,
@@ -173,26 +168,3 @@ def motions(record: MechanismRecord, values: FloatArray, threshold: float | None
         gap=np.min(gaps, axis=0),
         related_left=np.linalg.svd(parts["related"] @ null)[0],
     )
-
-
-def closure_at_platform(record: MechanismRecord, values: FloatArray) -> FloatArray:
-    """Closure Jacobian (..., 6 v, n) with velocities taken at the platform's point, in characteristic lengths.
-
-    Far from the base's origin the moments of the rotations would drown the rank.
-    """
-    rotation, origin = frames(record, values)[record.platform.link]
-    point = (rotation @ record.platform.point) + origin
-    matrix = loop_twists(record, values)
-    blocks = matrix.reshape(*values.shape[:-1], matrix.shape[-2] // 6, 6, values.shape[-1])
-    blocks[..., 3:, :] += np.cross(blocks[..., :3, :], point[..., None, :, None], axis=-2)
-    return np.asarray((blocks / twist_units(record)[:, None]).reshape(matrix.shape))
-
-
-def _rank(singular: FloatArray, zero: FloatArray) -> tuple[IntArray, FloatArray]:
-    """Rank (...) and gap (...) of matrices with singular values (..., k), those up to `zero` (...) counting as zero."""
-    kept = singular > zero[..., None]
-    least = np.min(np.where(kept, singular, np.inf), axis=-1, initial=np.inf)
-    dropped = np.max(np.where(kept, 0.0, singular), axis=-1, initial=0.0)
-    smallest = np.where(np.isfinite(least), least, zero)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.sum(kept, axis=-1), np.where(dropped > 0.0, smallest / dropped, np.inf)

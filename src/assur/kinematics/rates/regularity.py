@@ -16,11 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.geometry import characteristic_length
-from assur.kinematics.closure import CLOSED, closure_error
+from assur.kinematics.closure import CLOSED, closure_error, closure_jacobian
 from assur.kinematics.pose import turning_rates
 from assur.kinematics.rates.motions import (
     SINGULAR,
-    closure_at_platform,
     general,
     general_share,
     input_units,
@@ -85,7 +84,7 @@ def _spins(record: MechanismRecord) -> int:
 
 def _sure(record: MechanismRecord, values: FloatArray) -> BoolArray:
     scale, rank, count = joint_units(record), int(general(record).closure), len(record.inputs)
-    closure = closure_at_platform(record, values) * scale  # (N, 6 v, n)
+    closure = closure_jacobian(record, values) * scale  # (N, 6 v, n)
     pose = turning_rates(record, values) * scale / pose_units(record)[:, None]  # (N, k, n)
     held = np.concatenate([closure, pose], axis=1)
     transposed = np.swapaxes(held, 1, 2)

@@ -19,6 +19,7 @@ from assur.kinematics.rates.units import scaled, unit_length
 from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, rate_names
+from assur.numerics import rotations
 from assur.numerics.dual import Dual, Duals
 
 FloatArray = NDArray[np.float64]
@@ -209,10 +210,7 @@ def _coordinate_rates(record: MechanismRecord, poses: FloatArray, velocity: Floa
     named = dict(zip(rate_names(pose), velocity.T, strict=True))
     if has_quaternion(pose):
         quaternion = poses[:, [pose.index(name) for name in QUATERNION]]
-        turn = velocity[:, -3:]
-        vector = quaternion[:, :1] * turn + np.cross(turn, quaternion[:, 1:])
-        scalar = -np.sum(turn * quaternion[:, 1:], axis=-1)
-        named |= zip(QUATERNION, 0.5 * np.stack([scalar, *vector.T]), strict=True)
+        named |= zip(QUATERNION, rotations.quaternion_rates(quaternion, velocity[:, -3:]).T, strict=True)
     return np.stack([named[name] for name in pose], axis=-1)
 
 

@@ -14,7 +14,7 @@ from assur.audit.decoupling import jacobians
 from assur.audit.rows import Evidence
 from assur.audit.tolerance import half_units
 from assur.joint_graph.points import point, quantity
-from assur.kinematics.closure import loop_twists
+from assur.kinematics.closure import closure_jacobian
 from assur.kinematics.position import direct
 from assur.model.dimensions import with_parameters
 from assur.model.formula import parse
@@ -125,7 +125,7 @@ def decoupling(record):
     invariant = symbols.shift not in (pose[0].free_symbols | pose[2].free_symbols)
     here = configurations(record)
     together = np.array([1.0 if item.joint in ("P1", "P2", "P3") else 0.0 for item in record.coordinates])
-    closes = float(np.max(np.abs(loop_twists(record, here.values) @ together)))
+    closes = float(np.max(np.abs(closure_jacobian(record, here.values) @ together)))
     off = float(np.max(np.abs(jacobians(record)[:, 1] - [0.5, 0.5, 0.0])))
     table = reference_entry(record, "inverse", "Table 2")
     curves = direct(record, _values(table.rows[0].values)).curves
