@@ -193,6 +193,15 @@ def test_limits_left_out_are_those_of_the_file_in_its_units(assur_cli, tmp_path)
             "only the inverse problem in one mode, in closed form, has this",
         ),
         ("zeng2019 --along x=3 --along y=3 --at z=300 --threads -1", "no number of threads"),
+        ("zeng2019 --dimension l9=1:2:3", "unknown dimension of zeng2019 'l9'"),
+        (
+            "zeng2019 --dimension l2=250:300",
+            "'250:300' is not LOW:HIGH:COUNT\nhint: for example --dimension l2=250:300:51",
+        ),
+        ("zeng2019 --dimension l2=51", "'51' is not LOW:HIGH:COUNT"),
+        ("zeng2019 --dimension l2=250:300:51 --set l2=300", "l2 both varies and is held"),
+        ("zeng2019 --dimension l2=250:300:51 --at x=0", "y, z: neither varied nor held"),
+        ("zeng2019 --dimension l2=250:300:51 --certify", "proves none\nhint: `assur workspace --certify`"),
         ("gough_stewart --along x=3", "no grid over quaternions"),
         ("three_rps --along z=3 --along theta=0:95:3 --at psi=0", "theta is between -90 and 90 deg"),
         (
@@ -237,6 +246,51 @@ def test_without_a_closed_form_home_s_mode_is_followed(assur_cli, drafted, tmp_p
         every = record.inverse([place[name] for name in "xyz"]).inputs
         units = np.array([1.0, 1.0, np.pi / 180])
         assert np.min(np.abs(every - inputs[(slice(None), *index)] * units).max(axis=-1)) < 1e-8
+
+
+@pytest.mark.parametrize(
+    ("name", "dimension", "at", "kinds"),
+    [
+        ("zeng2019", "l2=240:320:5", ("x=-15", "y=10", "z=456"), {"regular", "unreachable"}),
+        ("drafted", "J_x=-2500:-150:5", ("x=10", "y=20", "z=320"), {"regular"}),
+        ("bare", "g=30:430:5", ("x=0", "y=200"), {"regular", "undecided", "no_mechanism"}),
+    ],
+)
+def test_a_row_of_a_dimension_is_what_set_says(assur_cli, drafted, tmp_path, name, dimension, at, kinds):
+    """With a closed form and without: the single problem of the mechanism with that dimension."""
+    bare = tmp_path / "bare.toml"
+    bare.write_text((Path(assur.__file__).parent / "mechanisms" / "fivebar" / "mechanism.toml").read_text())
+    mechanism = {"drafted": drafted, "bare": str(bare)}.get(name, name)
+    words = ("sweep", mechanism, "--dimension", dimension, "--at", ",".join(at), "-o", str(tmp_path / "o"))
+    data = assur_cli(*words, "--json").json
+    inputs, status = load(tmp_path / "o", "inputs"), load(tmp_path / "o", "status")
+    parameter, given = dimension.partition("=")[0], [place.partition("=")[2] for place in at]
+    assert [(item["name"], item["unit"]) for item in data["along"]] == [(parameter, "mm")]
+    assert parameter not in data["dimensions"]
+    of_mode = () if data["mode"] == "home" else ("--mode", data["mode"])
+    seen = []
+    for index, place in places(data):
+        changed = ("--set", f"{parameter}={place[parameter]!r}")
+        alone = assur_cli("inverse", mechanism, *given, *changed, *of_mode, "--json").json
+        seen.append(status_name(data, status[index]))
+        if seen[-1] == "no_mechanism":
+            assert data["counts"]["refused"][alone["error"]["message"]] == 1
+        elif seen[-1] in ("unreachable", "undecided"):
+            assert alone["solutions"] == []
+            assert np.isnan(inputs[(slice(None), *index)]).all()
+        else:
+            row = inputs[(slice(None), *index)]
+            (own,) = [one for one in alone["solutions"] if np.abs(np.subtract(one["inputs"], row)).max() < 1e-6]
+            assert (own["status"], own["home"]) == (seen[-1], True)
+    assert set(seen) == kinds
+    assert sum(data["counts"]["refused"].values()) == seen.count("no_mechanism")
+
+
+def test_a_dimension_alone_is_swept_at_home(assur_cli, drafted, tmp_path):
+    words = ("sweep", drafted, "--dimension", "J_y=160:180:3", "-o", str(tmp_path / "o"), "--json")
+    data = assur_cli(*words).json
+    assert data["at"] == pytest.approx({"x": 0.0, "y": 0.0, "z": 300.0})
+    np.testing.assert_allclose(load(tmp_path / "o", "inputs"), 0.0, atol=1e-9)  # a draft is drawn at home
 
 
 def test_shards_of_what_is_followed_are_the_whole_to_the_byte(assur_cli, drafted, tmp_path):

@@ -17,6 +17,7 @@ from assur.results import disk as disk_module
 
 COMMAND = Path(sys.executable).with_name("assur")
 GRID = ("--along", "x=20", "--along", "y=-250:250:21", "--along", "z=22")
+LENGTHS = ("--dimension", "l1=-30:130:33", "--along", "x=-100:100:10", "--along", "y=20:280:12")
 ALL_MODES = ("--along", "theta1=0.1:180:90", "--along", "theta2=0:179.9:70", "--problem", "direct")
 
 
@@ -31,7 +32,11 @@ def flip(path, place):
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 7])
-@pytest.mark.parametrize("words", [("zeng2019", *GRID), ("fivebar", *ALL_MODES)], ids=["inverse", "direct"])
+@pytest.mark.parametrize(
+    "words",
+    [("zeng2019", *GRID), ("fivebar", *ALL_MODES), ("fivebar", *LENGTHS)],
+    ids=["inverse", "direct", "dimensions"],
+)
 def test_shards_joined_are_a_single_run_to_the_byte(assur_cli, tmp_path, words, count):
     alone = assur_cli("sweep", *words, "-o", str(tmp_path / "alone"), "--json").json
     folders = [str(tmp_path / f"part-{k}") for k in range(1, count + 1)]

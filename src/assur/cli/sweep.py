@@ -26,6 +26,13 @@ def sweep(
         ),
     ] = (),
     at: Annotated[tuple[str, ...], Parameter(metavar="NAME=VALUE,..", help="Hold coordinates.")] = (),
+    dimension: Annotated[
+        tuple[str, ...],
+        Parameter(
+            metavar="NAME=LOW:HIGH:COUNT,..",
+            help="Values of a dimension, each with all of the grid; where nothing else is given, at home.",
+        ),
+    ] = (),
     problem: Annotated[
         Literal["inverse", "direct"], Parameter(help="The grid is one of poses (inverse) or of inputs (direct).")
     ] = "inverse",
@@ -51,6 +58,7 @@ def sweep(
         Parameter(metavar="ADDRESS", help="Let the workers of a Dask cluster do it, as tcp://localhost:8786."),
     ] = None,
     repair: Annotated[bool, Parameter(help="Compute again what is damaged in the folder.")] = False,
+    certify: Annotated[bool, Parameter(show=False, help="Refused, with what proves.")] = False,
     shared: Shared = SHARED_DEFAULTS,
 ) -> Outcome:
     r"""Solve a grid of poses or inputs, into files.
@@ -65,6 +73,10 @@ def sweep(
     Where there is no solution the numbers are NaN. Without a closed form poses
     are followed to from home and from neighbours; one that is not reached so is
     undecided.
+
+    --dimension sweeps a dimension too, alone or with a grid: each mechanism is
+    the one of --set. Where the file does not allow the dimensions, or without a
+    closed form its home does not close, the status is no_mechanism, with the reason.
 
     Beyond one machine: --shard 2/7 works out a part, --merge joins the parts to
     the bytes of a single run; --scheduler uses a Dask cluster (pip install
@@ -81,22 +93,29 @@ def sweep(
             --keep inputs,condition_index -o out/plane
         assur sweep fivebar --problem direct --along theta1=0:180:361 \
             --along theta2=0:180:361 -o out/poses
+        assur sweep zeng2019 --dimension l2=250:300:51 --along z=300:450:76 \
+            --at x=0,y=0 -o out/lengths
         assur sweep --merge out/part-1 out/part-2 -o out/whole
     """
     from assur.cli import sweep_answer, sweep_grid
     from assur.cli.numbers import whole_number
     from assur.results.store.layout import Shard
 
+    if certify:
+        raise UsageError(
+            "--certify: a sweep answers at the places of its grid, by the closed form or by following, and proves none",
+            hint="`assur workspace --certify` bounds a region, `assur inverse --certify` proves one pose",
+        )
     workers = whole_number(threads, "--threads")
     part = Shard.read(shard) if shard is not None else None
     request = sweep_answer.Request(output, workers, part, scheduler, repair)
     if merge:
-        if mechanism or along or at or mode or keep or shard or scheduler:
+        if mechanism or along or at or dimension or mode or keep or shard or scheduler:
             raise UsageError("--merge stands alone, with -o and --repair", hint="the shards know of what they are")
         return sweep_answer.merged(merge, request, shared)
     if mechanism is None:
         raise UsageError("no mechanism to sweep", hint="name one, or give the folders of shards to --merge")
     record = shared.mechanism(mechanism)
-    grid = sweep_grid.asked(record, problem, along, at)
+    grid = sweep_grid.asked(record, problem, along, at, dimension)
     kept = tuple(name.strip() for text in keep for name in text.split(","))
     return sweep_answer.outcome(record, mechanism, grid, problem, mode, kept, request, shared)

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from assur.results.store.layout import Shard
     from assur.results.store.store import Store
 
+REASONS = 5
+"""So many reasons are printed; the note beside the files has all."""
 AGAIN = "the same command goes on from there"
 
 
@@ -196,6 +198,10 @@ def _shown(data: SweepAnswer) -> Iterable[RenderableType]:
         yield table(("status", what), [(n, str(k)) for n, k in counts.by_status.items()], left=("status",))
     else:
         yield table(("modes with a solution", "problems"), [(n, str(k)) for n, k in counts.by_modes.items()])
+    for reason, count in list(counts.refused.items())[:REASONS]:
+        yield f"no_mechanism, {count}: {reason}"
+    if len(counts.refused) > REASONS:
+        yield f"and {len(counts.refused) - REASONS} more reasons: {ABOUT} has them"
     yield ""
     rows = [
         (item.file, item.dtype, " x ".join(map(str, item.shape)), ", ".join(item.axes)) for item in data.files.values()

@@ -18,8 +18,13 @@ Place = tuple[float, float, int]
 """(low, high, count), in the mechanism's units."""
 
 
-def asked(record: MechanismRecord, problem: Problem, along: Sequence[str], at: Sequence[str]) -> Grid:
-    """The grid of a problem: every coordinate of the pose, or every input, varies or is held; angles in rad."""
+def asked(
+    record: MechanismRecord, problem: Problem, along: Sequence[str], at: Sequence[str], dimension: Sequence[str] = ()
+) -> Grid:
+    """The grid of a problem: every coordinate of the pose, or every input, varies or is held; angles in rad.
+
+    Before them come the dimensions that vary; where nothing else is said, the mechanism is held at home.
+    """
     from assur.kinematics.closed_form.about import coordinates
     from assur.kinematics.closed_form.grids import Grid
     from assur.kinematics.status import NO_CLOSED_FORM
@@ -32,7 +37,8 @@ def asked(record: MechanismRecord, problem: Problem, along: Sequence[str], at: S
             f"{record.name}: no grid over quaternions", hint="Mechanism.inverse takes an array of poses of your own"
         )
     kinds = coordinates(record, problem)
-    places = _along(record, problem, along, kinds)
+    swept = _dimensions(record, dimension)
+    places = _at_home(record, problem) if swept and not (along or at) else _along(record, problem, along, kinds)
     for name, text in assignments(at, "--at", f"{next(iter(kinds))}=0").items():
         _known(record, name, kinds)
         if name in places:
@@ -48,26 +54,59 @@ def asked(record: MechanismRecord, problem: Problem, along: Sequence[str], at: S
     for name in ("theta",) if problem == "inverse" and "theta" in kinds else ():
         if max(map(abs, places[name][:2])) * record.angle_unit > math.pi / 2:
             raise UsageError(f"{name} is between -90 and 90 deg", hint="turn phi and psi instead")
-    lows, highs = (tuple(places[name][k] for name in kinds) for k in (0, 1))
-    scales = tuple((record.angle_unit if kind == "angle" else 1.0) for kind in kinds.values())
-    return Grid(tuple(kinds), lows, highs, tuple(places[name][2] for name in kinds), scales)
+    every = [*swept.values(), *(places[name] for name in kinds)]
+    lows, highs, counts = zip(*every, strict=True)
+    scales = (record.angle_unit if kind == "angle" else 1.0 for kind in kinds.values())
+    return Grid((*swept, *kinds), lows, highs, counts, (*(1.0 for _ in swept), *scales))
 
 
 def _along(record: MechanismRecord, problem: Problem, texts: Sequence[str], kinds: dict[str, str]) -> dict[str, Place]:
-    first = next(iter(kinds))
-    example = f"{first}=-100:100:41"
+    example = f"{next(iter(kinds))}=-100:100:41"
     places: dict[str, Place] = {}
     for name, text in assignments(texts, "--along", example).items():
         _known(record, name, kinds)
-        limits, colon, last = text.rpartition(":")
-        if colon and ":" not in limits:
-            raise UsageError(f"--along {name}: '{text}' is not LOW:HIGH:COUNT", hint=f"for example --along {example}")
-        count = whole_number(last, f"--along {name}, count")
-        if count < 2:
-            raise UsageError(f"--along {name}: {count} places", hint=f"at least 2; to hold {name}: --at {name}=VALUE")
-        pair = interval(limits, f"--along {name}", example) if colon else _of_file(record, problem, name, kinds[name])
-        places[name] = (*pair, count)
+        limits = None if ":" in text else _of_file(record, problem, name, kinds[name])
+        places[name] = _range(text, f"--along {name}", example, f"--at {name}=VALUE", limits)
     return places
+
+
+def _dimensions(record: MechanismRecord, texts: Sequence[str]) -> dict[str, Place]:
+    """Dimensions in the units of the file."""
+    places: dict[str, Place] = {}
+    for name, text in assignments(texts, "--dimension", "l2=250:300:51").items():
+        if name not in record.parameters:
+            raise UnknownNameError(f"dimension of {record.name}", name, record.parameters)
+        if name in record.overrides:
+            raise UsageError(
+                f"{name} both varies and is held", hint=f"give it to --dimension or to --set, as --set {name}=1"
+            )
+        places[name] = _range(text, f"--dimension {name}", "l2=250:300:51", f"--set {name}=VALUE")
+    return places
+
+
+def _range(text: str, what: str, example: str, held: str, limits: tuple[float, float] | None = None) -> Place:
+    """LOW:HIGH:COUNT; or COUNT alone between limits."""
+    between, _, last = text.rpartition(":")
+    if limits is None and ":" not in between:
+        raise UsageError(f"{what}: '{text}' is not LOW:HIGH:COUNT", hint=f"for example {what.split()[0]} {example}")
+    count = whole_number(last, f"{what}, count")
+    if count < 2:
+        raise UsageError(f"{what}: {count} places", hint=f"at least 2; to hold it: {held}")
+    return *(limits or interval(between, what, example)), count
+
+
+def _at_home(record: MechanismRecord, problem: Problem) -> dict[str, Place]:
+    """Pose or inputs of home, in the mechanism's units."""
+    from assur.kinematics.border import inputs_of
+    from assur.kinematics.closed_form.about import coordinates
+    from assur.kinematics.home import home_values
+    from assur.kinematics.pose import pose_of
+
+    values = (pose_of if problem == "inverse" else inputs_of)(record, home_values(record))
+    kinds = coordinates(record, problem)
+    sizes = (record.angle_unit if kind == "angle" else 1.0 for kind in kinds.values())
+    held = (float(value / size) for value, size in zip(values, sizes, strict=True))
+    return {name: (value, value, 1) for name, value in zip(kinds, held, strict=True)}
 
 
 def _known(record: MechanismRecord, name: str, kinds: dict[str, str]) -> None:

@@ -50,6 +50,7 @@ class Status(IntEnum):
     not_closed = 7
     unreachable = 8
     undecided = 9
+    no_mechanism = 10
 
 
 @lru_cache(maxsize=256)

@@ -36,7 +36,7 @@ def described(plan: Plan, counts: Counts, done: int) -> dict[str, Any]:
 
     Args:
         plan: with what `about` says.
-        counts: of modes that solve a problem, and of branches by status.
+        counts: of modes that solve a problem, of branches by status, and of problems without a mechanism.
         done: how many places are done.
     """
     known = dict(plan.about or {})
@@ -48,7 +48,11 @@ def described(plan: Plan, counts: Counts, done: int) -> dict[str, Any]:
         "problems": plan.length,
         "done": done,
         "shard": _shard(plan),
-        "counts": {"by_modes": modes, "by_status": by_status if "status" in files else None},
+        "counts": {
+            "by_modes": modes,
+            "by_status": by_status if "status" in files else None,
+            "refused": counts.get("refused", {}),
+        },
         "bytes": plan.bytes,
         "files": {array.name: _of_files(plan, array, files[array.name]) for array in plan.files},
     }

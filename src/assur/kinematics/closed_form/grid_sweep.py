@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -12,11 +13,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.errors import UsageError
 from assur.kinematics.answers.at_border import power
 from assur.kinematics.closed_form.about import coordinates, told
 from assur.kinematics.closed_form.blocks import FloatArray, Progress
 from assur.kinematics.closed_form.grids import Grid
 from assur.kinematics.closed_form.streamed import KINDS, fill
+from assur.kinematics.closed_form.swept_dimensions import mechanism_of, reasons, refusal, runs
 from assur.kinematics.modes import Problem, all_modes
 from assur.kinematics.status import Status, closed_form_of
 from assur.model.mechanism import MechanismRecord
@@ -30,6 +33,9 @@ SolutionRows = Mapping[str, NDArray[Any]]
 
 _ROWS = {"inputs": "input", "poses": "coordinate", "factors": "factor"}
 
+_ABSENT = {"float64": np.nan, "bool": np.False_, "int8": np.int8(Status.no_mechanism)}
+"""What stands where dimensions are of no mechanism."""
+
 ALL = "all"
 """Stands for every mode."""
 
@@ -40,7 +46,7 @@ class GridSweep(ABC):
 
     Attributes:
         record, problem: what is solved.
-        grid: poses, or inputs as printed; angles in rad.
+        grid: dimensions if there are any, in the units of the file; then poses, or inputs as printed, angles in rad.
         mode: one mode, or "all".
         keep: quantities that are written.
     """
@@ -50,6 +56,16 @@ class GridSweep(ABC):
     grid: Grid
     mode: str
     keep: tuple[str, ...]
+
+    @property
+    def dimensions(self) -> tuple[str, ...]:
+        """The dimensions that vary, before the coordinates of the problem."""
+        return self.grid.names[: -len(coordinates(self.record, self.problem))]
+
+    @property
+    def fixed_dimensions(self) -> dict[str, float]:
+        """The other dimensions, angles in rad; those that a formula makes of swept ones as the file has them."""
+        return {name: float(value) for name, value in vars(self.record.values).items() if name not in self.dimensions}
 
     @property
     def every(self) -> bool:
@@ -103,19 +119,19 @@ class GridSweep(ABC):
 
     @abstractmethod
     def answers(self, given: FloatArray) -> dict[str, NDArray[Any]]:
-        """What is kept of problems (m, b), angles in rad, and whether each exists (K, b) or (b,)."""
+        """What is kept of problems (m, b) of the mechanism, angles in rad, and whether each exists (K, b) or (b,)."""
 
     def plan(self, shard: Shard | None = None) -> Plan:
         """What is to be in a store, of the whole grid or of a shard."""
-        names, low, high = self.grid.names, self.grid.low, self.grid.high
         question = {
             "kind": "stored sweep",
             "mechanism": self.record.name,
             **self.formulas,
-            "dimensions": {name: float(value) for name, value in vars(self.record.values).items()},
+            "dimensions": self.fixed_dimensions,
+            "swept dimensions": list(self.dimensions),
             "problem": self.problem,
             "mode": self.mode,
-            "limits": {name: [a, b] for name, a, b in zip(names, low, high, strict=True)},
+            "limits": list(zip(self.grid.names, self.grid.low, self.grid.high, strict=True)),
             "counts": list(self.grid.counts),
             "keep": list(self.keep),
         }
@@ -131,18 +147,42 @@ class GridSweep(ABC):
 
     def block(self, given: FloatArray) -> SolvedBlock:
         """What is kept of the problems (m, b) of a block, and what is counted in it."""
-        found = self.solve(given)
-        return SolvedBlock({name: found[name] for name in self.keep}, _counted(found))
+        found, refused = self._of_mechanisms(given)
+        rows = self._in_file_units(found)
+        return SolvedBlock({name: rows[name] for name in self.keep}, _counted(rows, refused))
 
     def solve(self, given: FloatArray) -> SolutionRows:
-        """What is kept of problems (m, b), and whether each exists: exists and status (K, b) or (b,), and so on."""
-        found = self.answers(given)
+        """What is kept of problems (d + m, b), and whether each exists: exists and status (K, b) or (b,), and so on."""
+        return self._in_file_units(self._of_mechanisms(given)[0])
+
+    def _in_file_units(self, found: dict[str, NDArray[Any]]) -> SolutionRows:
+        """The answers, NaN where there is none."""
         for values in found.values():
             if values.dtype == float:
                 values += 0.0  # a zero has no sign, whichever engine it is of
                 values[~np.broadcast_to(_over(found["exists"], values), values.shape)] = np.nan
         self._to_file_angles(found)
         return found
+
+    def _of_mechanisms(self, given: FloatArray) -> tuple[dict[str, NDArray[Any]], dict[str, int]]:
+        """The answers of one mechanism after the other; and how many problems have none, by the reason."""
+        if not self.dimensions:
+            return self.answers(given), {}
+        first, count = len(self.dimensions), given.shape[1]
+        filled = {array.name: np.full((*array.rows, count), _ABSENT[array.dtype]) for array in self.arrays}
+        filled["exists"] = np.zeros((*((len(self.modes),) if self.every else ()), count), dtype=bool)
+        refused = Counter[str]()
+        for run in runs(given[:first]):
+            values = tuple(given[:first, run.start].tolist())
+            try:
+                record = mechanism_of(self.record, self.dimensions, values)
+            except UsageError as error:
+                refused[refusal(error)] += run.stop - run.start
+                continue
+            found = replace(self, record=record).answers(given[first:, run])
+            for name, rows in filled.items():
+                rows[..., run] = found[name]
+        return filled, reasons(refused)
 
     def _to_file_angles(self, rows: SolutionRows) -> None:
         if self.record.angle != "deg":
@@ -162,10 +202,12 @@ def _over(exists: NDArray[np.bool_], values: NDArray[Any]) -> NDArray[np.bool_]:
     return exists[..., None, :] if values.ndim > exists.ndim else exists
 
 
-def _counted(rows: SolutionRows) -> Counts:
-    """Problems by the number of modes that solve them, and branches by status."""
+def _counted(rows: SolutionRows, refused: Mapping[str, int]) -> Counts:
+    """Problems by the number of modes that solve them, branches by status, and problems without a mechanism."""
     modes = np.bincount(np.atleast_2d(rows["exists"]).sum(axis=0))
     counts = {"modes": {str(k): int(n) for k, n in enumerate(modes) if n}}
+    if refused:
+        counts["refused"] = dict(refused)
     if "status" in rows:
         counts["status"] = {Status(k).name: int(n) for k, n in enumerate(np.bincount(rows["status"].ravel())) if n}
     return counts
@@ -174,21 +216,20 @@ def _counted(rows: SolutionRows) -> Counts:
 def _about(sweep: GridSweep) -> dict[str, Any]:
     """The sweep of a whole grid, without what is counted in it."""
     record = sweep.record
-    kinds = coordinates(record, sweep.problem)
-    units = {"length": record.unit, "angle": record.angle}
-    axes: list[dict[str, Any]] = []
-    held: dict[str, float] = {}
-    scales = sweep.grid.scales or (1.0,) * len(kinds)
-    for k, (name, kind) in enumerate(kinds.items()):
-        scale = scales[k] / (record.angle_unit if kind == "angle" else 1.0)
-        low, high = (value * scale for value in (sweep.grid.low[k], sweep.grid.high[k]))
-        if sweep.grid.counts[k] == 1:
+    units = [(record.parameters[name].unit, 1.0) for name in sweep.dimensions]
+    sizes = {"length": (record.unit, 1.0), "angle": (record.angle, record.angle_unit)}
+    units += [sizes[kind] for kind in coordinates(record, sweep.problem).values()]
+    grid, axes, held = sweep.grid, list[dict[str, Any]](), dict[str, float]()
+    for k, (name, (unit, size)) in enumerate(zip(grid.names, units, strict=True)):
+        scale = (grid.scales[k] if grid.scales else 1.0) / size
+        low, high = grid.low[k] * scale, grid.high[k] * scale
+        if grid.counts[k] == 1:
             held[name] = low
         else:
-            axes.append({"name": name, "unit": units[kind], "low": low, "high": high, "count": sweep.grid.counts[k]})
+            axes.append({"name": name, "unit": unit, "low": low, "high": high, "count": grid.counts[k]})
     return {
         "mechanism": record.name,
-        "dimensions": {name: float(value) for name, value in vars(record.values).items()},
+        "dimensions": sweep.fixed_dimensions,
         "problem": sweep.problem,
         "mode": sweep.mode,
         "modes": list(sweep.modes),

@@ -42,14 +42,15 @@ def stored_sweep(
     Args:
         record: a mechanism; of the direct problem one with a closed form by signs.
         problem: "inverse", the grid is one of poses, or "direct", of inputs as printed.
-        grid: the problems; every coordinate of a pose, or every input, in the file's order; angles in rad.
+        grid: the problems; every coordinate of a pose, or every input, in the file's order; angles in rad. Before them
+            may come dimensions, in the units of the file.
         mode: a mode, or "all"; where empty the file's default working mode, for the direct problem all. Without a
             closed form there is home's alone.
         keep: of `quantities`; where empty the solutions with their status, for the direct problem with `exists`.
 
     Errors:
         UsageError: a direct problem without a closed form by signs; another mode than home's without a closed form.
-        UnknownNameError: an unknown mode or quantity.
+        UnknownNameError: an unknown mode, quantity or dimension.
 
     Example: the inverse problem along a line, kept for good.
 
@@ -72,8 +73,12 @@ def stored_sweep(
             hint = "`assur direct` solves one problem at a time, Mechanism.direct takes arrays"
             raise UsageError(error.message, hint=hint) from error
     names = record.platform.pose if problem == "inverse" else border.input_names(record)
-    if grid.names != names:
+    first = max(len(grid.names) - len(names), 0)
+    if grid.names[first:] != names:
         raise UsageError(f"a grid of {', '.join(grid.names)}", hint=f"{record.name} is swept over {', '.join(names)}")
+    for name in grid.names[:first]:
+        if name not in record.parameters:
+            raise UnknownNameError(f"dimension of {record.name}", name, record.parameters)
     if record.closed_form is None:
         kind: type[GridSweep] = HomeSweep
         mode = _home(record, mode)

@@ -32,10 +32,11 @@ class SweptShard:
 
 @dataclass(frozen=True)
 class SweptCounts:
-    """Problems by how many modes solve them, and branches by status where it was kept."""
+    """Problems by how many modes solve them, and branches by status where it was kept; problems without a mechanism."""
 
     by_modes: Mapping[str, int]
     by_status: Mapping[str, int] | None
+    refused: Mapping[str, int]
 
 
 @dataclass(frozen=True)
