@@ -155,14 +155,14 @@ class GridSweep(ABC):
         """What is kept of problems (d + m, b), and whether each exists: exists and status (K, b) or (b,), and so on."""
         return self._in_file_units(self._of_mechanisms(given)[0])
 
-    def _in_file_units(self, found: dict[str, NDArray[Any]]) -> SolutionRows:
+    def _in_file_units(self, answered: dict[str, NDArray[Any]]) -> SolutionRows:
         """The answers, NaN where there is none."""
-        for values in found.values():
+        for values in answered.values():
             if values.dtype == float:
                 values += 0.0  # a zero has no sign, whichever engine it is of
-                values[~np.broadcast_to(_over(found["exists"], values), values.shape)] = np.nan
-        self._to_file_angles(found)
-        return found
+                values[~np.broadcast_to(_over(answered["exists"], values), values.shape)] = np.nan
+        self._to_file_angles(answered)
+        return answered
 
     def _of_mechanisms(self, given: FloatArray) -> tuple[dict[str, NDArray[Any]], dict[str, int]]:
         """The answers of one mechanism after the other; and how many problems have none, by the reason."""
