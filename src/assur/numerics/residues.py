@@ -13,6 +13,7 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
+from flint import fmpz
 from numpy.typing import NDArray
 
 from assur.numerics.drawn_angles import DrawnAngles
@@ -20,12 +21,14 @@ from assur.numerics.powers import whole_power
 from assur.numerics.prime_field import ORDER, PrimeField, below, simplest
 
 IntArray = NDArray[np.int64]
-"""Of residues modulo a large prime, Python's integers."""
+"""Of residues modulo a large prime, integers of any size."""
 BoolArray = NDArray[np.bool_]
 
 
 GUARD = Fraction(1, 10**25)
 """A number that is added and smaller than this only keeps a divisor from being zero, as 1e-30 does."""
+SMALL_ENOUGH = 2**31
+"""Below it the sum of two products of residues is an integer of 64 bits."""
 PRODUCTS = 2
 """A root may be a positive number times as many known ones."""
 
@@ -35,15 +38,36 @@ class Residues:
 
     Attributes:
         draws: whose numbers they are.
-        re, im: residues (N,), or (1,) of what is the same at every draw; `im` is None where all are in F_p.
         exact: the rational that they stand for, if that is known.
     """
 
-    __slots__ = ("draws", "exact", "im", "re")
+    __slots__ = ("_im", "_kept", "_re", "draws", "exact")
     __array_ufunc__ = None
 
     def __init__(self, draws: Draws, re: IntArray, im: IntArray | None = None, exact: Fraction | None = None) -> None:
-        self.draws, self.re, self.im, self.exact = draws, re, im, exact
+        self.draws, self._re, self._im, self.exact = draws, re, im, exact
+        self._kept = len(draws.kept)
+
+    @property
+    def re(self) -> IntArray:
+        """Residues (N,), or (1,) of what is the same at every draw."""
+        if self._kept < len(self.draws.kept):
+            self._leave_out()
+        return self._re
+
+    @property
+    def im(self) -> IntArray | None:
+        """The same of the imaginary part; None where all are in F_p."""
+        if self._kept < len(self.draws.kept):
+            self._leave_out()
+        return self._im
+
+    def _leave_out(self) -> None:
+        """Of the draws that are no longer kept there are no numbers."""
+        for kept in self.draws.kept[self._kept :]:
+            self._re = self._re[kept] if len(self._re) > 1 else self._re
+            self._im = self._im[kept] if self._im is not None and len(self._im) > 1 else self._im
+        self._kept = len(self.draws.kept)
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.exact if self.exact is not None else len(self.re)}>"
@@ -55,7 +79,7 @@ class Residues:
 
     def inverse(self) -> Residues:
         """Reciprocals; a draw at which there is none is given up."""
-        draws, p = self.draws, self.draws.field.p
+        draws, p = self.draws, self.draws.p
         if self.exact:
             return draws.number(1 / self.exact)
         draws.give_up(self.zero())
@@ -68,7 +92,7 @@ class Residues:
         return self
 
     def __neg__(self) -> Residues:
-        p = self.draws.field.p
+        p = self.draws.p
         exact = None if self.exact is None else -self.exact
         return Residues(self.draws, -self.re % p, None if self.im is None else -self.im % p, exact)
 
@@ -112,7 +136,7 @@ def _added(a: Residues, b: Residues) -> Residues:
         return a
     if _guards(a, b):
         return b
-    p = a.draws.field.p
+    p = a.draws.p
     exact = None if a.exact is None or b.exact is None else a.exact + b.exact
     im = b.im if a.im is None else a.im if b.im is None else (a.im + b.im) % p
     return Residues(a.draws, (a.re + b.re) % p, im, exact)
@@ -127,14 +151,14 @@ def _guards(number: Residues, beside: Residues) -> bool:
 
 
 def _subtracted(a: Residues, b: Residues) -> Residues:
-    p = a.draws.field.p
+    p = a.draws.p
     exact = None if a.exact is None or b.exact is None else a.exact - b.exact
     im = a.im if b.im is None else -b.im % p if a.im is None else (a.im - b.im) % p
     return Residues(a.draws, (a.re - b.re) % p, im, exact)
 
 
 def _multiplied(a: Residues, b: Residues) -> Residues:
-    p = a.draws.field.p
+    p = a.draws.p
     exact = None if a.exact is None or b.exact is None else a.exact * b.exact
     if a.im is None or b.im is None:
         im = b.im if a.im is None else a.im
@@ -157,7 +181,9 @@ class Draws(DrawnAngles):
 
     Attributes:
         field, random: where numbers come from.
-        count: how many draws.
+        p: the prime, as a number like the residues.
+        count: how many draws, two or more.
+        kept: each time that draws were left out for good, which of those before are kept.
         sound: draws (N,) at which everything that was asked for exists.
         tied: how many roots are tied to others, or to none: their radicands are squares of formulas.
         guarded: whether a number was left out that only keeps a divisor from being zero.
@@ -173,6 +199,8 @@ class Draws(DrawnAngles):
 
     def __init__(self, field: PrimeField, count: int, random: np.random.Generator) -> None:
         self.field, self.count, self.random = field, count, random
+        self.p: Any = field.p if field.p < SMALL_ENOUGH else fmpz(field.p)
+        self.kept: list[NDArray[np.intp]] = []
         self.sound: BoolArray = np.ones(count, dtype=bool)
         self.tied = 0
         self.guarded = False
@@ -207,12 +235,21 @@ class Draws(DrawnAngles):
     def signs(self) -> Residues:
         """1 or -1 at each draw."""
         return Residues(
-            self, np.where(self.random.random(self.count) < 0.5, self._array(1), self._array(self.field.p - 1))
+            self, np.where(self.random.random(self.count) < 0.5, self._array(1), self._array(self.p - 1))
         )
 
     def give_up(self, where: BoolArray) -> None:
         """Leave draws out."""
         self.sound &= ~where
+
+    def keep(self, places: NDArray[np.intp]) -> None:
+        """Go on at some of the draws alone, at two or more; what is known of the others is left out for good."""
+        if len(places) < 2:
+            raise ValueError(f"{len(places)} draws; two or more are kept")
+        self.kept.append(places)
+        self.count = len(places)
+        self.sound = self.sound[places]
+        self._characters = [row[places] for row in self._characters]
 
     def sqrt(self, radicand: Any, /) -> Residues:
         """A root; the same one wherever the radicand is the same, or a rational times it."""
@@ -263,7 +300,9 @@ class Draws(DrawnAngles):
         return None
 
     def _array(self, *residues: int) -> IntArray:
-        return np.array(residues, dtype=np.int64 if self.field.p < 2**31 else object)
+        if isinstance(self.p, int):
+            return np.array(residues, dtype=np.int64)
+        return np.array([fmpz(residue) for residue in residues], dtype=object)
 
     def _same(self, residue: int) -> Residues:
         """One residue at every draw; small ones stand for themselves."""
@@ -282,7 +321,7 @@ class Draws(DrawnAngles):
         return _few_digits(int(parts[0][0]), self.field.p)
 
     def _root(self, value: Residues) -> Residues:
-        p = self.field.p
+        p = self.p
         if value.im is None or not np.any(value.im[self.sound if len(value.im) == self.count else slice(None)]):
             own = raised(value.re, (p + 1) // 4, p)
             square = own * own % p == value.re
@@ -291,15 +330,14 @@ class Draws(DrawnAngles):
             return Residues(self, np.where(square, own, zero), np.where(square, zero, own))
         re, im = (np.broadcast_to(part, (self.count,)) for part in (value.re, value.im))
         norm = (re * re + im * im) % p
-        size = raised(norm, (p + 1) // 4, p)
-        square = size * size % p == norm
-        constant = len(np.unique(square[self.sound])) < 2
-        self.tied += constant
+        square = is_square(norm, p)
+        self.tied += len(np.unique(square[self.sound])) < 2
         self.give_up(~square)
-        half = (p + 1) // 2
+        size, half = np.zeros_like(norm), (p + 1) // 2
+        size[square] = raised(norm[square], (p + 1) // 4, p)
         above, below = (re + size) % p * half % p, (re - size) % p * half % p
-        first = raised(above, (p + 1) // 4, p)
-        along = np.where(first * first % p == above, first, raised(below, (p + 1) // 4, p))
+        along = np.zeros_like(norm)
+        along[square] = raised(np.where(is_square(above, p), above, below)[square], (p + 1) // 4, p)
         self.give_up(along == 0)
         return Residues(self, along, im * inverted(2 * along % p, p) % p)
 
@@ -335,7 +373,7 @@ def _few_digits(residue: int, p: int) -> Fraction | None:
     return Fraction(s, u) if s > 0 and 0 < u <= bound else None
 
 
-def raised(base: IntArray, exponent: int, p: int) -> IntArray:
+def raised(base: IntArray, exponent: Any, p: Any) -> IntArray:
     """Powers modulo p."""
     if base.dtype == object:
         return np.frompyfunc(lambda number: pow(number, exponent, p), 1, 1)(base)  # type: ignore[no-any-return]
@@ -347,7 +385,12 @@ def raised(base: IntArray, exponent: int, p: int) -> IntArray:
     return result
 
 
-def inverted(base: IntArray, p: int) -> IntArray:
+def is_square(numbers: IntArray, p: Any) -> BoolArray:
+    """Whether numbers have a root modulo p; zero has one."""
+    return np.array([fmpz(int(number)).jacobi(p) >= 0 for number in numbers], dtype=bool)
+
+
+def inverted(base: IntArray, p: Any) -> IntArray:
     """Reciprocals modulo p, and 0 of 0."""
     if base.dtype == object:  # by Euclid's algorithm
         return np.frompyfunc(lambda number: pow(number, -1, p) if number else 0, 1, 1)(base)  # type: ignore[no-any-return]

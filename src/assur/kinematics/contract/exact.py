@@ -29,13 +29,15 @@ from assur.numerics.residues import Draws, Residues, inverted
 from assur.work import stage
 
 IntArray = NDArray[np.int64]
-DRAWS = 128
-"""At once: roots of roots exist at half of them, and dozens show which radicands are tied."""
+DRAWS, MOST_DRAWS = 64, 4096
+"""Dozens show which radicands are tied; a root of a root exists at half of them, so that many are drawn if few stay."""
+SOUND = 20
+"""So many are to stay."""
 AGAIN = 48
 """So often at most they are drawn for each problem, with another prime each time, until the error is small enough and
 each choice of a mode's signs was met."""
 ENOUGH = 1e-24
-"""An error that is small enough; as many draws as bring it about are looked at for motions, which take longest."""
+"""An error that is small enough."""
 TIED = "the root of a formula's square has either sign: write the formula itself, where its sign is known"
 SURE = 1e-15
 """An error with a probability below this is none."""
@@ -125,7 +127,7 @@ def _exactness(record: MechanismRecord, general: bool, most: int) -> Exactness:
         guarded=any(trial.draws.guarded for trial in trials),
         undecided=f"the degrees of its formulas leave an error of {error:.0e}" if error >= SURE else "",
         primes=tuple(trial.draws.field.p for trial in trials),
-        places=sum(trial.sound for trial in trials),
+        places=sum(trial.places for trial in trials),
         degree=max(trial.degree for trial in trials),
     )
 
@@ -145,16 +147,40 @@ def problems_by_formulas(record: MechanismRecord) -> tuple[Problem, ...]:
     return ("inverse", "direct") if callable(closed_form_of(record).direct) else ("inverse",)
 
 
+class SoundDraws(Draws):
+    """Draws that are left out once a root does not exist there, so that roots of roots cost no more than they need."""
+
+    def sqrt(self, radicand: Any, /) -> Residues:
+        """A root at the draws at which everything before exists, where these are two or more."""
+        sound = np.flatnonzero(self.sound)
+        if 2 <= len(sound) < self.count:
+            self.keep(sound)
+        return super().sqrt(radicand)
+
+
 class Trial:
-    """Draws of one problem, and how sure what they say is."""
+    """Draws of one problem, and how sure what they say is.
+
+    Attributes:
+        places: at how many draws all roots exist.
+        error: how likely it is that what is wrong was not seen.
+        degree: the largest of a polynomial that must vanish.
+    """
 
     def __init__(self, record: MechanismRecord, problem: Problem, general: bool, random: np.random.Generator) -> None:
         self.record, self.problem, self.general = record, problem, general
-        self.draws = Draws(PrimeField.drawn(random, LARGE), DRAWS, random)
-        self.question = DrawnProblem(record, problem, self.draws, general)
-        self.degrees = DrawnProblem(record, problem, Degrees(self.draws.roots), general)
+        field, self._drawn = PrimeField.drawn(random, LARGE), DRAWS
+        while True:
+            self.draws = SoundDraws(field, self._drawn, random)
+            self.question = DrawnProblem(record, problem, self.draws, general)
+            self._determinants = tuple(self.question.determinants())  # factors have roots, too
+            self.places = int(np.sum(self.draws.sound))
+            if self.places >= SOUND or self._drawn == MOST_DRAWS:
+                break
+            self._drawn = min(MOST_DRAWS, self._drawn * min(8, math.ceil(1.5 * SOUND / max(self.places, 1))))
         self.error = self.degree = 0.0
         self.taken, self.roots = taken_over(record, problem)
+        self.met = self._met()
 
     @property
     def kinds(self) -> int:
@@ -166,8 +192,7 @@ class Trial:
         """What roots take over, where none is tied to others."""
         return () if self.draws.tied else self.taken
 
-    @property
-    def met(self) -> set[int]:
+    def _met(self) -> set[int]:
         """The choices of signs that were drawn where all roots exist; none if a root is not one of its own."""
         own = {id(name) for name, _ in self.draws.roots if name is not None}
         if self._taken and len(own) < self.roots:
@@ -177,8 +202,8 @@ class Trial:
     @property
     def _choices(self) -> IntArray:
         """The choice of signs (D,) at each draw, as a number: roots may turn those that they take over."""
-        p = self.draws.field.p
-        minus = np.array([sign.re == p - 1 for sign in self.question.signs.values()], dtype=np.int64).reshape(-1, DRAWS)
+        p, count = self.draws.p, self.draws.count
+        minus = np.array([sign.re == p - 1 for sign in self.question.signs.values()], dtype=np.int64).reshape(-1, count)
         for signs in self._taken:
             rows = sorted(signs)
             minus[rows] ^= minus[rows[0]]
@@ -186,36 +211,46 @@ class Trial:
 
     def mismatch(self) -> Mismatch | None:
         """The first claim that is broken; the error is known afterwards."""
+        if not self.places:
+            self.error = 1.0
+            return None
+        self.draws.keep(self._looked_at())
+        degrees = DrawnProblem(self.record, self.problem, Degrees(self.draws.roots), self.general)
+        determinants = tuple(degrees.determinants())
         return (
-            self._broken(self.question.claims(), self.degrees.claims())
-            or self._wrong_rates()
-            or self._broken(self.question.determinants(), self.degrees.determinants())
+            self._broken(self.question.claims(), degrees.claims())
+            or self._wrong_rates(degrees)
+            or self._broken(iter(self._determinants), iter(determinants))
         )
+
+    def _looked_at(self) -> NDArray[np.intp]:
+        """Draws held against the joint graph: one of each choice of signs, and all where radicands are tied."""
+        sound = np.flatnonzero(self.draws.sound)
+        if not self.draws.tied:
+            sound = sound[np.unique(self._choices[sound], return_index=True)[1]]
+        return np.resize(sound, max(2, len(sound)))
 
     def _broken(self, claims: Iterator[Vanishing], degrees: Iterator[Vanishing]) -> Mismatch | None:
         for claim, own in zip(claims, degrees, strict=True):
-            wrong = np.zeros(DRAWS, dtype=bool)
+            wrong = np.zeros(self.draws.count, dtype=bool)
             for number in claim.numbers:
                 wrong |= self._wrong(number)
             wrong &= self.draws.sound
             if np.any(wrong):
-                text = f"{claim.text} {self._where(wrong, self.sound)}"
+                text = f"{claim.text} {self._where(wrong)}"
                 name = claim.name or self._label(wrong, claim.part)
                 return Mismatch(claim.part, name, self.problem, text, claim.allowed, self._hint)
             for number in own.numbers:
                 if isinstance(number, Degree):
-                    self._missed(number, self.sound)
+                    self._missed(number)
         return None
 
-    @property
-    def sound(self) -> int:
-        """At how many draws all roots exist."""
-        return int(np.sum(self.draws.sound))
-
-    def _missed(self, number: Degree, draws: int) -> None:
-        """Note how likely a number that is not zero was not seen: it is zero modulo p, or at all draws."""
-        share = self._unlike(number.bound * DRAWS / max(self.sound, 1))  # given that all roots exist
-        unseen = share ** (draws / self.kinds if self.draws.tied else min(draws, 1))  # with one choice of signs
+    def _missed(self, number: Degree) -> None:
+        """Note how likely a number that is not zero was not seen: it is zero modulo p, or at the draws."""
+        if self.draws.tied:  # with one choice of signs, and given that all roots exist
+            unseen = self._unlike(number.bound * self._drawn / self.places) ** (self.places / self.kinds)
+        else:
+            unseen = min(1.0, number.bound * self._drawn / LARGE)  # at any of all draws
         self.error += self.draws.field.missed(number.bits) + unseen
         self.degree = max(self.degree, number.bound)
 
@@ -226,14 +261,14 @@ class Trial:
 
     def _wrong(self, number: Any) -> NDArray[np.bool_]:
         if isinstance(number, Residues):
-            return ~np.broadcast_to(number.zero(), (DRAWS,))
-        return np.full(DRAWS, number != 0)
+            return ~np.broadcast_to(number.zero(), (self.draws.count,))
+        return np.full(self.draws.count, number != 0)
 
-    def _where(self, wrong: NDArray[np.bool_], draws: int) -> str:
+    def _where(self, wrong: NDArray[np.bool_]) -> str:
         which = "random dimensions" if self.general else "the dimensions of the file"
         return (
             f"in the {self.problem} problem, with {which} and in exact arithmetic modulo {self.draws.field.p}: "
-            f"at {int(np.sum(wrong))} of {draws} draws"
+            f"at {int(np.sum(wrong))} of {self.draws.count} draws"
         )
 
     @property
@@ -247,21 +282,14 @@ class Trial:
         signs = [sign.re[first] for sign in self.question.signs.values()]
         return "".join("+" if sign == 1 else "-" for sign in signs) if part == "branch" else ""
 
-    def _wrong_rates(self) -> Mismatch | None:
-        rates, degrees = self.question.rates(), self.degrees.rates()
-        minor = _minor([*degrees.closure, *degrees.relation], len(degrees.relation[0]) + 1)
-        unlike = self._unlike(minor.bound)
-        needed = math.log(ENOUGH) / math.log(max(unlike, 1e-300)) if unlike < 1 else DRAWS
-        sound = np.flatnonzero(self.draws.sound)
-        each = np.unique(self._choices[sound], return_index=True)[1]
-        kept = np.union1d(sound[: max(1, math.ceil(needed))], sound[each])
-        for line, wrong in enumerate(unexplained(self.draws, rates, kept), 1):
+    def _wrong_rates(self, degrees: DrawnProblem) -> Mismatch | None:
+        rates, bounds = self.question.rates(), degrees.rates()
+        for line, wrong in enumerate(unexplained(self.draws, rates), 1):
             if np.any(wrong):
-                text = f"row {line} of Jp v = Jq qdot is wrong for a motion of the joint graph "
-                text += self._where(wrong, len(kept))
+                text = f"row {line} of Jp v = Jq qdot is wrong for a motion of the joint graph {self._where(wrong)}"
                 allowed = "every motion of the joint graph must obey it"
                 return Mismatch("Jp and Jq", f"row {line}", self.problem, text, allowed, self._hint)
-        self._missed(minor, len(kept))
+        self._missed(_minor([*bounds.closure, *bounds.relation], len(bounds.relation[0]) + 1))
         return None
 
 
@@ -274,17 +302,17 @@ def _minor(rows: Sequence[Sequence[Any]], size: int) -> Degree:
     return Degree(sum(whole.over for whole in largest), {}, roots, sum(highest) + math.log2(math.factorial(size)))
 
 
-def unexplained(draws: Draws, rates: Rates, kept: NDArray[np.intp]) -> list[NDArray[np.bool_]]:
+def unexplained(draws: Draws, rates: Rates) -> list[NDArray[np.bool_]]:
     """At which draws (D,) a row of the relation is no combination of the rows of the closure, row by row.
 
     Gauss's elimination; a draw at which a pivot vanishes that others have is left out.
     """
-    p = draws.field.p
+    p = draws.p
     columns = len(rates.closure[0]) if rates.closure else len(rates.relation[0])
-    rows = [_numbers(draws, row, kept) for row in (*rates.closure, *rates.relation)]
+    rows = [_numbers(draws, row) for row in (*rates.closure, *rates.relation)]
     re, im = (np.stack([row[part] for row in rows]) for part in (0, 1))  # (rows, columns, draws)
     free, count = list(range(len(rates.closure))), len(rates.closure)
-    sound = draws.sound[kept].copy()
+    sound = draws.sound.copy()
     for column in range(columns):
         filled = np.sum((re[free, column] != 0) | (im[free, column] != 0), axis=-1) if free else np.zeros(0)
         if not free or not np.any(filled):
@@ -306,16 +334,14 @@ def unexplained(draws: Draws, rates: Rates, kept: NDArray[np.intp]) -> list[NDAr
     return [np.any(row, axis=0) & sound for row in left]
 
 
-def _numbers(draws: Draws, row: Sequence[Any], kept: NDArray[np.intp]) -> tuple[IntArray, IntArray]:
+def _numbers(draws: Draws, row: Sequence[Any]) -> tuple[IntArray, IntArray]:
     """A row's residues (columns, draws), real and imaginary parts."""
-    re, im = np.zeros((2, len(row), len(kept)), dtype=object)
+    re, im = np.zeros((2, len(row), draws.count), dtype=object)
     for k, number in enumerate(row):
         own = number if isinstance(number, Residues) else draws.number(number)
-        re[k] = own.re[kept] if len(own.re) > 1 else own.re
-        if own.im is not None:
-            im[k] = own.im[kept] if len(own.im) > 1 else own.im
+        re[k], im[k] = own.re, 0 if own.im is None else own.im
     return re, im
 
 
-def _times(a: tuple[IntArray, IntArray], b: tuple[IntArray, IntArray], p: int) -> tuple[IntArray, IntArray]:
+def _times(a: tuple[IntArray, IntArray], b: tuple[IntArray, IntArray], p: Any) -> tuple[IntArray, IntArray]:
     return (a[0] * b[0] - a[1] * b[1]) % p, (a[0] * b[1] + a[1] * b[0]) % p
