@@ -22,7 +22,7 @@ def first_cells(head):
 def test_kinds_and_signs():
     assert first_cells("| kind | claims |"[:-1]) == [f"`{kind}`" for kind in CLAIMS]
     assert check.CLAIMS == CLAIMS
-    assert (reading.FORMAT, reading.VERSION) == ("assur certificate", 2)
+    assert (reading.FORMAT, reading.VERSION) == ("assur certificate", 3)
     assert first_cells("| sign | means |"[:-1]) == ["`0` to `9`", "`i`", "`r`", "`oNN`", "`b`"]
     for token in ("0", "9", "i", "r", "o0f", "b"):
         assert check.TOKEN.fullmatch(token)

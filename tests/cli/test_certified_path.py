@@ -22,9 +22,6 @@ def test_the_file_is_that_of_the_library(assur_cli, tmp_path):
     found = aspects(record, "-+")
     made = path_certificate(record, found, found.path([-60.0, 150.0], [60.0, 220.0]))
     written, own = json.loads(path.read_text()), made.to_json()
-    for document in (written, own):  # the exact check draws anew, with other numbers
-        del document["sha256"]
-        document["exact"] = {key: document["exact"][key] for key in ("says", "proved", "parallel", "serial")}
     assert written == own
     assert run.json["claims"] == made.claims
     assert run.json["written"] == str(path)

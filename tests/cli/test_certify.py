@@ -19,9 +19,6 @@ def test_the_file_is_that_of_the_library(assur_cli, tmp_path):
     asked = {"box": {"x": (-50, 50)}, "strokes": {"yA1": (-300, 300)}, "held": {"y": 0.0}, "mode": "++-++"}
     found = certificate(load_record("zeng2019"), **asked, most=60)
     written, own = json.loads(path.read_text()), found.to_json()
-    for document in (written, own):  # the exact check draws anew, with other numbers
-        del document["sha256"]
-        document["exact"] = {key: document["exact"][key] for key in ("says", "proved", "parallel", "serial")}
     assert written == own
     assert run.json["claims"] == found.claims
     assert "proof" not in run.json

@@ -260,7 +260,7 @@ def sign_change(factor, regular):
     files = dict.fromkeys(("hand.toml", "closed_form.py"), "0" * 64)
     statement = {"mechanism": "hand", "files": files, "parameters": {}, "mode": "", "strokes": {}, "held": {}}
     document = {
-        **{"format": "assur certificate", "version": 2, "kind": "box", "made_by": "hand", "exact": UNPROVED},
+        **{"format": "assur certificate", "version": 3, "kind": "box", "made_by": "hand", "exact": UNPROVED},
         "statement": {**statement, "coordinates": ["x"], "box": [[(-1.0).hex(), one]]},
         "program": {
             "operations": [["coordinate", "x"], ["number", one, one, "one"], factor],

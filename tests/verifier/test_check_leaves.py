@@ -22,7 +22,7 @@ def by_hand(box, leaf, operation, *, margin=ONE, nonzero=None, factor=ONE):
     statement = {"mechanism": "hand", "files": files, "parameters": {}, "mode": "", "strokes": {}, "held": {}}
     leaves = {name: int(name[0] == leaf[0]) for name in ("inside", "regular", "outside")}
     document = {
-        **{"format": "assur certificate", "version": 2, "kind": "box", "made_by": "hand", "exact": UNPROVED},
+        **{"format": "assur certificate", "version": 3, "kind": "box", "made_by": "hand", "exact": UNPROVED},
         "statement": {**statement, "coordinates": ["x"], "box": [[float(end).hex() for end in box]]},
         "program": {
             "operations": [["coordinate", "x"], ["number", one, one, "one"], operation],

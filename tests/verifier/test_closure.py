@@ -11,10 +11,11 @@ import pytest
 import assur
 from assur.certificates.exact_check import exact_check
 from assur.certificates.formulas import formulas
+from assur.kinematics.contract.exact import inverse_exactness
 from assur.kinematics.status import closed_form_of
 from assur.model.registry import load_record
 from assur.verifier.closure import closes
-from assur.verifier.reading import RefusedError
+from assur.verifier.reading import AT_PLACES, EXACT, OF_THESE, RefusedError
 
 BIGLIDE = Path(__file__).parents[1] / "kinematics/contract/biglide/mechanism.toml"
 
@@ -36,20 +37,21 @@ def drafted(name, **changed):
 @pytest.mark.parametrize("name", [*assur.names(), BIGLIDE])
 def test_right_formulas_close_the_graph_with_any_dimensions(name):
     document, text = drafted(name)
-    assert document["exact"]["proved"]
+    assert document["exact"]["says"] == EXACT
     found = closes(document, text)
     assert found["error"] < 1e-15
     assert found["places"] >= 2
     assert found["degree"] > 1
-    assert found["guards_left_out"] == document["exact"]["guards_left_out"]
-    assert found["prime"] not in document["exact"]["primes"]
+    assert found["guards_left_out"] == inverse_exactness(load_record(name)).guarded
+    assert int(found["prime"]) not in inverse_exactness(load_record(name)).primes
 
 
 @pytest.mark.parametrize("name", ["fivebar", "zeng2019", "three_rps"])
-def test_they_close_it_with_the_dimensions_of_the_file_too(name):
+@pytest.mark.parametrize("says", [OF_THESE, AT_PLACES])
+def test_less_than_they_do_is_not_claimed(name, says):
     document, text = drafted(name)
-    own = {**document, "exact": {**document["exact"], "any_dimensions": False}}
-    assert closes(own, text)["error"] < 1e-15
+    with pytest.raises(RefusedError, match="is claimed, but they close the joint graph with any dimensions"):
+        closes({**document, "exact": {**document["exact"], "says": says}}, text)
 
 
 def test_other_dimensions_are_those_of_the_statement():
@@ -170,9 +172,9 @@ def test_a_form_of_special_dimensions_is_exact_with_these_alone(tmp_path, monkey
 
             (tmp_path / path.name).write_text(text, encoding="utf-8")
     document, text = drafted(tmp_path / "mechanism.toml")
-    assert document["exact"]["proved"]
-    assert not document["exact"]["any_dimensions"]
-    assert document["exact"]["says"].startswith("with these dimensions")
+    assert document["exact"]["says"] == OF_THESE
     assert closes(document, text)["error"] < 1e-15
-    with pytest.raises(RefusedError, match="with any dimensions"):
-        closes({**document, "exact": {**document["exact"], "any_dimensions": True}}, text)
+    with pytest.raises(RefusedError, match="do not close the joint graph with any dimensions"):
+        closes({**document, "exact": {**document["exact"], "says": EXACT}}, text)
+    with pytest.raises(RefusedError, match="but they close the joint graph with the dimensions of the file"):
+        closes({**document, "exact": {**document["exact"], "says": AT_PLACES}}, text)

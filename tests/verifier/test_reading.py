@@ -52,8 +52,8 @@ def test_true_is_no_version(forged):
 
 
 def test_another_version_of_the_format_is_refused(forged):
-    with pytest.raises(MalformedError, match="version 3 of the format; this verifier knows 2"):
-        read(forged("box", lambda document: document.update(version=3)))
+    with pytest.raises(MalformedError, match="version 4 of the format; this verifier knows 3"):
+        read(forged("box", lambda document: document.update(version=4)))
 
 
 ZERO, DIGEST = (0.0).hex(), "0" * 64
@@ -107,7 +107,7 @@ def test_numbers_that_are_none_are_refused(made_of):
     text = made_of("box").text
     for bad in ("NaN", "Infinity", "1e999", "1.5", "1e" + "9" * 500, "9" * 5000, '{"a": 1, "a": 2}'):
         with pytest.raises(MalformedError, match="not JSON"):
-            read(text.replace('"version": 2', f'"version": {bad}').encode())
+            read(text.replace('"version": 3', f'"version": {bad}').encode())
 
 
 def test_the_checksum_is_that_of_sorted_json(made_of):

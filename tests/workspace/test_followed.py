@@ -86,7 +86,7 @@ def test_sections_and_outlines_agree():
     assert found.projection("x", "z").area == pytest.approx(known.projection("x", "z").area, rel=0.02)
 
 
-LOCI = [("fivebar", 24), ("planar_3rrr", 12), ("zeng2019", 12), pytest.param("delta_4s", 8, marks=pytest.mark.deep)]
+LOCI = [("fivebar", 24), ("planar_3rrr", 12), ("zeng2019", 12), pytest.param("delta_4s", 12, marks=pytest.mark.deep)]
 
 
 @pytest.mark.parametrize(("name", "resolution"), LOCI)

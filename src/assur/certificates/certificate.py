@@ -27,7 +27,7 @@ from assur.workspace.bounds import Stroke
 from assur.workspace.certified.boxes import Boxes, together
 from assur.workspace.domain import box_of
 
-FORMAT, VERSION = "assur certificate", 2
+FORMAT, VERSION = "assur certificate", 3
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 Kind = Literal["workspace", "box", "path"]

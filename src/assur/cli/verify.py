@@ -85,7 +85,7 @@ def _compared(path: Path, document: Mapping[str, Any], mechanism: str | None, se
     from assur.verifier.reading import RefusedError
 
     try:
-        exact = closes(document, record.file.read_text(encoding="utf-8")) if document["exact"]["proved"] else None
+        exact = closes(document, record.file.read_text(encoding="utf-8"))
     except RefusedError as error:
         return _refused(path, str(error), exit_codes.FAILS)
     return _holds(path, document, record, seconds, exact=exact)
@@ -125,9 +125,12 @@ def _holds(
 
 def _graph(document: Mapping[str, Any], exact: Mapping[str, Any] | None) -> list[str]:
     """What is known of the formulas on the joint graph; only what the verifier found itself counts as checked."""
+    from assur.verifier.reading import AT_PLACES
+
     says = document["exact"]["says"]
     if exact is None:
-        return [f"joint graph: {'not looked at; the certificate says: ' if document['exact']['proved'] else ''}{says}"]
+        not_looked = "" if says == AT_PLACES else "not looked at; the certificate says: "
+        return [f"joint graph: {not_looked}{says}"]
     degree = f"degrees up to {exact['degree']:.0f}"
     how = f"repeated with a joint graph of its own, modulo {exact['prime']}, at {exact['places']} places, {degree}"
     return [f"joint graph: {says}", f"  {how}, error {exact['error']:.0e}"]

@@ -234,9 +234,7 @@ class Draws(DrawnAngles):
 
     def signs(self) -> Residues:
         """1 or -1 at each draw."""
-        return Residues(
-            self, np.where(self.random.random(self.count) < 0.5, self._array(1), self._array(self.p - 1))
-        )
+        return Residues(self, np.where(self.random.random(self.count) < 0.5, self._array(1), self._array(self.p - 1)))
 
     def give_up(self, where: BoolArray) -> None:
         """Leave draws out."""

@@ -37,7 +37,7 @@ from assur.verifier.graph import (
 )
 from assur.verifier.mechanism import COORDINATES, mechanism
 from assur.verifier.places import DrawnPlace, FormulaTape, RatedNumber, RootPlan, Sizing
-from assur.verifier.reading import RefusedError
+from assur.verifier.reading import AT_PLACES, EXACT, OF_THESE, RefusedError
 from assur.verifier.sizes import Size
 
 CHECKED = ("loops", "platform", "velocities", "determinants")
@@ -50,30 +50,50 @@ NEAR = 1e-12
 Claim = tuple[str, Any]
 
 
-def closes(document: Mapping[str, Any], text: str) -> dict[str, Any]:
-    """How sure it is that the formulas close the joint graph: prime, places, degree and error.
+def closes(document: Mapping[str, Any], text: str) -> dict[str, Any] | None:
+    """How sure it is that the formulas close the joint graph, as the certificate says: prime, places, degree and error.
+
+    None where it says so of places only, and that is all that can be seen.
 
     Args:
-        document: a certificate that says so, as `assur.verifier.reading.read` gives it.
+        document: a certificate, as `assur.verifier.reading.read` gives it.
         text: the mechanism's file.
 
     Errors:
-        RefusedError: they do not, or the file is not that of the certificate's dimensions.
+        RefusedError: they do not, or do where it says less, or the file is not that of the certificate's dimensions.
     """
+    says = document["exact"]["says"]
+    if says == EXACT:
+        return _result(document, text, general=True)
+    for general in (True,) if says == OF_THESE else (True, False):
+        if _closes(document, text, general):
+            which = "any dimensions" if general else "the dimensions of the file"
+            raise RefusedError(f"{says!r} is claimed, but they close the joint graph with {which}, exactly")
+    return None if says == AT_PLACES else _result(document, text, general=False)
+
+
+def _closes(document: Mapping[str, Any], text: str, general: bool) -> bool:
     try:
-        return _Check(document, text).result()
+        return bool(_result(document, text, general))
+    except RefusedError:
+        return False
+
+
+def _result(document: Mapping[str, Any], text: str, general: bool) -> dict[str, Any]:
+    try:
+        return _Check(document, text, general).result()
     except (ArithmeticError, ValueError, KeyError, TypeError, IndexError, AttributeError, RecursionError) as error:
         raise RefusedError(f"the formulas do not fit the mechanism file: {type(error).__name__}: {error}") from error
 
 
 class _Check:
-    def __init__(self, document: Mapping[str, Any], text: str) -> None:
+    def __init__(self, document: Mapping[str, Any], text: str, general: bool) -> None:
         statement, program = document["statement"], document["program"]
         changed = {name: float.fromhex(value) for name, value in statement["parameters"].items()}
         self.mechanism = mechanism(text, changed)
         self.held = frozenset(statement["held"])
         self.coordinates = {*statement["coordinates"], *self.held}
-        self.program, self.general = program, document["exact"]["any_dimensions"]
+        self.program, self.general = program, general
         self.kinds: Mapping[str, Sequence[str]] = {name: document["exact"][name] for name in ("parallel", "serial")}
         groups = ("joints", "jp", "jq", "factors")
         self.places = {group: dict(map(tuple, program[group])) for group in groups}

@@ -128,12 +128,10 @@ class DrawnProblem:
         return self.form.direct(ns, self.p, given, signs)
 
     def claims(self) -> Iterator[Vanishing]:
-        """Loops, the platform's pose, inputs, and at poses the equations of the direct problem."""
+        """Loops, the platform's pose, and inputs."""
         yield from self._loops()
         yield from self._platform()
         yield from self._inputs()
-        if self.problem == "inverse":
-            yield from self._equations()
 
     def _loops(self) -> Iterator[Vanishing]:
         for name, given in self.rotations.items():
@@ -189,8 +187,9 @@ class DrawnProblem:
             text = f"{label} is not the product of its factors"
             yield Vanishing("factor", "", text, allowed, (minus(_determinant(matrix), product),))
 
-    def _equations(self) -> Iterator[Vanishing]:
-        direct, ns = self.form.direct, self.ns
+    def equations(self) -> Iterator[Vanishing]:
+        """Those of the direct problem, at poses."""
+        direct, ns = self.form.direct if self.problem == "inverse" else None, self.ns
         pose = dict(zip(self.record.platform.pose, self.branch.pose, strict=True))
         allowed = "every pose must solve the equations of the direct problem"
         if isinstance(direct, PolynomialSystem):

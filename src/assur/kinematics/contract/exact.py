@@ -76,11 +76,17 @@ class Exactness:
     def text(self) -> str:
         """What is said of the formulas."""
         if not self.proved:
-            because = self.undecided or self.mismatches[0].observed
-            return f"the formulas were held at places only, not in exact arithmetic: {because}"
+            return f"{self.claim}: {self.undecided or self.mismatches[0].observed}"
+        guards = "exact but where numbers below 1e-25 that are added to others count" if self.guarded else "exact"
+        return self.claim.replace("exact", guards)
+
+    @property
+    def claim(self) -> str:
+        """The same without what was left out, and without a reason: what certificates say."""
+        if not self.proved:
+            return "the formulas were held at places only, not in exact arithmetic"
         special = "" if self.general else "with these dimensions "
-        guards = " but where numbers below 1e-25 that are added to others count" if self.guarded else ""
-        return f"{special}the formulas close the joint graph: exact{guards}, error < 1e-15"
+        return f"{special}the formulas close the joint graph: exact, error < 1e-15"
 
 
 @lru_cache(maxsize=64)
@@ -96,40 +102,68 @@ def exactness(record: MechanismRecord, most: int = AGAIN) -> Exactness:
     >>> exactness(load_record("fivebar")).proved
     True
     """
-    general = _exactness(record, general=True, most=most)
-    if general.proved or (most < AGAIN and general.places and not general.mismatches):
-        return general
-    own = _exactness(record, general=False, most=most)
-    return own if own.proved or own.mismatches or not general.undecided else general
+    return _exactness(record, problems_by_formulas(record), most)
 
 
-def _exactness(record: MechanismRecord, general: bool, most: int) -> Exactness:
-    random = np.random.default_rng(secrets.randbits(64))
-    error, trials = 0.0, list[Trial]()
-    for problem in problems_by_formulas(record):
-        missed, met, first = 1.0, dict[int, set[int]](), len(trials)
-        while (missed > ENOUGH or not _all_met(met)) and len(trials) - first < most:
-            try:
-                trial = Trial(record, problem, general, random)
-                broken = trial.mismatch()
-            except (ArithmeticError, TypeError, ValueError, AttributeError, MechanismFileError) as reason:
-                # dimensions that are drawn may divide by zero, and Python that was let run may know floats alone
-                return Exactness(undecided=f"{type(reason).__name__}: {reason}", general=general)
-            if broken:
-                return Exactness((broken,), general=general)
-            missed *= min(1.0, trial.error)
-            met[trial.kinds] = met.get(trial.kinds, set()) | trial.met
-            trials.append(trial)
-        error += missed if _all_met(met) else 1.0
-    return Exactness(
-        error=error,
-        general=general,
-        guarded=any(trial.draws.guarded for trial in trials),
-        undecided=f"the degrees of its formulas leave an error of {error:.0e}" if error >= SURE else "",
-        primes=tuple(trial.draws.field.p for trial in trials),
-        places=sum(trial.places for trial in trials),
-        degree=max(trial.degree for trial in trials),
-    )
+@lru_cache(maxsize=64)
+def inverse_exactness(record: MechanismRecord) -> Exactness:
+    """The same of the formulas that lead from a pose to the joints alone: what certificates are made of.
+
+    >>> from assur.model.registry import load_record
+    >>> inverse_exactness(load_record("planar_3rrr")).claim
+    'the formulas close the joint graph: exact, error < 1e-15'
+    """
+    return _exactness(record, ("inverse",), AGAIN, equations=False)
+
+
+def _exactness(
+    record: MechanismRecord, problems: tuple[Problem, ...], most: int, *, equations: bool = True
+) -> Exactness:
+    general, own = (_Attempt(record, problems, any_dimensions, equations) for any_dimensions in (True, False))
+    first = general.exactness(most)
+    if first.proved or (most < AGAIN and first.places and not first.mismatches):
+        return first
+    second = own.exactness(most)
+    return second if second.proved or second.mismatches or not first.undecided else first
+
+
+@dataclass(frozen=True)
+class _Attempt:
+    """What is drawn: dimensions too, or a pose or inputs alone; and whether equations are looked at."""
+
+    record: MechanismRecord
+    problems: tuple[Problem, ...]
+    general: bool
+    equations: bool
+
+    def exactness(self, most: int) -> Exactness:
+        """What the draws say, of so many primes for each problem at most."""
+        random = np.random.default_rng(secrets.randbits(64))
+        error, trials = 0.0, list[Trial]()
+        for problem in self.problems:
+            missed, met, first = 1.0, dict[int, set[int]](), len(trials)
+            while (missed > ENOUGH or not _all_met(met)) and len(trials) - first < most:
+                try:
+                    trial = Trial(self.record, problem, self.general, random)
+                    broken = trial.mismatch(equations=self.equations)
+                except (ArithmeticError, TypeError, ValueError, AttributeError, MechanismFileError) as reason:
+                    # dimensions that are drawn may divide by zero, and Python that was let run may know floats alone
+                    return Exactness(undecided=f"{type(reason).__name__}: {reason}", general=self.general)
+                if broken:
+                    return Exactness((broken,), general=self.general)
+                missed *= min(1.0, trial.error)
+                met[trial.kinds] = met.get(trial.kinds, set()) | trial.met
+                trials.append(trial)
+            error += missed if _all_met(met) else 1.0
+        return Exactness(
+            error=error,
+            general=self.general,
+            guarded=any(trial.draws.guarded for trial in trials),
+            undecided=f"the degrees of its formulas leave an error of {error:.0e}" if error >= SURE else "",
+            primes=tuple(trial.draws.field.p for trial in trials),
+            places=sum(trial.places for trial in trials),
+            degree=max(trial.degree for trial in trials),
+        )
 
 
 def _all_met(met: Mapping[int, set[int]]) -> bool:
@@ -209,8 +243,12 @@ class Trial:
             minus[rows] ^= minus[rows[0]]
         return np.asarray(2 ** np.arange(len(minus)) @ minus)
 
-    def mismatch(self) -> Mismatch | None:
-        """The first claim that is broken; the error is known afterwards."""
+    def mismatch(self, *, equations: bool = True) -> Mismatch | None:
+        """The first claim that is broken; the error is known afterwards.
+
+        Args:
+            equations: whether those of the direct problem are looked at.
+        """
         if not self.places:
             self.error = 1.0
             return None
@@ -221,6 +259,7 @@ class Trial:
             self._broken(self.question.claims(), degrees.claims())
             or self._wrong_rates(degrees)
             or self._broken(iter(self._determinants), iter(determinants))
+            or (self._broken(self.question.equations(), degrees.equations()) if equations else None)
         )
 
     def _looked_at(self) -> NDArray[np.intp]:
