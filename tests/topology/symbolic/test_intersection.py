@@ -266,6 +266,12 @@ def test_rules_and_twists_agree_in_translation_mode(chains):
         # outer axes that could turn against each other, and do not
         (["R[x] R[y] R[y] P[x] R[x]", "R[y] R[y]"], "translation", (2, 1, 2)),
         (["R[x] R[x]", "R[z] R[z] P[y] U[x,z]"], "translation", (0, 0, 0)),
+        # parallel slides between axes that never turn: displaced at will the slides would part
+        (["R[z] P[-0.5,0.8,1.1] R[z]"] * 3, "free", (1, 0, 1)),
+        (["R[z] P[-0.5,0.8,1.1] R[z]"] * 3, "translation", (1, 0, 1)),
+        (["R[z] P[1,0,2] R[z]"] * 4, "free", (1, 0, 1)),
+        # an axis that all limbs share in direction, about which no two of them turn on one line
+        (["R[z] C[-0.5,0.8,1.1] R[z]", "R[x] C[-0.5,0.8,1.1] R[x]"], "free", (2, 2, 2)),
     ],
 )
 def test_special_positions_that_last(limbs, mode, numbers):

@@ -11,8 +11,9 @@ from dataclasses import dataclass, replace
 from functools import reduce
 
 from assur.topology.symbolic.blocks import Block, Structure
+from assur.topology.symbolic.blocks import structure as gathered
 from assur.topology.symbolic.constraints import Resisted, resisted
-from assur.topology.symbolic.elementary import Turn
+from assur.topology.symbolic.elementary import Slide, Turn
 from assur.topology.symbolic.motion import Limb, Motion, motion_at_home, motion_of
 from assur.topology.symbolic.orientations import (
     EVERY,
@@ -23,6 +24,7 @@ from assur.topology.symbolic.orientations import (
     orientations,
     returns,
     without_axes,
+    without_still_axes,
 )
 from assur.topology.symbolic.refusals import Refusal
 from assur.topology.symbolic.spaces import rotations, translations
@@ -78,7 +80,7 @@ def as_written(limbs: Sequence[Limb]) -> HeldLimbs | Refusal:
     The mechanism leaves it in as many directions as it has freedoms there, and moves on in one mode where it keeps
     as many: with the platform unturned, turning about one axis, or taking every orientation that the limbs leave.
     """
-    home = _together([motion_at_home(limb) for limb in limbs], UNTURNED)
+    home = _at_home(limbs)
     if isinstance(home, Refusal):
         return home
     still = assembled(limbs, UNTURNED)
@@ -91,6 +93,11 @@ def as_written(limbs: Sequence[Limb]) -> HeldLimbs | Refusal:
     return Refusal("as written, the limbs are in a position from which they can move on in several modes")
 
 
+def _at_home(limbs: Sequence[Limb]) -> HeldLimbs | Refusal:
+    """Limbs in the one configuration as written."""
+    return _together([motion_at_home(limb) for limb in limbs], UNTURNED)
+
+
 def _goes_on(home: HeldLimbs, mode: HeldLimbs) -> bool:
     """Whether a mode starts at home: as many freedoms as there, and a platform that can do no less."""
     more = mode.resisted.dim >= home.resisted.dim and mode.turned.dim >= home.turned.dim
@@ -99,16 +106,43 @@ def _goes_on(home: HeldLimbs, mode: HeldLimbs) -> bool:
 
 def _modes(limbs: Sequence[Limb], home: HeldLimbs, still: HeldLimbs) -> Iterator[HeldLimbs | Refusal]:
     """Ways in which a platform may turn, the least first."""
+    yield _sliding(limbs)
     common = _allowed(limbs)
     if not still.turned.dim or (common == UNTURNED and still.has_rods):
         yield still
     for turned in (home.turned, still.turned):
         if turned.dim == 1 and turned.is_fixed:
             about = assembled(limbs, Orientations(1, turned.fixed))
-            if isinstance(about, HeldLimbs) and about.turned.dim == about.taken.dim == 1:
+            if isinstance(about, HeldLimbs) and about.turned.dim == about.taken.dim == 1 and _turns(about):
                 yield about
     if common != UNTURNED:
         yield _narrowed(limbs, common)
+
+
+def _sliding(limbs: Sequence[Limb]) -> HeldLimbs | Refusal:
+    """Limbs in which nothing turns.
+
+    Where they have all freedoms of home they are the mechanism: no link ever turns, and slides that were written
+    parallel stay so, which the other modes take to part.
+    """
+    sliding = []
+    for limb in limbs:
+        slides = tuple(part for part in limb.chain if isinstance(part, Slide))
+        freedoms = sum(slide.span.dim for slide in slides)
+        sliding.append(replace(limb, chain=slides, structure=gathered(slides), freedoms=freedoms))
+    return assembled(sliding, UNTURNED)
+
+
+def _turns(assembly: HeldLimbs) -> bool:
+    """Whether limbs let the platform turn with those axes at rest that alone would turn it out of its orientations."""
+    rest = [_moving_as(motion, without_still_axes(motion.structure)) for motion in assembly.limbs if motion.structure]
+    constraint = resisted(rest, assembly.taken)
+    return isinstance(constraint, Resisted) and constraint.couples.complement.dim == assembly.taken.dim
+
+
+def _moving_as(motion: Motion, kept: Structure) -> Motion:
+    """A limb with another structure."""
+    return replace(motion, structure=kept, rotations=rotations(kept), translations=translations(kept))
 
 
 def unturned(limbs: Sequence[Limb]) -> HeldLimbs | Refusal:
@@ -117,9 +151,11 @@ def unturned(limbs: Sequence[Limb]) -> HeldLimbs | Refusal:
     First and last axes of a limb that turn against each other do so only where the platform's translations need it,
     or where the limb moves within itself.
     """
-    assembly = assembled(limbs, UNTURNED)
+    assembly, home, sliding = assembled(limbs, UNTURNED), _at_home(limbs), _sliding(limbs)
     if isinstance(assembly, Refusal):
         return assembly
+    if isinstance(sliding, HeldLimbs) and isinstance(home, HeldLimbs) and _goes_on(home, sliding):
+        return sliding
     motions, moved = list(assembly.limbs), [limb.translations for limb in assembly.limbs]
     for index, motion in enumerate(assembly.limbs):
         around = axes_around(motion.structure) if motion.structure else None
@@ -129,7 +165,7 @@ def unturned(limbs: Sequence[Limb]) -> HeldLimbs | Refusal:
         fewer = [*moved[:index], translations(rest), *moved[index + 1 :]]
         if _common_translations(fewer) == _common_translations(moved) and _idle(motion, around, rest) == motion.passive:
             kept = at_rest(motion.structure, around)
-            motions[index] = replace(motion, structure=kept, rotations=rotations(kept), translations=translations(kept))
+            motions[index] = _moving_as(motion, kept)
             moved = fewer
     return _together(motions, UNTURNED)
 

@@ -158,6 +158,15 @@ def without_axes(structure: Structure, around: Block) -> Structure:
     return replace(structure, items=_in_place_of(around, around.inner, structure))
 
 
+def without_still_axes(structure: Structure) -> Structure:
+    """The chain without axes that keep what follows unturned, each of which turns against no parallel one."""
+    items: list[Item] = []
+    for item in structure.items:
+        still = isinstance(item, Block) and not item.net and len(item.lines) == 1
+        items += item.inner if still and isinstance(item, Block) else (item,)
+    return replace(structure, items=tuple(items))
+
+
 def _in_place_of(block: Block, items: tuple[Item, ...], structure: Structure) -> tuple[Item, ...]:
     place = next(index for index, item in enumerate(structure.items) if item is block)
     return (*structure.items[:place], *items, *structure.items[place + 1 :])
