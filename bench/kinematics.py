@@ -28,7 +28,7 @@ from rich.table import Table
 import assur
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closure import FloatArray, assemble, closure_error
-from assur.kinematics.following.from_home import followed_in_a_row
+from assur.kinematics.following.from_home import followed_together
 from assur.kinematics.newton import ENOUGH, Newton, NewtonStep
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.finite_motion import classify_at, status_of
@@ -107,10 +107,10 @@ def followed(rows: Table, repeats: int) -> bool:
     home = pose_of(mechanism, mechanism.home_values)
     x, y = np.meshgrid(np.linspace(0.0, 60.0, 64), np.linspace(-60.0, 60.0, 128), indexing="ij")
     poses = home + np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
-    joints, reached = followed_in_a_row(mechanism, poses)
+    joints, reached = followed_together(mechanism, poses)
     length = characteristic_length(mechanism)
     right = bool(np.all(reached) and np.max(closure_error(mechanism, joints)) <= 1e-12 * length)
-    ours = timed(lambda: followed_in_a_row(mechanism, poses), repeats, time.process_time) / len(poses)
+    ours = timed(lambda: followed_together(mechanism, poses), repeats, time.process_time) / len(poses)
     count = len(mechanism.coordinates)
     matrix = RNG.normal(size=(256, count, count))
     least = 3 * timed(lambda: np.linalg.solve(matrix, matrix[..., :1]), 20 * repeats, time.process_time) / 256

@@ -9,7 +9,7 @@ import pytest
 
 import assur
 from assur.kinematics import border
-from assur.kinematics.following.from_home import followed_from_home, followed_in_a_row
+from assur.kinematics.following.from_home import followed_from_home, followed_together
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.kinematics.status import Status
@@ -47,6 +47,20 @@ def test_what_a_pose_gets_depends_on_that_pose_alone():
         np.testing.assert_allclose(alone[0], joints[k], rtol=1e-12, atol=1e-12)
 
 
+def test_a_grid_is_reached_wherever_home_leads_straight():
+    """Half of it is out of reach; against every pose alone, and against home's branch of the closed form."""
+    record = assur.load("fivebar")
+    axes = np.meshgrid(np.linspace(-250.0, 250.0, 41), np.linspace(-40.0, 300.0, 31), indexing="ij")
+    poses = np.stack([axis.ravel() for axis in axes], axis=1)
+    joints, reached = followed_together(record, poses)
+    _, alone = followed_from_home(record, poses)
+    assert 0.3 < np.mean(reached) < 0.7
+    assert np.all(reached[alone])
+    wanted = record.inverse(poses[reached], record.modes.default_working).inputs[:, 0]
+    away = border.inputs_of(record, joints[reached]) - wanted
+    np.testing.assert_allclose((away + np.pi) % (2 * np.pi) - np.pi, 0.0, atol=1e-9)
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_poses_in_a_row_are_reached_as_from_home(name):
     """Lines of a grid, several of them, longer than the distance of what is followed from home."""
@@ -56,7 +70,7 @@ def test_poses_in_a_row_are_reached_as_from_home(name):
     lines = [start + np.outer(np.linspace(-0.2, 0.2, 90), size * way) for way in np.eye(len(start))[:2]]
     poses = np.concatenate(lines)
     straight, alone = followed_from_home(record, poses)
-    joints, reached = followed_in_a_row(record, poses)
+    joints, reached = followed_together(record, poses)
     assert reached.sum() > 20
     assert np.all(reached[alone])
     assert np.mean(reached == alone) > 0.9
@@ -79,5 +93,5 @@ def test_coordinates_of_a_pose_may_stand_in_any_order():
 
 
 def test_an_empty_row():
-    joints, reached = followed_in_a_row(assur.load("fivebar"), np.empty((0, 2)))
+    joints, reached = followed_together(assur.load("fivebar"), np.empty((0, 2)))
     assert (joints.shape, reached.shape) == ((0, 5), (0,))

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closed_form.blocks import FloatArray
 from assur.kinematics.closed_form.grid_sweep import GridSweep
-from assur.kinematics.following.from_home import followed_in_a_row
+from assur.kinematics.following.from_home import followed_together
 from assur.kinematics.rates.finite_motion import classify_at
 from assur.kinematics.status import Status
 from assur.results.store.layout import block_length
@@ -45,7 +45,7 @@ class HomeSweep(GridSweep):
     @property
     def existence(self) -> str:
         """That a pose was reached."""
-        return "whether the straight way from home, or a neighbour that is reached, leads to the pose"
+        return "whether the pose was reached from home, straight or by way of neighbours"
 
     @property
     def engine(self) -> str:
@@ -59,7 +59,7 @@ class HomeSweep(GridSweep):
 
     def answers(self, given: FloatArray) -> dict[str, NDArray[Any]]:
         """What is kept of poses (m, b), angles in rad, and whether each was reached (b,)."""
-        joints, reached = followed_in_a_row(self.record, given.T)
+        joints, reached = followed_together(self.record, given.T)
         found = {"exists": reached, "inputs": inputs_of(self.record, joints).T}
         found["status"] = np.full(reached.shape, Status.undecided, dtype=np.int8)
         if np.any(reached):

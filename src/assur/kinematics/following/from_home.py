@@ -5,24 +5,25 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.following.neighbours import SignGuard, steps_at, working_signs
+from assur.kinematics.following.neighbours import SignGuard, joined, steps_at, working_signs
 from assur.kinematics.following.stepping import Pace, followed
-from assur.kinematics.following.ways import Straight, pose_change
+from assur.kinematics.following.ways import Straight
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
+IntArray = NDArray[np.intp]
 
 FIRST, LEAST = 2.0**-2, 2.0**-10
 """Share of the way of the first step, and of the shortest one that is tried."""
 MOST = 100
 """Steps on a way, taken or not, at most."""
 COARSE = 2.0**-5
-"""The shortest step to a pose that its neighbours do not lead to: nearly all of these are out of reach."""
-APART = 64
-"""Of poses in a row every so many is followed to from home, which takes some ten times as long as from a neighbour."""
+"""The shortest step to one of many poses: what it does not lead to is out of reach, or a neighbour leads there."""
+SAMPLES = 128
+"""So many poses at a time are followed to from home, which takes some ten times as long as from a neighbour."""
 WIDE = 1.5
 """Poses that are apart by more than this times the median distance are no neighbours: a line of a grid ends there."""
 
@@ -60,40 +61,71 @@ def followed_from_home(
     return here.joints, reached
 
 
-def followed_in_a_row(record: MechanismRecord, poses: FloatArray) -> tuple[FloatArray, BoolArray]:
-    """As `followed_from_home`, of poses (N, m) that follow one another, as on the lines of a grid.
+def followed_together(record: MechanismRecord, poses: FloatArray) -> tuple[FloatArray, BoolArray]:
+    """As `followed_from_home`, of poses (N, m) that are near one another, as on a grid.
 
-    Every `APART`-th is followed to from home, the others from their neighbours on both sides, and what is then left
-    from home again. What a pose gets depends on the poses of the row alone.
+    Some are followed to from home, the others from neighbours that are reached, which takes a tenth of the time; and
+    so on with some of those that are left, until none of these is reached. What a pose gets depends on all of them.
 
     Example: the five-bar along a line, the last pose beyond its reach.
 
         >>> from assur.model.registry import load_record
         >>> line = np.stack([np.zeros(6), np.linspace(240.0, 290.0, 6)], axis=1)
-        >>> followed_in_a_row(load_record("fivebar"), line)[1].tolist()
+        >>> followed_together(load_record("fivebar"), line)[1].tolist()
         [True, True, True, True, True, False]
     """
     guard = SignGuard(record, working_signs(record, home_values(record)))
     joints = np.full((len(poses), len(record.coordinates)), np.nan)
-    reached = np.zeros(len(poses), dtype=bool)
-    seeds = np.arange(0, len(poses), APART)
-    joints[seeds], reached[seeds] = followed_from_home(record, poses[seeds])
-    distance = np.linalg.norm(pose_change(record, poses[:-1], poses[1:]), axis=1)
-    adjacent = distance <= WIDE * np.median(distance) if len(distance) else np.zeros(0, dtype=bool)
-    begun = seeds[reached[seeds]]
-    for sense in (1, -1):
-        front, steps = begun, steps_at(guard, poses[begun], joints[begun])
-        for _ in range(APART - 1):
-            heads = front + sense
-            inside = (heads >= 0) & (heads < len(poses))
-            onward = np.zeros(len(front), dtype=bool)
-            onward[inside] = ~reached[heads[inside]] & adjacent[np.minimum(front, heads)[inside]]
-            if not np.any(onward):
+    around, left = neighbours(poses), np.arange(len(poses))
+    tried = np.zeros(len(poses), dtype=bool)
+    while len(left):
+        some = left[:: -(-len(left) // SAMPLES)]
+        joints[some], good = followed_from_home(record, poses[some], LEAST if len(some) == len(left) else COARSE)
+        if not np.any(good):
+            break
+        tried[some] = True
+        _spread(guard, poses, joints, around, some[good])
+        left = np.flatnonzero(np.isnan(joints[:, 0]) & ~tried)
+    return joints, np.isfinite(joints[:, 0])
+
+
+def _spread(guard: SignGuard, poses: FloatArray, joints: FloatArray, around: IntArray, begun: IntArray) -> None:
+    """From poses that are reached to all that neighbours lead to, layer by layer; joint values (N, n) are filled in."""
+    front, steps = begun, steps_at(guard, poses[begun], joints[begun])
+    while len(front):
+        heads = around[:, front]
+        tails = np.broadcast_to(np.arange(len(front)), heads.shape)
+        reached, layer = [front[:0]], [steps.of(front[:0])]
+        while True:
+            onward = (heads >= 0) & np.isnan(joints[heads, 0])
+            tails, heads = tails[onward], heads[onward]
+            if not len(heads):
                 break
-            heads = heads[onward]
-            steps, good = steps.of(onward).to(poses[heads])
-            front, steps = heads[good], steps.of(good)
-            joints[front], reached[front] = steps.places.joints, True
-    left = np.flatnonzero(~reached & ~np.isin(np.arange(len(poses)), seeds))
-    joints[left], reached[left] = followed_from_home(record, poses[left], COARSE)
-    return joints, reached
+            ends, first = np.unique(heads, return_index=True)
+            after, good = steps.of(tails[first]).to(poses[ends])
+            reached.append(ends[good])
+            layer.append(after.of(good))
+            joints[ends[good]] = layer[-1].places.joints
+            tails, heads = np.delete(tails, first), np.delete(heads, first)
+        front, steps = np.concatenate(reached), joined(layer)
+
+
+def neighbours(poses: FloatArray) -> IntArray:
+    """Index (2 m, N) of the next pose up and down each coordinate, the last one first, all others equal; else -1.
+
+    Gaps in a line of poses are wider than `WIDE` times the median distance along that coordinate.
+
+    >>> neighbours(np.array([[0.0, 0.0], [0.0, 1.0], [1.0, 0.0]])).tolist()
+    [[1, -1, -1], [-1, 0, -1], [2, -1, -1], [-1, -1, 0]]
+    """
+    count, size = poses.shape
+    index = np.full((2 * size, count), -1)
+    for row, k in enumerate(reversed(range(size))):
+        others = np.delete(poses, k, axis=1)
+        order = np.lexsort((poses[:, k], *others.T))
+        low, high = order[:-1], order[1:]
+        distance = poses[high, k] - poses[low, k]
+        line = np.all(others[low] == others[high], axis=1) & (distance > 0.0)
+        line &= distance <= WIDE * np.median(distance[line]) if np.any(line) else line
+        index[2 * row, low[line]], index[2 * row + 1, high[line]] = high[line], low[line]
+    return index

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -95,6 +96,15 @@ class Steps:
 def steps_from(guard: SignGuard, poses: FloatArray, places: Places) -> Steps:
     """Steps from places at poses (N, m), where new ways begin."""
     return Steps(guard, poses, Places(np.zeros(len(poses)), places.joints, places.matrix))
+
+
+def joined(parts: Sequence[Steps]) -> Steps:
+    """Steps of one guard after one another."""
+    places = [steps.places for steps in parts]
+    shares, joints, matrix = (
+        np.concatenate([getattr(own, name) for own in places]) for name in ("shares", "joints", "matrix")
+    )
+    return Steps(parts[0].guard, np.concatenate([steps.poses for steps in parts]), Places(shares, joints, matrix))
 
 
 def steps_at(guard: SignGuard, poses: FloatArray, joints: FloatArray) -> Steps:
