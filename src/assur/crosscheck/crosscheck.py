@@ -26,6 +26,7 @@ from assur.kinematics.status import Status
 from assur.kinematics.turns import periodic_inputs
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
+from assur.numerics import rotations
 from assur.results.answers.comparison import ComparedKind, CrossCheckAnswer
 
 FloatArray = NDArray[np.float64]
@@ -203,7 +204,7 @@ def _inputs_apart(engine: Engine, sample: SolvedConfiguration) -> float:
     metre, size = engine.bodies.metre, engine.bodies.size
     angular = np.array([one.coordinate.kind == "angle" for one in engine.record.inputs])
     gap = engines.printed_inputs(engine) - np.where(angular, 1.0, metre) * sample.inputs
-    gap = np.where(periodic_inputs(engine.record), (gap + np.pi) % (2 * np.pi) - np.pi, gap)
+    gap = np.where(periodic_inputs(engine.record), rotations.nearest_turn(gap), gap)
     return float(np.max(np.abs(np.where(angular, gap, gap / size)), initial=0.0))
 
 

@@ -194,7 +194,7 @@ def distance(record: MechanismRecord, joints: FloatArray, poses: FloatArray, inp
     for k, (item, same) in enumerate(zip(record.inputs, periodic_inputs(record), strict=True)):
         gap = np.abs(item.printed(joints[:, item.coordinate.index]) - inputs[:, k])
         if same:
-            gap = np.abs((gap + np.pi) % (2 * np.pi) - np.pi)
+            gap = np.abs(rotations.nearest_turn(gap))
         if item.coordinate.kind == "angle":
             gap = length * gap
         gaps = np.maximum(gaps, gap)

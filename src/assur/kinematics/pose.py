@@ -97,11 +97,11 @@ def error_of(names: Pose, frame: Frame, poses: FloatArray, length: float) -> Flo
     given = {name: poses[..., k] for k, name in enumerate(names)}
     rows = [point[..., LENGTHS.index(name)] - given[name] for name in names if name in LENGTHS]
     if whole_orientation(names):
-        turn = rotations.to_vector(rotation @ np.swapaxes(_orientation(names, given), -1, -2))
+        turn = rotations.to_vector(rotation @ np.swapaxes(orientation(names, given), -1, -2))
         rows += [length * turn[..., k] for k in range(3)]
     elif any(name in ANGLES for name in names):
         angles = dict(zip(ANGLES, rotations.to_angles(rotation), strict=True))
-        rows += [length * _nearest_turn(angles[name] - given[name]) for name in names if name in ANGLES]
+        rows += [length * rotations.nearest_turn(angles[name] - given[name]) for name in names if name in ANGLES]
     return np.stack(rows, axis=-1)
 
 
@@ -134,7 +134,7 @@ def whole_orientation(names: tuple[str, ...]) -> bool:
     return has_quaternion(names) or all(name in names for name in ANGLES)
 
 
-def _orientation(names: tuple[str, ...], given: dict[str, FloatArray]) -> FloatArray:
+def orientation(names: tuple[str, ...], given: dict[str, FloatArray]) -> FloatArray:
     """Rotation (..., 3, 3) that the coordinates of a pose mean."""
     if has_quaternion(names):
         return rotations.from_quaternion(np.stack([given[name] for name in QUATERNION], axis=-1))
@@ -218,7 +218,3 @@ def _angle_rates(rotation: FloatArray, angular: FloatArray) -> tuple[FloatArray,
     across = np.cos(phi) * angular[..., 1, :] - np.sin(phi) * angular[..., 0, :]
     psi_rate = along / np.maximum(np.cos(theta), LEAST_COSINE)
     return angular[..., 2, :] + np.sin(theta) * psi_rate, across, psi_rate
-
-
-def _nearest_turn(angle: FloatArray) -> FloatArray:
-    return np.asarray((angle + np.pi) % (2 * np.pi) - np.pi)

@@ -25,6 +25,7 @@ from assur.kinematics.turns import (
 )
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
+from assur.numerics import rotations
 from assur.work import WorkStage, stage
 
 FloatArray = NDArray[np.float64]
@@ -142,7 +143,7 @@ def _on_the_way(record: MechanismRecord, problem: Problem, given: FloatArray) ->
     begun = inputs_of(record, values) if direct else pose_of(record, values)
     angular = periodic_inputs(record) if direct else np.array([is_angle(name) for name in record.platform.pose])
     change = given - begun
-    change = np.where(angular, np.remainder(change + np.pi, 2 * np.pi) - np.pi, change)
+    change = np.where(angular, rotations.nearest_turn(change), change)
     for share in np.arange(1, WAY + 1) / WAY:
         values = _assembled(record, problem, begun + share * change, values[None]).values[0]
         on.append(values)

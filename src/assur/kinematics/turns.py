@@ -84,7 +84,7 @@ def unwrapped(record: MechanismRecord, change: FloatArray) -> FloatArray:
     >>> unwrapped(load_record("fivebar"), np.full(5, 6.0)).round(4).tolist()
     [-0.2832, -0.2832, -0.2832, -0.2832, -0.2832]
     """
-    return np.where(periodic(record), np.remainder(change + np.pi, 2 * np.pi) - np.pi, change)
+    return np.where(periodic(record), rotations.nearest_turn(change), change)
 
 
 @lru_cache(maxsize=64)
@@ -104,7 +104,7 @@ def lasting_relations(record: MechanismRecord) -> FloatArray:
         driven = np.isin(np.arange(len(screws)), record.input_indices) & _about_axis(record)
         changes = _changes_around_home(record)
         for row in _sums(screws, driven):
-            off = np.abs(np.remainder(changes @ row + np.pi, 2 * np.pi) - np.pi)
+            off = np.abs(rotations.nearest_turn(changes @ row))
             kept = np.max(off, initial=0.0) <= KEPT
             if kept and np.linalg.matrix_rank(np.array([*rows, row])) > len(rows):
                 rows.append(row)
@@ -151,7 +151,7 @@ def in_one_turn(record: MechanismRecord, joints: FloatArray) -> FloatArray:
 
     Rotation vectors of spherical joints too: as a vector of length 2 pi the identity has no rates, and looks singular.
     """
-    answer = np.where(periodic(record), (joints + np.pi) % (2 * np.pi) - np.pi, joints)
+    answer = np.where(periodic(record), rotations.nearest_turn(joints), joints)
     for place in joint_graph(record).turns:
         answer[..., place] = rotations.shortest(answer[..., place])
     return answer

@@ -128,6 +128,15 @@ def _near_half_turn(rotation: FloatArray, sine_axis: FloatArray, angle: FloatArr
     return np.asarray((angle * sense)[..., None] * axis)
 
 
+def nearest_turn(angle: FloatArray) -> FloatArray:
+    """Angles (...) in rad less whole turns, at most half a turn: -pi up to but not pi.
+
+    >>> nearest_turn(np.array([6.0, -4.0])).round(4)
+    array([-0.2832,  2.2832])
+    """
+    return np.asarray(np.remainder(angle + np.pi, 2 * np.pi) - np.pi)
+
+
 def shortest(vector: FloatArray) -> FloatArray:
     """Rotation vectors (..., 3) of the same rotations, none longer than half a turn.
 

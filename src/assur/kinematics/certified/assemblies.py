@@ -29,6 +29,7 @@ from assur.kinematics.modes import Method, Problem
 from assur.kinematics.search import distinct
 from assur.kinematics.turns import in_one_turn, periodic
 from assur.model.mechanism import MechanismRecord
+from assur.numerics import rotations
 from assur.numerics.intervals.interval import Interval, as_interval
 from assur.numerics.krawczyk import Equations, image, parts, proves, stacked
 from assur.work import stage
@@ -124,7 +125,7 @@ class _Proof:
     def may_be(self, other: _Proof) -> bool:
         """Whether both may be one assembly, angles but for whole turns: certainly so where they are."""
         apart = self.middle - other.middle
-        apart = np.where(self.turning, np.remainder(apart + np.pi, 2 * np.pi) - np.pi, apart)
+        apart = np.where(self.turning, rotations.nearest_turn(apart), apart)
         slack = 1e-12 * (1 + np.abs(self.middle) + np.abs(other.middle))
         return bool(np.all(np.abs(apart) <= self.width + other.width + slack))
 

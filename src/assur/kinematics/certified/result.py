@@ -17,6 +17,7 @@ from assur.kinematics.modes import Problem
 from assur.kinematics.turns import periodic_inputs
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, QUATERNION, is_angle
+from assur.numerics import rotations
 from assur.numerics.intervals.functions import TURN
 from assur.numerics.intervals.interval import Interval
 from assur.results.answers.certified import (
@@ -214,7 +215,7 @@ def _limits(solutions: CertifiedSolutions) -> list[KeptLimits]:
     kept = []
     for item in solutions.solutions:
         change = rows - (item.pose if direct else item.inputs).middle
-        change = np.where(same, np.remainder(change + np.pi, 2 * np.pi) - np.pi, change)
+        change = np.where(same, rotations.nearest_turn(change), change)
         away = np.max(np.abs(change) / sizes, axis=-1) if len(rows) else np.array([np.inf])
         k = int(np.argmin(away))
         kept.append(limits_at_border(record, floats[k]) if away[k] < THERE else none)

@@ -107,7 +107,7 @@ def course(
         if turns == "short":
             if prescribed == "poses":
                 here, there = turned_alike(names, here, there), turned_alike(names, there, here)
-            there[turning] = here[turning] + _short(there[turning] - here[turning])
+            there[turning] = here[turning] + rotations.nearest_turn(there[turning] - here[turning])
         change = _change(names, prescribed, here, there)
         if np.linalg.norm(change / sizes) <= LEAST:
             continue
@@ -131,10 +131,6 @@ def _sizes(record: MechanismRecord, prescribed: Prescribed) -> FloatArray:
     if prescribed == "poses":
         return pose_units(record)
     return joint_units(record)[list(record.input_indices)] * [item.sign for item in record.inputs]
-
-
-def _short(turn: FloatArray) -> FloatArray:
-    return np.asarray((turn + np.pi) % (2 * np.pi) - np.pi)
 
 
 def _change(names: tuple[str, ...], prescribed: Prescribed, start: FloatArray, end: FloatArray) -> FloatArray:

@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.following.neighbours import FURTHEST, SignGuard, Steps, steps_at
-from assur.kinematics.following.platform_held import platform_held
-from assur.kinematics.following.stepping import Places
+from assur.kinematics.following.stepping import Pace, Places, followed
 from assur.kinematics.following.turning import turnings
 from assur.kinematics.following.ways import Straight
 from assur.kinematics.pose import whole_orientation
@@ -27,11 +26,8 @@ IntArray = NDArray[np.intp]
 Poses = Callable[[FloatArray], FloatArray]
 """Points (N, d) of a grid to poses (N, m)."""
 
-HALVINGS = 4
-"""Where a mode does not turn back its end is found to 2^-4 of the way at worst."""
-
-NEARINGS, MOST = 2, 0.9
-"""Steps towards where it is foreseen, and what share of the way there each goes."""
+SHORTEST = 2.0**-8
+"""Share of the way of the shortest step where a mode does not turn back: its end is found to half of that."""
 
 BLOCK = 1024
 
@@ -89,36 +85,11 @@ class Mode:
         return turned.share, turned.joints, found
 
     def _halved(self, joints: FloatArray, inside: FloatArray, outside: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """The way is halved, from the last reached point each time.
-
-        Then the measure of the serial side, which falls linearly to zero where branches merge, says where it ends:
-        first most of the way is gone, at last all of it.
-        """
-        here, last = joints.copy(), joints.copy()
-        low, high, before = np.zeros(len(inside)), np.ones(len(inside)), np.zeros(len(inside))
-        for turn in range(HALVINGS + NEARINGS):
-            share = 0.5 * (low + high)
-            if turn >= HALVINGS:
-                share = low + MOST * (self._foreseen(last, here, before, low, high) - low)
-            start, end = (inside + part[:, None] * (outside - inside) for part in (low, share))
-            found, good = self.stepped(here, start, end)
-            last[good], before[good] = here[good], low[good]
-            here[good], low[good] = found[good], share[good]
-            high[~good] = share[~good]
-        return self._foreseen(last, here, before, low, high), here
-
-    def _foreseen(
-        self, last: FloatArray, at: FloatArray, before: FloatArray, low: FloatArray, high: FloatArray
-    ) -> FloatArray:
-        """Share (N,) of the way at which the serial measure vanishes, by its values at two reached points."""
-        share = 0.5 * (low + high)
-        rows = np.flatnonzero(low > before)
-        if len(rows):
-            first, second = (platform_held(self.record, values[rows]).serial for values in (last, at))
-            fall = np.maximum(first - second, 1e-300)
-            guess = low[rows] + (low[rows] - before[rows]) * second / fall
-            share[rows] = np.clip(guess, low[rows], high[rows])
-        return share
+        """Steps along the way that are halved where they fail, down to the shortest."""
+        start = self.steps(joints, inside)
+        at, steps = start.places.of(np.arange(len(joints))), np.full(len(joints), 0.5)
+        followed(Straight(self.record, start.poses, self.poses(outside)), at, start.guard, Pace(SHORTEST), steps)
+        return np.minimum(at.shares + 0.5 * SHORTEST, 1.0), at.joints
 
 
 def blocks(rows: IntArray) -> Iterator[IntArray]:

@@ -32,6 +32,7 @@ from assur.kinematics.search import SAME, places
 from assur.kinematics.status import Status
 from assur.kinematics.turns import periodic_inputs
 from assur.model.mechanism import MechanismRecord
+from assur.numerics import rotations
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]
@@ -214,7 +215,7 @@ def _other_ways(
     turning = record.platform.pose[0] in ALL_ROUND if poses else bool(periodic_inputs(record)[0])
     if turning:
         start = float((pose_of if poses else inputs_of)(record, home)[0])
-        short = float(np.remainder(goal[0] - start + np.pi, 2 * np.pi) - np.pi)
+        short = float(rotations.nearest_turn(goal[0] - start))
         yield np.array([start + short - np.copysign(2 * np.pi, short)]), "given"
 
 

@@ -15,6 +15,7 @@ from assur.kinematics.following.course import Prescribed
 from assur.kinematics.turns import periodic_inputs
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import QUATERNION, has_quaternion, is_angle
+from assur.numerics import rotations
 from assur.results.answers.path import NamedModes, PathAnswer, StoppedPath
 
 FloatArray = NDArray[np.float64]
@@ -151,7 +152,7 @@ class Path:
             turning = angular = np.array([is_angle(name) for name in names])
             length_like = np.array([name not in QUATERNION for name in names])
             change = np.where(length_like, change, change * length)
-        change = np.where(turning, (change + np.pi) % (2 * np.pi) - np.pi, change)
+        change = np.where(turning, rotations.nearest_turn(change), change)
         return float(np.max(np.abs(np.where(angular, change, change / length))))
 
     def answer(self) -> PathAnswer:

@@ -17,12 +17,12 @@ from assur.joint_graph.tree import joint_graph
 from assur.kinematics.border import checked_poses, held_inputs
 from assur.kinematics.closure import closing_system
 from assur.kinematics.following.course import Course, Prescribed
-from assur.kinematics.pose import error_order, turning_rates
+from assur.kinematics.pose import error_order, orientation, turning_rates, whole_orientation
 from assur.kinematics.rates.motions import pose_units
 from assur.kinematics.turns import joint_units
 from assur.model.dimensions import with_parameters
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import ANGLES, LENGTHS, QUATERNION, has_quaternion
+from assur.model.pose import ANGLES, LENGTHS, has_quaternion
 from assur.numerics import rotations
 
 FloatArray = NDArray[np.float64]
@@ -248,29 +248,12 @@ def pose_change(record: MechanismRecord, start: FloatArray, end: FloatArray) -> 
 
     Lengths are in characteristic lengths; angles go the short way; a whole orientation changes by a rotation vector.
     """
-    pose = record.platform.pose
-    if all(name in pose for name in ANGLES):
-        first, second = (_rotation(pose, poses) for poses in (start, end))
-        place = [k for k, name in enumerate(pose) if name in LENGTHS]
-        turn = rotations.to_vector(second @ np.swapaxes(first, -1, -2))
-        return np.concatenate([(end - start)[:, place] / characteristic_length(record), turn], axis=1)
-    columns = []
-    for k, name in enumerate(pose):
-        if name in LENGTHS:
-            columns.append(end[:, k] - start[:, k])
-        elif name not in QUATERNION:
-            columns.append((end[:, k] - start[:, k] + np.pi) % (2 * np.pi) - np.pi)
-    if has_quaternion(pose):
-        place = [pose.index(name) for name in QUATERNION]
-        first, second = (rotations.from_quaternion(_unit(poses[:, place])) for poses in (start, end))
-        columns += list(rotations.to_vector(second @ np.swapaxes(first, -1, -2)).T)
-    return np.asarray((np.stack(columns, axis=1) / pose_units(record))[:, error_order(pose)])
-
-
-def _rotation(pose: tuple[str, ...], poses: FloatArray) -> FloatArray:
-    """Orientations (N, 3, 3) of poses (N, m) with phi, theta and psi."""
-    return rotations.from_angles(*(poses[:, pose.index(name)] for name in ANGLES))
-
-
-def _unit(quaternion: FloatArray) -> FloatArray:
-    return np.asarray(quaternion / np.linalg.norm(quaternion, axis=-1, keepdims=True))
+    names = record.platform.pose
+    first, second = ({name: poses[:, k] for k, name in enumerate(names)} for poses in (start, end))
+    rows = [(second[name] - first[name]) / characteristic_length(record) for name in names if name in LENGTHS]
+    if whole_orientation(names):
+        turn = orientation(names, second) @ np.swapaxes(orientation(names, first), -1, -2)
+        rows += list(rotations.to_vector(turn).T)
+    else:
+        rows += [rotations.nearest_turn(second[name] - first[name]) for name in names if name in ANGLES]
+    return np.stack(rows, axis=1)

@@ -9,6 +9,7 @@ from assur.kinematics.certified.result import CertifiedSolutions, ProvedSolution
 from assur.kinematics.modes import Problem
 from assur.kinematics.turns import periodic_inputs
 from assur.model.pose import QUATERNION, is_angle
+from assur.numerics import rotations
 from assur.report.findings import Findings
 from assur.results.kinds import FLOATING, PROVED
 from assur.results.typeset_text import short, shown_unit
@@ -77,6 +78,6 @@ def _apart(findings: Findings, problem: Problem, values: FloatArray, proved: Pro
     away = []
     for sign in (np.ones(len(values)), turned):
         difference = sign * values - middle
-        difference = np.where(angles, np.remainder(difference + np.pi, 2 * np.pi) - np.pi, difference)
+        difference = np.where(angles, rotations.nearest_turn(difference), difference)
         away.append(float(np.max(np.maximum(np.abs(difference) - half, 0.0), initial=0.0)))
     return min(away)
