@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from assur.kinematics.following.path import Path as Way
     from assur.kinematics.rates.instantaneous import Instant
     from assur.kinematics.rates.velocity import VelocityMap
-    from assur.performance.dexterity import Dexterity
     from assur.performance.indices import Indices
     from assur.performance.scaling import Length
     from assur.singularity.verdict import Verdict
@@ -131,12 +130,6 @@ class Mechanism(MechanismRecord):
         from assur.workspace.aspects.aspects import aspects
 
         return aspects(self, mode, **options)
-
-    def dexterity(self, poses: ArrayLike, mode: str | None = None) -> Dexterity:
-        """Condition index and velocity factors at poses (..., m): see `assur.performance.dexterity`."""
-        from assur.performance.dexterity import dexterity
-
-        return dexterity(self, poses, mode)
 
     def indices(self, poses: ArrayLike, mode: str | None = None, characteristic_length: Length = None) -> Indices:
         """Condition, manipulability, transmission at poses (..., m): see `assur.performance.indices.indices`."""

@@ -7,11 +7,12 @@ import pytest
 
 import assur
 from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.rates.motions import input_units, pose_units
 from assur.kinematics.rates.units import is_mixed, scaled
 from assur.kinematics.status import Status
-from assur.performance.dexterity import dexterity
 from assur.performance.indices import INDICES, indices, indices_at
 
+ZENG = assur.load("zeng2019")
 ROW_3 = [-15.4714, 9.6849, 456.3315]
 UNMIXED = [name for name in assur.names() if not is_mixed(assur.load(name))]
 
@@ -56,17 +57,14 @@ def test_with_and_without_the_closed_form(name, regular_poses):
 
 
 @pytest.mark.parametrize("name", UNMIXED)
-def test_without_mixed_units_they_are_those_of_dexterity(name, regular_poses):
+def test_without_mixed_units_no_length_changes_a_ratio(name, regular_poses):
     mechanism = assur.load(name)
     mode = mechanism.modes.default_working
     poses = regular_poses(mechanism, mode, 20)
-    found, known = indices(mechanism, poses, mode), dexterity(mechanism, poses, mode)
+    found = indices(mechanism, poses, mode)
     assert found.length is None
-    compared(found.velocity_factors, known.velocity_factors)
-    compared(found["condition"], known.condition_index)
-    np.testing.assert_array_equal(found.status, known.status)
-    scaled_too = indices(mechanism, poses, mode, 123.0)
-    compared(scaled_too["condition"], known.condition_index)  # no length changes a ratio
+    compared(found.velocity_factors, mechanism.velocity_map(poses, mode).velocity_factors)
+    compared(indices(mechanism, poses, mode, 123.0)["condition"], found["condition"])
 
 
 def test_missing_numbers_are_labelled_and_singular_ones_zero():
@@ -140,3 +138,41 @@ def test_misuse():
         indices(mechanism, [1.0, 2.0, 3.0])
     with pytest.raises(UsageError, match="mode"):
         indices(mechanism, [10.0, 200.0], "+++")
+
+
+@pytest.mark.parametrize("name", assur.names())
+def test_the_factors_are_singular_values_of_the_differentiated_inverse(name, regular_poses, slopes):
+    mechanism = assur.load(name)
+    mode = mechanism.modes.default_working
+    poses = regular_poses(mechanism, mode)
+    assert len(poses) == 100
+    differences = in_one_unit(mechanism, slopes(mechanism, poses, mode))
+    known = np.all(np.isfinite(differences), axis=(-1, -2))
+    ok = known & (np.linalg.cond(np.where(known[:, None, None], differences, 1.0)) < 1e3)
+    assert np.sum(ok) > 80
+    exact = np.sort(1 / np.linalg.svd(differences[ok], compute_uv=False), axis=-1)[:, ::-1]
+    found = indices(mechanism, poses[ok], mode)
+    np.testing.assert_allclose(found.velocity_factors, exact, rtol=1e-3)
+    np.testing.assert_allclose(found["condition"], 1 / np.linalg.cond(differences[ok]), rtol=1e-3)
+
+
+def in_one_unit(mechanism, inverses):
+    """J_L^-1 from J^-1 (..., n, k): lengths over the characteristic length where they mix with angles."""
+    rates, inputs = pose_units(mechanism), input_units(mechanism)
+    return inverses * rates / inputs[:, None] if np.ptp(rates) or np.ptp(inputs) else inverses
+
+
+def test_many_poses_give_what_single_ones_give(monkeypatch, regular_poses):
+    poses = regular_poses(ZENG, "++-++", 50)
+    whole = indices(ZENG, poses)
+    monkeypatch.setattr("assur.performance.indices.BLOCK", 7)
+    np.testing.assert_array_equal(indices(ZENG, poses)["condition"], whole["condition"])
+
+
+def test_the_index_goes_to_zero_towards_a_parallel_singularity():
+    p = ZENG.values
+    flat = p.l1 + np.sqrt(p.l6**2 - (ROW_3[0] - p.b + p.d) ** 2)
+    gaps = np.array([10.0, 1.0, 0.1, 0.01])
+    index = indices(ZENG, [[ROW_3[0], 0.0, flat + gap] for gap in gaps])["condition"]
+    assert np.all(np.diff(index) < 0)
+    assert index[-1] / gaps[-1] == pytest.approx(index[-2] / gaps[-2], rel=0.05)  # linearly

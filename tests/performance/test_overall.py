@@ -9,10 +9,11 @@ import pytest
 
 import assur
 from assur.errors import UsageError
-from assur.performance.dexterity import STUDENT, global_condition_index
 from assur.performance.indices import INDICES, indices
-from assur.performance.overall import overall
+from assur.performance.overall import STUDENT, global_condition_index, overall
 from assur.workspace.region import workspace
+
+ZENG = assur.load("zeng2019")
 
 
 @dataclass(frozen=True)
@@ -141,3 +142,39 @@ def test_over_a_region_that_was_followed_the_values_are_those_of_the_closed_form
     mean, same = (global_condition_index(some, region, 512) for some, region in ((record, known), (record, found)))
     assert same.value == pytest.approx(mean.value, rel=1e-6)
     assert (same.points, same.singular) == (mean.points, mean.singular)
+
+
+def test_the_mean_over_the_paper_s_workspace_is_that_of_quadrature_within_its_error():
+    """Second route: nothing depends on y, so a midpoint rule over the exact interval of z at x = 80 - s^2."""
+    p = ZENG.values
+    n = 300
+    s = np.sqrt(190.0) * (np.arange(n) + 0.5) / n
+    x = p.l4 - p.b + p.d - s**2
+    c1 = p.l1 + np.sqrt(p.l4**2 - (x + p.b - p.d) ** 2)
+    c3 = p.l1 + np.sqrt(p.l6**2 - (x - p.b + p.d) ** 2)
+    top = np.minimum(480.0, np.minimum(c1 + p.l2, c3 + p.l6))
+    bottom = np.maximum(180.0, np.maximum(c1 - p.l2, c3 - p.l6))
+    span = np.maximum(top - bottom, 0.0)
+    z = bottom[:, None] + span[:, None] * (np.arange(n) + 0.5) / n
+    poses = np.stack(np.broadcast_arrays(x[:, None], 0.0, z), axis=-1)
+    index = indices(ZENG, poses)["condition"]
+    weights = np.broadcast_to((2 * s * span)[:, None], index.shape)
+    exact = np.nansum(weights * index) / np.sum(weights * np.isfinite(index))
+    found = global_condition_index(ZENG, workspace(ZENG, resolution=16))
+    assert abs(found.value - exact) < 1.3 * found.error  # three standard errors
+    assert found.error < 0.01 * exact
+    assert found.points > 20_000
+
+
+def test_the_error_of_the_mean_covers_other_seeds():
+    region = workspace(ZENG, resolution=8, near=300)
+    best = global_condition_index(ZENG, region, 2**17).value
+    found = [global_condition_index(ZENG, region, 2**11, np.random.default_rng(seed)) for seed in range(12)]
+    inside = [abs(item.value - best) <= item.error for item in found]
+    assert sum(inside) >= 9
+    assert all(abs(item.value - best) > 0 for item in found)
+
+
+def test_an_empty_region_has_no_mean():
+    found = global_condition_index(ZENG, workspace(ZENG, box={"x": (200, 300)}, resolution=8))
+    assert (found.value, found.error, found.points) == (None, None, 0)

@@ -25,8 +25,8 @@ from assur.kinematics.position import direct, inverse
 from assur.model.dimensions import with_parameters
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
-from assur.performance.dexterity import GlobalIndex, global_condition_index
 from assur.performance.indices import Indices, indices, indices_at
+from assur.performance.overall import GlobalIndex, global_condition_index
 from assur.results.attempt import REFUSED, attempt
 from assur.scene.camera import Camera, plane
 from assur.scene.companion import Companion, companion

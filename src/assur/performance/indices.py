@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -43,20 +44,31 @@ class Indices:
     """Indices at poses or configurations (...).
 
     Attributes:
-        mechanism: name of the mechanism.
+        record: the mechanism.
+        joints: (..., n) joint values there; NaN out of reach.
         status: (...) `Status` of each; it says why a number is missing.
         length: the characteristic length that lengths are divided by, in the mechanism's unit; None where none is.
         unit: of a velocity factor, as "mm/rad"; "" where it is a number.
         velocity_factors: (..., k) singular values of J_L, largest first; NaN out of reach and where Jp is singular.
-        transmission: transmission indices of each input; NaN out of reach, 0 where Jp or Jq is singular.
+        singular: (...) whether Jp or Jq is singular.
     """
 
-    mechanism: str
+    record: MechanismRecord
+    joints: FloatArray
     status: NDArray[np.int8]
     length: float | None
     unit: str
     velocity_factors: FloatArray
-    transmission: Transmission
+    singular: NDArray[np.bool_]
+
+    @cached_property
+    def transmission(self) -> Transmission:
+        """Transmission indices of each input; NaN out of reach, 0 where Jp or Jq is singular."""
+        known = np.all(np.isfinite(self.joints), axis=-1)[..., None]
+        at = transmission_at(self.record, np.where(known, self.joints, 0.0))
+        there = self.singular[..., None]
+        inputs, outputs = (np.where(known, np.where(there, 0.0, values), np.nan) for values in (at.inputs, at.outputs))
+        return Transmission(inputs, outputs)
 
     def __getitem__(self, name: str) -> FloatArray:
         """One index (...) by its name in `INDICES`."""
@@ -281,8 +293,8 @@ def indices_at(record: MechanismRecord, joints: ArrayLike, characteristic_length
     return _gathered(record, parts, batch, characteristic_length)
 
 
-Part = tuple[NDArray[np.int8], FloatArray, FloatArray, FloatArray]
-"""Status (N,), J (N, k, n), input and output transmission indices (N, F)."""
+Part = tuple[NDArray[np.int8], FloatArray, FloatArray, NDArray[np.bool_]]
+"""Status (N,), J (N, k, n), joint values (N, n), NaN where they are missing, and where Jp or Jq is singular (N,)."""
 
 
 def _at_poses(record: MechanismRecord, poses: FloatArray, mode: str) -> Part:
@@ -297,7 +309,7 @@ def _at_poses(record: MechanismRecord, poses: FloatArray, mode: str) -> Part:
 def _of_branches(solved: Branches, kept: NDArray[np.bool_]) -> Part:
     """Those poses of a batch (N,) in one mode that are kept: every number is a column of one reading."""
     here = velocity_map_of(solved.reading, solved.batch_shape).rows(kept)
-    return _part(solved.record, solved.status[kept, 0], here, solved.joints[kept, 0])
+    return _part(solved.status[kept, 0], here, solved.joints[kept, 0])
 
 
 def _of_home(record: MechanismRecord, poses: FloatArray) -> Part:
@@ -309,11 +321,11 @@ def _of_home(record: MechanismRecord, poses: FloatArray) -> Part:
     for row, there in zip(joints, reached, strict=True):
         if there.joints is not None:
             row[:] = there.joints
-    status, matrices, inputs, outputs = _at_joints(record, joints)
+    status, matrices, joints, singular = _at_joints(record, joints)
     for k, there in enumerate(reached):
         if there.joints is None:
             status[k] = there.status
-    return status, matrices, inputs, outputs
+    return status, matrices, joints, singular
 
 
 def _first(solved: SolutionSet) -> FloatArray:
@@ -328,7 +340,7 @@ def _at_joints(record: MechanismRecord, joints: FloatArray) -> Part:
     there = np.all(np.isfinite(joints), axis=-1)
     here = velocity_map_at(record, np.where(there[:, None], joints, 0.0))
     status = np.where(there, status_of(here), Status.unreachable).astype(np.int8)
-    return _part(record, status, here, joints)
+    return _part(status, here, joints)
 
 
 def status_of(velocity: VelocityMap) -> NDArray[np.int8]:
@@ -342,28 +354,26 @@ def status_of(velocity: VelocityMap) -> NDArray[np.int8]:
     return np.where(velocity.exists, found, Status.unreachable).astype(np.int8)
 
 
-def _part(record: MechanismRecord, status: NDArray[np.int8], velocity: VelocityMap, joints: FloatArray) -> Part:
+def _part(status: NDArray[np.int8], velocity: VelocityMap, joints: FloatArray) -> Part:
     missing = (status == Status.unreachable) | ~np.all(np.isfinite(joints), axis=-1)
     missing |= (status == Status.undecided) & ~velocity.no_rates
     matrix = np.where((missing | velocity.singular_output | velocity.no_rates)[:, None, None], np.nan, velocity.matrix)
-    found = transmission_at(record, np.where(missing[:, None], 0.0, joints))
     singular = velocity.singular_output | velocity.singular_input
-    fields = [np.where(singular[:, None], 0.0, values) for values in (found.inputs, found.outputs)]
-    inputs, outputs = (np.where(missing[:, None], np.nan, values) for values in fields)
-    return status, matrix, inputs, outputs
+    return status, matrix, np.where(missing[:, None], np.nan, joints), singular
 
 
 def _gathered(record: MechanismRecord, parts: list[Part], batch: tuple[int, ...], length: Length) -> Indices:
-    status, matrices, inputs, outputs = (np.concatenate(column) for column in zip(*parts, strict=True))
+    status, matrices, joints, singular = (np.concatenate(column) for column in zip(*parts, strict=True))
     unit_length = chosen_length(record, length, matrices)
     known = np.all(np.isfinite(matrices), axis=(-1, -2))
     safe = scaled(record, np.where(known[:, None, None], matrices, 0.0), unit_length)
     factors = np.where(known[:, None], np.linalg.svd(safe, compute_uv=False), np.nan)
     return Indices(
-        mechanism=record.name,
+        record=record,
+        joints=joints.reshape(*batch, joints.shape[-1]),
         status=status.reshape(batch),
         length=unit_length,
         unit=factor_unit(record, unit_length),
         velocity_factors=factors.reshape(*batch, factors.shape[-1]),
-        transmission=Transmission(inputs.reshape(*batch, inputs.shape[-1]), outputs.reshape(*batch, outputs.shape[-1])),
+        singular=singular.reshape(batch),
     )

@@ -16,17 +16,32 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.model.mechanism import MechanismRecord
-from assur.performance.dexterity import SHIFTS, STUDENT, SampledRegion
 from assur.performance.indices import INDICES, Indices, indices, indices_at
 from assur.performance.scaling import Length
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]
 POINTS = 2**12
+FINE = 2**15
+"""Points of one mean alone."""
+
+SHIFTS = 8
+STUDENT = 2.365
+"""95 % of Student's distribution lies within this for 7 degrees of freedom."""
 
 
-class MeasuredRegion(SampledRegion, Protocol):
-    """A region of which the volume is known."""
+class MeasuredRegion(Protocol):
+    """What means need of a region, whatever made it."""
+
+    @property
+    def mode(self) -> str:
+        """Working mode."""
+
+    def interior(self, count: int, rng: np.random.Generator) -> FloatArray:
+        """Poses (N, m) of equal weight inside it, of `count` spread over its box with a shift by chance."""
+
+    def inside(self, count: int, rng: np.random.Generator) -> tuple[FloatArray, FloatArray | None]:
+        """The same, and the joint values (N, n) there where they are known; else None, and poses are solved."""
 
     @property
     def volume(self) -> float:
@@ -39,6 +54,23 @@ class MeasuredRegion(SampledRegion, Protocol):
     @property
     def unit(self) -> str:
         """Unit of the volume."""
+
+
+@dataclass(frozen=True)
+class GlobalIndex:
+    """Mean of the local condition index over a region.
+
+    Attributes:
+        value: the mean; None where the region holds no point.
+        error: half of its 95 % interval, from eight independent shifts of the points; None without a value.
+        points: how many points the mean is taken over.
+        singular: how many points were left out because Jp is singular there.
+    """
+
+    value: float | None
+    error: float | None
+    points: int
+    singular: int
 
 
 @dataclass(frozen=True)
@@ -124,19 +156,10 @@ def overall(
     >>> round(found.values["condition"].least, 9), found.good.share
     (1.0, 1.0)
     """
-    if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 16 * SHIFTS:
-        raise UsageError(f"count: {count!r} is not a whole number of at least {16 * SHIFTS}")
-    rng = rng or np.random.default_rng(20190719)
-    shifts, known = zip(*(region.inside(int(count) // SHIFTS, rng) for _ in range(SHIFTS)), strict=True)
-    poses = np.concatenate(shifts)
+    poses, shift, joints = _points(region, count, rng)
     if not len(poses):
         return OverallIndices(region.mode, 0, 0, None, "", {}, None)
-    shift = np.repeat(np.arange(SHIFTS), [len(part) for part in shifts])
-    joints = [part for part in known if part is not None]
-    if len(joints) == SHIFTS:
-        found = indices_at(record, np.concatenate(joints), characteristic_length)
-    else:
-        found = indices(record, poses, region.mode, characteristic_length)
+    found = _indices(record, region, poses, joints, characteristic_length)
     values = {name: _overall(found[name], poses, shift) for name in INDICES}
     return OverallIndices(
         mode=region.mode,
@@ -147,6 +170,49 @@ def overall(
         values={name: value for name, value in values.items() if value is not None},
         good=_good(found, shift, region),
     )
+
+
+def global_condition_index(
+    record: MechanismRecord, region: MeasuredRegion, count: int = FINE, rng: np.random.Generator | None = None
+) -> GlobalIndex:
+    """Mean of the local condition index over a region: arguments and errors are as for `overall`.
+
+    Example:
+        >>> from assur.model.registry import load_record
+        >>> from assur.workspace.region import workspace
+        >>> record = load_record("zeng2019")
+        >>> found = global_condition_index(record, workspace(record, resolution=16))
+        >>> round(found.value, 2), found.error < 0.01
+        (0.14, True)
+    """
+    poses, shift, joints = _points(region, count, rng)
+    field = _indices(record, region, poses, joints)["condition"] if len(poses) else np.empty(0)
+    known = np.isfinite(field)
+    if not np.any(known):
+        return GlobalIndex(None, None, 0, len(field))
+    value, error = _mean(np.where(known, field, 0.0), known, shift)
+    return GlobalIndex(value, error, int(np.sum(known)), int(np.sum(~known)))
+
+
+def _points(
+    region: MeasuredRegion, count: int, rng: np.random.Generator | None
+) -> tuple[FloatArray, NDArray[np.intp], FloatArray | None]:
+    """Poses (N, m) inside a region, which of the shifts each is of, and joint values (N, n) where they are known."""
+    if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 16 * SHIFTS:
+        raise UsageError(f"count: {count!r} is not a whole number of at least {16 * SHIFTS}")
+    rng = rng or np.random.default_rng(20190719)
+    shifts, known = zip(*(region.inside(int(count) // SHIFTS, rng) for _ in range(SHIFTS)), strict=True)
+    joints = [part for part in known if part is not None]
+    shift = np.repeat(np.arange(SHIFTS), [len(part) for part in shifts])
+    return np.concatenate(shifts), shift, np.concatenate(joints) if len(joints) == SHIFTS else None
+
+
+def _indices(
+    record: MechanismRecord, region: MeasuredRegion, poses: FloatArray, joints: FloatArray | None, length: Length = None
+) -> Indices:
+    if joints is not None:
+        return indices_at(record, joints, length)
+    return indices(record, poses, region.mode, length)
 
 
 def _overall(field: FloatArray, poses: FloatArray, shift: NDArray[np.int_]) -> Overall | None:

@@ -33,7 +33,7 @@ from assur.kinematics.rates.velocity import VelocityMap, velocity_map, velocity_
 from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import Branch, ClosedForm, Eliminant, PolynomialSystem
 from assur.model.mechanism import MechanismRecord
-from assur.performance.dexterity import GlobalIndex, global_condition_index
+from assur.performance.overall import GlobalIndex, global_condition_index
 from assur.report.formulas.reading import FormulaReading, reading
 from assur.report.pictures import pictures
 from assur.report.proofs import cube

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import assur
-from assur.performance.dexterity import dexterity
 from assur.performance.indices import indices
 
 
@@ -23,11 +22,11 @@ def corners(record):
 @pytest.mark.parametrize(("index", "factors"), [(0, [2, 2, 0.5]), (1, [2, 0.8, 0.8])], ids=["Q2", "Q1"])
 def test_bounds_are_met_at_the_corners(orthoglide, index, factors):
     pose = [corners(orthoglide)[index]] * 3
-    np.testing.assert_allclose(dexterity(orthoglide, pose).velocity_factors, factors, rtol=1e-12)
+    np.testing.assert_allclose(indices(orthoglide, pose).velocity_factors, factors, rtol=1e-12)
 
 
 def test_the_origin_is_isotropic(orthoglide):
-    np.testing.assert_allclose(dexterity(orthoglide, [0.0, 0.0, 0.0]).velocity_factors, [1, 1, 1], rtol=1e-12)
+    np.testing.assert_allclose(indices(orthoglide, [0.0, 0.0, 0.0]).velocity_factors, [1, 1, 1], rtol=1e-12)
 
 
 def test_the_edge_of_the_cube_and_the_range_of_the_inputs(orthoglide):
@@ -46,7 +45,7 @@ def test_factors_stay_within_the_bounds_over_the_cube_and_leave_them_beyond(orth
     for grown, inside in ((1.0, True), (1.02, False)):
         edge = np.linspace(grown * low, grown * high, 25)
         poses = np.stack(np.meshgrid(edge, edge, edge, indexing="ij"), axis=-1).reshape(-1, 3)
-        factors = dexterity(orthoglide, poses).velocity_factors
+        factors = indices(orthoglide, poses).velocity_factors
         assert (factors.min() > 0.5 - 1e-12 and factors.max() < 2.0 + 1e-12) == inside
 
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from assur.kinematics.rates.units import unit_length
-from assur.performance.dexterity import dexterity
-from assur.performance.indices import INDICES, indices_at
+from assur.performance.indices import INDICES, indices, indices_at
 from assur.report.findings import Findings
 from assur.results.kinds import FLOATING, Scalar, Section, Table
 from assur.results.typeset_text import short
@@ -23,7 +22,7 @@ def performance(findings: Findings) -> Section:
     if findings.record.closed_form is None:
         return _of_the_joint_graph(findings)
     record, solution = findings.record, findings.solution
-    indices = dexterity(record, solution.pose, solution.working_mode)
+    found = indices(record, solution.pose, solution.working_mode)
     index = findings.global_index
     said = (
         "The local condition index is 1/cond(J) in the 2-norm with J = Jp⁻¹ Jq, between 0 (singular) and 1 "
@@ -33,13 +32,13 @@ def performance(findings: Findings) -> Section:
     length = unit_length(record)
     if length is not None:
         said += f" Lengths are divided by the characteristic length {short(length)} {record.unit}."
-    factors = indices.velocity_factors
+    factors = found.velocity_factors
     left_out = f"; {index.singular} left out as singular" if index.singular else ""
     points = f"{index.points} quasi-random points{left_out}"
     scalars = [
         Scalar(
             "local condition index here",
-            _number(indices.condition_index),
+            _number(found["condition"]),
             "",
             FLOATING,
             note="in the configuration of this report",
@@ -53,15 +52,15 @@ def performance(findings: Findings) -> Section:
 
 def _of_the_joint_graph(findings: Findings) -> Section:
     """Every index in the configuration of this report, by the null space of the closure, and its maps."""
-    indices = indices_at(findings.record, findings.joints)
+    found = indices_at(findings.record, findings.joints)
     said = (
         "Indices of J = Jp⁻¹ Jq in the configuration of this report, from the joint graph: condition indices and "
         "transmission indices are between 0 (singular) and 1 (best); the velocity factors are the singular values of J."
     )
-    if indices.length is not None:
-        said += f" Lengths are divided by the characteristic length {short(indices.length)} {findings.record.unit}."
+    if found.length is not None:
+        said += f" Lengths are divided by the characteristic length {short(found.length)} {findings.record.unit}."
     scalars = [
-        Scalar(name.replace("_", " "), _number(indices[name]), index.unit(indices), FLOATING, note=index.meaning)
+        Scalar(name.replace("_", " "), _number(found[name]), index.unit(found), FLOATING, note=index.meaning)
         for name, index in INDICES.items()
     ]
     return Section("Dexterity", said, [*scalars, *findings.picture(*PICTURES)])
@@ -71,12 +70,13 @@ def _spread(findings: Findings) -> list[Table]:
     """Quantiles of the local condition index over the workspace."""
     region = findings.workspace
     poses = region.interior(COUNT, np.random.default_rng(SEED))
-    values = dexterity(findings.record, poses, region.mode)
-    if not np.any(values.defined):
+    condition = indices(findings.record, poses, region.mode)["condition"]
+    known = np.isfinite(condition)
+    if not np.any(known):
         return []
-    quantiles = np.percentile(values.condition_index[values.defined], SHARES)
+    quantiles = np.percentile(condition[known], SHARES)
     columns = tuple("least" if share == 0 else "greatest" if share == 100 else f"{share} %" for share in SHARES)
-    caption = f"Quantiles over {int(np.sum(values.defined))} poses spread evenly over the workspace."
+    caption = f"Quantiles over {int(np.sum(known))} poses spread evenly over the workspace."
     return [
         Table(
             "Local condition index over the workspace",
