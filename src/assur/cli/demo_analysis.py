@@ -85,7 +85,7 @@ def _difference(record: Mechanism, pose: NDArray[Any], mode: str, matrix: NDArra
 def singularities(ledger: Ledger, findings: Findings, shared: Plain) -> None:
     """One configuration for every factor that vanishes somewhere."""
     from assur.kinematics.closure import mobility
-    from assur.singularity.verdict import generic_rank
+    from assur.kinematics.rates.motions import general
 
     record = findings.record
     ledger.section("Singular configurations, one for each factor")
@@ -107,15 +107,13 @@ def singularities(ledger: Ledger, findings: Findings, shared: Plain) -> None:
             worst < SINGULAR,
             f"smallest over largest singular value at most {worst:.1e} at {count(len(ratios), 'example')}",
         )
-    general = generic_rank(record)
-    constraint = [
-        rank < general for item, rank in zip(examples, ranks, strict=True) if item.status.name == "constraint"
-    ]
-    weaker = [rank < general for item, rank in zip(examples, ranks, strict=True) if item.status.name in MILDER]
+    usual = general(record).closure
+    constraint = [rank < usual for item, rank in zip(examples, ranks, strict=True) if item.status.name == "constraint"]
+    weaker = [rank < usual for item, rank in zip(examples, ranks, strict=True) if item.status.name in MILDER]
     ledger.claim(
         "the joint graph loses rank at the examples called constraint, and at none that is less severe",
         all(constraint) and not any(weaker),
-        f"rank below {general} at {sum(constraint)} of {len(constraint)}, and at {sum(weaker)} of {len(weaker)}",
+        f"rank below {usual} at {sum(constraint)} of {len(constraint)}, and at {sum(weaker)} of {len(weaker)}",
     )
 
 

@@ -25,24 +25,25 @@ def carried_home(record: MechanismRecord, near: Assembly) -> Assembly:
     """
     if not _fault(record, near):
         return near
-    found = _followed(record)
-    fault = _fault(record, found)
+    carried = _carried(record)
+    fault = _fault(record, carried)
     if fault:
         raise UsageError(f"{record.name}: {fault}", hint=OTHERS_HINT)
-    return found
+    return carried
 
 
-def _followed(record: MechanismRecord) -> Assembly:
+def _carried(record: MechanismRecord) -> Assembly:
     """Home carried from the file's dimensions to the changed ones, each step starting from the last."""
+    # nothing is held here and home may be far: damped steps, where the follower holds inputs or a pose by Newton's
     original = of_file(record)
-    found = assemble(original, original.home)
+    assembly = assemble(original, original.home)
     for share in np.linspace(0.0, 1.0, STEPS + 1)[1:]:
         between = {
             name: _between(original.parameters[name].value, record.parameters[name].value, float(share))
             for name in record.overrides
         }
-        found = assemble(with_parameters(original, **between), found.values)
-    return found
+        assembly = assemble(with_parameters(original, **between), assembly.values)
+    return assembly
 
 
 def _between(start: float, end: float, share: float) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,13 +23,14 @@ class Limit:
     """One bound. Inside, low <= sign * value + offset <= high, in rad or lengths.
 
     Attributes:
-        name: as a person reads it, "stroke of q1" or "limit of leg1.A".
+        what, of: what the file calls it, and the input, joint value or joint that it bounds.
         index: of the joint value; for a cone, of the first part of the rotation vector.
         axis: (3,) axis of a cone, else None; then the value is the tilt of this axis.
         angular: whether the value is an angle.
     """
 
-    name: str
+    what: Literal["stroke", "limit", "cone"]
+    of: str
     index: int
     low: float
     high: float
@@ -36,6 +38,11 @@ class Limit:
     sign: float = 1.0
     offset: float = 0.0
     axis: FloatArray | None = None
+
+    @property
+    def name(self) -> str:
+        """As a person reads it: "stroke of q1" or "limit of leg1.A"."""
+        return f"{self.what} of {self.of}"
 
     def value(self, joints: FloatArray) -> FloatArray:
         """The bounded value (...) at joint values (..., n)."""
@@ -68,33 +75,42 @@ def limits(record: MechanismRecord, joints: FloatArray) -> tuple[Limit, ...]:
     )
 
 
-@lru_cache(maxsize=64)
-def stated_limits(record: MechanismRecord) -> tuple[Limit, ...]:
+def stated_limits(
+    record: MechanismRecord, strokes: Mapping[str, tuple[float, float] | None] | None = None
+) -> tuple[Limit, ...]:
     """Every bound as the file states it: strokes of inputs, limits of joint values, cones.
 
+    Strokes that are given stand for those of the file, None for no stroke.
+
     >>> from assur.model.registry import load_record
-    >>> [item.name for item in stated_limits(load_record("three_rps"))]
-    ['stroke of rho1', 'stroke of rho2', 'stroke of rho3']
+    >>> [item.name for item in stated_limits(load_record("three_rps"), {"rho1": None})]
+    ['stroke of rho2', 'stroke of rho3']
     """
-    found = []
+    given, driven = strokes or {}, []
     for item in record.inputs:
-        if item.stroke is not None:
-            low, high = item.stroke
-            angular = item.coordinate.kind == "angle"
-            name = f"stroke of {item.name}"
-            found.append(Limit(name, item.coordinate.index, low, high, angular, item.sign, item.offset))
+        stroke, place = given.get(item.name, item.stroke), item.coordinate
+        if stroke is not None:
+            angular = place.kind == "angle"
+            driven.append(Limit("stroke", item.name, place.index, *stroke, angular, item.sign, item.offset))
+    return (*driven, *_of_joints(record))
+
+
+@lru_cache(maxsize=64)
+def _of_joints(record: MechanismRecord) -> tuple[Limit, ...]:
+    """Limits of joint values, and cones."""
+    stated = []
     for coordinate in record.coordinates:
         joint = record.joints[coordinate.joint]
         place = coordinate.index - record.joint_coordinates(joint.name)[0].index
         bounds = joint.limits[place] if joint.limits else None
         if bounds is not None:
-            name = f"limit of {record.coordinate_label(coordinate)}"
-            found.append(Limit(name, coordinate.index, *bounds, coordinate.kind == "angle"))
+            name = record.coordinate_label(coordinate)
+            stated.append(Limit("limit", name, coordinate.index, *bounds, coordinate.kind == "angle"))
     for joint in record.joints.values():
         if joint.cone is not None and joint.cone_axis is not None:
             index = record.joint_coordinates(joint.name)[0].index
-            found.append(Limit(f"cone of {joint.name}", index, 0.0, joint.cone, True, axis=joint.cone_axis))
-    return tuple(found)
+            stated.append(Limit("cone", joint.name, index, 0.0, joint.cone, True, axis=joint.cone_axis))
+    return tuple(stated)
 
 
 def joint_limits(record: MechanismRecord) -> list[str]:
@@ -104,7 +120,7 @@ def joint_limits(record: MechanismRecord) -> list[str]:
     >>> joint_limits(load_record("three_rps"))
     []
     """
-    return [item.name for item in stated_limits(record) if not item.name.startswith("stroke")]
+    return [item.name for item in _of_joints(record)]
 
 
 def limits_stated(record: MechanismRecord, strokes: Mapping[str, object] | None = None) -> bool:
@@ -118,7 +134,7 @@ def limits_stated(record: MechanismRecord, strokes: Mapping[str, object] | None 
     """
     given = dict(strokes or {})
     driven = any(given.get(item.name, item.stroke) is not None for item in record.inputs)
-    return driven or any(not item.name.startswith("stroke of ") for item in stated_limits(record))
+    return driven or bool(_of_joints(record))
 
 
 def limits_note(record: MechanismRecord, strokes: Mapping[str, object] | None = None) -> str:

@@ -34,6 +34,17 @@ def all_modes(record: MechanismRecord, problem: Problem) -> tuple[str, ...]:
     return tuple("".join(signs) for signs in itertools.product("+-", repeat=len(sign_names(record, problem))))
 
 
+def sign_rows(record: MechanismRecord, problem: Problem) -> NDArray[np.float64]:
+    """Signs (2^s, s) of every mode, in the order of `all_modes`.
+
+    >>> from assur.model.registry import load_record
+    >>> sign_rows(load_record("fivebar"), "inverse").tolist()
+    [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]]
+    """
+    count = len(sign_names(record, problem))
+    return np.array(list(itertools.product((1.0, -1.0), repeat=count))).reshape(2**count, count)
+
+
 def mode_signs(record: MechanismRecord, problem: Problem, mode: str) -> tuple[int, ...]:
     """Signs (+1 or -1) of a mode's text; an unknown mode is refused with the valid ones.
 

@@ -138,6 +138,7 @@ def _held(record: MechanismRecord, problem: Problem) -> tuple[int, ...]:
 
 def _on_the_way(record: MechanismRecord, problem: Problem, given: FloatArray) -> FloatArray:
     """Joint values (WAY, n) on the straight way from home to inputs (k,) or a pose (m,), each closed from the last."""
+    # starts of a search need not close nor keep the mode, so no guard of the follower is asked
     values, on = home_values(record), []
     direct = problem == "direct"
     begun = inputs_of(record, values) if direct else pose_of(record, values)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,7 +23,6 @@ from assur.model.mechanism import MechanismRecord
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]
-SAMPLES = 40
 
 
 @dataclass(frozen=True)
@@ -73,22 +71,6 @@ class Verdict:
     known_modes: tuple[str, ...] = ()
 
 
-@lru_cache(maxsize=64)
-def generic_rank(record: MechanismRecord) -> int:
-    """Rank of the closure of the joint graph in general: the largest over solutions at poses of the file's box.
-
-    Where the box holds no solution or there is no closed form, around the assembled home.
-    """
-    if record.closed_form and all(name in record.box for name in record.platform.pose):
-        low, high = np.array([record.box[name] for name in record.platform.pose]).T
-        poses = np.random.default_rng(0).uniform(low, high, size=(SAMPLES, len(low)))
-        found = inverse(record, poses)
-        solutions = found.joints[found.exists][:SAMPLES]
-        if len(solutions):
-            return int(np.max(mobility(record, solutions).rank))
-    return int(general(record).closure)
-
-
 @stage("verdict on the pose")
 def verdict(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) -> Verdict:
     """Judge one pose (m,) in a working mode (the file's default where none is given).
@@ -118,12 +100,12 @@ def verdict(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) -
     if status in (Status.not_closed, Status.undecided):
         return _nothing(status)
     free = mobility(record, found.joints[0])
-    general = max(generic_rank(record), int(free.rank))
+    usual = max(int(general(record).closure), int(free.rank))
     factors = {name: value[..., 0] for name, value in found.factors.items()}
     relative = {name: float(value) for name, value in relative_factors(record, factors).items()}
     dividing = [item.name for item in closed_form_of(record).factor_list if item.kind != "other"]
     kind = status
-    if int(free.rank) < general:
+    if int(free.rank) < usual:
         kind = max(kind, Status.constraint)
     here = velocity_map(record, pose, mode)
     return Verdict(
@@ -137,7 +119,7 @@ def verdict(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) -
         det_jq=float(here.det_jq),
         condition=_finite(here.condition),
         rank=int(free.rank),
-        generic_rank=general,
+        generic_rank=usual,
         freedoms=int(free.freedoms),
     )
 

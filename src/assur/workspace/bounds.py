@@ -15,8 +15,9 @@ from typing import Any, Literal
 import numpy as np
 
 from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.limits import Limit, stated_limits
 from assur.kinematics.turns import periodic
-from assur.model.mechanism import Coordinate, Input, Joint, MechanismRecord
+from assur.model.mechanism import MechanismRecord
 from assur.numerics.intervals.functions import cosine_sine, from_degrees
 from assur.numerics.intervals.interval import Interval
 
@@ -56,25 +57,16 @@ def bounds(
     >>> list(bounds(load_record("zeng2019"), {"yA1": (-300, 300), "yA2": (-math.inf, 5)}))
     ['yA1 >= -300', 'yA1 <= 300', 'yA2 <= 5']
     """
-    found: dict[str, Bound] = {}
-    same = periodic(record)
-    for item, stroke in _strokes(record, strokes):
-        if stroke is not None:
-            key = record.coordinate_label(item.coordinate)
-            kind: Kind = "turn" if same[item.coordinate.index] else "value"
-            shown = _shown(record, stroke, angular=item.coordinate.kind == "angle")
-            found |= _interval(item.name, key, kind, stroke, shown, constant, item.sign, item.offset)
-    for coordinate in record.coordinates:
-        limit = _limit(record, coordinate)
-        if limit is not None:
-            key = record.coordinate_label(coordinate)
-            shown = _shown(record, limit, angular=coordinate.kind == "angle")
-            found |= _interval(key, key, "turn" if same[coordinate.index] else "value", limit, shown, constant)
-    for joint in record.joints.values():
-        if joint.cone is not None and joint.cone_axis is not None:
-            _, cone = _shown(record, (0.0, joint.cone), angular=True)
-            found[f"tilt of {joint.name} <= {cone}"] = partial(_cone, joint, constant)
-    return found
+    margins: dict[str, Bound] = {}
+    for limit in stated_limits(record, _checked(record, strokes)):
+        shown = _shown(record, (limit.low, limit.high), angular=limit.angular)
+        if limit.axis is not None:
+            margins[f"tilt of {limit.of} <= {shown[1]}"] = partial(_cone, limit, constant)
+            continue
+        key = record.coordinate_label(record.coordinates[limit.index])
+        kind: Kind = "turn" if periodic(record)[limit.index] else "value"
+        margins |= _interval(limit, key, kind, shown, constant)
+    return margins
 
 
 def not_reached(margin: str) -> str:
@@ -94,25 +86,16 @@ def _shown(record: MechanismRecord, ends: Stroke, *, angular: bool) -> tuple[str
     return f"{ends[0] * factor:g} {record.angle}", f"{ends[1] * factor:g} {record.angle}"
 
 
-def _limit(record: MechanismRecord, coordinate: Coordinate) -> Stroke | None:
-    joint = record.joints[coordinate.joint]
-    place = coordinate.index - record.joint_coordinates(joint.name)[0].index
-    return joint.limits[place] if joint.limits else None
-
-
-def _strokes(record: MechanismRecord, strokes: Mapping[str, Stroke | None] | None) -> list[tuple[Input, Stroke | None]]:
-    """Each input with its stroke: the user's, else the file's, else none."""
-    given = dict(strokes or {})
+def _checked(record: MechanismRecord, strokes: Mapping[str, Stroke | None] | None) -> dict[str, Stroke | None]:
+    """The user's strokes as pairs of floats, or a clear refusal."""
     names = [item.name for item in record.inputs]
-    for name, stroke in given.items():
+    for name in strokes or {}:
         if name not in names:
             raise UnknownNameError(f"input of {record.name}", name, names)
-        if stroke is not None:
-            given[name] = _checked(name, stroke)
-    return [(item, given.get(item.name, item.stroke)) for item in record.inputs]
+    return {name: None if stroke is None else _pair(name, stroke) for name, stroke in (strokes or {}).items()}
 
 
-def _checked(name: str, stroke: Any) -> Stroke:
+def _pair(name: str, stroke: Any) -> Stroke:
     try:
         low, high = (float(value) for value in stroke)
     except (TypeError, ValueError) as error:
@@ -122,31 +105,22 @@ def _checked(name: str, stroke: Any) -> Stroke:
     return low, high
 
 
-def _interval(
-    name: str,
-    key: str,
-    kind: Kind,
-    interval: Stroke,
-    shown: tuple[str, str],
-    constant: Constant,
-    sign: float = 1.0,
-    offset: float = 0.0,
-) -> dict[str, Bound]:
+def _interval(limit: Limit, key: str, kind: Kind, shown: tuple[str, str], constant: Constant) -> dict[str, Bound]:
     """Margins of low <= sign * value + offset <= high."""
-    low, high = interval
+    low, high, name = limit.low, limit.high, limit.of
     if kind == "turn":
         if high - low >= 2 * math.pi:
             return {}
         first, last = from_degrees(low), from_degrees(high)
-        middle, half = ((first + last) / 2 - offset) * sign, (last - first) / 2
+        middle, half = ((first + last) / 2 - limit.offset) * limit.sign, (last - first) / 2
         circle = (*cosine_sine(middle), cosine_sine(half)[0])
         return {f"{shown[0]} <= {name} <= {shown[1]}": partial(_angle, key, *map(constant, circle))}
-    found: dict[str, Bound] = {}
+    margins: dict[str, Bound] = {}
     if math.isfinite(low):
-        found[f"{name} >= {shown[0]}"] = partial(_value, key, sign, constant(Interval.of(offset) - low))
+        margins[f"{name} >= {shown[0]}"] = partial(_value, key, limit.sign, constant(Interval.of(limit.offset) - low))
     if math.isfinite(high):
-        found[f"{name} <= {shown[1]}"] = partial(_value, key, -sign, constant(Interval.of(high) - offset))
-    return found
+        margins[f"{name} <= {shown[1]}"] = partial(_value, key, -limit.sign, constant(Interval.of(high) - limit.offset))
+    return margins
 
 
 def _value(key: str, slope: float, start: Any, values: Values) -> Any:
@@ -158,9 +132,9 @@ def _angle(key: str, cosine_at: Any, sine_at: Any, least: Any, values: Values) -
     return cosine * cosine_at + sine * sine_at - least
 
 
-def _cone(joint: Joint, constant: Constant, values: Values) -> Any:
-    axis: Sequence[float] = np.asarray(joint.cone_axis).tolist()
-    tilted = [sum(entry * part for entry, part in zip(row, axis, strict=True)) for row in values[joint.name]]
+def _cone(limit: Limit, constant: Constant, values: Values) -> Any:
+    axis: Sequence[float] = np.asarray(limit.axis).tolist()
+    tilted = [sum(entry * part for entry, part in zip(row, axis, strict=True)) for row in values[limit.of]]
     cosine = sum(entry * part for entry, part in zip(tilted, axis, strict=True))
     size = sum(entry * entry for entry in map(Interval.of, axis))  # of an axis that is a unit vector to 16 digits
-    return cosine - constant(cosine_sine(from_degrees(joint.cone or 0.0))[0] * size)
+    return cosine - constant(cosine_sine(from_degrees(limit.high))[0] * size)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import tomllib
+
 import numpy as np
 import pytest
 
 from assur.errors import UsageError
-from assur.kinematics.closed_form.start_system import FILE, dimensions, family, start_of, start_system, start_text
+from assur.kinematics.closed_form.start_system import FILE, dimensions, family, start_of, start_system
 from assur.model.closed_form import PolynomialSystem
 from assur.model.registry import load_record, names
 from assur.numerics.homotopy import PathEnd, distinct, solve
@@ -48,9 +50,12 @@ def test_a_start_from_nothing_leads_to_the_solutions_of_the_stored_one(record):
 def test_the_file_is_what_its_first_line_says(record):
     text = (record.folder / FILE).read_text(encoding="utf-8")
     seed = int(text.split("seed ")[1].split(":")[0])
-    ours = start_text(record, record.closed_form.direct, seed)
-    assert ours.splitlines()[0] == text.splitlines()[0]
-    assert ours[ours.index("[start]") :] == text[text.index("[start]") :]
+    data = tomllib.loads(text)
+    parameters, solutions = start_of(record, record.closed_form.direct, seed)
+    stored = np.array(list(data["start"].values())) @ [1, 1j]
+    np.testing.assert_allclose(stored, parameters, rtol=0, atol=2**0.5 * 0.51e-5)
+    rough = np.array(data["solutions"]).reshape(*solutions.shape, 2) @ [1, 1j]
+    np.testing.assert_allclose(rough, solutions, rtol=0, atol=2**0.5 * 0.51e-5)
 
 
 def test_equations_hold_at_lifted_poses(record):

@@ -83,8 +83,7 @@ def excesses(record: MechanismRecord, problem: Problem, given: FloatArray, joint
     for limit, by, spare in zip(stated_limits(record), amounts.tolist(), _spare(record), strict=True):
         if by > spare:
             value = float(_value(record, problem, given[None], limit, joints[None])[0])
-            name = limit.name.partition(" of ")[2]
-            exceeded.append(Excess(limit.name, name, value, limit.low, limit.high, by, limit.angular))
+            exceeded.append(Excess(limit.name, limit.of, value, limit.low, limit.high, by, limit.angular))
     return tuple(exceeded)
 
 
@@ -92,7 +91,7 @@ def _value(
     record: MechanismRecord, problem: Problem, given: FloatArray, limit: Limit, joints: FloatArray
 ) -> FloatArray:
     """What a limit bounds (N,), whole turns added where they do not count."""
-    turns_meant = limit.name.startswith("stroke") and limit.angular and limit.high - limit.low > TURN
+    turns_meant = limit.what == "stroke" and limit.angular and limit.high - limit.low > TURN
     if problem == "direct" and turns_meant:
         return np.asarray(given[..., record.input_indices.index(limit.index)])
     value = limit.value(joints)

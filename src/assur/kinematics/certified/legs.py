@@ -6,7 +6,6 @@ algebra is the legs' own, so what is proved with it owes nothing to the closed f
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -17,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.certified.given import joint_inputs, parameters, pose_numbers
-from assur.kinematics.modes import sign_names
+from assur.kinematics.modes import sign_names, sign_rows
 from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.krawczyk import Equations
@@ -39,9 +38,8 @@ class Legs:
 
     @cached_property
     def modes(self) -> FloatArray:
-        """Signs (2^s, s) of every working mode, plus before minus, the last running fastest."""
-        names = sign_names(self.record, "inverse")
-        return np.array(list(itertools.product((1.0, -1.0), repeat=len(names)))).reshape(2 ** len(names), len(names))
+        """Signs (2^s, s) of every working mode."""
+        return sign_rows(self.record, "inverse")
 
     @cached_property
     def _given(self) -> tuple[Any, ...]:

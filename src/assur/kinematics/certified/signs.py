@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from types import SimpleNamespace
 
 import numpy as np
@@ -15,7 +14,7 @@ from assur.kinematics.certified.legs import Legs
 from assur.kinematics.certified.matching import Candidates, matched
 from assur.kinematics.certified.proofs import proofs
 from assur.kinematics.certified.result import CertifiedSolutions, ProvedSolution
-from assur.kinematics.modes import Problem, mode_text, sign_names
+from assur.kinematics.modes import Problem, mode_text, sign_names, sign_rows
 from assur.kinematics.status import branch_kernel, closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.krawczyk import parts
@@ -62,6 +61,5 @@ def inverse_by_signs(record: MechanismRecord, pose: FloatArray) -> CertifiedSolu
 
 def _every(record: MechanismRecord, problem: Problem) -> tuple[FloatArray, SimpleNamespace]:
     """Signs (K, s) of every branch, and the kernel's argument with an array (K,) per sign."""
-    names = sign_names(record, problem)
-    signs = np.array(list(itertools.product((1.0, -1.0), repeat=len(names)))).reshape(2 ** len(names), len(names))
-    return signs, SimpleNamespace(**{name: signs[:, k] for k, name in enumerate(names)})
+    signs = sign_rows(record, problem)
+    return signs, SimpleNamespace(**dict(zip(sign_names(record, problem), signs.T, strict=True)))

@@ -85,7 +85,8 @@ def start_system(record: MechanismRecord, system: PolynomialSystem) -> tuple[Com
 def start_of(record: MechanismRecord, system: PolynomialSystem, seed: int = 0) -> tuple[ComplexArray, ComplexArray]:
     """Dimensions and inputs (q,) of a start, and its solutions (K, n), from nothing.
 
-    Dimensions and a pose are chosen by chance, its inputs follow, and the other solutions are found by monodromy.
+    Dimensions and a pose are chosen by chance, its inputs follow, and the other solutions are found by monodromy. A
+    file `start.toml` holds both, rounded to `DIGITS` digits; its first line names the seed.
     """
     rng = np.random.default_rng(seed)
     chosen = random_complex(rng, len(record.parameters)).round(DIGITS)
@@ -102,21 +103,6 @@ def start_of(record: MechanismRecord, system: PolynomialSystem, seed: int = 0) -
         return family(record, system, first, last[None])
 
     return parameters, all_solutions(way, parameters, solution, system.degree, rng)
-
-
-def start_text(record: MechanismRecord, system: PolynomialSystem, seed: int = 0) -> str:
-    """The text of the file `start.toml`: parts real and imaginary, rounded; the reader polishes the solutions."""
-    parameters, solutions = start_of(record, system, seed)
-    lines = [
-        f"# Written by start_text of start_system.py, seed {seed}: a start with generic complex dimensions",
-        "# (lengths over the characteristic length) and its solutions, the unknowns one after the other.",
-        "",
-        "[start]",
-    ]
-    for name, value in zip(_names(record), parameters, strict=True):
-        lines.append(f"{name} = [{value.real:.{DIGITS}f}, {value.imag:.{DIGITS}f}]")
-    rows = [", ".join(f"{part:.{DIGITS}f}" for value in row for part in (value.real, value.imag)) for row in solutions]
-    return "\n".join([*lines[:3], "solutions = [", *(f"  [{row}]," for row in rows), "]", "", *lines[3:], ""])
 
 
 def _names(record: MechanismRecord) -> tuple[str, ...]:

@@ -192,7 +192,7 @@ def _limits(record: MechanismRecord) -> list[Problem]:
 
 
 def _outside(record: MechanismRecord, limit: Limit, value: float, written: float) -> Problem:
-    kind, _, name = limit.name.partition(" of ")
+    kind, name = limit.what, limit.of
     joint = record.coordinates[limit.index].joint
     own, low, high = (_shown(record, limit, item) for item in (value, limit.low, limit.high))
     inside = limit.low <= written <= limit.high

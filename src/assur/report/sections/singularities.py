@@ -6,13 +6,13 @@ from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border,
 from assur.kinematics.answers.style import texts_of, titles_of
 from assur.kinematics.closure import mobility
 from assur.kinematics.rates.instantaneous import instantaneous
+from assur.kinematics.rates.motions import general
 from assur.model.closed_form import Factor
 from assur.report.findings import Findings
 from assur.report.formulas.latex import symbol_mathml
 from assur.report.formulas.mathml import inline
 from assur.results.kinds import FLOATING, RANK, Cell, Facts, PrintedFormula, Result, Scalar, Section, Table
 from assur.results.typeset_text import short, shown_unit
-from assur.singularity.verdict import generic_rank
 
 KINDS = {
     "parallel": "parallel: det Jp",
@@ -132,7 +132,7 @@ def _together(factors: list[Factor]) -> PrintedFormula:
 def _examples(findings: Findings) -> Table:
     """One example for every factor that has one, with the rank of the joint graph there."""
     record, style = findings.record, findings.style
-    general = generic_rank(record)
+    usual = general(record).closure
     rows: list[tuple[Cell, ...]] = []
     for example in findings.examples:
         free = mobility(record, example.joints)
@@ -140,7 +140,7 @@ def _examples(findings: Findings) -> Table:
             *texts_of(record, style, pose_at_border(record, example.pose).tolist(), direct=True),
             *texts_of(record, style, inputs_at_border(record, example.inputs).tolist(), direct=False),
         ]
-        rank = f"{int(free.rank)} of {general}"
+        rank = f"{int(free.rank)} of {usual}"
         rows.append((written(example.factor), example.status.name.replace("_", " "), example.mode, *values, rank))
     titles = (*titles_of(record, style, direct=True), *titles_of(record, style, direct=False))
     columns = ("vanishing factor", "kind", "mode", *titles, "rank of closure")
@@ -149,7 +149,7 @@ def _examples(findings: Findings) -> Table:
         if record.closed_form
         else "Paths that began at home stop there; the kind is what the joint graph says"
     )
-    caption = f"{how} there. A rank below {general} is a constraint singularity of the joint graph.{_without(findings)}"
+    caption = f"{how} there. A rank below {usual} is a constraint singularity of the joint graph.{_without(findings)}"
     return Table("Example configurations", columns, tuple(rows), caption, known_by=f"{FLOATING}; {RANK}")
 
 
