@@ -162,13 +162,6 @@ def in_one_unit(mechanism, inverses):
     return inverses * rates / inputs[:, None] if np.ptp(rates) or np.ptp(inputs) else inverses
 
 
-def test_many_poses_give_what_single_ones_give(monkeypatch, regular_poses):
-    poses = regular_poses(ZENG, "++-++", 50)
-    whole = indices(ZENG, poses)
-    monkeypatch.setattr("assur.performance.indices.BLOCK", 7)
-    np.testing.assert_array_equal(indices(ZENG, poses)["condition"], whole["condition"])
-
-
 def test_the_index_goes_to_zero_towards_a_parallel_singularity():
     p = ZENG.values
     flat = p.l1 + np.sqrt(p.l6**2 - (ROW_3[0] - p.b + p.d) ** 2)

@@ -22,7 +22,6 @@ ANSWERS = {
     "a velocity map": lambda zeng, _: zeng.velocity_map([POSE, POSE]),
     "rates": lambda zeng, _: zeng.instantaneous(zeng.home_values),
     "a verdict": lambda zeng, _: zeng.singularity(POSE),
-    "indices": lambda zeng, _: zeng.indices([POSE]),
     "indices": lambda _, bar: bar.indices([[0.0, 200.0]]),
     "a proof": lambda _, bar: bar.certified_direct([0.3, 2.0]),
     "a workspace": lambda _, bar: bar.workspace(resolution=8),
