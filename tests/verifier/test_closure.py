@@ -96,6 +96,7 @@ CHANGES = {
     "a row of Jp": ("fivebar", lambda d: swap(d["program"]["jp"], "0,0", "1,0")),
     "an entry of Jq": ("fivebar", lambda d: swap(d["program"]["jq"], "0,0", "1,1")),
     "a factor left out": ("fivebar", lambda d: d["exact"]["serial"].pop()),
+    "factors in another order": ("fivebar", lambda d: d["exact"]["serial"].reverse()),
     "a factor of the other kind": ("fivebar", lambda d: d["exact"]["parallel"].append(d["exact"]["serial"].pop())),
     "a joint left out": ("fivebar", lambda d: d["program"]["joints"].pop(0)),
     "a dimension's number": ("fivebar", lambda d: number(d, "l1", 100.5)),

@@ -62,7 +62,11 @@ def closes(document: Mapping[str, Any], text: str) -> dict[str, Any] | None:
     Errors:
         RefusedError: they do not, or do where it says less, or the file is not that of the certificate's dimensions.
     """
-    says = document["exact"]["says"]
+    says, program = document["exact"]["says"], document["program"]
+    for kind in ("parallel", "serial"):
+        own = document["exact"][kind]
+        if own != [name for name, _ in program["factors"] if name in own]:
+            raise RefusedError(f"factors of kind {kind!r} that are not those of the formulas in their order")
     if says == EXACT:
         return _result(document, text, general=True)
     for general in (True,) if says == OF_THESE else (True, False):
