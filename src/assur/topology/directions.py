@@ -1,4 +1,4 @@
-"""Directions of axes, and exact subspaces of directions: lines, planes and the space that they span.
+"""Directions of axes: vector algebra on three numbers, without the cost of an array, and what directions span.
 
 A direction is a unit vector in the base frame, at the configuration as written. What is parallel or
 perpendicular there decides what a chain can do, so nearly parallel is refused where a chain is read.
@@ -25,7 +25,10 @@ NEARLY = 1e-3
 DUST = 1e-14
 """Components below this share of a vector's length are rounding errors of zero."""
 
-NAMED: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+AXES: tuple[Vector, Vector, Vector] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+"""The base frame's axes."""
+
+NAMED: dict[str, Vector] = dict(zip("xyz", AXES, strict=True))
 
 
 def unit(vector: Iterable[float]) -> Vector:
@@ -40,38 +43,65 @@ def unit(vector: Iterable[float]) -> Vector:
     return (x, y, z)
 
 
-def parallel(first: Vector, second: Vector, tolerance: float = EXACT) -> bool:
-    """Whether two unit vectors lie along one line, in either sense."""
-    return float(np.linalg.norm(np.cross(first, second))) < tolerance
+def dot(first: Vector, second: Vector) -> float:
+    """The scalar product."""
+    return first[0] * second[0] + first[1] * second[1] + first[2] * second[2]
+
+
+def cross(first: Vector, second: Vector) -> Vector:
+    """The vector product."""
+    a, b, c = first
+    x, y, z = second
+    return (b * z - c * y, c * x - a * z, a * y - b * x)
+
+
+def parallel(first: Vector | None, second: Vector | None, tolerance: float = EXACT) -> bool:
+    """Whether two unit vectors lie along one line, in either sense; not where one is any direction (None)."""
+    if first is None or second is None:
+        return False
+    normal = cross(first, second)
+    return dot(normal, normal) < tolerance * tolerance
 
 
 def perpendicular(first: Vector, second: Vector, tolerance: float = EXACT) -> bool:
     """Whether two unit vectors are at a right angle."""
-    return abs(float(np.dot(first, second))) < tolerance
+    return abs(dot(first, second)) < tolerance
+
+
+def coplanar(first: Vector, second: Vector, third: Vector) -> bool:
+    """Whether three unit vectors lie in one plane."""
+    return abs(dot(first, cross(second, third))) < EXACT
+
+
+def normal(first: Vector, second: Vector) -> Vector:
+    """Unit normal of the plane of two directions that are not parallel."""
+    return unit(cross(first, second))
+
+
+def plane_basis(axis: Vector) -> tuple[Vector, Vector]:
+    """Two unit vectors at right angles, perpendicular to a unit vector: base axes where they can be.
+
+    >>> plane_basis((0.0, 0.0, 1.0))
+    ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+    """
+    near = min(AXES, key=lambda direction: abs(dot(direction, axis)))
+    first = unit(tuple(a - dot(near, axis) * b for a, b in zip(near, axis, strict=True)))
+    second = unit(cross(axis, first))
+    return first, second
+
+
+def rotated(vector: Vector, axis: Vector, angle: float) -> Vector:
+    """A unit vector turned about a unit axis by an angle (rad)."""
+    cosine, sine = math.cos(angle), math.sin(angle)
+    aside, along = cross(axis, vector), dot(axis, vector) * (1 - cosine)
+    return unit(v * cosine + w * sine + u * along for v, w, u in zip(vector, aside, axis, strict=True))
 
 
 def span(vectors: Iterable[Vector]) -> FloatArray:
     """Orthonormal basis (k, 3) of what some vectors span."""
-    return _basis(np.array(list(vectors), dtype=float).reshape(-1, 3))
-
-
-def complement(basis: FloatArray) -> FloatArray:
-    """Orthonormal basis (3 - k, 3) of what is perpendicular to a basis (k, 3)."""
-    if not len(basis):
-        return np.eye(3)
-    turned: FloatArray = np.linalg.svd(basis)[2][len(basis) :]
-    return turned
-
-
-def meet(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Orthonormal basis of what two subspaces have in common."""
-    return complement(_basis(np.vstack([complement(first), complement(second)])))
-
-
-def contains(basis: FloatArray, vector: Vector) -> bool:
-    """Whether a unit vector lies in a subspace."""
-    rest = np.asarray(vector) - np.asarray(vector) @ basis.T @ basis if len(basis) else np.asarray(vector)
-    return float(np.linalg.norm(rest)) < EXACT
+    _, singular, turned = np.linalg.svd(np.array(list(vectors), dtype=float).reshape(-1, 3), full_matrices=False)
+    basis: FloatArray = turned[singular > EXACT]
+    return basis
 
 
 def near_slips(vectors: Iterable[Vector]) -> list[tuple[int, int, str]]:
@@ -83,11 +113,3 @@ def near_slips(vectors: Iterable[Vector]) -> list[tuple[int, int, str]]:
         elif perpendicular(first, second, NEARLY) and not perpendicular(first, second):
             slips.append((i, j, "perpendicular"))
     return slips
-
-
-def _basis(rows: FloatArray) -> FloatArray:
-    if not len(rows):
-        return np.zeros((0, 3))
-    _, singular, turned = np.linalg.svd(rows, full_matrices=False)
-    kept: FloatArray = turned[singular > EXACT]
-    return kept

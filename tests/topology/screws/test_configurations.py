@@ -8,7 +8,7 @@ import pytest
 from assur.joints.revolute import REVOLUTE
 from assur.numerics.rotations import to_vector
 from assur.topology.notation import parse_chain
-from assur.topology.screws.configurations import ImmobileError, configurations, home_is_special, scattered
+from assur.topology.screws.configurations import ImmobileError, configurations, home_is_special
 from assur.topology.screws.linkage import Linkage, LinkageJoint
 from assur.topology.screws.placing import place
 from assur.topology.screws.screws import closure_jacobian, poses, residuals
@@ -158,24 +158,3 @@ def test_home_is_special_where_it_has_freedoms_that_are_lost_on_the_way():
     assert not home_is_special(general, configurations(general))
     arm = _placed(["R[x] R[y]"])
     assert not home_is_special(arm, configurations(arm))
-
-
-def test_scattered_configurations_are_closed_and_far_apart():
-    linkage = _placed(LOOPED["planar"])
-    values = scattered(linkage, count=30)
-    assert len(values) > 10
-    assert np.max(np.abs(residuals(linkage, values))) < 1e-11
-    turned = _turned(linkage, values, "platform")[:, 2]
-    assert np.ptp(turned) > 2.0
-
-
-def test_scattered_configurations_keep_what_is_held():
-    linkage = _placed(THREE_UPU)
-    free, held = scattered(linkage), scattered(linkage, hold="orientation")
-    assert len(held) > 5
-    assert np.max(np.abs(_turned(linkage, held, "platform"))) < 1e-11
-    turned = np.linalg.norm(_turned(linkage, free, "platform"), axis=1)
-    assert np.min(turned) < 1e-11  # the translation mode, found again
-    assert np.sum(turned > 0.1) > 10  # and other modes
-    arm = _placed(["R[x] R[y]"])
-    assert scattered(arm, count=7).shape == (7, 2)

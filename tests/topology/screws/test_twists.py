@@ -18,7 +18,7 @@ from assur.numerics.rotations import from_vector, to_vector
 from assur.topology.chains import Chain, ChainJoint
 from assur.topology.directions import unit
 from assur.topology.notation import parse_chain
-from assur.topology.screws.configurations import configurations, home_is_special, scattered
+from assur.topology.screws.configurations import configurations, home_is_special
 from assur.topology.screws.edges import closure
 from assur.topology.screws.linkage import part
 from assur.topology.screws.placing import place
@@ -350,7 +350,15 @@ def test_inputs_are_columns_of_their_edges():
 
 def test_other_assemblies_of_the_3_upu_are_other_operation_modes():
     linkage = _placed(THREE_UPU)
-    values = scattered(linkage, count=40)
+    starts = np.random.default_rng(0).uniform(-np.pi, np.pi, (40, 15))
+    ends = minimise(
+        lambda at, _: (residuals(linkage, at), closure_jacobian(linkage, at)),
+        starts,
+        tolerance=1e-11,
+        max_steps=80,
+        max_change=0.5,
+    )
+    values = ends.x[ends.converged]
     turned = np.linalg.norm(to_vector(poses(linkage, values)["platform"][0]), axis=1)
     modes = {
         mode: {poc_dimensions(edges(linkage, row[None]), "base", "platform") for row in values[chosen]}

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from assur.topology.directions import unit
-from assur.topology.symbolic.spans import ALL, NOTHING, Span, along, perpendicular
+from assur.topology.symbolic.spans import ALL, NOTHING, Span, along, plane_across
 from examples import examples
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
@@ -118,13 +118,13 @@ def test_two_lines_that_turn_in_different_planes_make_a_plane_that_turns():
         (along(Z), Z, 1, 0, None),
         (along(X), Z, 0, 1, Z),
         (along(unit((1, 0, 1))), Z, 0, 1, None),
-        (perpendicular(Z), Z, 2, 0, None),
-        (perpendicular(X), Z, 1, 1, None),
-        (perpendicular(unit((1, 0, 1))), Z, 0, 2, None),
+        (plane_across(Z), Z, 2, 0, None),
+        (plane_across(X), Z, 1, 1, None),
+        (plane_across(unit((1, 0, 1))), Z, 0, 2, None),
         (Span((), 1, Z), Z, 0, 1, Z),
         (Span((), 1, X), Z, 0, 1, None),
         (ALL, None, 3, 0, None),
-        (perpendicular(Z), None, 0, 2, None),
+        (plane_across(Z), None, 0, 2, None),
     ],
 )
 def test_what_a_turn_leaves_fixed(span, axis, fixed, turning, plane):
@@ -133,4 +133,4 @@ def test_what_a_turn_leaves_fixed(span, axis, fixed, turning, plane):
 
 
 def test_a_plane_that_contains_the_axis_keeps_that_line():
-    assert perpendicular(X).turned(Z).fixed == (Z,)
+    assert plane_across(X).turned(Z).fixed == (Z,)

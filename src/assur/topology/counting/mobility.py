@@ -84,11 +84,6 @@ class Mobility:
         return self.dof - self.internal_freedoms
 
     @property
-    def redundant_inputs(self) -> int:
-        """Freedoms that move inputs with the platform at rest (a limb with more joints than it needs)."""
-        return self.controlled - self.platform
-
-    @property
     def redundant_constraints(self) -> int:
         """6 v - rank."""
         return 6 * self.loops - self.rank

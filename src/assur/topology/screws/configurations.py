@@ -133,30 +133,6 @@ def configurations(linkage: Linkage, count: int = 4, seed: int = 0, hold: Hold |
     )
 
 
-def scattered(
-    linkage: Linkage, count: int = 40, seed: int = 0, hold: Hold | None = None, *, max_steps: int = 80
-) -> FloatArray:
-    """Joint values (N, n) of assemblies from `count` random starts anywhere, so also in other operation modes.
-
-    Not every start closes, so N <= count. A parallelogram may come out crossed unless `hold` is given.
-
-    Args:
-        linkage: assembled at home.
-        count: number of starts.
-        seed: of the starts.
-        hold: as in `configurations`.
-        max_steps: after so many a start is given up.
-    """
-    tree = screw_tree(linkage)
-    rng = np.random.default_rng(seed)
-    start = rng.uniform(-1.0, 1.0, (count, len(tree.scales))) * np.where(_turning(tree), np.pi, 1.0)
-    system = _System.of(linkage, tree, hold)
-    if not system.rows:
-        return start * tree.scales
-    minimum = minimise(system.at, start, tolerance=CLOSED, max_steps=max_steps, max_change=0.5)
-    return np.asarray(minimum.x[minimum.converged] * tree.scales)
-
-
 def walked(
     linkage: Linkage, start: FloatArray, seed: int = 0, hold: Hold | None = None, step: float = WALK_STEP
 ) -> FloatArray:

@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from assur.joints.joint_type import JointType
 from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop
+from assur.topology.directions import parallel
 from assur.topology.screws.linkage import Linkage, LinkageJoint
-from assur.topology.symbolic.vectors import aligned
 
 FloatArray = NDArray[np.float64]
 Line = tuple[FloatArray, FloatArray]
@@ -216,7 +216,7 @@ def _slides_along(ordered: Sequence[Element]) -> bool:
     )
     if not (isinstance(slide, ChainJoint) and not slide.type.turning and isinstance(behind, ChainJoint)):
         return False
-    return pivoted(behind.type) and behind.type.turns == 1 and aligned(slide.axes[0], behind.axes[0])
+    return pivoted(behind.type) and behind.type.turns == 1 and parallel(slide.axes[0], behind.axes[0])
 
 
 def _label(joint: Element) -> str:

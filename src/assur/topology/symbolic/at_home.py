@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from assur.topology.directions import Vector
+from assur.topology.directions import coplanar, parallel
 from assur.topology.symbolic.blocks import Block, Structure
 from assur.topology.symbolic.elementary import Elementary, Slide, Turn
 from assur.topology.symbolic.meeting import GENERAL, Line
 from assur.topology.symbolic.refusals import Refusal
-from assur.topology.symbolic.vectors import aligned, coplanar
 
 
 def at_home(chain: Sequence[Elementary]) -> Structure | Refusal:
@@ -34,7 +33,7 @@ def at_home(chain: Sequence[Elementary]) -> Structure | Refusal:
         if not item.finite:
             rods.append(line)
             continue
-        same = [lines for first, lines in blocks if _parallel(first.direction, item.direction)]
+        same = [lines for first, lines in blocks if parallel(first.direction, item.direction)]
         lines = same[0] if same else {}
         if not same:
             blocks.append((item, lines))
@@ -46,10 +45,6 @@ def at_home(chain: Sequence[Elementary]) -> Structure | Refusal:
     last = chain[-1] if chain else None
     end = points.get(last.point, GENERAL) if isinstance(last, Turn) else GENERAL
     return Structure((*slides, *turns), tuple(rods), end)
-
-
-def _parallel(first: Vector | None, second: Vector | None) -> bool:
-    return first is not None and second is not None and aligned(first, second)
 
 
 def _flat(turns: Sequence[Turn]) -> bool:

@@ -10,10 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from assur.topology.directions import Vector
+from assur.topology.directions import Vector, parallel
 from assur.topology.symbolic.elementary import Elementary, Slide
 from assur.topology.symbolic.meeting import GENERAL, Line, meeting
-from assur.topology.symbolic.vectors import aligned
 
 
 @dataclass(frozen=True)
@@ -77,7 +76,7 @@ class Structure:
 
     def along(self, direction: Vector) -> tuple[Block, ...]:
         """The blocks that are parallel to a direction of the base, and stay so."""
-        behind = self.beyond if all(aligned(axis, direction) for axis in self.axes) else ()
+        behind = self.beyond if all(parallel(axis, direction) for axis in self.axes) else ()
         first = (_first_along(direction, items) for items in (self.items, behind))
         return tuple(block for block in first if block is not None)
 
@@ -110,7 +109,7 @@ def structure(chain: Sequence[Elementary]) -> Structure:
         line = next(left)
         if not item.finite:
             rods.append(line)
-        elif opened is not None and _parallel(opened.direction, item.direction):
+        elif opened is not None and parallel(opened.direction, item.direction):
             lines = opened.lines if line in opened.lines else (*opened.lines, line)
             opened, after = Block(opened.direction, lines, (*opened.inner, *after)), []
         else:
@@ -140,15 +139,11 @@ def _first_along(direction: Vector, items: Iterable[Item]) -> Block | None:
     """The block along a direction that nothing before it turns."""
     for item in items:
         if isinstance(item, Block):
-            if item.direction is not None and aligned(item.direction, direction):
+            if parallel(item.direction, direction):
                 return item
             if item.net:
                 return None
     return None
-
-
-def _parallel(first: Vector | None, second: Vector | None) -> bool:
-    return first is not None and second is not None and aligned(first, second)
 
 
 def _blocks(items: Iterable[Item]) -> Iterator[Block]:

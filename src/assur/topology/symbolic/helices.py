@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from assur.topology.directions import Vector
+from assur.topology.directions import Vector, parallel
 from assur.topology.symbolic.blocks import structure
 from assur.topology.symbolic.elementary import Elementary, Slide, Turn
 from assur.topology.symbolic.refusals import Refusal
 from assur.topology.symbolic.spaces import translations
 from assur.topology.symbolic.spans import Span
-from assur.topology.symbolic.vectors import aligned
 
 
 def coupled(chain: Sequence[Elementary], moved: Span) -> Refusal | None:
@@ -50,4 +49,4 @@ def _keeps(part: Elementary, axis: Vector) -> bool:
     """Whether what follows keeps its angle to an axis."""
     if isinstance(part, Slide) or not part.finite:
         return True
-    return part.direction is not None and aligned(part.direction, axis)
+    return parallel(part.direction, axis)

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from itertools import combinations
 
+from assur.topology.directions import parallel
 from assur.topology.symbolic.motion import Motion, seen_from_end
 from assur.topology.symbolic.operation_modes import HeldLimbs, assembled
 from assur.topology.symbolic.orientations import Orientations, turn_alike
 from assur.topology.symbolic.refusals import Refusal
-from assur.topology.symbolic.vectors import aligned
 
 
 def why_it_does_not_last(assembly: HeldLimbs) -> Refusal | None:
@@ -44,8 +44,8 @@ def _is_of_both(base: Motion, platform: Motion, taken: Orientations) -> bool:
     near, far = base.translations, platform.translations
     if not (near.fixed and near.turning and far.fixed and far.turning):
         return False
-    lasting = taken.axes and all(aligned(axis, near.fixed[0]) for axis in taken.axes)
-    return not (lasting and aligned(near.fixed[0], far.fixed[0]))
+    lasting = taken.axes and all(parallel(axis, near.fixed[0]) for axis in taken.axes)
+    return not (lasting and parallel(near.fixed[0], far.fixed[0]))
 
 
 def _size(assembly: HeldLimbs) -> tuple[int, int]:

@@ -15,11 +15,10 @@ from assur.joints.prismatic import PRISMATIC
 from assur.joints.revolute import REVOLUTE
 from assur.joints.steps import Step
 from assur.topology.chains import ChainJoint, Element, InnerLoop, Parallelogram
-from assur.topology.directions import Vector, span
+from assur.topology.directions import AXES, Vector, parallel, rotated, span
 from assur.topology.symbolic.motion import Motion
 from assur.topology.symbolic.refusals import Refusal
 from assur.topology.symbolic.union import inner_loop
-from assur.topology.symbolic.vectors import AXES, aligned, rotated
 
 ANYWHERE = 0.7
 """Angle (rad) by which the first axis is turned: no part of a right angle, or of an angle between common axes."""
@@ -220,7 +219,7 @@ def _blocks(axes: Sequence[Vector]) -> list[_Block]:
     done: list[_Block] = []
     opened: list[_Block] = []
     for index, axis in enumerate(axes):
-        depth = next((k for k in reversed(range(len(opened))) if aligned(opened[k].axis, axis)), None)
+        depth = next((k for k in reversed(range(len(opened))) if parallel(opened[k].axis, axis)), None)
         if depth is None:
             opened.append(_Block(axis, [index]))
         else:
@@ -237,7 +236,7 @@ def _along(first: Vector, second: Vector) -> bool:
 
 def _followed(active: Sequence[tuple[Vector, float]], axis: Vector, angle: float) -> list[tuple[Vector, float]]:
     """Rotations in order from the base once one more follows; parallel neighbours are one, and vanish at zero."""
-    if not active or not aligned(active[-1][0], axis):
+    if not active or not parallel(active[-1][0], axis):
         return [*active, (axis, angle)] if angle else list(active)
     last, sum_of = active[-1]
     total = sum_of + (angle if _along(last, axis) else -angle)
@@ -284,7 +283,7 @@ def _turned(
 def _turned_branch(branch: Sequence[Element], net: float, first: float) -> tuple[Element, ...] | Refusal:
     """A branch of a planar loop, its axes turned by general angles that add up to the turn of the output link."""
     axes = [axis for joint in branch for axis in _axes_of(joint)]
-    if any(not aligned(axes[0], axis) for axis in axes) or any(isinstance(joint, InnerLoop) for joint in branch):
+    if any(not parallel(axes[0], axis) for axis in axes) or any(isinstance(joint, InnerLoop) for joint in branch):
         return Refusal("a joint is locked in an inner loop that is not planar")
     moved: list[Element] = []
     passed = 0
@@ -325,6 +324,6 @@ def _rigidly(element: Element, active: Sequence[tuple[Vector, float]]) -> Elemen
 def _direction(direction: Vector, active: Sequence[tuple[Vector, float]]) -> Vector:
     """A direction behind rotations about axes as written, the first of them next to the base."""
     for axis, angle in reversed(active):
-        if not aligned(axis, direction):
+        if not parallel(axis, direction):
             direction = rotated(direction, axis, angle)
     return direction

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from assur.topology.directions import NAMED, Vector
+from assur.topology.directions import NAMED, Vector, parallel
 from assur.topology.poc import Mark
 from assur.topology.symbolic.blocks import Block, Structure
 from assur.topology.symbolic.spans import Span
-from assur.topology.symbolic.vectors import aligned
 
 MOVING = Mark("moving")
 
@@ -59,7 +58,7 @@ def name_of(direction: Vector, chains: Iterable[Structure]) -> str:
     block = _block_along(direction, chains)
     if block is not None:
         return block.name
-    named = [name for name, axis in NAMED.items() if aligned(axis, direction)]
+    named = [name for name, axis in NAMED.items() if parallel(axis, direction)]
     return named[0] if named else "({:.3g}, {:.3g}, {:.3g})".format(*direction)
 
 
@@ -81,6 +80,6 @@ def _slides_in(span: Span, chains: Iterable[Structure]) -> tuple[str, ...]:
             if larger.dim > total.dim:
                 total = larger
                 names.append(slide.name)
-            if total == span or (total.is_fixed and total.dim == span.dim == 2 and aligned(total.normal, span.normal)):
+            if total == span or (total.is_fixed and total.dim == span.dim == 2 and parallel(total.normal, span.normal)):
                 return tuple(dict.fromkeys(names))
     return ()

@@ -9,10 +9,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from assur.topology.directions import Vector
+from assur.topology.directions import Vector, parallel
 from assur.topology.symbolic.elementary import Elementary, Slide, Turn
 from assur.topology.symbolic.spans import Span
-from assur.topology.symbolic.vectors import aligned
 
 GENERAL = -1
 """A point that no axis runs through."""
@@ -99,7 +98,7 @@ def _turn(walk: _Walk, turn: Turn) -> None:
         _pass_through(walk)
         return
     before, after = _runs_along(last.direction, moved), _runs_along(turn.direction, moved)
-    coaxial = before and after and _parallel(last.direction, turn.direction)
+    coaxial = before and after and parallel(last.direction, turn.direction)
     old, previous = walk.point, walk.line
     if not coaxial:
         _new_line(walk, turn)
@@ -141,7 +140,3 @@ def _line_or_point(moved: Span) -> bool:
 def _runs_along(direction: Vector | None, moved: Span) -> bool:
     """Whether slides move a point along an axis, or not at all."""
     return moved.dim == 0 or (direction is not None and moved.dim == 1 and moved.contains(direction))
-
-
-def _parallel(first: Vector | None, second: Vector | None) -> bool:
-    return first is not None and second is not None and aligned(first, second)

@@ -9,19 +9,19 @@ from typing import Literal, get_args
 
 from assur.errors import UnknownNameError
 from assur.topology.directions import Vector
-from assur.topology.poc import PocSet
+from assur.topology.poc import Mark, PocSet
 from assur.topology.symbolic.at_home import at_home
 from assur.topology.symbolic.base_point import poc_set
 from assur.topology.symbolic.blocks import Structure, mirrored
 from assur.topology.symbolic.bundles import bundles
 from assur.topology.symbolic.chain_steps import chain_derivation
-from assur.topology.symbolic.derivation import Derivation, under
+from assur.topology.symbolic.derivation import Derivation, DerivationStep, under
 from assur.topology.symbolic.elementary import Elementary, Turn
 from assur.topology.symbolic.helices import coupled
 from assur.topology.symbolic.orientations import EVERY, UNTURNED, Orientations, held, orientations
 from assur.topology.symbolic.refusals import Refusal
 from assur.topology.symbolic.spaces import rotations, translations
-from assur.topology.symbolic.spans import Span
+from assur.topology.symbolic.spans import Span, along
 
 Mode = Literal["free", "translation"]
 """A chain displaced at will, or a mechanism from the configuration as written; or an end link that does not turn."""
@@ -199,4 +199,21 @@ def _moving(limb: Limb, structure: Structure, taken: Orientations) -> Motion | R
         limb=limb,
         structure=structure,
         derive=lambda: chain_derivation(structure, limb.name, limb.parts(), under(limb.conditions)),
+    )
+
+
+def lone_helix(turn: Turn, axis: Vector) -> Motion:
+    """A helical joint alone: one translation and one rotation that are one element."""
+    mark = Mark("parallel", (turn.name,), (axis,))
+    poc = PocSet(1, 1, 1, mark, mark)
+    step = DerivationStep("union", (poc,), (turn.name,), poc, "", "")
+    said = "so the end link has one translation and one rotation, which its pitch makes one element"
+    return Motion(
+        translations=Span(),
+        rotations=along(axis),
+        orientations=Orientations(1, (axis,)),
+        freedoms=1,
+        given=poc,
+        helical=True,
+        derive=lambda: Derivation(turn.name, "on the axis", (), step, (), said),
     )

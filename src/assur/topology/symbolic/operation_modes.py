@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 
+from assur.topology.directions import parallel
 from assur.topology.symbolic.blocks import Block, Structure
 from assur.topology.symbolic.blocks import structure as gathered
 from assur.topology.symbolic.constraints import Resisted, resisted
@@ -29,7 +30,6 @@ from assur.topology.symbolic.orientations import (
 from assur.topology.symbolic.refusals import Refusal
 from assur.topology.symbolic.spaces import rotations, translations
 from assur.topology.symbolic.spans import Span
-from assur.topology.symbolic.vectors import aligned
 
 
 @dataclass(frozen=True)
@@ -177,8 +177,7 @@ def _common_translations(spans: Sequence[Span]) -> int:
 def _idle(motion: Motion, around: Block, rest: Structure) -> int:
     """Freedoms of a limb that do not move its end link, without the axes around the rest."""
     chain = motion.limb.chain if motion.limb else ()
-    axes = [part.direction for part in chain if isinstance(part, Turn) and part.direction is not None]
-    removed = sum(around.direction is not None and aligned(axis, around.direction) for axis in axes)
+    removed = sum(isinstance(part, Turn) and parallel(part.direction, around.direction) for part in chain)
     return motion.freedoms - removed - translations(rest).dim - rotations(rest).dim
 
 

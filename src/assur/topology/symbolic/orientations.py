@@ -11,10 +11,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from assur.topology.directions import Vector
+from assur.topology.directions import Vector, coplanar, parallel
 from assur.topology.symbolic.blocks import Block, Item, Structure, backwards
 from assur.topology.symbolic.refusals import Refusal
-from assur.topology.symbolic.vectors import aligned, coplanar
 
 
 @dataclass(frozen=True)
@@ -43,11 +42,11 @@ class Orientations:
             return small
         if not small.axes or not large.axes:
             return Orientations(max(0, small.dim + large.dim - 3))
-        shared = [axis for axis in small.axes if any(aligned(axis, direction) for direction in large.axes)]
+        shared = [axis for axis in small.axes if any(parallel(axis, direction) for direction in large.axes)]
         if small.dim == 1:
             return small if shared else UNTURNED
         if len(shared) == 2:
-            return small if aligned(small.axes[0], large.axes[0]) else Refusal(SEVERAL)
+            return small if parallel(small.axes[0], large.axes[0]) else Refusal(SEVERAL)
         return Orientations(1, tuple(shared))
 
 
@@ -71,21 +70,17 @@ def orientations(structure: Structure) -> Orientations:
 def returns(structure: Structure) -> bool:
     """Whether an axis is parallel to an earlier one, as written, with others between."""
     axes = [block.direction for block in structure.blocks if block.direction is not None]
-    return any(aligned(first, second) for first, second in combinations(axes, 2))
+    return any(parallel(first, second) for first, second in combinations(axes, 2))
 
 
 def turn_alike(first: Structure, second: Structure) -> bool:
     """Whether links inside two chains with one end link are parallel, because both turn about the same axes."""
     axes, others = _turning_axes(first), _turning_axes(second)
-    return 1 < len(axes) == len(others) < 4 and all(map(_parallel, axes, others))
+    return 1 < len(axes) == len(others) < 4 and all(map(parallel, axes, others))
 
 
 def _turning_axes(structure: Structure) -> list[Vector | None]:
     return [block.direction for block in structure.items if isinstance(block, Block) and block.net]
-
-
-def _parallel(first: Vector | None, second: Vector | None) -> bool:
-    return first is not None and second is not None and aligned(first, second)
 
 
 def held(structure: Structure, to: Orientations) -> Structure | Refusal:
@@ -113,14 +108,14 @@ def _held_three(structure: Structure, blocks: Sequence[Block], to: Orientations)
     """Three blocks have one way to each orientation, near the one as written."""
     axes = [block.direction for block in blocks if block.direction is not None]
     first, middle, last = axes
-    if aligned(first, last):
-        if to.dim == 0 or (to.dim == 1 and aligned(first, to.axes[0])):
+    if parallel(first, last):
+        if to.dim == 0 or (to.dim == 1 and parallel(first, to.axes[0])):
             return _wrapped(structure, blocks, to.dim == 1)
     elif coplanar(first, middle, last):
         return Refusal("three axes in one plane as written are held to the orientations of the platform")
     for still in ((0, 1, 2), (1, 2), (0, 2), (0, 1), (2,), (1,), (0,)):
         moving = [axis for index, axis in enumerate(axes) if index not in still]
-        if len(moving) == to.dim and all(map(aligned, moving, to.axes)):
+        if len(moving) == to.dim and all(map(parallel, moving, to.axes)):
             return _with_blocks(structure, [replace(block, net=i not in still) for i, block in enumerate(blocks)])
     return structure
 
@@ -190,7 +185,7 @@ def _independent(blocks: Sequence[Block]) -> bool:
 
 
 def _is_among(block: Block, to: Orientations) -> bool:
-    return block.direction is not None and any(aligned(block.direction, axis) for axis in to.axes)
+    return any(parallel(block.direction, axis) for axis in to.axes)
 
 
 def _with_blocks(structure: Structure, blocks: Sequence[Block]) -> Structure:

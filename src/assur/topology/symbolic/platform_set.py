@@ -9,7 +9,7 @@ from assur.topology.symbolic.constraints import Resisted, have_common_end, resis
 from assur.topology.symbolic.marks import MOVING, rotation_mark, translation_mark
 from assur.topology.symbolic.motion import Motion
 from assur.topology.symbolic.refusals import Refusal
-from assur.topology.symbolic.spans import Span, perpendicular
+from assur.topology.symbolic.spans import Span, plane_across
 
 
 def platform_set(limbs: Sequence[Motion], resisted: Resisted, at: str = "") -> PocSet | Refusal:
@@ -85,5 +85,5 @@ def _through_one_point(resisting: Sequence[Motion]) -> bool:
 def _with_rotation(t: int, turned: Span, resisted: Resisted) -> Span:
     """Directions in which O' moves, where rotation about a fixed axis adds to pure translations."""
     if turned.dim == 1 and turned.is_fixed and resisted.forces.contains(turned.fixed[0]):
-        return perpendicular(turned.fixed[0]) if t == 2 else Span((), t, turned.fixed[0])
+        return plane_across(turned.fixed[0]) if t == 2 else Span((), t, turned.fixed[0])
     return Span((), t)

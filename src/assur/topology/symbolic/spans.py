@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from assur.topology.directions import Vector, unit
-from assur.topology.symbolic.vectors import AXES, aligned, dot, normal, plane_basis, square
+from assur.topology.directions import AXES, Vector, dot, normal, parallel, perpendicular, plane_basis, unit
 
 
 @dataclass(frozen=True)
@@ -52,14 +51,14 @@ class Span:
             case 0:
                 return False
             case 1:
-                return aligned(self.fixed[0], direction)
+                return parallel(self.fixed[0], direction)
             case 2:
-                return square(self.normal, direction)
+                return perpendicular(self.normal, direction)
         return True
 
     def contains_plane(self, axis: Vector) -> bool:
         """Whether it contains the whole plane perpendicular to a fixed direction."""
-        return len(self.fixed) == 3 or (len(self.fixed) == 2 and aligned(self.normal, axis))
+        return len(self.fixed) == 3 or (len(self.fixed) == 2 and parallel(self.normal, axis))
 
     def with_direction(self, direction: Vector) -> Span:
         """The sum with one fixed direction."""
@@ -69,8 +68,8 @@ class Span:
             return ALL
         if len(self.fixed) == 1:
             return Span(_orthonormal(self.fixed[0], direction))
-        if self.plane is not None and square(self.plane, direction):
-            return perpendicular(self.plane)
+        if self.plane is not None and perpendicular(self.plane, direction):
+            return plane_across(self.plane)
         return Span((direction,), self.turning)
 
     def with_line(self, in_plane: Vector | None = None) -> Span:
@@ -78,14 +77,14 @@ class Span:
         if self.dim == 0:
             return Span((), 1, in_plane)
         if len(self.fixed) == 2:
-            return self if in_plane is not None and aligned(self.normal, in_plane) else ALL
+            return self if parallel(self.normal, in_plane) else ALL
         if self.dim >= 2:
             return ALL
         if in_plane is not None:
-            if self.fixed and square(self.fixed[0], in_plane):
-                return perpendicular(in_plane)
-            if self.plane is not None and aligned(self.plane, in_plane):
-                return perpendicular(in_plane)
+            if self.fixed and perpendicular(self.fixed[0], in_plane):
+                return plane_across(in_plane)
+            if parallel(self.plane, in_plane):
+                return plane_across(in_plane)
         return Span(self.fixed, self.turning + 1)
 
     def with_span(self, other: Span) -> Span:
@@ -105,16 +104,15 @@ class Span:
             return Span((), self.dim)
         match len(self.fixed):
             case 0:
-                kept = self.plane is not None and aligned(self.plane, axis)
-                return self if kept else Span((), self.turning)
+                return self if parallel(self.plane, axis) else Span((), self.turning)
             case 1:
-                if aligned(self.fixed[0], axis):
+                if parallel(self.fixed[0], axis):
                     return self
-                in_plane = axis if self.dim == 1 and square(self.fixed[0], axis) else None
+                in_plane = axis if self.dim == 1 and perpendicular(self.fixed[0], axis) else None
                 return Span((), self.dim, in_plane)
-        if aligned(self.normal, axis):
+        if parallel(self.normal, axis):
             return self
-        return Span((unit(axis),), 1) if square(self.normal, axis) else Span((), 2)
+        return Span((unit(axis),), 1) if perpendicular(self.normal, axis) else Span((), 2)
 
     @property
     def complement(self) -> Span:
@@ -127,7 +125,7 @@ class Span:
             case 0, 2:
                 return Span((), 1)
             case 1, 0:
-                return perpendicular(self.fixed[0])
+                return plane_across(self.fixed[0])
             case 1, 1:
                 return Span((), 1, self.fixed[0])
             case 2, 0:
@@ -146,7 +144,7 @@ ALL = Span(AXES)
 """Every direction."""
 
 
-def perpendicular(axis: Vector) -> Span:
+def plane_across(axis: Vector) -> Span:
     """The fixed plane perpendicular to a direction."""
     return Span(plane_basis(axis))
 

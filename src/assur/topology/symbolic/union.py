@@ -7,11 +7,12 @@ from collections.abc import Callable, Sequence
 from assur.topology.chains import Chain, Element, InnerLoop
 from assur.topology.symbolic.blocks import structure
 from assur.topology.symbolic.elementary import Elementary, Slide, Turn, elementary
+from assur.topology.symbolic.helices import coupled
 from assur.topology.symbolic.intersection import parallel
-from assur.topology.symbolic.motion import Limb, Mode, Motion, check_mode, motion_of, seen_from_end
+from assur.topology.symbolic.motion import Limb, Mode, Motion, check_mode, lone_helix, motion_of, seen_from_end
 from assur.topology.symbolic.orientations import EVERY, UNTURNED
-from assur.topology.symbolic.pitches import lone_helix, pitch_refusal
 from assur.topology.symbolic.refusals import Refusal
+from assur.topology.symbolic.spaces import translations
 from assur.topology.symbolic.spans import Span
 
 
@@ -57,12 +58,13 @@ def serial(chain: Chain | Sequence[Element], mode: Mode = "free", name: str = "t
         return pieces
     if len(pieces) == 1 and isinstance(pieces[0], Turn) and pieces[0].pitch and pieces[0].direction:
         return lone_helix(pieces[0], pieces[0].direction)
-    refusal = pitch_refusal(pieces)
+    gathered = structure(pieces)
+    refusal = coupled(pieces, translations(gathered))
     if refusal is not None:
         return refusal
     limb = Limb(
         chain=pieces,
-        structure=structure(pieces),
+        structure=gathered,
         freedoms=sum(part.span.dim if isinstance(part, Slide) else 1 for part in pieces),
         conditions=(*conditions, *_conditions(pieces, mode)),
         centre=_centre(pieces),
