@@ -18,7 +18,7 @@ from assur.errors import UsageError
 from assur.figures.motion import check_film, encoded_film, ffmpeg, film, there_and_back
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closure import closure_error
-from assur.kinematics.following.neighbours import working_signs
+from assur.kinematics.named_signs import named_signs
 from assur.kinematics.pose import pose_of
 from assur.numerics import rotations
 from assur.scene.mesh import rgb
@@ -37,7 +37,7 @@ def test_a_way_goes_to_the_pose_and_back_in_one_mode(name, way):
     home = pose_of(record, record.home_values)
     values = there_and_back(record, home + way, FEW)
     assert np.max(closure_error(record, values)) < 1e-9 * characteristic_length(record)
-    signs = working_signs(record, values)
+    signs = named_signs(record, "inverse", values)
     assert np.all(signs == signs[0])
     np.testing.assert_allclose(values[-1], values[0], atol=1e-9)
     np.testing.assert_allclose(values[1:], values[:-1][::-1], atol=1e-6 * characteristic_length(record))

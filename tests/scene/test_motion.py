@@ -10,8 +10,8 @@ from assur.errors import UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import closure_error
-from assur.kinematics.following.neighbours import working_signs
 from assur.kinematics.limits import limits
+from assur.kinematics.named_signs import named_signs
 from assur.scene import motion
 from assur.scene.motion import closed_motion
 
@@ -44,7 +44,7 @@ def test_no_frame_stands_in_another_mode():
     """The full swing of zeng2019 runs through a serial singularity: the inputs go on, the working mode does not."""
     record = assur.load("zeng2019")
     values = closed_motion(record, 16)
-    signs = working_signs(record, values)
+    signs = named_signs(record, "inverse", values)
     assert np.all(signs == signs[0])
     full = motion.SLIDE * characteristic_length(record)
     assert np.all(np.ptp(inputs_of(record, values), axis=0) < 0.9 * full)  # so that a swing had to be made smaller

@@ -6,9 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.joint_graph.points import quantity
 from assur.kinematics.closure import Assembly, assemble, gap_left
-from assur.kinematics.modes import mode_text
+from assur.kinematics.named_signs import mode_names
 from assur.model.dimensions import of_file, with_parameters
 from assur.model.mechanism import MechanismRecord
 
@@ -58,12 +57,8 @@ def _fault(record: MechanismRecord, assembly: Assembly) -> str:
     if not bool(assembly.closed):
         return gap_left(record, assembly)
     original = of_file(record)
-    before, now = _modes(original, assemble(original, original.home).values), _modes(record, assembly.values)
-    return "" if now == before else f"from home the loops close in the mode {now}, not in {before} as before"
-
-
-def _modes(record: MechanismRecord, values: FloatArray) -> str:
-    """Working and assembly mode of joint values (n,), by the quantities that the file names."""
-    formulas = (record.modes.working, record.modes.assembly)
-    signs = [[int(np.sign(quantity(record, item, values))) for item in group.values()] for group in formulas]
-    return " ".join(mode_text(row) for row in signs if row)
+    before, now = mode_names(original, assemble(original, original.home).values), mode_names(record, assembly.values)
+    if now == before:
+        return ""
+    names = [" ".join(filter(None, pair)) for pair in (now, before)]
+    return f"from home the loops close in the mode {names[0]}, not in {names[1]} as before"

@@ -10,19 +10,17 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joint_graph.geometry import characteristic_length
-from assur.joint_graph.points import quantity
 from assur.kinematics.answers.self_motion import SelfMotionCurve
 from assur.kinematics.answers.solution import Failure
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.border import inputs_of
 from assur.kinematics.loops.loops import crossed_parallelograms
 from assur.kinematics.modes import Problem, is_of_mode, mode_texts, numbered
+from assur.kinematics.named_signs import named_signs
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.finite_motion import status_of
 from assur.kinematics.rates.instantaneous import Instant, instantaneous
 from assur.kinematics.status import FACTOR_TOLERANCE, Status
-from assur.model.formula import Formula
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -155,17 +153,10 @@ class JointGraphSolutions(SolutionSet):
 
     def _signs(self, problem: Problem) -> NDArray[np.int8]:
         """Signs (..., K, s) of the quantities that name modes; 0 where one vanishes."""
-        formulas = self.record.modes.assembly if problem == "direct" else self.record.modes.working
-        length = characteristic_length(self.record)
-        zero = length * FACTOR_TOLERANCE if length > 1 else FACTOR_TOLERANCE
-        signs = np.zeros((*self._there.shape, len(formulas)), dtype=np.int8)
-        for k, formula in enumerate(formulas.values()):
-            value = self._of_joints(partial(self._quantity, formula))[..., 0]
-            signs[..., k] = np.where(self._there & (np.abs(value) > zero), np.sign(np.nan_to_num(value)), 0)
+        known = named_signs(self.record, problem, self.assemblies[self._there], FACTOR_TOLERANCE)
+        signs = np.zeros((*self._there.shape, known.shape[-1]), dtype=np.int8)
+        signs[self._there] = known
         return signs
-
-    def _quantity(self, formula: Formula, joints: FloatArray) -> FloatArray:
-        return quantity(self.record, formula, joints)[:, None]
 
     @cached_property
     def _instant(self) -> Instant:

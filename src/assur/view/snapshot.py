@@ -16,9 +16,10 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import CLOSED, assemble, closure_error
 from assur.kinematics.following.course import Prescribed, Turns
-from assur.kinematics.following.following import follow, mode_names
+from assur.kinematics.following.following import follow
 from assur.kinematics.following.locked import general_ranks
 from assur.kinematics.home import home_values
+from assur.kinematics.named_signs import mode_names
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
 from assur.view.dials import dials, pose_with, read

@@ -25,9 +25,9 @@ from assur.kinematics.following.continuation import continued
 from assur.kinematics.following.ending import Mode
 from assur.kinematics.following.followed_grid import Continuation, Followed
 from assur.kinematics.following.following import follow
-from assur.kinematics.following.neighbours import working_signs
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import mode_signs, sign_names
+from assur.kinematics.named_signs import named_signs
 from assur.kinematics.parasitic import all_coordinates
 from assur.kinematics.position import inverse
 from assur.kinematics.turns import periodic
@@ -258,7 +258,7 @@ def _start(
     size = grid.dimension
     low, high = grid.low[:size], grid.high[:size]
     spread = grid.box.spread(STARTS, np.random.default_rng(0))
-    if not mode.strip("+-") and np.array_equal(working_signs(record, home_values(record)), signs):
+    if not mode.strip("+-") and np.array_equal(named_signs(record, "inverse", home_values(record)), signs):
         home = all_coordinates(record, home_values(record))
         own = np.array([home[name] for name in slice_.free])
         for point in (np.clip(own, low, high), 0.5 * (low + high), *spread[: STARTS // 3]):
@@ -266,7 +266,7 @@ def _start(
                 path = follow(record, home_values(record), poses=slice_.poses(point[None])[0], use_limits=False)
             except UsageError:  # a slice whose angles are right at the end of what they can be
                 continue
-            if path.stopped is None and np.array_equal(working_signs(record, path.joints[-1]), signs):
+            if path.stopped is None and np.array_equal(named_signs(record, "inverse", path.joints[-1]), signs):
                 return (point, path.joints[-1]), "followed from home"
     if not mode:  # a mode without a name is home's: what a search finds may be another
         return None, "home's mode was not followed into the box: no path from home led there"

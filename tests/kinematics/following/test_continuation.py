@@ -12,8 +12,8 @@ from assur.joint_graph.points import quantity
 from assur.kinematics.closure import closure_error
 from assur.kinematics.following.continuation import continued
 from assur.kinematics.following.ending import Mode
-from assur.kinematics.following.neighbours import working_signs
 from assur.kinematics.home import home_values
+from assur.kinematics.named_signs import named_signs
 from assur.kinematics.pose import pose_of
 
 RECORD = assur.load("fivebar")
@@ -22,7 +22,7 @@ HOME = home_values(RECORD)
 
 def plane(count=21, record=RECORD, box=((-330.0, 330.0), (10.0, 320.0))):
     axes = tuple(np.linspace(*pair, count) for pair in box)
-    mode = Mode(record, working_signs(record, HOME), lambda points: points)
+    mode = Mode(record, named_signs(record, "inverse", HOME), lambda points: points)
     return continued(mode, axes, (pose_of(RECORD, HOME), HOME))
 
 
@@ -32,7 +32,7 @@ def test_every_reached_node_is_an_assembly_of_the_mode_at_its_pose():
     x, y = np.meshgrid(*found.axes, indexing="ij")
     assert np.max(closure_error(RECORD, joints)) < 1e-9 * 194
     np.testing.assert_allclose(pose_of(RECORD, joints), np.stack([x, y], -1)[found.reached], atol=1e-6)
-    assert np.all(working_signs(RECORD, joints) == working_signs(RECORD, HOME))
+    assert np.all(named_signs(RECORD, "inverse", joints) == named_signs(RECORD, "inverse", HOME))
 
 
 def test_without_names_of_modes_it_stays_in_the_same_branch():
@@ -53,7 +53,7 @@ def test_what_is_cut_off_from_home_is_not_reached():
 
     x = 190.0
     joints = RECORD.inverse([x, low], mode="-+").joints[0]
-    found = continued(Mode(RECORD, working_signs(RECORD, joints), poses), axes, (np.array([x]), joints))
+    found = continued(Mode(RECORD, named_signs(RECORD, "inverse", joints), poses), axes, (np.array([x]), joints))
     exists = RECORD.inverse(poses(axes[0][:, None]), mode="-+").exists[:, 0]
     assert np.sum(exists & (axes[0] < 0)) > 3
     assert np.sum(found.reached) > 3

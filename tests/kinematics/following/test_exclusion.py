@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from assur.cli.main import main
-from assur.kinematics.following.exclusion import of_other_signs, otherwise, signs_of
+from assur.kinematics.following.exclusion import of_other_signs, otherwise
 from assur.kinematics.following.home_mode import home_mode_at
 from assur.kinematics.joint_graph_solutions import JointGraphSolutions
+from assur.kinematics.named_signs import named_signs
 from assur.kinematics.position import inverse
 from assur.kinematics.status import Status
 from assur.mechanism import load
@@ -118,7 +119,7 @@ def test_a_solution_with_the_signs_of_home_proves_nothing(bare):
     joints = there.joints[there.exists]
     assert there.complete
     assert not np.all(of_other_signs(bare, "inverse", joints))
-    assert np.array_equal(signs_of(bare, "inverse", bare.home_values[None])[0], [1, 1, -1, 1, 1])
+    assert np.array_equal(named_signs(bare, "inverse", bare.home_values), [1, 1, -1, 1, 1])
     found = home_mode_at(bare, pose, detours=1)
     assert (found.status, found.never) == (Status.undecided, "")
     assert "which is no proof" in found.words

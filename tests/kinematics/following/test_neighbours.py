@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 import assur
-from assur.kinematics.following.neighbours import SignGuard, steps_at, working_signs
+from assur.kinematics.following.neighbours import SignGuard, steps_at
 from assur.kinematics.following.ways import pose_change
+from assur.kinematics.named_signs import named_signs
 
 
 def test_a_change_of_pose_takes_angles_the_short_way_and_quaternions_as_rotation_vectors():
@@ -27,7 +28,7 @@ def test_a_step_is_taken_inside_and_refused_beyond_the_border():
     record = assur.load("fivebar")
     poses = np.array([[0.0, 280.0], [0.0, 280.0]])
     joints = record.inverse(poses, mode="-+").joints[:, 0]
-    steps = steps_at(SignGuard(record, working_signs(record, joints[0])), poses, joints)
+    steps = steps_at(SignGuard(record, named_signs(record, "inverse", joints[0])), poses, joints)
     found, good = steps.to(np.array([[0.0, 284.0], [0.0, 290.0]]))
     assert good.tolist() == [True, False]
     known = record.inverse([0.0, 284.0], mode="-+").joints[0]

@@ -40,12 +40,12 @@ def continued(
     Example: the five-bar over a column of poses; its elbows straighten 285.5 above the motors.
 
     >>> from assur.kinematics.home import home_values
-    >>> from assur.kinematics.following.neighbours import working_signs
+    >>> from assur.kinematics.named_signs import named_signs
     >>> from assur.kinematics.pose import pose_of
     >>> from assur.model.registry import load_record
     >>> record = load_record("fivebar")
     >>> home = home_values(record)
-    >>> upwards = Mode(record, working_signs(record, home), lambda y: np.concatenate([0 * y, y], axis=1))
+    >>> upwards = Mode(record, named_signs(record, "inverse", home), lambda y: np.concatenate([0 * y, y], axis=1))
     >>> found = continued(upwards, (np.linspace(200.0, 300.0, 11),), (pose_of(record, home)[1:], home))
     >>> found.reached.astype(int).tolist(), found.border(np.array([[280.0]]), np.array([[290.0]]))[0].round(4)
     ([1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0], array([0.5545]))

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.frames import frames
 from assur.joint_graph.geometry import characteristic_length
-from assur.joint_graph.points import quantities
 from assur.kinematics.closure import RANK_GAP, assemble
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
+from assur.kinematics.named_signs import named_signs
 from assur.kinematics.rates.motions import motions
 from assur.kinematics.turns import joint_units, periodic
 from assur.model.mechanism import MechanismRecord
@@ -32,29 +32,13 @@ STILL, OTHER = 1e-7, 1e-2
 characteristic lengths. Five digits lie between, so that neither rounding nor a small motion is taken for one."""
 
 MERGED = 1e-6
-"""A quantity that names a mode has no sign below this, in its own unit of an angle or of a characteristic length."""
-
-
-def signs_of(record: MechanismRecord, problem: Problem, joints: FloatArray) -> NDArray[np.int8]:
-    """Signs (N, s) of the quantities that name the modes of a problem, at joint values (N, n); 0 where one vanishes.
-
-    >>> from assur.model.registry import load_record
-    >>> record = load_record("fivebar")
-    >>> signs_of(record, "inverse", home_values(record)[None]).tolist()
-    [[-1, 1]]
-    """
-    formulas = record.modes.assembly if problem == "direct" else record.modes.working
-    if not formulas:
-        return np.zeros((len(joints), 0), dtype=np.int8)
-    values = np.stack(quantities(record, formulas.values(), joints), axis=-1)
-    zero = MERGED * max(1.0, characteristic_length(record))
-    return np.where(np.abs(values) > zero, np.sign(values), 0).astype(np.int8)
+"""A quantity that names a mode has no sign below this, in rad or characteristic lengths."""
 
 
 def of_other_signs(record: MechanismRecord, problem: Problem, joints: FloatArray) -> BoolArray:
     """Which joint values (N, n) bear a sign that is the opposite of home's; false for all where modes have none."""
-    home = signs_of(record, problem, home_values(record)[None])
-    return np.asarray(np.any(signs_of(record, problem, joints) * home < 0, axis=1))
+    home, others = (named_signs(record, problem, values, MERGED) for values in (home_values(record), joints))
+    return np.asarray(np.any(others * home < 0, axis=1))
 
 
 def otherwise(record: MechanismRecord, joints: FloatArray) -> list[str]:

@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import Interrupted, UsageError
 from assur.joint_graph.geometry import characteristic_length
-from assur.joint_graph.points import quantity
 from assur.kinematics.border import checked, inputs_of
 from assur.kinematics.closure import CLOSED, closure_error
 from assur.kinematics.following.course import Course, Prescribed, Turns, course
@@ -22,7 +21,7 @@ from assur.kinematics.following.stepping import Pace, Places, followed
 from assur.kinematics.following.stopping import stop_at
 from assur.kinematics.following.ways import Stretch, system_of
 from assur.kinematics.limits import limits
-from assur.kinematics.modes import mode_text
+from assur.kinematics.named_signs import mode_names
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
 from assur.work import stage
@@ -148,12 +147,3 @@ def _path(record: MechanismRecord, way: Course, guard: RankGuard) -> Path:
         modes=(mode_names(record, joints[0]), mode_names(record, joints[-1])),
         stopped=None if last == way.shares[-1] else stop_at(stretch, guard.points, guard.refused[-1], sizes),
     )
-
-
-def mode_names(record: MechanismRecord, joints: FloatArray) -> tuple[str, str]:
-    """Working and assembly mode of joint values (n,), by the quantities that the file names; "" where it names none."""
-    groups = (record.modes.working, record.modes.assembly)
-    working, assembly = (
-        mode_text([int(np.sign(quantity(record, item, joints))) for item in group.values()]) for group in groups
-    )
-    return working, assembly

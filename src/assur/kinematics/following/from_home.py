@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.following.neighbours import SignGuard, joined, steps_at, working_signs
+from assur.kinematics.following.neighbours import SignGuard, joined, steps_at
 from assur.kinematics.following.stepping import Pace, followed
 from assur.kinematics.following.ways import Straight
 from assur.kinematics.home import home_values
+from assur.kinematics.named_signs import named_signs
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
 
@@ -53,7 +54,7 @@ def followed_from_home(
         [True, False]
     """
     home, count = home_values(record), len(poses)
-    begun = steps_at(SignGuard(record, working_signs(record, home)), pose_of(record, home[None]), home[None])
+    begun = steps_at(SignGuard(record, named_signs(record, "inverse", home)), pose_of(record, home[None]), home[None])
     begun = begun.of(np.zeros(count, dtype=np.intp))
     here, pace = begun.places, Pace(least, most=MOST)
     reached = followed(Straight(record, begun.poses, poses), here, begun.guard, pace, np.full(count, FIRST))
@@ -74,7 +75,7 @@ def followed_together(record: MechanismRecord, poses: FloatArray) -> tuple[Float
         >>> followed_together(load_record("fivebar"), line)[1].tolist()
         [True, True, True, True, True, False]
     """
-    guard = SignGuard(record, working_signs(record, home_values(record)))
+    guard = SignGuard(record, named_signs(record, "inverse", home_values(record)))
     joints = np.full((len(poses), len(record.coordinates)), np.nan)
     around, left = neighbours(poses), np.arange(len(poses))
     tried = np.zeros(len(poses), dtype=bool)

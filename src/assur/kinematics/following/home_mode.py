@@ -21,11 +21,12 @@ from assur.errors import UsageError
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.border import in_range, inputs_of
 from assur.kinematics.following.course import Prescribed, Turns
-from assur.kinematics.following.exclusion import of_other_signs, otherwise, signs_of
+from assur.kinematics.following.exclusion import MERGED, of_other_signs, otherwise
 from assur.kinematics.following.following import follow
 from assur.kinematics.following.path import Path, Stop
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import mode_text
+from assur.kinematics.named_signs import named_signs
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.search import SAME, places
@@ -176,7 +177,7 @@ def _all_excluded(record: MechanismRecord, solutions: SolutionSet) -> str:
         return ""
     parts = []
     if np.any(signed):
-        home = mode_text(signs_of(record, solutions.problem, home_values(record)[None])[0])
+        home = mode_text(named_signs(record, solutions.problem, home_values(record), MERGED))
         parts.append(f"none of all {len(joints)} has its signs {home}" if np.all(signed) else f"its signs are {home}")
     if reasons:
         parts.append(f"in all of it {' and '.join(dict.fromkeys(reasons))} stays as at home, in these it is another")

@@ -9,10 +9,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joint_graph.points import quantities
 from assur.kinematics.following.platform_held import PlatformHeld, held_by, held_matrix, passes_zero
 from assur.kinematics.following.stepping import Pace, Places, followed, settled, tried
 from assur.kinematics.following.ways import Straight, Way
+from assur.kinematics.named_signs import named_signs
 from assur.kinematics.turns import joint_units
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.newton import solved
@@ -54,7 +54,7 @@ class SignGuard:
 
     def kept(self, left: Places, reached: Places) -> BoolArray:
         """Whether assemblies (N,) near others are of the mode, with no merging between."""
-        same = np.all(working_signs(self.record, reached.joints) * self.signs >= 0, axis=1)
+        same = np.all(named_signs(self.record, "inverse", reached.joints) * self.signs >= 0, axis=1)
         rows = np.flatnonzero(same)
         same[rows] = ~passes_zero(self.record, left.matrix[rows], reached.matrix[rows])
         return np.asarray(same)
@@ -110,14 +110,3 @@ def joined(parts: Sequence[Steps]) -> Steps:
 def steps_at(guard: SignGuard, poses: FloatArray, joints: FloatArray) -> Steps:
     """Steps from assemblies (N, n) at poses (N, m)."""
     return Steps(guard, poses, Places(np.zeros(len(poses)), joints, held_matrix(guard.record, joints)))
-
-
-def working_signs(record: MechanismRecord, joints: FloatArray) -> NDArray[np.int8]:
-    """Signs (..., s) of the quantities that name working modes, at joint values (..., n)."""
-    signs = [np.sign(value) for value in quantities(record, record.modes.working.values(), joints)]
-    shape = joints.shape[:-1]
-    return (
-        np.stack([np.broadcast_to(item, shape) for item in signs], axis=-1).astype(np.int8)
-        if signs
-        else np.zeros((*shape, 0), dtype=np.int8)
-    )
