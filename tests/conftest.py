@@ -7,8 +7,6 @@ thousands of mutations, `mutation`, faults put into the source, and `engines`, w
 a run also names its slowest files.
 """
 
-from __future__ import annotations
-
 import importlib.util
 import os
 import shutil

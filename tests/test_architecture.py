@@ -1,33 +1,36 @@
 """Laws of the house: its picture is that of the code, things are where the page says, nothing is there for nobody."""
 
-from __future__ import annotations
-
 import ast
 import re
 import sys
 from collections.abc import Iterable, Mapping
+from functools import cache
 from pathlib import Path
 
 import architecture
 import networkx as nx
 import pytest
-from imports import imports, module_files
+from imports import imports, module_files, tree
 from packages import order
 
 from assur.cli.application import COMMANDS
 from assur.model.kernels.library import OFFERED
+from source import SOURCE, texts
 
 ROOT = Path(__file__).parents[1]
-SOURCE = ROOT / "src" / "assur"
 PAGE = ROOT / "docs" / "architecture.md"
 FILES = {name: path for name, path in module_files(SOURCE).items() if not name.startswith("assur.mechanisms.")}
-IMPORTS = imports(FILES)
 AWAITED = {
     "assur.numerics.recording.derivatives",  # errors of dimensions and identification need all derivatives at once
     "assur.verifier.formula", "assur.verifier.graph", "assur.verifier.mechanism",  # the proof that formulas close loops
 }  # fmt: skip
 """What nothing reaches yet, and what it is for."""
 NAMED = re.compile(r"\bassur(?:\.\w+)+")
+
+
+@cache
+def imports_of_all() -> dict[str, set[str]]:
+    return imports(FILES)
 
 
 def text_of(path: Path) -> str:
@@ -60,7 +63,7 @@ def rows(heading: str) -> list[list[str]]:
 def defined(path: Path) -> set[str]:
     """Names that a module gives to functions, classes, methods and constants."""
     names = set()
-    for node in ast.walk(ast.parse(text_of(path))):
+    for node in ast.walk(tree(path)):
         if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
             names.add(node.name)
         elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
@@ -107,8 +110,9 @@ def circles(by_module: Mapping[str, Iterable[str]]) -> list[list[str]]:
 
 def test_no_import_comes_back():
     """Also not within a function, nor for types alone."""
-    assert circles(IMPORTS) == []
-    assert sum(map(len, IMPORTS.values())) > len(IMPORTS)
+    by_module = imports_of_all()
+    assert circles(by_module) == []
+    assert sum(map(len, by_module.values())) > len(by_module)
     assert circles({"a": {"b"}, "b": {"c"}, "c": {"b"}}) == [["b", "c"]]
 
 
@@ -132,14 +136,12 @@ def named(text: str) -> set[str]:
 
 def written(path: Path) -> set[str]:
     """Modules that a module imports by name while it runs, or writes into a program that does: in its texts."""
-    tree = ast.parse(text_of(path))
-    documentation = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
-    constants = [node for node in ast.walk(tree) if isinstance(node, ast.Constant) and id(node) not in documentation]
-    return named("\n".join(node.value for node in constants if isinstance(node.value, str)))
+    return named("\n".join(texts(path)))
 
 
 def test_nothing_is_there_for_nobody():
-    graph = nx.DiGraph([(name, other) for name in FILES for other in IMPORTS[name] | written(FILES[name])])
+    by_module = imports_of_all()
+    graph = nx.DiGraph([(name, other) for name, path in FILES.items() for other in by_module[name] | written(path)])
     graph.add_nodes_from(FILES)
     reached = entrances().union(*(nx.descendants(graph, name) for name in entrances()))
     modules = {name for name, path in FILES.items() if path.stem != "__init__"}
@@ -168,7 +170,7 @@ def counts() -> dict[str, int]:
         "lines of README": lines([ROOT / "README.md"]),
         "modules": len(FILES),
         "longest module": max(lines([path]) for path in FILES.values()),
-        "circles of imports": len(circles(IMPORTS)),
+        "circles of imports": len(circles(imports_of_all())),
     }
 
 

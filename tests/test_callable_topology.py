@@ -1,7 +1,5 @@
 """`assur.topology` is a function and a package, and takes whatever names a mechanism."""
 
-from __future__ import annotations
-
 import importlib
 import subprocess
 import sys

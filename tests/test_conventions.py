@@ -1,7 +1,5 @@
 """The page on conventions says what the code does: statuses, tolerances, exit codes, symbols."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

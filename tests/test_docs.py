@@ -1,7 +1,5 @@
 """The pages of docs/ say what is so: their Python runs, their printed output is real, their links lead somewhere."""
 
-from __future__ import annotations
-
 import doctest
 import re
 from pathlib import Path

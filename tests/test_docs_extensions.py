@@ -1,7 +1,5 @@
 """What builds the site: formulas as MathML, docstrings as plain text, and what is made for the pages."""
 
-from __future__ import annotations
-
 import importlib
 import json
 import re

@@ -1,7 +1,5 @@
 """Continuous integration leaves out nothing: with ASSUR_EXTRAS=required a run fails in which a test was skipped."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -4,8 +4,6 @@ The list is tests/mutations.toml. That it fits the source is tested always; that
 so it is asked for: `make mutations`.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

@@ -1,19 +1,14 @@
 """Laws about names: a class name means one thing, and a name says what it holds."""
 
-from __future__ import annotations
-
 import ast
 from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from imports import tree
 
-SOURCE = Path(__file__).parents[1] / "src" / "assur"
-TREES = {path.relative_to(SOURCE): ast.parse(path.read_text(encoding="utf-8")) for path in sorted(SOURCE.rglob("*.py"))}
-"""Every module, by its path; those of mechanisms repeat the names of their kind."""
-
-CORE = {path: tree for path, tree in TREES.items() if path.parts[0] != "mechanisms"}
+from source import CORE
 
 PLACES = {"found", "here", "there", "item", "wanted"}
 """Words for a place in a sentence: what they hold has a name in the theory, as solutions, roots, assemblies."""
@@ -22,16 +17,16 @@ PLACES = {"found", "here", "there", "item", "wanted"}
 def public_classes() -> dict[str, list[Path]]:
     """Modules by the name of a public class at their top."""
     modules = defaultdict(list)
-    for path, tree in CORE.items():
-        for node in tree.body:
+    for path in CORE:
+        for node in tree(path).body:
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
                 modules[node.name].append(path)
     return modules
 
 
-def declared(tree: ast.AST) -> Iterator[tuple[str, int]]:
+def declared(module: ast.AST) -> Iterator[tuple[str, int]]:
     """Names, with their lines, of parameters, fields, methods and attributes that are set."""
-    for node in ast.walk(tree):
+    for node in ast.walk(module):
         if isinstance(node, ast.arg):
             yield node.arg, node.lineno
         elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
@@ -51,7 +46,7 @@ def test_a_public_class_name_is_unique():
 
 
 def test_nothing_is_declared_by_a_word_for_a_place():
-    places = [(path, line) for path, tree in CORE.items() for name, line in declared(tree) if name in PLACES]
+    places = [(path, line) for path in CORE for name, line in declared(tree(path)) if name in PLACES]
     assert places == []
 
 

@@ -1,7 +1,5 @@
 """Laws about the project's own files: what is pinned, mirrored and named, and what must not be there."""
 
-from __future__ import annotations
-
 import ast
 import itertools
 import os
@@ -12,12 +10,13 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from imports import tree
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
+from source import CORE, SOURCE, texts
+
 ROOT = Path(__file__).parents[1]
-SOURCE = ROOT / "src" / "assur"
-MODULES = sorted(path for path in SOURCE.rglob("*.py") if "mechanisms" not in path.relative_to(SOURCE).parts)
 FOLDERS = sorted(path for path in (SOURCE / "mechanisms").iterdir() if path.is_dir() and any(path.glob("*.toml")))
 MECHANISMS = [folder for folder in FOLDERS if (folder / "mechanism.toml").is_file()]
 NOT_MIRRORS = {"contract", "papers", "derivations", "examples"}
@@ -45,10 +44,6 @@ def carried_files() -> list[Path]:
     command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     return [ROOT / name for name in listed.split("\0") if name and (ROOT / name).is_file()]
-
-
-def ids(paths: list[Path]) -> list[str]:
-    return [path.relative_to(SOURCE).as_posix() for path in paths]
 
 
 # ---- versions ----------------------------------------------------------------------------------------------
@@ -97,10 +92,8 @@ def test_one_version_everywhere():
 # ---- text --------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("path", MODULES, ids=ids(MODULES))
-def test_every_module_says_its_idea(path):
-    text = path.read_text(encoding="utf-8")
-    assert not text or ast.get_docstring(ast.parse(text))
+def test_every_module_says_its_idea():
+    assert [path for path in CORE if path.read_text(encoding="utf-8") and not ast.get_docstring(tree(path))] == []
 
 
 def test_no_file_names_a_host_or_a_machine():
@@ -129,28 +122,23 @@ def test_make_targets_that_are_named_exist(name):
 # ---- code --------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("path", MODULES, ids=ids(MODULES))
-def test_only_the_command_line_prints(path):
-    if path.relative_to(SOURCE).parts[0] == "cli":
-        return
-    calls = [node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Call)]
-    assert [node.lineno for node in calls if isinstance(node.func, ast.Name) and node.func.id == "print"] == []
+BELOW_THE_COMMANDS = [path for path in CORE if path.relative_to(SOURCE).parts[0] != "cli"]
 
 
-@pytest.mark.parametrize("path", MODULES, ids=ids(MODULES))
-def test_the_core_knows_no_mechanism_by_name(path):
+def test_only_the_command_line_prints():
+    assert [
+        f"{path}:{node.lineno}"
+        for path in BELOW_THE_COMMANDS
+        for node in ast.walk(tree(path))
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "print"
+    ] == []
+
+
+def test_the_core_knows_no_mechanism_by_name():
     """Docstrings may give one as an example, and the command line may have a default."""
-    if path.relative_to(SOURCE).parts[0] == "cli":
-        return
-    nodes = list(ast.walk(ast.parse(path.read_text())))
-    documentation = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
-    texts = [
-        node.value
-        for node in nodes
-        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in documentation
-    ]
     names = [folder.name for folder in FOLDERS]
-    assert [text for text in texts if any(name in text for name in names)] == []
+    named = [(path, text) for path in BELOW_THE_COMMANDS for text in texts(path) if any(map(text.__contains__, names))]
+    assert named == []
 
 
 def test_tests_mirror_the_source():
@@ -163,7 +151,7 @@ def test_tests_mirror_the_source():
         modules = {module.stem for module in (SOURCE / folder).glob("*.py")} | {folder.name}
         name = path.stem.removeprefix("test_")
         assert any(name == module or name.startswith(f"{module}_") for module in modules), path
-    folders = {path.parent.relative_to(SOURCE) for path in MODULES if path.stem != "__init__"} - {Path()}
+    folders = {path.parent.relative_to(SOURCE) for path in CORE if path.stem != "__init__"} - {Path()}
     assert folders - tested == set()
 
 
@@ -172,7 +160,7 @@ def test_no_assertion_has_a_condition_in_place_of_its_message():
     found = [
         f"{path.relative_to(ROOT)}:{node.lineno}"
         for path in sorted((ROOT / "tests").rglob("*.py"))
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        for node in ast.walk(tree(path))
         if isinstance(node, ast.Assert) and isinstance(node.msg, (ast.Compare, ast.BoolOp))
     ]
     assert found == []
@@ -185,16 +173,17 @@ def test_there_are_mechanisms():
     assert len(MECHANISMS) >= 2
 
 
-@pytest.mark.parametrize("folder", MECHANISMS, ids=[folder.name for folder in MECHANISMS])
-def test_every_mechanism_has_reference_data(folder):
-    assert any(path.is_file() for path in (folder / "reference").iterdir())
+def test_every_mechanism_has_reference_data():
+    bare = [folder for folder in MECHANISMS if not any(path.is_file() for path in (folder / "reference").iterdir())]
+    assert bare == []
 
 
-@pytest.mark.parametrize("folder", FOLDERS, ids=[folder.name for folder in FOLDERS])
-def test_every_mechanism_has_dimensions_or_a_topology_and_stands_in_the_catalogue(folder):
-    assert folder in MECHANISMS or (folder / "topology.toml").is_file()
-    assert folder.name.isidentifier()  # so that its closed form can be imported
-    assert f"`{folder.name}`" in read("docs/catalogue.md")
+def test_every_mechanism_has_dimensions_or_a_topology_and_stands_in_the_catalogue():
+    listed = read("docs/catalogue.md")
+    for folder in FOLDERS:
+        assert folder in MECHANISMS or (folder / "topology.toml").is_file(), folder
+        assert folder.name.isidentifier()  # so that its closed form can be imported
+        assert f"`{folder.name}`" in listed
 
 
 # ---- continuous integration --------------------------------------------------------------------------------
@@ -227,7 +216,7 @@ def test_no_test_has_a_limit_of_time():
     found = [
         f"{path.relative_to(ROOT)}:{node.lineno}: {node.attr}"
         for path in sorted((ROOT / "tests").rglob("*.py"))
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        for node in ast.walk(tree(path))
         if isinstance(node, ast.Attribute) and node.attr in CLOCKS
     ]
     assert found == []

@@ -1,7 +1,5 @@
 """The README says what is so: its Python runs, its printed output is real, its counts are the audit's."""
 
-from __future__ import annotations
-
 import doctest
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The recipes of docs/ lead to what they say: each is followed to the letter in a copy of the checkout."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

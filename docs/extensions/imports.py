@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Container, Iterator, Mapping
+from functools import cache
 from pathlib import Path
 
 
@@ -16,9 +17,15 @@ def module_files(source: Path) -> dict[str, Path]:
     }
 
 
-def imported(tree: ast.AST, names: Container[str]) -> Iterator[str]:
+@cache
+def tree(path: Path) -> ast.Module:
+    """The syntax tree of a file, read once."""
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+def imported(module: ast.AST, names: Container[str]) -> Iterator[str]:
     """Which of some modules a text imports, wherever in it."""
-    for node in ast.walk(tree):
+    for node in ast.walk(module):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names if alias.name in names)
         elif isinstance(node, ast.ImportFrom):
@@ -28,5 +35,4 @@ def imported(tree: ast.AST, names: Container[str]) -> Iterator[str]:
 
 def imports(files: Mapping[str, Path]) -> dict[str, set[str]]:
     """Of every module what it imports, also within a function or for types alone."""
-    trees = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in files.items()}
-    return {name: set(imported(tree, files)) & files.keys() for name, tree in trees.items()}
+    return {name: set(imported(tree(path), files)) & files.keys() for name, path in files.items()}

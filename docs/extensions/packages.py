@@ -6,6 +6,8 @@ import ast
 import tomllib
 from pathlib import Path
 
+from imports import tree
+
 
 def markdown(root: Path) -> str:
     """A heading and a table for each package."""
@@ -27,7 +29,7 @@ def _section(folder: Path, source: Path) -> str:
 
 def idea(path: Path) -> str:
     """First paragraph of a module's docstring, with what Markdown would read escaped."""
-    words = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+    words = ast.get_docstring(tree(path)) or ""
     line = " ".join(words.split("\n\n")[0].split())
     return line.replace("|", "\\|").replace("*", "\\*").replace("<", "&lt;")
 

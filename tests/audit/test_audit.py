@@ -1,7 +1,5 @@
 """The audit of every mechanism: complete, with an erratum for whatever is not ok, and as plain data."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

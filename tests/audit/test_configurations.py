@@ -1,7 +1,5 @@
 """Random configurations: closed, moving on the loops, regular."""
 
-from __future__ import annotations
-
 from assur.audit.configurations import configurations, freedoms_with_inputs_locked
 from assur.kinematics.closure import closure_error
 from assur.model.registry import load_record

@@ -1,7 +1,5 @@
 """Dependence of pose coordinates on inputs: found where it is, and not where it is not."""
 
-from __future__ import annotations
-
 import pytest
 
 from assur.audit.decoupling import Dependence, dependence_rows

@@ -1,7 +1,5 @@
 """Documents: generated, whole, and free of what only rounding decides."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

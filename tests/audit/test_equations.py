@@ -1,7 +1,5 @@
 """Equations on random configurations: what holds holds, a small change is found out, rates are derivatives."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """What parts of a joint graph let a link do, beside the textbook's tables and the closed form's loop closure."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

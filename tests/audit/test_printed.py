@@ -1,7 +1,5 @@
 """Printed digits: value, last place, and what is no printed number."""
 
-from __future__ import annotations
-
 import pytest
 
 from assur.audit.printed import Printed

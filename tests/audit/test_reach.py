@@ -1,7 +1,5 @@
 """Search ranges: ends that are known in closed form, directions without an end, and ranges that cut off too much."""
 
-from __future__ import annotations
-
 import pytest
 
 from assur.audit.reach import PrintedRange, extreme, range_rows

@@ -1,7 +1,5 @@
 """Reference files: digits stay text, and every fault is refused with its place."""
 
-from __future__ import annotations
-
 import dataclasses
 import shutil
 

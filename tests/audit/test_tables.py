@@ -1,7 +1,5 @@
 """Tables of solutions: which solution a row means, what it breaks, and what the table leaves out."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

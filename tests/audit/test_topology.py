@@ -1,7 +1,5 @@
 """Printed POC sets and loops beside the engine's: right ones are ok, and every wrong word or number is found."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import pytest

@@ -1,7 +1,5 @@
 """Certificates of several mechanisms, made once, and how one is edited so that its checksum fits again."""
 
-from __future__ import annotations
-
 import copy
 import hashlib
 import json

@@ -3,8 +3,6 @@
 Whatever a command prints with --json is held against the schema of its answers.
 """
 
-from __future__ import annotations
-
 import functools
 import json
 import subprocess

@@ -3,8 +3,6 @@
 `assur_cli` holds whatever it is given to the schema; the rest of this folder does so at every --json too.
 """
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

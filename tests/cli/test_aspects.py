@@ -1,7 +1,5 @@
 """`assur aspects`: the library's numbers, poses and paths, pictures, and bad input."""
 
-from __future__ import annotations
-
 import pytest
 
 import assur

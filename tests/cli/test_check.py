@@ -1,7 +1,5 @@
 """`assur check`: the text's faults first and all at once, then the joint graph's; a note is no fault."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

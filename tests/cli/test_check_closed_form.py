@@ -1,7 +1,5 @@
 """A folder whose closed form is wrong: no command answers from it, each says what is at fault, with exit code 3."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`assur collisions`: what it says, its exit codes, and what is refused."""
 
-from __future__ import annotations
-
 import shutil
 
 import pytest

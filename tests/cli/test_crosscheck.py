@@ -1,7 +1,5 @@
 """`assur crosscheck`: its answer, its exit codes, and what it says without the engine."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

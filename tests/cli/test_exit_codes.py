@@ -1,7 +1,5 @@
 """One rule for every command that proves an answer: 0 where it is yes, 4 where it is no, 5 where it is undecided."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`assur export`: the files, the endings, and what is refused."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from xml.etree import ElementTree
 

@@ -1,7 +1,5 @@
 """Ctrl-C in the midst of a long work: what was found so far is printed, and the exit code is 130."""
 
-from __future__ import annotations
-
 import signal
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Bad input gets a clear error and the right exit code; with --json it is one object on standard output too."""
 
-from __future__ import annotations
-
 import pytest
 
 import assur

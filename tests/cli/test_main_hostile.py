@@ -3,8 +3,6 @@
 `make test-deep` tries 4000 files, 300 command lines and 400 certificates; each failure is named by its seed.
 """
 
-from __future__ import annotations
-
 import json
 from importlib.resources import files
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What the commonest commands load: third-party packages by name, modules of assur by number."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

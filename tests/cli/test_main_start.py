@@ -1,7 +1,5 @@
 """`import assur` is light, and what it names is found where it lives."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

@@ -1,7 +1,5 @@
 """A mechanism that is in no catalogue, from a line of notation to every answer, without a line of Python."""
 
-from __future__ import annotations
-
 import pytest
 
 CHAINS = ("--chain", "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", "--chain", "R[z] R[z] C[z]")

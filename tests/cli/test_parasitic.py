@@ -1,7 +1,5 @@
 """What the pose leaves out, as it is printed: at a pose and over a workspace."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

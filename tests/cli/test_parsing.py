@@ -1,7 +1,5 @@
 """A command line that cannot be parsed: what is wrong is named, and the option that was probably meant."""
 
-from __future__ import annotations
-
 import pytest
 from cyclopts import CycloptsError
 

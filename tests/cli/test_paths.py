@@ -1,7 +1,5 @@
 """Where output goes is looked at before the work begins; what is refused leaves nothing behind."""
 
-from __future__ import annotations
-
 import pytest
 
 from assur.cli.paths import made, output_file, output_folder, planned_folder

@@ -1,7 +1,5 @@
 """Every error speaks of what the user typed: options of that command, and no argument of the library."""
 
-from __future__ import annotations
-
 import ast
 import re
 from functools import cache

@@ -1,7 +1,5 @@
 """`assur sweep`: what single problems say, at every place of a grid; what is refused."""
 
-from __future__ import annotations
-
 import json
 import re
 import shutil

@@ -1,7 +1,5 @@
 """`assur sweep --scheduler`: the workers of a cluster do it, to the bytes of a single run, whoever of them is lost."""
 
-from __future__ import annotations
-
 import os
 import signal
 

@@ -1,7 +1,5 @@
 """`assur sweep` interrupted: by Ctrl-C, by a full disk; it goes on and ends with the same files."""
 
-from __future__ import annotations
-
 import json
 import os
 import signal

@@ -1,7 +1,5 @@
 """`assur sweep` in parts and in trouble: shards and merges, damage, kills; always the bytes of a single run."""
 
-from __future__ import annotations
-
 import os
 import random
 import shutil

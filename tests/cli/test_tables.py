@@ -1,7 +1,5 @@
 """No number in a table is ever cut, however narrow the place."""
 
-from __future__ import annotations
-
 import io
 import re
 from itertools import pairwise

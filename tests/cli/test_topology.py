@@ -1,7 +1,5 @@
 """`assur topology`: the same facts as text, as JSON, as LaTeX and as a graph, and a clear answer to bad input."""
 
-from __future__ import annotations
-
 import re
 import shlex
 

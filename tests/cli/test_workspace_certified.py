@@ -1,7 +1,5 @@
 """`assur workspace` with proofs: the library's numbers, bad input refused, interruption."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

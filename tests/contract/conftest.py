@@ -1,7 +1,5 @@
 """Every registered mechanism, and regular configurations of it, for laws that hold for all of them."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np

@@ -4,8 +4,6 @@ Kernels never decide anything, so where a divisor is zero a status must say so; 
 by which rules that is seen, of any dimensions. Nor is anything a margin that is not a radicand, a divisor or a factor.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

@@ -1,7 +1,5 @@
 """Laws of a mechanism's folder: it is complete, and the page of the catalogue says what it claims."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

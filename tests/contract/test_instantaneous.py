@@ -1,7 +1,5 @@
 """Laws of first- and second-order motion: the joint graph alone says what the closed form says."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from assur.kinematics.rates.acceleration import acceleration_at

@@ -4,8 +4,6 @@ Every float operation lies between the rounded bounds of the interval operation,
 to the last bit, whatever they have lost by cancellation.
 """
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Laws of the position problem: a closed form is a claim about the joint graph, and these check it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Every mechanism with a closed form: the recorded kernel, and its compiled loop, have the bits of NumPy."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

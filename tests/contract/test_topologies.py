@@ -1,7 +1,5 @@
 """Laws of every built-in topology: what is declared is what is computed, and what the field expects is there."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import fields
 from functools import lru_cache

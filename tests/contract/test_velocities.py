@@ -1,7 +1,5 @@
 """Laws of the velocity problem: against differences, against the null space of the joint graph, and the factors."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The cross-check holds for every mechanism, and fails for each thing that could be wrong."""
 
-from __future__ import annotations
-
 import dataclasses
 import re
 import sys

@@ -1,7 +1,5 @@
 """MuJoCo reads the exported file, stands at home, and holds the loops together when it simulates."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

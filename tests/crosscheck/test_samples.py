@@ -1,7 +1,5 @@
 """Configurations to compare at: both problems, every solution, each one closed."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

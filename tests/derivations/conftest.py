@@ -5,8 +5,6 @@ Fig. 2, where a joint angle enters as a pair (cosine, sine). The derivation test
 these walks.
 """
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any
 

@@ -1,7 +1,5 @@
 """docs/derivations/three_rps.md: the six quadrics follow from the closure, and their roots are poses, nothing else."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """Zeng et al. (2019), direct problem: Eqs. (7)-(17) from the closure, E1, E5, and the kernel in every mode."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import pytest

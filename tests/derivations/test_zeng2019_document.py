@@ -1,7 +1,5 @@
 """Every test that docs/derivations/zeng2019.md calls as a witness exists."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Zeng et al. (2019), inverse problem: Eqs. (18)-(21) from the closure, the 32 branches, E6, E11, E15."""
 
-from __future__ import annotations
-
 from itertools import product
 from types import SimpleNamespace
 

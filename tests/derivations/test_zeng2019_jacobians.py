@@ -1,7 +1,5 @@
 """Zeng et al. (2019), Eqs. (22)-(26): rows by differentiation, determinants, complete list, cases (i) and (ii)."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import pytest

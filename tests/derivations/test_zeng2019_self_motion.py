@@ -1,7 +1,5 @@
 """Zeng et al. (2019) at B = 0: the platform moves along a curve while every input stands still."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import numpy as np

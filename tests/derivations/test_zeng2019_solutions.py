@@ -4,8 +4,6 @@ The five length conditions in x, y, z, w and v are brought to one polynomial in 
 (Groebner basis); its real roots are isolated exactly. Nothing is divided away, nothing can be missed.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import product
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """Every example runs as it stands, says something, and its own assertions hold."""
 
-from __future__ import annotations
-
 import runpy
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Every notebook runs top to bottom, and shows what is stored in it; no Jupyter is needed for that."""
 
-from __future__ import annotations
-
 import base64
 import importlib.util
 from pathlib import Path

@@ -1,8 +1,6 @@
 """Mechanisms to export: the built-in ones, one with a joint of every type, seen from every link as its base, and others
 that strangers write: two screws in one line, a spherical one with all joints in one point, drafts of chains."""
 
-from __future__ import annotations
-
 import re
 from functools import lru_cache
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Which files an export writes."""
 
-from __future__ import annotations
-
 import json
 from xml.etree import ElementTree
 

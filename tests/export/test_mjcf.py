@@ -1,7 +1,5 @@
 """The MJCF file, read back by a reader of its own: nested bodies, joints, sites, constraints and actuators."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import zip_longest
 from xml.etree import ElementTree

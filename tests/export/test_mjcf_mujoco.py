@@ -1,7 +1,5 @@
 """MuJoCo itself reads the file as our joint graph is, for every type of joint, in the tree and cut."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """MuJoCo, Newton, Drake and Pinocchio themselves read the exported files, and the documentation says what they read."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The SDF file, read back joint by joint: what each one allows, against the frames of closed configurations."""
 
-from __future__ import annotations
-
 from xml.etree import ElementTree
 
 import numpy as np

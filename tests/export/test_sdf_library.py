@@ -1,7 +1,5 @@
 """libsdformat 12 itself reads the SDF file, and has nothing to say against it."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from ctypes.util import find_library

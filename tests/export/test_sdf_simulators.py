@@ -1,7 +1,5 @@
 """Drake reads the SDF file by a libsdformat of its own: it refuses loops, and turns screws as we do."""
 
-from __future__ import annotations
-
 from xml.etree import ElementTree
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The URDF file and the loops beside it, read back: a chain of transforms from the base, then every loop."""
 
-from __future__ import annotations
-
 from xml.etree import ElementTree
 
 import numpy as np

@@ -1,7 +1,5 @@
 """MuJoCo, Newton, Drake and Pinocchio themselves read the URDF file as the tree that it is."""
 
-from __future__ import annotations
-
 from xml.etree import ElementTree
 
 import numpy as np

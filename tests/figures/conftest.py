@@ -1,7 +1,5 @@
 """Every registered mechanism with one context for its cheap figures; a few with all figures, each drawn once."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import pytest

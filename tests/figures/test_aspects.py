@@ -1,7 +1,5 @@
 """The figure of aspects shows the boxes of the result, in colours that stay apart and with labels."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Numbers on axes in space: true, apart, and clear of their axis."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg

@@ -1,7 +1,5 @@
 """The picture of the closest pair: both links in their colours, and the gap as long as the clearance says."""
 
-from __future__ import annotations
-
 import io
 from functools import cache
 

@@ -1,7 +1,5 @@
 """What the flow says must be what the numbers do: a step moves with an input only if an arrow leads there."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Letters: whatever a mechanism writes as LaTeX can be drawn; found here and not when someone draws."""
 
-from __future__ import annotations
-
 import pytest
 from matplotlib.mathtext import MathTextParser
 

@@ -1,7 +1,5 @@
 """Lines without what is hidden, against counts and places that solid geometry gives."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

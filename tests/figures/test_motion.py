@@ -1,7 +1,5 @@
 """Films: every frame is an assembly in the mode of home, the last one leads to the first, and the files open."""
 
-from __future__ import annotations
-
 import importlib.util
 import io
 import re

@@ -1,7 +1,5 @@
 """The maps of parasitic motion against the formula of the 3-RPS, and who has none."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

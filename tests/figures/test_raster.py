@@ -1,7 +1,5 @@
 """The painter against a slow one that asks every triangle at every pixel."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

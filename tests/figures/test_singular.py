@@ -1,7 +1,5 @@
 """The geometry that a factor's meaning claims, checked on the joint graph's points of the drawn configuration."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg

@@ -1,7 +1,5 @@
 """The model view as a journal prints it: vectors over shading, letters in the clear, fonts inside the file."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import pytest

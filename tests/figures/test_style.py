@@ -1,7 +1,5 @@
 """Colours that must be told apart are, by readers with normal and with each kind of dichromatic vision."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The audit of a mechanism, run once for all tests of a process: it takes seconds, and it is frozen data."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import assur

@@ -5,8 +5,6 @@ the same numbers (a figure, an export, a page) asks three that have between them
 angles in a plane, ball joints, quaternions and forty solutions; `make test-deep` asks the others.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

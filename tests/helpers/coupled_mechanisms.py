@@ -1,7 +1,5 @@
 """Mechanisms as edges of twists, each at a random configuration, parallelograms as one joint."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

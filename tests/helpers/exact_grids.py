@@ -1,7 +1,5 @@
 """Places of a grid in fractions, each rounded once."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

@@ -1,7 +1,5 @@
 """How many examples a property is tried with: a number of its own in the profile `quick`, in proportion in `deep`."""
 
-from __future__ import annotations
-
 from hypothesis import settings
 
 QUICK = settings.get_profile("quick").max_examples

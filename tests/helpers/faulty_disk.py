@@ -1,7 +1,5 @@
 """A disk on which one operation fails, is torn, or is the last one before a kill."""
 
-from __future__ import annotations
-
 import errno
 
 from assur.results.disk import Disk

@@ -3,8 +3,6 @@
 The leg folds where the table's point is as far from its foot as one rod is longer than the other: 0.6.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 import assur

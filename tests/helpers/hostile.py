@@ -3,8 +3,6 @@
 Each is made from a seed, so that one that fails can be made again.
 """
 
-from __future__ import annotations
-
 import copy
 import hashlib
 import json

@@ -6,8 +6,6 @@ and twists are derivatives of the links' poses by complex steps. Whether an inst
 tried: a step along it must leave the loops open by the square of its length at most.
 """
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from dataclasses import dataclass

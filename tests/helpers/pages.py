@@ -1,7 +1,5 @@
 """What the tests of the page look at: made once in a process, for the same mechanism, dimensions and grid."""
 
-from __future__ import annotations
-
 from functools import cache
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Mechanisms with planar joints, and the same ones with a P, a P and an R for each."""
 
-from __future__ import annotations
-
 HEAD = """
 format = 1
 name = "{name}"

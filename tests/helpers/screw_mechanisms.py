@@ -1,7 +1,5 @@
 """Mechanisms with screws, each question about which has an answer on paper, as files of their own."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import assur

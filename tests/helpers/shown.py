@@ -1,7 +1,5 @@
 """What README and the pages of docs/ show: a command with what it prints, in a comment before the block."""
 
-from __future__ import annotations
-
 import re
 import shlex
 

@@ -4,8 +4,6 @@ A simulator is a function that reads a file and returns what it read. Values of 
 of hinges and slides, rotations (3, 3) of balls; `rests` are those at which the file stands.
 """
 
-from __future__ import annotations
-
 import logging
 import warnings
 from collections.abc import Callable, Mapping

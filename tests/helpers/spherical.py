@@ -1,7 +1,5 @@
 """Spherical 3-RRR mechanisms as files, by their axes and the coordinates of their pose."""
 
-from __future__ import annotations
-
 TEXT = """format = 1
 name = "{name}"
 title = "Spherical 3-RRR"

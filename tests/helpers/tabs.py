@@ -1,7 +1,5 @@
 """Pages in a browser that stay open from one test to the next: to draw the first picture takes seconds."""
 
-from __future__ import annotations
-
 from typing import Any
 
 READY = "html[data-ready='1']"

@@ -1,7 +1,5 @@
 """Chains of joints as edges of twists, for tests that need no file of a mechanism."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from assur.topology.screws.edges import Edge

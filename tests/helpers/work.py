@@ -1,7 +1,5 @@
 """How much a computation does, as a number that neither the machine nor what else it runs can change."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """Closed forms that are wrong where no check looks: what they give must not be called a solution."""
 
-from __future__ import annotations
-
 import dataclasses
 
 

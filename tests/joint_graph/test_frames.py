@@ -1,7 +1,5 @@
 """Frames, screws and loops of the joint graph, over every joint type."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Programs of a configuration over dual numbers, against central differences."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

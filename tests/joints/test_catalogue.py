@@ -1,7 +1,5 @@
 """The table of joint types: letters and freedoms of the theory."""
 
-from __future__ import annotations
-
 import pytest
 
 from assur.joints.catalogue import JOINT_TYPES

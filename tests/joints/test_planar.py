@@ -1,7 +1,5 @@
 """The planar joint: its directions by the rule, and its motion against a slide, a slide and a turn of their own."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Steps over floats: motions against exponentials of their twists, states without trigonometry."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.linalg import expm

@@ -1,7 +1,5 @@
 """A Delta without closed form whose rods have ball joints at both ends, and therefore spin."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

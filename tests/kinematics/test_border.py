@@ -1,7 +1,5 @@
 """Inputs that are printed with a sign and an offset, as no registered mechanism has them."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Assembly of the whole joint graph from anywhere, and what its rank says."""
 
-from __future__ import annotations
-
 import dataclasses
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Home as the file means it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Planar joints against a P, a P and an R in their place: every answer is the same, joint value by joint value."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

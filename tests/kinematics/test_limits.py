@@ -1,7 +1,5 @@
 """Strokes, joint limits and cones, and how far inside them a configuration is."""
 
-from __future__ import annotations
-
 import dataclasses
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The order of solutions does not depend on that in which they were found, and home is the first of its pose."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

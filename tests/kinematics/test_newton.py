@@ -1,7 +1,5 @@
 """Newton's method as one recorded step: the same assemblies as damped least squares, and honest where there is none."""
 
-from __future__ import annotations
-
 import dataclasses
 from pathlib import Path
 

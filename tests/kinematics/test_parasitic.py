@@ -1,7 +1,5 @@
 """Parasitic motion against formulas of the 3-RPS, and where there is none."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

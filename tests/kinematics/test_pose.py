@@ -1,7 +1,5 @@
 """Coordinates of the platform on the spanning tree: rates against differences, errors against the coordinates."""
 
-from __future__ import annotations
-
 import dataclasses
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 What is true of the mechanism there does not depend on the coordinates of its pose.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Search on the joint graph: what it finds, and what it counts as one."""
 
-from __future__ import annotations
-
 import dataclasses
 import re
 from pathlib import Path

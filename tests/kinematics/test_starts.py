@@ -1,7 +1,5 @@
 """Starts of a search: which joints of known assemblies they keep, and that ball joints stand anywhere alike."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Screws: whole turns are never wrapped nor forgotten. Each expected number is worked out from the pitches."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """What is kept of a file is what was read of it, and nothing else is taken for it."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import fields, is_dataclass, replace
 from pathlib import Path

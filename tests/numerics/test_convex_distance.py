@@ -1,7 +1,5 @@
 """Distances of convex bodies: against faces known by hand, against another library's, and where bodies meet."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from manifold3d import Manifold

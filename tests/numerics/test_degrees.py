@@ -1,7 +1,5 @@
 """Degrees and heights bound those of the polynomials that SymPy makes of the same formulas."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Dual numbers against derivatives known by hand, against complex steps, and beside arrays and scalars."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """Polynomials expanded as a number type: against plain arithmetic, and their arrays against differences."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """All solutions by homotopy: against numpy's roots, at infinity, where solutions meet, and through near misses."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

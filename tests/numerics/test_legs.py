@@ -1,7 +1,5 @@
 """Legs round Z, pointed rods and pairs of bars: against rotation matrices, and what defines them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import sympy

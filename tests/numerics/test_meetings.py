@@ -1,7 +1,5 @@
 """Meetings of circles, spheres and lines: what defines them, what the sign means, exact cases, and no answer."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Monodromy: every root of a generic polynomial from one of them."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from assur.numerics.expanded import expand, unknowns

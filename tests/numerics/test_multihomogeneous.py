@@ -1,7 +1,5 @@
 """Roots on a product of lines: their number is the permanent, elimination finds the same, curves are noticed."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.polynomial import Polynomial

@@ -1,7 +1,5 @@
 """Newton's steps from near starts: solutions, what is given up, derivatives, and redundant rows."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from assur.numerics.newton import BLOCK, STEPS, corrected, solved

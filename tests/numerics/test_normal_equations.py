@@ -1,7 +1,5 @@
 """Least-squares steps without pivots, against the singular value decomposition."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

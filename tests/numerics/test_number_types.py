@@ -1,7 +1,5 @@
 """The same kernel lines over every number type: floats, duals, symbols and exact rationals agree."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import numpy as np

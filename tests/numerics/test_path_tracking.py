@@ -1,7 +1,5 @@
 """Following one path after another: it stays on its solution, and says where it cannot go on."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Polynomials: the algebra against SymPy, the roots against their construction, double roots and roots at infinity."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import sympy as sp

@@ -1,7 +1,5 @@
 """All roots: their number is known, they solve the equations, and curves of roots are noticed."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Regular places: the nearest float to each decimal place, so that parts of a grid are parts of the whole."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

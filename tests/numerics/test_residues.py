@@ -1,7 +1,5 @@
 """Numbers modulo a prime: roots, angles, and what is seen of squares of formulas."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Three quadrics: eight points that are known beforehand, and eight complex ones that are not."""
 
-from __future__ import annotations
-
 import itertools
 from fractions import Fraction
 

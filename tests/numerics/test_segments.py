@@ -1,7 +1,5 @@
 """Distances of segments against those of the same segments as convex bodies, parallel and crossing ones among them."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from assur.numerics.convex_distance import convex_distance

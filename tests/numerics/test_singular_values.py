@@ -1,7 +1,5 @@
 """Closed forms of singular values beside LAPACK: random, nearly equal, graded and singular matrices."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import sympy

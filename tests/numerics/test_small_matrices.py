@@ -1,7 +1,5 @@
 """Determinants over component arrays, against LAPACK and against exact integers."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

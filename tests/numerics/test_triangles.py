@@ -1,7 +1,5 @@
 """A triangle on three circles: the polynomial against the distances, over arrays and over exact fractions."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

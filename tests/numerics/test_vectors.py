@@ -1,7 +1,5 @@
 """Vectors of components: against NumPy in batches, exactly with fractions, and as identities in SymPy."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What the tests of the page share: a program run in Node, a user's own file, meshes read back."""
 
-from __future__ import annotations
-
 import base64
 import json
 import shutil

@@ -1,7 +1,5 @@
 """The program of a configuration in the page: against Python's arrays, and against formulas that are written here."""
 
-from __future__ import annotations
-
 import json
 import shutil
 import subprocess

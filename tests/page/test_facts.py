@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from assur.derived_topology import topology
 from assur.errors import UsageError
 from assur.mechanism import load

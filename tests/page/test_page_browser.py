@@ -1,7 +1,5 @@
 """The page in a real browser: it asks for nothing, complains of nothing, and moves as Python says."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The committed bundle: built from the sources as they are, small, with its licences, doing nothing it must not."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import re

@@ -1,7 +1,5 @@
 """One condition number, wherever it is printed: the page, the report, the indices, the view, Python."""
 
-from __future__ import annotations
-
 import json
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """The controls of the page in a real browser: what a link keeps, sliders that hold their values, courses, copies."""
 
-from __future__ import annotations
-
 import re
 from urllib.parse import parse_qs, urlsplit
 

@@ -1,7 +1,5 @@
 """How the page lies on the screen: nothing over another, text that can be read, all of it by the keyboard."""
 
-from __future__ import annotations
-
 import re
 from itertools import combinations
 

@@ -1,7 +1,5 @@
 """What the page draws, in a real browser: the joint that a reason names, and a view that goes after what leaves it."""
 
-from __future__ import annotations
-
 import io
 from types import SimpleNamespace
 from urllib.parse import parse_qs

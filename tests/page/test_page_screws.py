@@ -1,7 +1,5 @@
 """The page moves screws by real turns, as Python does; each expected number is worked out from the pitches."""
 
-from __future__ import annotations
-
 import json
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """The solver in the page against Python: the numbers that its own tests read are those that Python gives today."""
 
-from __future__ import annotations
-
 import json
 import shutil
 import subprocess

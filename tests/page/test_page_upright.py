@@ -1,7 +1,5 @@
 """The page moves a platform through a right angle of theta, as Python follows it there."""
 
-from __future__ import annotations
-
 import json
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """The audit of a paper and its rows by address."""
 
-from __future__ import annotations
-
 import pytest
 
 from audits import audited

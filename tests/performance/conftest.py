@@ -1,7 +1,5 @@
 """Regular poses of every registered mechanism, and its Jacobian from differences of the inverse solution alone."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

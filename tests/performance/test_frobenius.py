@@ -1,7 +1,5 @@
 """The smooth condition index: its value from singular values, its gradient from differences, its place beside c."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

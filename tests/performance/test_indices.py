@@ -1,7 +1,5 @@
 """Indices against their definitions by other formulas, by differences, and at poses where they do not exist."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Means and extremes over a region against quadrature and known bounds; errors that cover."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The power coefficient against the maximum it is defined by, and against pitches and distances of screws."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """One unit for the Jacobian: what a length does, the isotropic one against a scan, refusals."""
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Wrenches in the joints: equilibrium of every link, no work in passive joints; twists against the closed form's J."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

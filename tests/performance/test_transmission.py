@@ -1,7 +1,5 @@
 """Transmission indices against sines of angles, against differences of the inverse solution, and at singularities."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

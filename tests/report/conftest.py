@@ -1,7 +1,5 @@
 """One set of findings for all tests of the report: the analyses are made once."""
 
-from __future__ import annotations
-
 import re
 import shutil
 from html.parser import HTMLParser

@@ -1,7 +1,5 @@
 """Labels that cannot be set: each is a fault with its line, and figures and report fall back to the name."""
 
-from __future__ import annotations
-
 import dataclasses
 import shutil
 from pathlib import Path

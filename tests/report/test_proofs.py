@@ -1,7 +1,5 @@
 """What is proved for a report, and what is answered where nothing is."""
 
-from __future__ import annotations
-
 import pytest
 
 import assur

@@ -1,7 +1,5 @@
 """One macro for each kind: what each of them shows, whatever made it."""
 
-from __future__ import annotations
-
 from typing import get_args
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The report as a whole: one file, well formed, nothing from outside, the same every time, and true."""
 
-from __future__ import annotations
-
 import dataclasses
 import itertools
 import re

@@ -1,7 +1,5 @@
 """The report of any mechanism: without closed form, reference data or a search, with other dimensions, as text."""
 
-from __future__ import annotations
-
 import dataclasses
 import re
 

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from assur.report.units import extent_unit
 from assur.workspace.region import unit
 

@@ -1,7 +1,5 @@
 """Bounds stay bounds when they are printed."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

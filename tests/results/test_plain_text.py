@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from assur.results.plain_text import fixed, short, tiny
 
 

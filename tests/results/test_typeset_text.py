@@ -1,7 +1,5 @@
 """Numbers as a reader sees them: bounds stay bounds."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

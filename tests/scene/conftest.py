@@ -1,7 +1,5 @@
 """Every registered mechanism with its skeleton at home."""
 
-from __future__ import annotations
-
 from functools import cache
 from types import SimpleNamespace
 

@@ -1,7 +1,5 @@
 """A link is one piece, free of what runs in it, and as large as its parts less its bores."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from manifold3d import Manifold, OpType

@@ -1,7 +1,5 @@
 """Clearances against solids of another library, links that must meet, and pairs that are left out."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

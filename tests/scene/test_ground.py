@@ -1,7 +1,5 @@
 """The ground: rails where sliders run, stands under joints, forks where no plate can be."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from assur.joints.universal import UNIVERSAL

@@ -1,7 +1,5 @@
 """The hull has every point inside or on it, and only corners."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from assur.scene.hull import hull

@@ -1,7 +1,5 @@
 """Webs and posts touch what they join, and keep out of the way of joints."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from assur.scene.bodies import corners, solid

@@ -1,7 +1,5 @@
 """Every solid is closed with its faces outwards: the divergence theorem must give its volume."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The closed motion closes, keeps its mode and its loops, and agrees with a path that was followed."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

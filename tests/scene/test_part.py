@@ -1,7 +1,5 @@
 """Parts: every one has a role that its description names, and a shape in its link's frame."""
 
-from __future__ import annotations
-
 import re
 
 from assur.scene.part import Part

@@ -1,7 +1,5 @@
 """Every slider of a mechanism stands on its rail, and so does all of its stroke."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from assur.scene.rails import rails

@@ -1,7 +1,5 @@
 """Refined meshes lie on the surface, keep their rims, and stay one surface."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

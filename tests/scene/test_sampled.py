@@ -1,7 +1,5 @@
 """Sampled configurations are assembled, in the mode that was asked for, and within the limits of the file."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

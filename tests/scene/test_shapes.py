@@ -1,7 +1,5 @@
 """A moved shape is the same solid elsewhere; what is written of a shape makes it anew."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

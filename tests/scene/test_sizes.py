@@ -1,7 +1,5 @@
 """One thickness for everything that is drawn: asked for, the companion's, or what joints leave room for."""
 
-from __future__ import annotations
-
 import dataclasses
 from itertools import combinations
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A thinned surface is still the same one, closed as before."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

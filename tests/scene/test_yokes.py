@@ -1,7 +1,5 @@
 """The forks of universal joints: rigid parts of the right links that hold their pins and let one another turn."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from manifold3d import Manifold, OpType

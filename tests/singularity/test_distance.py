@@ -3,8 +3,6 @@
 Second routes: poses by chance in the ball, and the triangles of the loci of a workspace.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from functools import cache
 

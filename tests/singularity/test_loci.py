@@ -1,7 +1,5 @@
 """Parallel loci of Zeng et al. 2019 against the curves that they are in the (x, z) plane."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Rays: directions that leave no gap, and the border and the sliver along it that a ray meets."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Searches that several tests look at, each made once."""
 
-from __future__ import annotations
-
 import pytest
 
 from assur.synthesis.synthesis import synthesis

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from assur.model.topologies import load_topology
 from assur.synthesis.isomorphism import limb_key, mechanism_key
 from assur.synthesis.known_mechanisms import known_mechanisms

@@ -1,7 +1,5 @@
 """Rules against twists: what is confirmed, what is refused, and what the twists say alone."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

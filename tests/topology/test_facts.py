@@ -1,7 +1,5 @@
 """The facts of a topology: what is read off others, and what is computed only when asked for."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import pytest

@@ -1,7 +1,5 @@
 """POC sets in three styles, for every relation that a direction mark can have."""
 
-from __future__ import annotations
-
 from typing import get_args
 
 import numpy as np

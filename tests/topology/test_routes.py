@@ -1,7 +1,5 @@
 """xi by the rules against the rank of the closure: where it is compared, and where no POC set stands for a loop."""
 
-from __future__ import annotations
-
 import dataclasses
 from functools import lru_cache
 

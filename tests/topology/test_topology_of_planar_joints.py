@@ -1,7 +1,5 @@
 """The planar joint in notation and in the rules, against P P R and against the rank of twists."""
 
-from __future__ import annotations
-
 import pytest
 
 from assur.topology.analysis import analyse

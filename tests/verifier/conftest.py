@@ -1,7 +1,5 @@
 """The certificates of the neighbouring folder, for the verifier's tests too."""
 
-from __future__ import annotations
-
 import importlib.util
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Valid certificates verify; whatever is changed in one is refused, a checksum put right by the forger included."""
 
-from __future__ import annotations
-
 import ast
 import hashlib
 import json

@@ -1,7 +1,5 @@
 """Certificates of one leaf, written by hand, whose claims fit what the leaf says: it holds or is refused for itself."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 

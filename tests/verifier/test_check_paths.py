@@ -1,7 +1,5 @@
 """A path that is edited, cut short, put in another order or torn is refused, claims and checksum put right or not."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

@@ -1,7 +1,5 @@
 """Formulas against the verifier's own joint graph: right ones close it, whatever is changed in them or in the file."""
 
-from __future__ import annotations
-
 import copy
 from functools import lru_cache
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The verifier's numbers modulo a prime: the field, roots of rationals, and shares of a turn."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Formulas by the verifier's own reader: what they are, beside the other reader of the house, and what is none."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

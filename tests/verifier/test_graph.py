@@ -1,7 +1,5 @@
 """The verifier's plain joint graph against the kernel of the rest: two readers, two algebras, the same mechanism."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

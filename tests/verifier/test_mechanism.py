@@ -1,7 +1,5 @@
 """Mechanism files by the verifier's own reader."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

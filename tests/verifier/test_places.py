@@ -1,7 +1,5 @@
 """Drawn places: rates are derivatives, and roots that are tied to others are seen."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

@@ -1,7 +1,5 @@
 """Degrees and heights of the verifier beside those of the other program, on the same formulas."""
 
-from __future__ import annotations
-
 import itertools
 from fractions import Fraction
 

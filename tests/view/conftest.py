@@ -1,7 +1,5 @@
 """What the view's tests run in: a server that is ended in any case, and Chromium in a thread of its own."""
 
-from __future__ import annotations
-
 import socket
 import threading
 from concurrent.futures import ThreadPoolExecutor

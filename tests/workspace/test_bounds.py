@@ -1,7 +1,5 @@
 """Bounds as margins of joint values: lengths, angles, cones; alike over kernels' numbers and over followed joints."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Where a field is zero on an edge: smooth fields in a few readings, others by halving, beside what stops to exist."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

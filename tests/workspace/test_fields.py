@@ -1,7 +1,5 @@
 """Fields of a mode: margins, strokes of lengths and of angles, values that do not exist."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """How often a closed form is read: once per pose for every margin, bound, factor and index."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Workspaces of mechanisms without closed form, against the closed forms that were taken away, and plain sampling."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """Index maps: the indices at their nodes, whatever the plane; outside the workspace nothing; files that read back."""
 
-from __future__ import annotations
-
 import csv
 import dataclasses
 import io

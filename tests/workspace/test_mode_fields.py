@@ -1,7 +1,5 @@
 """The fields of a mode: which there are with a closed form and without, and the progress of both."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import assur

@@ -1,7 +1,5 @@
 """Distances to triangles, and the volume near a surface, against exact values."""
 
-from __future__ import annotations
-
 from math import pi
 
 import numpy as np

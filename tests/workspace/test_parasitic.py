@@ -1,7 +1,5 @@
 """The largest parasitic motion, with and without a closed form."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

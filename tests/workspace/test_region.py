@@ -4,8 +4,6 @@ Written from the geometry, not from the kernel: C1 and D3 reach a height w = z -
 and v = z - l1 - l7 - l8 - l6 sin(beta) with |v| <= l6, where x = l4 cos(alpha) - D = l6 cos(beta) + D.
 """
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 

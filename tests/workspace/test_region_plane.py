@@ -1,7 +1,5 @@
 """A plane workspace: the five-bar's is where two rings meet, known by quadrature."""
 
-from __future__ import annotations
-
 import json
 from math import pi
 

@@ -1,7 +1,5 @@
 """The areas of sections by solids, with their errors, against bounds that intervals prove."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Ways on which a map of a followed workspace shows that something vanishes, and what they meet."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Solids whose volumes, cuts and outlines are known exactly."""
 
-from __future__ import annotations
-
 from functools import partial
 from math import pi, sqrt
 

@@ -1,7 +1,5 @@
 """The bill of materials: every link and every joint is in it, alike ones together, and the table can be read back."""
 
-from __future__ import annotations
-
 import csv
 import io
 

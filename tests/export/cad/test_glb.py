@@ -1,7 +1,5 @@
 """A GLB file read back by hand: chunks, bounds of accessors, names, and frames of the joint graph."""
 
-from __future__ import annotations
-
 import json
 import struct
 

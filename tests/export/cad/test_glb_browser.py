@@ -1,7 +1,5 @@
 """A GLB file in a viewer that is not ours: three.js loads it in a real browser, plays it and draws it."""
 
-from __future__ import annotations
-
 import base64
 import io
 import json

@@ -1,7 +1,5 @@
 """Exact solids of every shape against volumes known by formula; and what is said where Open CASCADE is missing."""
 
-from __future__ import annotations
-
 import sys
 
 import numpy as np

@@ -1,7 +1,5 @@
 """STEP files read back by Open CASCADE: names, places, valid solids, and volumes against those of the meshes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

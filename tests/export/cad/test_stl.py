@@ -1,7 +1,5 @@
 """STL files read back by hand: watertight, in mm, as large as the link that they are of."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from manifold3d import Manifold

@@ -1,7 +1,5 @@
 """What is said of a solution that exceeds a limit, or that leaves a loop open."""
 
-from __future__ import annotations
-
 import dataclasses
 from pathlib import Path
 

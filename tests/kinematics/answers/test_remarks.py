@@ -1,7 +1,5 @@
 """Two rows that are one double solution, and angles of which only a sum or a difference counts."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

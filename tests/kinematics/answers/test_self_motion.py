@@ -1,7 +1,5 @@
 """Curves of self-motion: they close the loops, and centres in one line give none unless two of them coincide."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.optimize import least_squares

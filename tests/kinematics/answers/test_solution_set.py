@@ -1,7 +1,5 @@
 """Statuses, merged branches, failures and curves of solution sets, on the paper's mechanism."""
 
-from __future__ import annotations
-
 import dataclasses
 import json
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """No answer raises when it is looked at: a property answers, or says by an AttributeError that it is not there."""
 
-from __future__ import annotations
-
 import inspect
 
 import pytest

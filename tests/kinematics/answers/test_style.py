@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import assur
 from assur.kinematics.answers.style import given_words, style_of, texts_of, titles_of
 

@@ -1,7 +1,5 @@
 """What margins say of branches, by a kernel made up for it."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import assur

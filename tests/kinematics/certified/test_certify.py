@@ -1,7 +1,5 @@
 """Certified answers held against what is known, and against the answers in floats of every mechanism."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Recorded legs say what legs say, by machine code and by NumPy, about boxes of any size."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

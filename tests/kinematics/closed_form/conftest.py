@@ -1,7 +1,5 @@
 """Poses and inputs for sweeps, of every mechanism whose direct problem is told by branches of signs."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

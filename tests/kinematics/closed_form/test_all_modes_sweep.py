@@ -1,7 +1,5 @@
 """Sweeps in all modes: each row is the sweep of its mode, and the directs are those of one problem at a time."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Blocks: in their order, with as much at a time as is allowed, and stopped by the first error."""
 
-from __future__ import annotations
-
 import threading
 
 import numpy as np

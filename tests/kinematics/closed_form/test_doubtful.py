@@ -1,7 +1,5 @@
 """Roots in doubt: what the loops decide, and what they leave open."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Which engine is chosen, and that filling in place and by blocks is the same."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

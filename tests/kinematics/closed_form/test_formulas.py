@@ -1,7 +1,5 @@
 """What was begun with one closed form is not ended with another; what changes no formula changes nothing."""
 
-from __future__ import annotations
-
 import dataclasses
 import shutil
 

@@ -1,7 +1,5 @@
 """Grids: their parts are those of the whole, and boxes and counts that make none are refused."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Recordings: what is shared, what is uniform, and what is left to NumPy."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Direct problems by one polynomial: the estimate of its rounding, and roots that nearly meet."""
 
-from __future__ import annotations
-
 import itertools
 from types import SimpleNamespace
 

@@ -1,7 +1,5 @@
 """Start systems: what stands in a file is what monodromy finds from nothing, and one start leads to another."""
 
-from __future__ import annotations
-
 import tomllib
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Stored sweeps: at every problem of a block the status and the numbers of the single answer, for every mechanism."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Grids that are streamed: the numbers of a sweep, in little memory, resumed where they were stopped."""
 
-from __future__ import annotations
-
 import json
 import os
 import signal

@@ -1,7 +1,5 @@
 """Sweeps: the same numbers as one problem at a time, whatever the block, in no more memory than the answer."""
 
-from __future__ import annotations
-
 import hashlib
 import tracemalloc
 

@@ -1,7 +1,5 @@
 """Sweeps over dimensions: every row is what the mechanism with these dimensions says alone."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """All postures of the Gough-Stewart platform: Dietmaier's forty, and platforms with fewer."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Copies of closed forms, right and wrong ones, each in a folder of its own and with an empty cache."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 

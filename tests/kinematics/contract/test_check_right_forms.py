@@ -1,7 +1,5 @@
 """Right closed forms pass, whoever wrote them: the built-in ones as anyone's folder, with other dimensions too."""
 
-from __future__ import annotations
-
 import pytest
 
 import assur

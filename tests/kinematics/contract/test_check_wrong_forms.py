@@ -1,7 +1,5 @@
 """Wrong closed forms of many kinds, on four mechanisms: each is refused on its first use, by name and with its line."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import pytest

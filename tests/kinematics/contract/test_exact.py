@@ -1,7 +1,5 @@
 """Closed forms in exact arithmetic: what is wrong only between the places that are looked at, and what is right."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

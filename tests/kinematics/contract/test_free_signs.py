@@ -1,7 +1,5 @@
 """Which signs of a mode are those of roots, and that a form which is wrong in some modes alone is refused."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Claims that only the full check looks at: curves, groups of factors, systems; and what the three checks look at."""
 
-from __future__ import annotations
-
 import itertools
 
 import pytest

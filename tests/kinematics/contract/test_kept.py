@@ -1,7 +1,5 @@
 """What has passed is kept by the files it was, and nothing else is taken for it."""
 
-from __future__ import annotations
-
 import json
 import os
 

@@ -1,7 +1,5 @@
 """Radicands, divisors and margins that are not declared, or nothing else: refused by name and line, harm or no harm."""
 
-from __future__ import annotations
-
 import pytest
 
 from assur.kinematics.contract.check import problems, unproved

@@ -1,7 +1,5 @@
 """Following a working mode over a grid: what is reached, what is not, and where the border is."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

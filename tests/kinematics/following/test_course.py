@@ -1,7 +1,5 @@
 """A course is straight between its vertices, in angles and rotations too."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

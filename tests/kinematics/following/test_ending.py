@@ -1,7 +1,5 @@
 """Where a mode ends: at folds, and where a sign changes by itself."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What proves that home's mode does not reach a place, by routes of its own: trigonometry, and the closed form."""
 
-from __future__ import annotations
-
 import dataclasses
 import json
 

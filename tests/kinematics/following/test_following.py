@@ -1,7 +1,5 @@
 """A path is followed in its mode, agrees with the closed form all along, and stops before what would change it."""
 
-from __future__ import annotations
-
 import dataclasses
 from functools import lru_cache
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Paths run through a right angle of theta: phi and psi have no rates there, the angular velocity has."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

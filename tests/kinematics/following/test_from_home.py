@@ -1,7 +1,5 @@
 """Poses followed to from home, many at once: against closed forms, where there are some."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

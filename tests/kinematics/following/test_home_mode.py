@@ -1,7 +1,5 @@
 """Home's mode is what home is followed to; another assembly at the same pose is never taken for it."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

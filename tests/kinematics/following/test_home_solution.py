@@ -1,7 +1,5 @@
 """Which solution is marked as home's: by signs, by following, and where that is not decided."""
 
-from __future__ import annotations
-
 import dataclasses
 import json
 

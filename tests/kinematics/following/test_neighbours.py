@@ -1,7 +1,5 @@
 """Steps to neighbouring poses: changes of pose, and steps that would leave the mode."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The platform held: rates against differences, determinants against the null space, merging branches."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

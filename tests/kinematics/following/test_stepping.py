@@ -1,7 +1,5 @@
 """The loop that follows: every way comes to its end or to its shortest step, however a guard judges."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

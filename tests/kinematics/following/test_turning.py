@@ -1,7 +1,5 @@
 """Where ways of poses turn back, against the closed forms that say where a mode exists."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The linear equations: joint values read off their solutions close the joint graph before anything is corrected."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

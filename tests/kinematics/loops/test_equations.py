@@ -1,7 +1,5 @@
 """Every form of a set's equations has the same roots, and what cannot be counted is refused."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Followed roots are those of the null space; where roots meet, that is said."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

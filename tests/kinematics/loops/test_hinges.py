@@ -1,7 +1,5 @@
 """What joints and parallelograms say about orientations holds at home and at random assemblies."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

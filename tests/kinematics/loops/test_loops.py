@@ -1,7 +1,5 @@
 """All assemblies: against closed forms, random assemblies, a dense scan of the virtual variable, and a search."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

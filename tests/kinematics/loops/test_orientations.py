@@ -1,7 +1,5 @@
 """Which links turn: read off the paper's mechanism, and refused with the reason where links turn about more."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

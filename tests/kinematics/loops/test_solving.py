@@ -1,7 +1,5 @@
 """The order in which sets are solved agrees with the Assur chains of the theory."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

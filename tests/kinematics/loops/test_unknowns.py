@@ -1,7 +1,5 @@
 """The quadratic equations hold for points on circles, rods, sliders, directions and triangles."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Acceleration on the joint graph: against dual numbers through closed forms, and against second differences."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Statuses from the joint graph are those of the closed forms; a self-motion is one that goes on."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

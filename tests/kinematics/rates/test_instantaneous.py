@@ -1,7 +1,5 @@
 """Jp v = Jq qdot of the joint graph: against closed forms, differences and formulas for a 3-UPU made here."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

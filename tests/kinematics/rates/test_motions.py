@@ -1,7 +1,5 @@
 """Motions that keep the loops closed, and their ranks in general."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

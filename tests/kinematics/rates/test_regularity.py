@@ -1,7 +1,5 @@
 """What is called regular without singular values is regular by them, and hardly anything regular is left in doubt."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

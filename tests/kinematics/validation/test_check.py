@@ -4,8 +4,6 @@ The four-bar is made for exact numbers: its crank (30) and rocker (105) stand up
 (125) leads 100 along and 75 up, so that its home closes without a step.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A workspace box without home in it: no fault, but a note with its place."""
 
-from __future__ import annotations
-
 from assur.kinematics.validation.check import doubts
 from assur.model.registry import load_record
 

@@ -1,7 +1,5 @@
 """Every type of joint in the form of the file, and what the record makes of it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

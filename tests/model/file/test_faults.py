@@ -1,7 +1,5 @@
 """Every kind of fault in a file: the line, the path, what was found, what is allowed, the hint."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

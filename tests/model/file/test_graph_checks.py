@@ -1,7 +1,5 @@
 """Chains and parallelograms are checked against the graph, never believed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from importlib.resources import files
 

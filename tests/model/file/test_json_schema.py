@@ -1,7 +1,5 @@
 """The JSON Schema describes files as they are written: every good one fits, and what the reader refuses does not."""
 
-from __future__ import annotations
-
 import copy
 import re
 import tomllib

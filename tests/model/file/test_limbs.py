@@ -1,7 +1,5 @@
 """A template that repeats is the same as writing every limb out by hand."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from pathlib import Path

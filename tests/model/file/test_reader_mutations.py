@@ -5,8 +5,6 @@ is then checked on its joint graph, which may refuse it but not fail. Of a file 
 are counted, in place of a time that another machine would not have.
 """
 
-from __future__ import annotations
-
 import copy
 import datetime
 import json

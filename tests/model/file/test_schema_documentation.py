@@ -1,7 +1,5 @@
 """The page on the file form: its example is read, and it names every key there is."""
 
-from __future__ import annotations
-
 import math
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Every key that must be there, taken out of files that have all of them: the fault has the line of its table."""
 
-from __future__ import annotations
-
 import copy
 import json
 import tomllib

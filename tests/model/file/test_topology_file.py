@@ -1,7 +1,5 @@
 """The topology file: what is read, every kind of fault in it, and that what is written is read the same."""
 
-from __future__ import annotations
-
 import dataclasses
 import re
 import tomllib

@@ -1,7 +1,5 @@
 """Nasty intervals, exact arithmetic to hold them against, and the IEEE 1788 test vectors."""
 
-from __future__ import annotations
-
 import re
 from fractions import Fraction
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Cosine and sine of intervals against multiple precision, the standard's vectors, and with faults put in."""
 
-from __future__ import annotations
-
 import math
 
 import mpmath

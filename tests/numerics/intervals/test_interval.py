@@ -1,7 +1,5 @@
 """Laws of intervals: what stays enclosed, what is never defined again, shapes, and the IEEE 1788 test vectors."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

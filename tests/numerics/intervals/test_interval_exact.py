@@ -5,8 +5,6 @@ give without error (T. J. Dekker, A floating-point technique for extending the a
 Python's rationals. The last tests break the arithmetic on purpose and see that these checks notice.
 """
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import product
 

@@ -1,7 +1,5 @@
 """Rates against differences of many pairs of numbers."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

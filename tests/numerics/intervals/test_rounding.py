@@ -1,7 +1,5 @@
 """Steps outwards against nextafter for floats of every size, and against exact rationals."""
 
-from __future__ import annotations
-
 import ctypes
 import ctypes.util
 import platform

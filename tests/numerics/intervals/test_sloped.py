@@ -1,7 +1,5 @@
 """Slopes enclose what functions do over boxes: against exact rationals and many sampled points."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Derivatives of tapes: reverse beside forward, both beside dual numbers, SymPy and differences."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The interpreter's own steps: in the order of the program's names, and a program that uses its places again."""
 
-from __future__ import annotations
-
 import importlib.util
 from pathlib import Path
 from types import ModuleType

@@ -1,7 +1,5 @@
 """Interval programs: machine code and NumPy give the same bits, at ends that are zero, infinite, huge and tiny too."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Tapes made ready: the same bounds with fewer operations, slopes and derivatives as step by step."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

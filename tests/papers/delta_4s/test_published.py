@@ -1,7 +1,5 @@
 """Williams' snapshot examples of the ABB FlexPicker, each number under its address."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

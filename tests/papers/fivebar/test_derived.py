@@ -1,7 +1,5 @@
 """The five-bar's reference table is exact: cranks at cos = -3/5 and 3/5, both sines 4/5; checked with fractions."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

@@ -5,8 +5,6 @@ project FRISCO and PHCpack hand on: the points of the base and of the platform, 
 legs, and the 40 solutions. The points of the platform stand there in an order that is not that of the equations.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 import assur

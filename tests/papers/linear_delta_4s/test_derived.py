@@ -1,7 +1,5 @@
 """Linear Delta with rails of three directions: reference tables of rational numbers, checked with fractions."""
 
-from __future__ import annotations
-
 import itertools
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """The Orthoglide's design rule: velocity factors between 1/2 and 2 over a cube, both bounds met at two corners."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -4,8 +4,6 @@ The book gives the struts p1, p2, p3 from (0, 0), (x1, 0) and (x2, y2) to a tria
 angle gamma between L2 and L3. Where it says how many poses there are, the numbers here are its own.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

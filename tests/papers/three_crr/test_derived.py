@@ -1,7 +1,5 @@
 """The 3-CRR: linear in the pose for any slope of its rods, isotropic where they are orthogonal."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

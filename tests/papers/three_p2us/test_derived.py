@@ -1,7 +1,5 @@
 """The reference tables of the 3-[P2(US)] are rational numbers, checked with fractions."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

@@ -1,7 +1,5 @@
 """The 3-RPS near equal lengths, where poses were lost once: against a search, mpmath and an older elimination."""
 
-from __future__ import annotations
-
 import mpmath
 import numpy as np
 import pytest

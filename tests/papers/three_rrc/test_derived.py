@@ -1,7 +1,5 @@
 """The 3-RRC's tables by another route than its closed form: exact triangles, and a polynomial in z with mpmath."""
 
-from __future__ import annotations
-
 import itertools
 from fractions import Fraction
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """The 3-UPU's tables by exact triangles, and where its constraints are dependent by the rank of the joint graph."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import sympy

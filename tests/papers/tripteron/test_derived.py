@@ -1,7 +1,5 @@
 """The tripteron: one pose, eight knees, decoupled."""
 
-from __future__ import annotations
-
 import numpy as np
 
 import assur

@@ -1,7 +1,5 @@
 """ERRATA.md and CONFORMANCE.md at the root are those that the audit generates."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

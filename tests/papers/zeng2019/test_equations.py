@@ -1,7 +1,5 @@
 """The printed equations and topology of Zeng et al. 2019, by address, and that no row is without a test."""
 
-from __future__ import annotations
-
 import pytest
 
 EQUATIONS = {

@@ -1,7 +1,5 @@
 """Errata E1 to E17 of Zeng et al. 2019: the evidence of each holds, and would not if the matter were otherwise."""
 
-from __future__ import annotations
-
 import dataclasses
 import shutil
 

@@ -1,7 +1,5 @@
 """Table 1 of Zeng et al. 2019, row by row: poses at (162.6907, -143.3209, -24.6776)."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

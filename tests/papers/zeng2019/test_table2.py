@@ -1,7 +1,5 @@
 """Table 2 of Zeng et al. 2019, row by row: inputs at (-15.4714, 9.6849, 456.3315), row 3 of Table 1."""
 
-from __future__ import annotations
-
 PASSED = "the coaxial sliders P1 and P2 would have passed each other"
 MOVING = "its status is self_motion"
 

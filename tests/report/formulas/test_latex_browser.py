@@ -1,7 +1,5 @@
 """Tables of formulas as a browser lays them out, by the style sheets of the report and of the site."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -3,8 +3,6 @@
 The evaluator below knows MathML and nothing of how the report makes it.
 """
 
-from __future__ import annotations
-
 import math
 from functools import cache
 from xml.etree import ElementTree

@@ -1,7 +1,5 @@
 """The section of aspects says what the library says, with bounds and by what right."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import pytest

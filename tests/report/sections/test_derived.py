@@ -1,7 +1,5 @@
 """The derived topology in the report says what the engine says."""
 
-from __future__ import annotations
-
 import re
 
 from assur.report.findings import Findings

@@ -1,7 +1,5 @@
 """Tables of solutions in the report: limits that they exceed, and what tells solutions of one pose apart."""
 
-from __future__ import annotations
-
 import dataclasses
 
 from assur.model.registry import load_record

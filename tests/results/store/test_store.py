@@ -1,7 +1,5 @@
 """Stores whose disk fails at every operation, in every way; files that are damaged in every way; shards and merges."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -1,7 +1,5 @@
 """Chains to files: sound, with the topology of the chains, closed at home whatever the dimensions are."""
 
-from __future__ import annotations
-
 import random
 from pathlib import Path
 

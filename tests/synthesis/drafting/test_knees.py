@@ -1,7 +1,5 @@
 """A knee's formula tells the branches of a limb apart, and home is the branch that is meant."""
 
-from __future__ import annotations
-
 import itertools
 from pathlib import Path
 

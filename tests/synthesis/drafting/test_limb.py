@@ -1,7 +1,5 @@
 """A limb's joints: at home both its links put each joint in the same place, with the axes of the notation."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

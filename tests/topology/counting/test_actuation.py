@@ -1,7 +1,5 @@
 """Actuation: which inputs determine a mechanism, what is wrong with the others, and the matroid of all choices."""
 
-from __future__ import annotations
-
 from functools import partial
 from itertools import combinations
 

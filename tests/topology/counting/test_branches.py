@@ -1,7 +1,5 @@
 """Branches and the loops between them, against the definition: least sets of branches that add one loop."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 import networkx as nx

@@ -1,7 +1,5 @@
 """The coupling degree: printed and tabulated values, orders, and Assur chains."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

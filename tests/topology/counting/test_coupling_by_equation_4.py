@@ -1,7 +1,5 @@
 """The coupling degree by Eq. (4) itself, with motion spaces, over all orders of limbs: a second route."""
 
-from __future__ import annotations
-
 import dataclasses
 from itertools import permutations
 

@@ -1,7 +1,5 @@
 """Decoupling: the Jacobian against finite differences, a closed form, and what is left when inputs are locked."""
 
-from __future__ import annotations
-
 import dataclasses
 from functools import lru_cache
 

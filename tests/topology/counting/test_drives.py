@@ -1,7 +1,5 @@
 """Drives where nobody chose any: admissible, near the base, one for each limb, and said."""
 
-from __future__ import annotations
-
 from itertools import product
 
 import pytest

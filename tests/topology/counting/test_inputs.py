@@ -1,7 +1,5 @@
 """Which joints are actuated: the first of each branch, or by number, and every way to be refused."""
 
-from __future__ import annotations
-
 import pytest
 
 from assur.errors import UsageError

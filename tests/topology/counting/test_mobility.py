@@ -1,7 +1,5 @@
 """Mobility: the formula, internal freedoms by name, idle joints, kinematic redundancy, and graphs that hang apart."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

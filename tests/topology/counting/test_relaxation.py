@@ -1,7 +1,5 @@
 """Relaxation: replacements that remove redundant constraints, and leave motion, inputs and platform as they were."""
 
-from __future__ import annotations
-
 import dataclasses
 from functools import partial
 

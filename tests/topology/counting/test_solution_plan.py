@@ -1,7 +1,5 @@
 """The plan of the direct problem: which search is left, why, and a second count of what special constraints leave."""
 
-from __future__ import annotations
-
 import dataclasses
 from functools import lru_cache
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Special constraints: that they hold finitely, whose they are, and which are of no use."""
 
-from __future__ import annotations
-
 import re
 from functools import lru_cache
 

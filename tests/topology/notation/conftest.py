@@ -1,7 +1,5 @@
 """Random chains, built as data and not by the reader."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import strategies as st
 

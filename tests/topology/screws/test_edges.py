@@ -1,7 +1,5 @@
 """Edges: loops close whatever way round, paths agree, ranks are generic ones, columns have names."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

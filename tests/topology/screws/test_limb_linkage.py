@@ -1,7 +1,5 @@
 """A limb by itself: its joints and values among those of the mechanism, and O' on its last axis or centre."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

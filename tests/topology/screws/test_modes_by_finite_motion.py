@@ -1,7 +1,5 @@
 """Random mechanisms against an oracle that shares no code with the library: finite motion, measured."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Points that limbs share: found where they are in the base or the platform, and only there."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Pitches: a chain that translates along a helix's axis at will need not do so as written."""
 
-from __future__ import annotations
-
 import pytest
 
 import assur

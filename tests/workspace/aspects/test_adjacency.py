@@ -1,7 +1,5 @@
 """Adjacency against every pair compared: random halvings of one box, on a line, in a plane and in space."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Aspects against a flood fill over a fine grid of the closed form's signs, and against what geometry says."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy import ndimage

@@ -1,7 +1,5 @@
 """The check of a path finds what is wrong with a path that is wrong."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Components and links on boxes that are laid out by hand."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from assur.workspace.aspects import components as module

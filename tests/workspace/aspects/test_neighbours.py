@@ -1,7 +1,5 @@
 """Neighbours after cuts are those of all boxes, and only what lies beside a cut is compared."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """What is said to be zero nowhere keeps its sign at thousands of poses; what vanishes somewhere is never said to."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Paths: every piece in its proved box, poses of one aspect joined, those of two refused with what parts them."""
 
-from __future__ import annotations
-
 import itertools
 from dataclasses import replace
 

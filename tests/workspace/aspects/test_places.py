@@ -1,7 +1,5 @@
 """Places: inside, outside, beyond, undecided; and straight lines that join a pose to a box."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

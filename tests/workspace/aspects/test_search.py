@@ -1,7 +1,5 @@
 """The search: what it finds at one size it does not take back at a smaller one, and it may be interrupted."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

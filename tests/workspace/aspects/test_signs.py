@@ -1,7 +1,5 @@
 """Signs over boxes against the closed form at points inside them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Angles without ends: boxes that certainly close a turn, and a planar mechanism whose aspect goes on from 180 deg."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

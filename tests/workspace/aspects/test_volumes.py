@@ -1,7 +1,5 @@
 """Volumes of aspects against the share of spread poses."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from assur.kinematics.position import inverse

@@ -1,7 +1,5 @@
 """Boxes: parts fill the whole without a gap."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from assur.workspace.certified.boxes import Boxes, together

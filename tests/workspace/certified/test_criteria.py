@@ -1,7 +1,5 @@
 """Criteria over intervals: they enclose what the kernels give at every pose, in every mechanism with a closed form."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import mpmath

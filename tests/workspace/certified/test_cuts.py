@@ -1,7 +1,5 @@
 """Shares of boxes above planes: against exact rationals, areas known by hand, and counting."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """The largest shapes: against circles of the paper's mechanism, and against the inverse problem."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Pavings: boxes against the kinematics, pose by pose; volumes that are known; ends that are early."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

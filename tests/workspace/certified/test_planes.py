@@ -1,7 +1,5 @@
 """Judged boxes: what is said of a whole box holds at every pose of it that is tried, and bounds hold the share."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Radicands: every one is watched that may be negative."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from assur.numerics.recording.tape import Recorder

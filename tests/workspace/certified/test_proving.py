@@ -1,7 +1,5 @@
 """Boxes that are asked: proofs, poses that fail, and what stays undecided, against the inverse problem."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Questions: which factors they are about, and poses that certainly fail."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Certified workspaces: the paper's volume and sections against quadrature that shares nothing with them."""
 
-from __future__ import annotations
-
 import itertools
 import math
 

@@ -1,7 +1,5 @@
 """Shapes: sizes at which they reach points and boxes."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
