@@ -78,7 +78,7 @@ def test_every_direct_recorded(name):
     same(truths, exists)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", each(NAMES))
 def test_one_mode_compiled(name):
     mechanism, want = assur.load(name), ALL_WANTED[:5]
     wanted = inverse_sweep(mechanism, poses_of(mechanism), want=want, engine="numpy")
@@ -93,7 +93,6 @@ def test_one_mode_compiled(name):
 
 @pytest.mark.parametrize("name", each(NAMES))
 def test_every_branch_compiled(name):
-    """Of three in the quick run: of every mechanism one mode is, and the recording of every branch that is compiled."""
     mechanism = assur.load(name)
     poses = poses_of(mechanism)
     distinct, wanted = (

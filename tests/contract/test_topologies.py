@@ -12,6 +12,7 @@ from assur.model.registry import left_out, topology_names
 from assur.model.topologies import load_topology
 from assur.model.topology_description import Declared
 from assur.topology.notation import plain_text
+from catalogue import topology_of
 
 CATALOGUE = (Path(__file__).parents[2] / "docs" / "catalogue.md").read_text(encoding="utf-8")
 
@@ -65,14 +66,9 @@ EXPECTED = {
 }
 
 
-@lru_cache
-def computed(name):
-    return assur.topology(name)
-
-
 @pytest.mark.parametrize(("name", "fact"), STATED)
 def test_what_is_declared_is_what_is_computed(name, fact):
-    assert getattr(load_topology(name).declared, fact) == COMPUTED[fact](computed(name))
+    assert getattr(load_topology(name).declared, fact) == COMPUTED[fact](topology_of(name))
 
 
 def test_every_declared_fact_is_tested():
@@ -87,19 +83,19 @@ def test_an_entry_declares_everything_and_says_how_it_is_known(name):
 
 @pytest.mark.parametrize("name", topology_names())
 def test_the_inputs_determine_the_platform(name):
-    facts = computed(name)
+    facts = topology_of(name)
     assert len(facts.inputs) == facts.dof - facts.internal_freedoms == facts.poc.dim
     assert facts.actuation.verdict == "valid"
 
 
 @pytest.mark.parametrize("name", topology_names())
 def test_both_routes_answer_and_agree(name):
-    assert computed(name).routes_agree is True
+    assert topology_of(name).routes_agree is True
 
 
 @pytest.mark.parametrize("name", topology_names())
 def test_redundant_constraints_loop_by_loop_are_those_of_the_joint_graph(name):
-    facts = computed(name)
+    facts = topology_of(name)
     assert sum(count for _, count in facts.redundant_by_loop) == facts.redundant_constraints.joint_graph
     of_loops = facts.redundant_by_loop[: len(facts.loops)]
     assert sum(count for _, count in of_loops) == facts.redundant_constraints.collapsed
@@ -146,7 +142,7 @@ def rows():
 
 @pytest.mark.parametrize("name", topology_names())
 def test_the_catalogue_gives_the_computed_numbers(name):
-    facts, entry = computed(name), load_topology(name)
+    facts, entry = topology_of(name), load_topology(name)
     shown = [entry.limb_types.replace("|", "\\|"), str(facts.dof), f"t{facts.poc.t} r{facts.poc.r}"]
     assert rows()[name][:4] == [*shown, str(facts.coupling_degree)]
 

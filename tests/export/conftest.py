@@ -15,6 +15,7 @@ from assur.model.file.reader import read_text
 from assur.model.registry import load_record
 from assur.synthesis.drafting.drafting import drafted
 from assur.topology.notation import parse_chains
+from catalogue import each
 
 LINKS = ("world", "a", "b", "c", "d", "e", "f")
 EVERY_TYPE = """
@@ -132,7 +133,7 @@ def _own(name):
     return read_text(text, Path("my.toml"))
 
 
-@pytest.fixture(params=[*assur.names(), *CASES, *WRITTEN, *DRAFTED])
+@pytest.fixture(params=[*each(), *CASES, *WRITTEN, *DRAFTED])
 def record(request, tmp_path):
     """A built-in mechanism, the one of every type with a base and an input (each of its joints is cut in turn), or an
     own one."""

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from ctypes.util import find_library
+from functools import cache
 
 import pytest
 
@@ -12,11 +13,15 @@ pytestmark = pytest.mark.sdf
 CHECK = "import ctypes, sys; sys.exit(ctypes.CDLL(sys.argv[1]).cmdCheck(sys.argv[2].encode()))"
 
 
+@cache
+def library():
+    return find_library("sdformat12")
+
+
 def said(path):
     """What `sdf --check` prints on either stream; the library's own function, so that its program need not be there."""
-    library = find_library("sdformat12")
     ran = subprocess.run(
-        [sys.executable, "-S", "-c", CHECK, library, str(path)], capture_output=True, text=True, check=False
+        [sys.executable, "-S", "-c", CHECK, library(), str(path)], capture_output=True, text=True, check=False
     )
     return ran.stdout + ran.stderr
 

@@ -6,11 +6,14 @@ angles in a plane, ball joints, quaternions and forty solutions; `make test-deep
 """
 
 from collections.abc import Iterable
+from functools import cache
 from typing import Any
 
 import pytest
 
+from assur.derived_topology import topology
 from assur.mechanism import names
+from assur.topology.facts import Topology
 
 REPRESENTATIVES = ("zeng2019", "planar_3rrr", "gough_stewart")
 
@@ -21,3 +24,9 @@ def each(of: Iterable[str] | None = None, quick: Iterable[str] = REPRESENTATIVES
     every = list(names() if of is None else of)
     assert set(quick) <= set(every)
     return [name if name in quick else pytest.param(name, marks=pytest.mark.deep) for name in every]
+
+
+@cache
+def topology_of(name: str) -> Topology:
+    """The topology of a mechanism of the catalogue, computed once in a process."""
+    return topology(name)

@@ -9,9 +9,10 @@ from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import closure_error
 from assur.kinematics.named_signs import mode_names
 from assur.kinematics.pose import pose_of
-from assur.mechanism import load, names
+from assur.mechanism import load
 from assur.page import branches as page
 from assur.page.branches import modes
+from catalogue import each
 
 
 @cache
@@ -19,7 +20,7 @@ def found_of(name):
     return page.branches(load(name))
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", each())
 def test_every_ghost_is_an_assembly_at_homes_inputs_or_at_homes_pose(name):
     record = load(name)
     home, length = record.home_values, characteristic_length(record)
@@ -37,7 +38,7 @@ def test_every_ghost_is_an_assembly_at_homes_inputs_or_at_homes_pose(name):
     assert np.allclose(poses, pose_of(record, home), rtol=0, atol=1e-9 * length)
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", each())
 def test_angles_are_within_half_a_turn_of_homes(name):
     record = load(name)
     turns = [item.kind == "angle" and record.joints[item.joint].type is not SPHERICAL for item in record.coordinates]

@@ -14,10 +14,11 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics.closure import closing_system, residuals
 from assur.kinematics.pose import platform_frame, platform_twists
-from assur.mechanism import load, names
+from assur.mechanism import load
 from assur.numerics import rotations
 from assur.page.configuration import configuration
 from assur.page.graph import coordinates, graph
+from catalogue import REPRESENTATIVES, each
 from folding_leg import table
 from screw_mechanisms import FIVEBAR, loaded
 
@@ -131,7 +132,7 @@ def gaps_of(record, values):
 
 
 @pytest.mark.node
-@pytest.mark.parametrize("name", [*names(), "balls", "screws", "backward"])
+@pytest.mark.parametrize("name", [*each(quick=(*REPRESENTATIVES, "fivebar")), "balls", "screws", "backward"])
 def test_everything_that_the_page_reads_is_what_python_says(record_of, name, rng):
     record = record_of(name)
     values, length = loose(record, rng), characteristic_length(record)
@@ -153,7 +154,7 @@ def test_everything_that_the_page_reads_is_what_python_says(record_of, name, rng
             assert np.allclose(numbers, [*placed[link][0].ravel(), *placed[link][1]], **close)
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", each())
 def test_joint_values_are_named_in_their_order(name):
     record = load(name)
     joints = graph(record)["joints"]

@@ -5,9 +5,10 @@ import pytest
 
 from assur.kinematics.modes import all_modes, mode_signs
 from assur.kinematics.position import inverse
-from assur.mechanism import load, names
+from assur.mechanism import load
 from assur.model.pose import is_angle
 from assur.page.kernel import kernel, parameters
+from catalogue import each
 
 POSES = 60
 
@@ -66,7 +67,7 @@ def differences(node, record, rng, text):
 
 
 @pytest.mark.node
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", each())
 def test_factors_and_inputs_have_pythons_bits(node, rng, name):
     record = load(name)
     differing, compared = differences(node, record, rng, kernel(record))

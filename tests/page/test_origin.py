@@ -3,10 +3,11 @@ import shutil
 import pytest
 
 from assur.cli.main import main
-from assur.mechanism import load, names
+from assur.mechanism import load
 from assur.page.content import content
 from assur.page.facts import errata, errata_note
 from assur.page.origin import left_out, original
+from catalogue import each
 
 
 def copy(folder, *, model="zeng2019", name="my", old="", new="", whole=False):
@@ -20,7 +21,7 @@ def copy(folder, *, model="zeng2019", name="my", old="", new="", whole=False):
     return load(path)
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", each())
 def test_the_catalogue_is_no_copy_and_has_its_errata(name):
     record = load(name)
     found = content(record, [])

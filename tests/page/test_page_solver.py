@@ -15,8 +15,9 @@ from assur.kinematics.border import inputs_of
 from assur.kinematics.closure import closing_system
 from assur.kinematics.named_signs import mode_names
 from assur.kinematics.pose import pose_of
-from assur.mechanism import load, names
+from assur.mechanism import load
 from assur.page.content import content
+from catalogue import each
 from folding_leg import rail, table
 from pages import content_of
 
@@ -43,6 +44,9 @@ const { compiled } = await import(`${process.argv[1]}/test/compiled.js`);
 const { walked } = await import(`${process.argv[1]}/test/walks.js`);
 process.stdout.write(JSON.stringify(walked(modelOf(compiled(scene)), { moves, seed })));
 """
+
+WALKED_HERE = ("three_rps", "linear_delta_4r", "tripteron")
+"""In every run, beside those that the page's own tests walk."""
 
 SELDOM = {"three_crr": 4, "tripteron": 4}
 """They are seldom stopped: so many times as many moves."""
@@ -142,7 +146,7 @@ def test_the_pages_own_tests_pass(node):
 
 
 @pytest.mark.node
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", each(quick=WALKED_HERE))
 @pytest.mark.parametrize(("moves", "seed"), [(15, 11), pytest.param(300, 13, marks=pytest.mark.deep)])
 def test_no_stop_is_a_trap_and_every_reason_is_true(name, moves, seed):
     """Random moves of every mechanism: from a stop the way back is free, and the measures are as the reason says."""

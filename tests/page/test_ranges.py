@@ -7,13 +7,14 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.border import inputs_of
 from assur.kinematics.pose import pose_of
 from assur.kinematics.turns import counted
-from assur.mechanism import load, names
+from assur.mechanism import load
 from assur.page.graph import coordinates
 from assur.page.ranges import input_ranges, pose_ranges, whole_turn
+from catalogue import each
 from screw_mechanisms import FIVEBAR, loaded
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", each())
 def test_home_lies_on_every_slider(name):
     record = load(name)
     for ranges, home in (
@@ -25,7 +26,7 @@ def test_home_lies_on_every_slider(name):
         assert np.all((low <= home) & (home <= high))
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", each())
 def test_a_stroke_is_what_its_slider_covers(name):
     record = load(name)
     for item, (low, high) in zip(record.inputs, input_ranges(record), strict=True):
@@ -44,7 +45,7 @@ def test_without_a_stroke_it_covers_what_the_workspace_needs():
     assert np.all(high - low < 1.2 * np.ptp(needed, axis=0))
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", each())
 def test_an_angle_without_a_stroke_has_a_whole_turn_with_round_ends_and_home_well_inside(name):
     record = load(name)
     home = inputs_of(record, record.home_values)
@@ -62,7 +63,7 @@ def test_a_turn_lies_around_zero_where_home_is_well_inside(degrees):
     assert ((low, high) == pytest.approx((-180, 180))) == (abs(degrees) <= 135)
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("name", each())
 def test_a_length_without_a_stroke_has_round_ends(name):
     record = load(name)
     for item, ends in zip(record.inputs, input_ranges(record), strict=True):

@@ -12,8 +12,9 @@ from assur.model.pose import LENGTHS, QUATERNION, rate_names
 from assur.numerics import rotations
 from assur.performance.frobenius import smooth_condition
 from assur.performance.indices import indices
+from catalogue import each
 
-NAMES = [name for name in assur.names() if assur.load(name).closed_form]
+NAMES = each()
 SAME_EVERYWHERE = {"tripteron", "three_crr"}
 """Each input moves the platform along a direction of its own: J is the same everywhere."""
 

@@ -9,6 +9,7 @@ from assur.kinematics.rates.motions import input_units, pose_units
 from assur.kinematics.rates.units import is_mixed, scaled
 from assur.kinematics.status import Status
 from assur.performance.indices import INDICES, indices, indices_at
+from catalogue import each
 
 ZENG = assur.load("zeng2019")
 ROW_3 = [-15.4714, 9.6849, 456.3315]
@@ -19,7 +20,7 @@ def compared(first, second):
     np.testing.assert_allclose(first, second, rtol=1e-6, atol=1e-12)
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_each_index_is_what_its_formula_says(name, regular_poses):
     mechanism = assur.load(name)
     mode = mechanism.modes.default_working
@@ -41,7 +42,7 @@ def test_each_index_is_what_its_formula_says(name, regular_poses):
     assert np.all(found["frobenius"] <= 1 + 1e-12)
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_with_and_without_the_closed_form(name, regular_poses):
     mechanism = assur.load(name)
     mode = mechanism.modes.default_working

@@ -9,9 +9,10 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.rates.motions import input_units
 from assur.model.pose import LENGTHS, rate_names
 from assur.performance.statics import is_point, transmitted
+from catalogue import each
 
 
-@pytest.fixture(params=assur.names())
+@pytest.fixture(params=each())
 def case(request, regular_poses):
     """A mechanism, regular poses, their joint values, and what is transmitted there."""
     mechanism = assur.load(request.param)

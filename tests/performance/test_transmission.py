@@ -10,6 +10,7 @@ from assur.kinematics.closure import assemble
 from assur.model.pose import LENGTHS
 from assur.performance.transmission import transmission_at
 from assur.singularity.examples import singular_examples
+from catalogue import each
 
 TRANSLATIONAL = [name for name in assur.names() if set(assur.load(name).platform.pose) <= set(LENGTHS)]
 SLIDES = [name for name in TRANSLATIONAL if {i.coordinate.kind for i in assur.load(name).inputs} == {"length"}]
@@ -191,7 +192,7 @@ def test_legs_push_along_themselves_on_what_moves_with_the_others_locked(name, r
         np.testing.assert_allclose(found.outputs[:, k], cosine, rtol=1e-4)
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_all_lie_between_0_and_1(name, regular_poses):
     mechanism = assur.load(name)
     _, found = at_poses(mechanism, regular_poses(mechanism, mechanism.modes.default_working, 30))

@@ -1,4 +1,4 @@
-"""Every registered mechanism with its skeleton at home."""
+"""Mechanisms with their skeletons at home."""
 
 from functools import cache
 from types import SimpleNamespace
@@ -9,6 +9,7 @@ import assur
 from assur.kinematics.home import home_values
 from assur.scene.companion import companion
 from assur.scene.skeleton import skeleton
+from catalogue import each
 
 
 @cache
@@ -18,7 +19,7 @@ def at_home(name):
     return SimpleNamespace(record=record, companion=names, skeleton=skeleton(record, names, home_values(record)))
 
 
-@pytest.fixture(params=assur.names())
+@pytest.fixture(params=each())
 def every(request):
     """A mechanism's record, companion and skeleton at home."""
     return at_home(request.param)

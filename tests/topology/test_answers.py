@@ -1,13 +1,13 @@
 import pytest
 
 import assur
-from assur.derived_topology import topology
 from assur.model.registry import topology_names
 from assur.results.json_text import plain
 from assur.topology.answers import answers, mark_text, refusals
 from assur.topology.poc import Mark, PocSet
+from catalogue import topology_of
 
-NAMES = (*assur.names(), *topology_names())
+NAMES = sorted({*assur.names(), *topology_names()})
 CONTRACT = {
     "poc": {"t", "r", "dim", "text", "directions"},
     "limbs": {"text", "t", "r", "dim", "dependent"},
@@ -19,7 +19,7 @@ CONTRACT = {
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_contract_of_keys_and_kinds(name):
-    found = plain(answers(topology(name)))
+    found = plain(answers(topology_of(name)))
     for key, inner in CONTRACT.items():
         for item in found[key] if isinstance(found[key], list) else [found[key]]:
             assert inner <= item.keys(), key
@@ -36,7 +36,7 @@ def test_the_contract_of_keys_and_kinds(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_sums_of_the_theory(name):
-    found = plain(answers(topology(name)))
+    found = plain(answers(topology_of(name)))
     loops = found["loops"]
     assert sorted(index for chain in found["assur_chains"] for index in chain["loops"]) == list(range(len(loops)))
     for chain in found["assur_chains"]:
@@ -52,7 +52,7 @@ def test_the_sums_of_the_theory(name):
 
 def test_refusals_name_what_the_rules_do_not_decide():
     for name in NAMES:
-        found = topology(name)
+        found = topology_of(name)
         said = refusals(found)
         assert bool(said) == (found.routes_agree is None)
         assert all(item.reason for item in said)

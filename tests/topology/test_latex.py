@@ -3,11 +3,11 @@ import re
 import pytest
 
 import assur
-from assur.derived_topology import topology
 from assur.model.registry import topology_names
 from assur.topology.latex import equations, fragment, name
+from catalogue import topology_of
 
-NAMES = (*assur.names(), *topology_names())
+NAMES = sorted({*assur.names(), *topology_names()})
 COMMANDS = {
     *(
         "begin",
@@ -36,7 +36,7 @@ def pairs(text, opening, closing):
 
 @pytest.mark.parametrize("mechanism", NAMES)
 def test_the_fragment_is_plain_latex_that_closes_what_it_opens(mechanism):
-    text = fragment(topology(mechanism))
+    text = fragment(topology_of(mechanism))
     assert text.isascii()
     assert set(re.findall(r"\\([A-Za-z]+)", text)) <= COMMANDS
     bare = re.sub(r"\\[{}_]", "", text)
@@ -53,7 +53,7 @@ def test_the_fragment_is_plain_latex_that_closes_what_it_opens(mechanism):
         first, second = pairs(text, opening, closing)
         assert first == second
     lines = text.split("\\begin{align}\n")[1].split("\n\\end{align}")[0].split("\n")
-    assert sum("&=" in line for line in lines) == len(equations(topology(mechanism)))
+    assert sum("&=" in line for line in lines) == len(equations(topology_of(mechanism)))
     assert all(line.count("&") == 1 for line in lines)
     assert [line.endswith(" \\\\") for line in lines] == [True] * (len(lines) - 1) + [False]
 
@@ -61,7 +61,7 @@ def test_the_fragment_is_plain_latex_that_closes_what_it_opens(mechanism):
 @pytest.mark.parametrize("mechanism", NAMES)
 def test_the_equations_hold_as_written(mechanism):
     """The numbers between the last two signs of equality, computed."""
-    found = topology(mechanism)
+    found = topology_of(mechanism)
     for item in equations(found):
         sides = item.right.split(" = ")
         if item.number in ("(3)", "(5)", "(6)"):
@@ -77,7 +77,7 @@ def test_indices_are_those_of_the_names():
 
 def test_the_papers_derivation_has_its_unions_and_its_intersection():
     """Two hybrid chains: an inner loop with two rotations more, and three translations; what both have."""
-    text = fragment(topology("zeng2019"))
+    text = fragment(topology_of("zeng2019"))
     for line in (
         r"\begin{bmatrix} t^3 \\ r^2(\parallel\Diamond(",
         r"M_{b_{2}} &= \begin{bmatrix} t^1(\parallel P_{3}) \\ r^0 \end{bmatrix} \cup \begin{bmatrix} t^1(",

@@ -12,6 +12,7 @@ from assur.workspace.domain import box_of
 from assur.workspace.fields import at_points, closed_form_fields, sample
 from assur.workspace.grid import grid_over
 from assur.workspace.slices import slice_at
+from catalogue import each
 
 SPATIAL, PLANE = assur.load("zeng2019"), assur.load("fivebar")
 
@@ -23,7 +24,7 @@ def columns_of(mechanism, count=4000, seed=5):
     return poses.poses(points), tuple(points.T)
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_no_margin_is_negative_exactly_where_the_inverse_problem_has_a_solution(name):
     mechanism = assur.load(name)
     poses, columns = columns_of(mechanism, count=500)
@@ -34,7 +35,7 @@ def test_no_margin_is_negative_exactly_where_the_inverse_problem_has_a_solution(
         np.testing.assert_array_equal(inside, mechanism.inverse(poses, mode=mode).exists[:, 0])
 
 
-@pytest.mark.parametrize("name", assur.names())
+@pytest.mark.parametrize("name", each())
 def test_factors_are_those_of_the_inverse_solution_where_there_is_one(name):
     mechanism = assur.load(name)
     poses, columns = columns_of(mechanism, count=500)

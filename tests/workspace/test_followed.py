@@ -32,6 +32,12 @@ def both(name, resolution, held=()):
     return workspace(assur.load(name), **options), workspace(stripped(name), **options)
 
 
+@lru_cache
+def fine_of(name, resolution, held=()):
+    """The workspace by the closed form, each step a quarter."""
+    return workspace(assur.load(name), resolution=4 * resolution, held=dict(held) or None)
+
+
 # name, cells along each coordinate, what is held
 CASES = [
     ("fivebar", 24, ()),
@@ -47,7 +53,7 @@ CASES = [
 @pytest.mark.parametrize(("name", "resolution", "held"), CASES)
 def test_the_volume_is_that_of_the_closed_form_within_the_stated_errors(name, resolution, held):
     known, found = both(name, resolution, held)
-    fine = workspace(assur.load(name), resolution=4 * resolution, held=dict(held) or None)
+    fine = fine_of(name, resolution, held)
     assert known.how == "closed form"
     assert found.how == "followed from home"
     assert found.unit == known.unit
@@ -90,7 +96,7 @@ LOCI = [("fivebar", 24), ("planar_3rrr", 12), ("zeng2019", 12), pytest.param("de
 @pytest.mark.parametrize(("name", "resolution"), LOCI)
 def test_the_locus_of_the_determinant_is_that_of_all_parallel_factors(name, resolution):
     known, found = both(name, resolution)
-    fine = workspace(assur.load(name), resolution=4 * resolution)
+    fine = fine_of(name, resolution)
     (locus,) = found.loci
     assert locus.factor == "output"
     assert not locus.everywhere
@@ -110,7 +116,7 @@ def test_there_are_no_false_pieces_of_a_locus(name, resolution):
     """A piece that is more than a cell away from every true one would be false."""
     _, found = both(name, resolution)
     step = found.region.grid.step
-    loci = [item for item in workspace(assur.load(name), resolution=4 * resolution).loci if len(item.faces)]
+    loci = [item for item in fine_of(name, resolution).loci if len(item.faces)]
     true = np.concatenate([item.vertices[item.faces].mean(axis=1) for item in loci])
     (locus,) = found.loci
     pieces = locus.vertices[locus.faces].mean(axis=1)

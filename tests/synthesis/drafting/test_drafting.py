@@ -24,6 +24,7 @@ from assur.synthesis.drafting.drafting import Drafted, drafted
 from assur.synthesis.drafting.facts import facts
 from assur.synthesis.drafting.repeating import repeated
 from assur.topology.notation import parse_chains
+from catalogue import each
 from examples import examples
 
 PATH = Path("my.toml")
@@ -38,7 +39,7 @@ def of(*chains: str, **options: object) -> Drafted:
     return drafted(parse_chains(chains), PATH, **options)
 
 
-@pytest.mark.parametrize("name", topology_names())
+@pytest.mark.parametrize("name", each(topology_names(), ("planar_3rrr", "delta_4s", "gough_stewart", "three_ups_up")))
 def test_every_topology_of_the_catalogue_becomes_a_sound_file_with_its_declared_facts(name):
     described = load_topology(name)
     numbers = [f"{limb}.{joint}" for limb, joint in described.actuate]

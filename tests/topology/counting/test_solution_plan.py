@@ -20,8 +20,9 @@ from assur.topology.screws.linkage import part
 from assur.topology.screws.placing import place
 from assur.topology.screws.screws import closure_jacobian, poses
 from assur.topology.screws.twists import edges, generic_values
+from catalogue import topology_of
 
-NAMES = (*assur.names(), *topology_names())
+NAMES = sorted({*assur.names(), *topology_names()})
 HYBRID = "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]"
 SLIDES = "P[y] P(4R)[x] P(4R)[y]"
 AROUND = ("0,1,0", "-0.8660254037844386,-0.5,0", "0.8660254037844386,-0.5,0")
@@ -48,11 +49,6 @@ SEARCHES = {
 
 
 @lru_cache
-def facts(name):
-    return assur.topology(name)
-
-
-@lru_cache
 def planned(*texts, actuate=(), order=None):
     """A linkage, its order of loops (the least coupled one by default), and the plan."""
     chains = parse_chains(texts)
@@ -69,14 +65,14 @@ def planned(*texts, actuate=(), order=None):
 
 @pytest.mark.parametrize("name", SEARCHES)
 def test_the_search_that_is_left(name):
-    (only,) = facts(name).plan.parts
+    (only,) = topology_of(name).plan.parts
     assert (only.coupling_degree, only.search, only.reason) == SEARCHES[name]
-    assert facts(name).plan.search == only.search
+    assert topology_of(name).plan.search == only.search
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_laws_of_every_plan(name):
-    found = facts(name)
+    found = topology_of(name)
     plan = found.plan
     assert [item.coupling_degree for item in plan.parts] == [item.coupling_degree for item in found.assur_chains]
     assert [step.loop for item in plan.parts for step in item.steps] == list(range(len(found.loops)))
@@ -280,7 +276,7 @@ def test_the_loops_by_themselves_are_as_free_as_the_plan_says(texts, actuate, wa
 
 
 def test_the_papers_plan_in_words():
-    assert facts("zeng2019").plan.words == (
+    assert topology_of("zeng2019").plan.words == (
         "loop 1 (P1, B1, C1, C2, B2, P2), Δ = +1, takes 1 virtual variable.",
         "loop 2 (P3, Pa1, Pa2, R4, R3), Δ = -1, gives 1 equation for what was assumed.",
         "κ = 1, but the platform does not rotate, which gives the virtual variable: no search is needed.",
