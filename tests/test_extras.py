@@ -49,8 +49,6 @@ OUTCOMES = [
     ("skips a test", (PASSES, SKIPS), "required", 1),
     ("skips a file", (PASSES, LACKS), "required", 1),
     ("skips a test at a desk", (PASSES, SKIPS, LACKS), "", 0),
-    ("leaves out faults", (PASSES, MUTATES), "required", 0),
-    ("leaves out what is deep", (PASSES, DIGS), "required", 0),
 ]
 
 
@@ -72,14 +70,10 @@ def run(folder, *words, extras=""):
     )
 
 
-BY_WORKERS = ("skips a test", "leaves out what is deep")
-"""Those that are judged by what a worker reports, and by what it leaves out."""
-
-
 @pytest.mark.parametrize(
     ("files", "extras", "code", "together"),
     [pytest.param(*row, False, id=name) for name, *row in OUTCOMES]
-    + [pytest.param(*row, True, id=f"{name}, in workers") for name, *row in OUTCOMES if name in BY_WORKERS],
+    + [pytest.param((PASSES, SKIPS), "required", 1, True, id="skips a test, in workers")],
 )
 def test_nothing_is_skipped_silently(tmp_path, files, extras, code, together):
     lay(tmp_path, files)
@@ -91,8 +85,10 @@ def test_nothing_is_skipped_silently(tmp_path, files, extras, code, together):
 
 @pytest.mark.parametrize("words", [(), ("-n", "2")], ids=["alone", "in workers"])
 def test_what_was_left_out_is_counted_and_the_slowest_files_are_named(tmp_path, words):
-    lay(tmp_path, [DIGS, DIGS.replace("four", "five"), *[PASSES] * 11])
-    ran = run(tmp_path, *words)
+    lay(tmp_path, [DIGS, DIGS.replace("four", "five"), MUTATES, *[PASSES] * 11])
+    ran = run(tmp_path, *words, extras="required")
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    assert "NOT RUN: 1 tests marked mutation; they run with make mutations" in ran.stdout
     assert "NOT RUN: 2 tests marked deep; they run with make test-deep" in ran.stdout
     assert "the 10 slowest of 11 files" in ran.stdout
     assert ran.stdout.count(" s  test_") == 10

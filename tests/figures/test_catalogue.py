@@ -49,9 +49,7 @@ def test_catalogue_has_a_number_title_and_caption_for_each(context):
 
 
 # of the paper's mechanism the demonstration writes every figure, and its report holds them all
-@pytest.mark.parametrize(
-    "context", each(["fivebar", "planar_3rrr", "zeng2019"], ["fivebar", "planar_3rrr"]), indirect=True
-)
+@pytest.mark.parametrize("context", each(["fivebar", "planar_3rrr", "zeng2019"], ["fivebar"]), indirect=True)
 def test_every_figure_is_written_in_every_format(context, tmp_path):
     steps = []
     names = figures.names(context.record, context)
