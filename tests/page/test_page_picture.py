@@ -20,8 +20,12 @@ FIELD = np.tan(np.radians(15.0))
 """Half the height of the picture at distance 1."""
 
 RED = (198, 40, 40)
-REST = 700
-"""Milliseconds without a change after which the picture stands, and after which the address is written."""
+FRAMES = """() => new Promise((done) => {
+  let left = 3;
+  const next = () => (left-- ? requestAnimationFrame(next) : done(location.hash));
+  next();
+})"""
+"""Some frames: whatever moves by itself is elsewhere after them. Gives the address then."""
 
 
 @pytest.fixture
@@ -41,10 +45,10 @@ def move(here, name, values):
 
 def camera(here):
     """Azimuth, elevation, distance and target of the view, once it stands."""
-    still(here)
-    here.tab.keyboard.press("Shift")  # after which the address is written anew
-    here.tab.wait_for_timeout(REST)
-    now = here.tab.evaluate("location.hash")
+    before, now = None, ""
+    while now != before:
+        here.tab.keyboard.press("l")  # writes the address
+        before, now = now, here.tab.evaluate(FRAMES)
     return np.array([float(part) for part in parse_qs(now[1:])["view"][0].split(",")])
 
 
@@ -83,7 +87,7 @@ def still(here):
     """The picture, once it no longer changes."""
     before, now = None, picture(here)
     while before is None or np.any(now != before):
-        here.tab.wait_for_timeout(REST)
+        here.tab.evaluate(FRAMES)
         before, now = now, picture(here)
     return now
 
