@@ -80,6 +80,7 @@ def test_every_direct_recorded(name):
 
 @pytest.mark.parametrize("name", each(NAMES))
 def test_one_mode_compiled(name):
+    """Of three in the quick run: the recording of every one has NumPy's bits, machine code those of each operation."""
     mechanism, want = assur.load(name), ALL_WANTED[:5]
     wanted = inverse_sweep(mechanism, poses_of(mechanism), want=want, engine="numpy")
     for block, threads in ((COUNT, 1), (333, 2)):
