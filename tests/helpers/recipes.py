@@ -36,7 +36,7 @@ class Checkout:
         for name in CARRIED:
             copy = shutil.copytree if (ROOT / name).is_dir() else shutil.copy
             copy(ROOT / name, folder / name)
-        if sys.pycache_prefix:  # the copy's modules are compiled already, beside no source
+        if Path(f"{sys.pycache_prefix}{ROOT}/src").is_dir():  # modules that are compiled already, beside no source
             shutil.copytree(f"{sys.pycache_prefix}{ROOT}/src", f"{sys.pycache_prefix}{folder}/src")
         programs = folder / "bin"
         programs.mkdir()
