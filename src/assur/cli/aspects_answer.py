@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+
+from rich.console import RenderableType
 
 from assur.cli import exit_codes, region_question
 from assur.cli.interruption import pressed
@@ -16,17 +17,25 @@ from assur.cli.paths import output_file
 from assur.cli.progress import progress
 from assur.cli.quantities import is_length
 from assur.errors import UsageError
+from assur.kinematics.answers.at_border import box_at_border, coordinate_unit, coordinates_at_border
+from assur.kinematics.limits import limits_note
+from assur.kinematics.modes import all_modes
+from assur.mechanism import Mechanism
+from assur.results.answers.answer import ABSENT
+from assur.results.answers.region import (
+    AspectsAnswer,
+    AspectsOfMode,
+    AspectsOfModes,
+    CheckedPath,
+    ListedAspect,
+    ListedPath,
+    PlacedPose,
+)
 from assur.results.outward import outward as bounds
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
-    from assur.mechanism import Mechanism
-    from assur.results.answers.region import AspectsAnswer, AspectsOfMode, AspectsOfModes, ListedPath
-    from assur.workspace.aspects.aspects import Aspects
-    from assur.workspace.aspects.checking import PathCheck
-    from assur.workspace.aspects.path import AspectPath
-    from assur.workspace.aspects.places import Place
+from assur.workspace.aspects.aspects import Aspects, aspects
+from assur.workspace.aspects.checking import PathCheck, check_path
+from assur.workspace.aspects.path import AspectPath
+from assur.workspace.aspects.places import Place
 
 ANSWERS = {"inside": "yes", "connected": "yes", "undecided": "open"}
 """What a pose or a path says of its question; where two poses lie apart, or one is not reached, it is "no"."""
@@ -88,10 +97,6 @@ def _target(asked: AspectQuestion) -> Path | None:
 
 
 def _answer(record: Mechanism, asked: AspectQuestion, shared: Shared) -> Explored:
-    from assur.kinematics.modes import all_modes
-    from assur.workspace.aspects.aspects import aspects
-    from assur.workspace.aspects.checking import check_path
-
     mode = None if asked.mode == "all" else asked.mode
     words = region_question.question(record, mode, asked.box, asked.stroke, None, (), None, asked.at)
     finest = None if asked.finest is None else number(asked.finest, "--finest")
@@ -115,8 +120,6 @@ def _answer(record: Mechanism, asked: AspectQuestion, shared: Shared) -> Explore
 
 def pose(record: Mechanism, text: str, option: str, names: Sequence[str]) -> list[float]:
     """The pose that is meant, in lengths and rad: values in the order of the names, or NAME=VALUE."""
-    from assur.kinematics.answers.at_border import coordinate_unit
-
     parts = text.split(",")
     if "=" in text:
         given = assignments(parts, option, ",".join(f"{name}=0" for name in names))
@@ -139,9 +142,6 @@ def _exit_code(answer: Explored) -> int:
 
 
 def _said(record: Mechanism, explored: Explored) -> AspectsAnswer | AspectsOfModes:
-    from assur.results.answers.answer import ABSENT
-    from assur.results.answers.region import AspectsAnswer, AspectsOfModes, PlacedPose
-
     if len(explored.modes) > 1:
         return AspectsOfModes(record.name, tuple(_of_mode(record, item) for item in explored.modes))
     path, place = explored.path, explored.place
@@ -154,9 +154,6 @@ def _said(record: Mechanism, explored: Explored) -> AspectsAnswer | AspectsOfMod
 
 def _of_mode(record: Mechanism, parts: Aspects) -> AspectsOfMode:
     """What is said of a mode, angles of poses in the mechanism's angle unit."""
-    from assur.kinematics.answers.at_border import box_at_border, coordinates_at_border
-    from assur.results.answers.region import AspectsOfMode, ListedAspect
-
     aspects = (
         ListedAspect(item.label, item.signs, item.volume, len(item.boxes), item.perhaps) for item in parts.aspects
     )
@@ -181,9 +178,6 @@ def _of_mode(record: Mechanism, parts: Aspects) -> AspectsOfMode:
 
 
 def _listed_path(record: Mechanism, path: AspectPath, check: PathCheck | None) -> ListedPath:
-    from assur.kinematics.answers.at_border import box_at_border, coordinate_unit
-    from assur.results.answers.region import CheckedPath, ListedPath
-
     units = [coordinate_unit(record, name) for name in path.coordinates]
     ends = zip(path.boxes.low.T.tolist(), path.boxes.high.T.tolist(), strict=True)
     return ListedPath(
@@ -220,9 +214,6 @@ def _write(path: Path, record: Mechanism, answer: Explored, data: AspectsAnswer 
 def _shown(
     record: Mechanism, answer: Explored, data: AspectsAnswer | AspectsOfModes, written: Path | None
 ) -> Iterable[RenderableType]:
-    from assur.results.answers.answer import ABSENT
-    from assur.results.answers.region import AspectsAnswer
-
     if isinstance(data, AspectsAnswer):
         yield from _mode(record, answer.modes[0], data)
         if data.place is not ABSENT:
@@ -251,8 +242,6 @@ def _modes(record: Mechanism, modes: Sequence[Aspects]) -> Iterable[RenderableTy
 
 
 def _mode(record: Mechanism, aspects: Aspects, data: AspectsAnswer) -> Iterable[RenderableType]:
-    from assur.kinematics.limits import limits_note
-
     of_mode = f" of working mode {aspects.mode}" if aspects.mode else ""
     yield heading(f"{record.name}, aspects{of_mode}: {len(aspects)}")
     parts = [

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from rich.console import RenderableType
+from rich.text import Text
+
+from assur.audit.audit import audit
+from assur.audit.documents import computed_text, documents
+from assur.audit.rows import Audit, Row
 from assur.cli.numbers import NUMBER
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table, words
 from assur.cli.paths import made
 from assur.cli.progress import progress
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-    from rich.text import Text
-
-    from assur.audit.rows import Audit, Row
-    from assur.mechanism import Mechanism
+from assur.mechanism import Mechanism
+from assur.results.files import write_whole
 
 CLAIM_FAILS = 1
 EQUATION = "left - right"
@@ -26,10 +26,6 @@ COLOURS = {"ok": "", "wrong": "red", "missing": "yellow"}
 
 def outcome(record: Mechanism, folder: Path | None, shared: Shared) -> Outcome:
     """The audit; exit code 1 where the evidence of an erratum does not hold."""
-    from assur.audit.audit import audit
-    from assur.audit.documents import documents
-    from assur.results.files import write_whole
-
     with progress("audit", shared):
         found = audit(record)
     written: list[Path] = []
@@ -64,8 +60,6 @@ def _shown(audit: Audit, written: Sequence[Path]) -> Iterable[RenderableType]:
 
 def rows_table(rows: Sequence[Row]) -> RenderableType:
     """Printed values beside ours, with verdicts."""
-    from assur.audit.documents import computed_text
-
     return table(
         ("where", "printed", "computed", "verdict"),
         [

@@ -4,19 +4,22 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from assur.certificates.certificate import Certificate
+from assur.certificates.paths import path_certificate
+from assur.certificates.summary import claim_lines, shares, statement_lines
 from assur.cli import exit_codes
 from assur.cli.aspects_answer import ANSWERS, pose
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading
 from assur.cli.progress import progress
+from assur.cli.region_question import Question
 from assur.errors import UsageError
-
-if TYPE_CHECKING:
-    from assur.certificates.certificate import Certificate
-    from assur.cli.region_question import Question
-    from assur.mechanism import Mechanism
+from assur.mechanism import Mechanism
+from assur.results.answers.certificate import NoCertificate, WrittenCertificate
+from assur.workspace.aspects.aspects import aspects
+from assur.workspace.domain import box_of
+from assur.workspace.slices import slice_at
 
 
 @dataclass(frozen=True)
@@ -31,11 +34,6 @@ def outcome(
     record: Mechanism, asked: Question, ends: TypedEnds, finest: float, most: int, target: Path, shared: Shared
 ) -> Outcome:
     """The path from one pose to the other, written with its proof; told and not written where none was found."""
-    from assur.certificates.paths import path_certificate
-    from assur.workspace.aspects.aspects import aspects
-    from assur.workspace.domain import box_of
-    from assur.workspace.slices import slice_at
-
     if most < 1:
         raise UsageError(f"--most: {most} leaves; a proof has at least one")
     if not 0 <= finest < 1:
@@ -61,9 +59,6 @@ def outcome(
 
 def written(certificate: Certificate, target: Path, record: Mechanism, shared: Shared) -> Outcome:
     """Write a certificate, and say what it claims; of a box or a path the exit code is that of the answer."""
-    from assur.certificates.summary import claim_lines, shares, statement_lines
-    from assur.results.answers.certificate import WrittenCertificate
-
     with progress("writing the certificate", shared):  # some seconds for millions of leaves
         certificate.write(target)
         document = certificate.to_json()
@@ -77,6 +72,4 @@ def written(certificate: Certificate, target: Path, record: Mechanism, shared: S
 
 
 def _none(status: str, why: str, code: int) -> Outcome:
-    from assur.results.answers.certificate import NoCertificate
-
     return Outcome(NoCertificate(status, why), lambda: [heading(f"no path written: {status}"), why], code)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+
+from rich.console import RenderableType
 
 from assur.cli import exit_codes
 from assur.cli.numbers import assignments, interval, number, whole_number
@@ -13,20 +14,30 @@ from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.progress import progress
 from assur.cli.quantities import is_length, mode_words
+from assur.cli.region_question import Question
 from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.answers.at_border import box_at_border, coordinate_unit, coordinates_at_border
+from assur.kinematics.limits import NO_LIMITS, joint_limits, limits_stated
+from assur.mechanism import Mechanism
+from assur.numerics.intervals.functions import from_degrees
+from assur.results.answers.region import (
+    CertifiedBox,
+    CertifiedShape,
+    CertifiedVolume,
+    FailingPose,
+    PavedBoxes,
+    ProvedParts,
+    RegionProof,
+    SectionBounds,
+)
 from assur.results.outward import outward
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
-    from assur.cli.region_question import Question
-    from assur.mechanism import Mechanism
-    from assur.results.answers.region import CertifiedBox, CertifiedShape, CertifiedVolume, FailingPose, RegionProof
-    from assur.workspace.certified.largest import LargestShape
-    from assur.workspace.certified.proving import ProvedBox
-    from assur.workspace.certified.questions import Witness
-    from assur.workspace.certified.region import CertifiedWorkspace
-    from assur.workspace.certified.shapes import ShapeName
+from assur.workspace.certified.largest import LargestShape, largest
+from assur.workspace.certified.paving import MOST
+from assur.workspace.certified.proving import ProvedBox, largest_of, prove_box
+from assur.workspace.certified.questions import Witness
+from assur.workspace.certified.region import CertifiedWorkspace, certified_workspace
+from assur.workspace.certified.shapes import ShapeName
+from assur.workspace.slices import coordinates, slice_at
 
 
 @dataclass(frozen=True)
@@ -73,8 +84,6 @@ def _compatible(asked: ProofQuestion) -> None:
 
 def _most(asked: ProofQuestion) -> int:
     """Boxes that may be looked at."""
-    from assur.workspace.certified.paving import MOST
-
     most = MOST if asked.boxes is None else whole_number(asked.boxes, "--boxes")
     if most < 1:
         raise UsageError(f"--boxes: {most} is not positive", hint=f"{MOST} if it is left out")
@@ -82,8 +91,6 @@ def _most(asked: ProofQuestion) -> int:
 
 
 def _volume(record: Mechanism, question: Question, asked: ProofQuestion, shared: Shared) -> Outcome:
-    from assur.workspace.certified.region import certified_workspace
-
     gap = 1e-3 if asked.gap is None else number(asked.gap, "--gap")
     finest = None if asked.finest is None else number(asked.finest, "--finest")
     if gap <= 0:
@@ -129,9 +136,6 @@ def _shown_volume(record: Mechanism, region: CertifiedWorkspace, data: Certified
 
 
 def _box(record: Mechanism, question: Question, text: str, most: int, shared: Shared) -> Outcome:
-    from assur.kinematics.answers.at_border import coordinate_unit
-    from assur.workspace.certified.proving import prove_box
-
     example = f"{record.platform.pose[0]}=-20:20"
     box = dict(question.box)
     for name, pair in assignments([text], "--prove", example).items():
@@ -156,10 +160,6 @@ def outer_box(
     >>> low, math.pi < 3.1415926535897936 <= high
     (0.0, True)
     """
-    from assur.kinematics.answers.at_border import coordinate_unit
-    from assur.numerics.intervals.functions import from_degrees
-    from assur.workspace.slices import slice_at
-
     found = {**{name: record.box[name] for name in slice_at(record, held).free if name in record.box}, **box}
     for name, ends in found.items():
         if coordinate_unit(record, name) != 1.0:
@@ -197,9 +197,6 @@ def _shown_box(record: Mechanism, box: ProvedBox, data: CertifiedBox) -> Iterabl
 
 
 def _largest(record: Mechanism, question: Question, asked: ProofQuestion, shape: ShapeName, shared: Shared) -> Outcome:
-    from assur.kinematics.answers.at_border import coordinate_unit
-    from assur.workspace.certified.largest import largest
-
     example = "x=0,y=0,z=400"
     centre = {}
     for name, text in assignments([asked.around or ""], "--around", example).items():
@@ -256,18 +253,12 @@ NOTES = {
 
 
 def _known(record: Mechanism, name: str) -> None:
-    from assur.workspace.slices import coordinates
-
     if name not in coordinates(record):
         raise UnknownNameError(f"pose coordinate of {record.name}", name, coordinates(record))
 
 
 def _said(record: Mechanism, question: Question, proved: CertifiedWorkspace | ProvedBox | LargestShape) -> RegionProof:
     """What is said of every proof."""
-    from assur.kinematics.answers.at_border import coordinates_at_border
-    from assur.kinematics.limits import joint_limits, limits_stated
-    from assur.results.answers.region import RegionProof
-
     return RegionProof(
         mechanism=record.name,
         mode=proved.mode,
@@ -279,9 +270,6 @@ def _said(record: Mechanism, question: Question, proved: CertifiedWorkspace | Pr
 
 
 def _certified_volume(record: Mechanism, question: Question, region: CertifiedWorkspace) -> CertifiedVolume:
-    from assur.kinematics.answers.at_border import box_at_border, coordinate_unit
-    from assur.results.answers.region import CertifiedVolume, PavedBoxes, SectionBounds
-
     names, paving = region.box.names, region.paving
     unit = coordinate_unit(record, names[-1])
     return CertifiedVolume(
@@ -303,10 +291,6 @@ def _certified_volume(record: Mechanism, question: Question, region: CertifiedWo
 
 
 def _certified_box(record: Mechanism, question: Question, proved: ProvedBox) -> CertifiedBox:
-    from assur.kinematics.answers.at_border import box_at_border
-    from assur.results.answers.region import CertifiedBox, ProvedParts
-    from assur.workspace.certified.proving import largest_of
-
     failed, doubtful = (
         tuple(box_at_border(record, proved.names, box) for box in largest_of(boxes))
         for boxes in (proved.failed, proved.doubtful)
@@ -329,9 +313,6 @@ def _certified_box(record: Mechanism, question: Question, proved: ProvedBox) -> 
 
 
 def _certified_shape(record: Mechanism, question: Question, shape: LargestShape) -> CertifiedShape:
-    from assur.kinematics.answers.at_border import coordinates_at_border
-    from assur.results.answers.region import CertifiedShape
-
     return CertifiedShape(
         **vars(_said(record, question, shape)),
         what=shape.what,
@@ -345,16 +326,11 @@ def _certified_shape(record: Mechanism, question: Question, shape: LargestShape)
 
 
 def _witness(record: Mechanism, witness: Witness | None) -> FailingPose | None:
-    from assur.kinematics.answers.at_border import coordinates_at_border
-    from assur.results.answers.region import FailingPose
-
     return None if witness is None else FailingPose(coordinates_at_border(record, witness.pose), witness.why)
 
 
 def _limits(data: RegionProof) -> Iterable[str]:
     """What is to be said beside a claim of reach where there are no limits."""
-    from assur.kinematics.limits import NO_LIMITS
-
     if not data.limits_stated:
         yield f"limits: {NO_LIMITS}"
     if data.joint_limits:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+
+from rich.console import RenderableType
 
 from assur.cli import exit_codes
 from assur.cli.options import MethodName, Outcome
@@ -12,19 +13,14 @@ from assur.cli.output import heading, table
 from assur.cli.positions import exceeded, limits_cell
 from assur.errors import UsageError
 from assur.kinematics.answers.style import Style, given_words, style_of, texts_of, titles_of
+from assur.kinematics.certified.certify import Way
+from assur.kinematics.certified.result import CertifiedSolutions, answer, at_most
+from assur.mechanism import Mechanism
 from assur.model.pose import QUATERNION
-from assur.results.answers.certified import CertifiedDirect, ProvedPose
+from assur.results.answers.certified import CertifiedDirect, CertifiedInverse, ProvedPose
 from assur.results.plain_text import short
 
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
-    from assur.kinematics.certified.certify import Way
-    from assur.kinematics.certified.result import CertifiedSolutions
-    from assur.mechanism import Mechanism
-    from assur.results.answers.certified import CertifiedInverse
-
-    CertifiedPositions = CertifiedDirect | CertifiedInverse
+CertifiedPositions = CertifiedDirect | CertifiedInverse
 
 WAYS: dict[str, Way] = {"auto": "auto", "closed form": "closed form", "loops": "joint graph", "search": "boxes"}
 
@@ -47,8 +43,6 @@ def way_of(method: MethodName, mode: str | None, *, crossed: bool) -> Way:
 
 def outcome(record: Mechanism, solutions: CertifiedSolutions) -> Outcome:
     """The outcome: exit code 4 where it is proved that there is no solution, 5 where something is undecided."""
-    from assur.kinematics.certified.result import answer
-
     data = answer(solutions)
     code = exit_codes.of_answers(["open" if not solutions.proved else "yes" if len(solutions) else "no"])
     return Outcome(data, lambda: _shown(record, data, solutions.headline), code)
@@ -73,8 +67,6 @@ def _shown(record: Mechanism, data: CertifiedPositions, headline: str) -> Iterab
 
 def _solutions(record: Mechanism, data: CertifiedPositions, style: Style) -> RenderableType:
     """Middles of the bounds, rounded, and the largest width of the bounds, rounded up."""
-    from assur.kinematics.certified.result import at_most
-
     direct, hows = isinstance(data, CertifiedDirect), _hows(data)
     rows = []
     for item in data.solutions:

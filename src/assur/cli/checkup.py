@@ -8,18 +8,23 @@ import tempfile
 from collections.abc import Iterable, Iterator
 from importlib import metadata
 from pathlib import Path
-from typing import TYPE_CHECKING
+
+import numpy as np
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+from rich.console import RenderableType
 
 from assur.cli.options import Outcome, Plain
 from assur.cli.output import heading, table
 from assur.cli.progress import progress
+from assur.errors import UsageError
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.border import inputs_of
+from assur.kinematics.closure import CLOSED, closure_error
+from assur.kinematics.search import places
+from assur.mechanism import Mechanism
 from assur.results.answers.installation import Check, InstallationAnswer
 from assur.results.plain_text import count
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
-    from assur.mechanism import Mechanism
 
 PYTHON = (3, 11)
 PINS = "constraints.txt"
@@ -65,9 +70,6 @@ def _installation() -> Iterator[Check]:
 
 def _package(text: str, pins: dict[str, str]) -> Check:
     """A line such as `numpy>=2.0` or `ruff>=0.6; extra == "dev"` of the metadata."""
-    from packaging.requirements import Requirement
-    from packaging.utils import canonicalize_name
-
     requirement = Requirement(text)
     optional = requirement.marker is not None and not requirement.marker.evaluate({"extra": ""})
     name = f"{requirement.name} (optional)" if optional else requirement.name
@@ -85,8 +87,6 @@ def _package(text: str, pins: dict[str, str]) -> Check:
 
 def _pins() -> dict[str, str]:
     """Versions by name, from the constraints beside the source; empty where there is no source."""
-    from packaging.utils import canonicalize_name
-
     path = Path(__file__).parents[3] / PINS
     if not path.is_file():
         return {}
@@ -122,10 +122,6 @@ def _numbers() -> Iterator[Check]:
 
 
 def _home(record: Mechanism) -> Check:
-    from assur.errors import UsageError
-    from assur.joint_graph.geometry import characteristic_length
-    from assur.kinematics.closure import CLOSED, closure_error
-
     try:
         gap = float(closure_error(record, record.home_values))
     except UsageError as error:
@@ -136,12 +132,6 @@ def _home(record: Mechanism) -> Check:
 
 def _agreement(record: Mechanism) -> Check:
     """The closed form at home's inputs must list home, and each of its solutions must close the joint graph."""
-    import numpy as np
-
-    from assur.joint_graph.geometry import characteristic_length
-    from assur.kinematics.border import inputs_of
-    from assur.kinematics.search import places
-
     home, length = record.home_values, characteristic_length(record)
     found = record.direct(inputs_of(record, home))
     what = f"{record.name} closed form"

@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from numpy.typing import NDArray
+from rich.console import RenderableType
 
 from assur.cli import exit_codes
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
 from assur.cli.positions import failures
 from assur.cli.quantities import mode_words
+from assur.kinematics.answers.answer import missing
+from assur.kinematics.answers.at_border import pose_at_border, power
 from assur.kinematics.answers.style import style_of
+from assur.kinematics.rates.units import unit_length
+from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of
+from assur.mechanism import Mechanism
+from assur.results.answers.indices import IndicesAnswer
+from assur.results.answers.singularity import ConfigurationAnswer
 from assur.results.plain_text import count, fixed, short
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-    from rich.console import RenderableType
-
-    from assur.mechanism import Mechanism
-    from assur.results.answers.indices import IndicesAnswer
-    from assur.results.answers.singularity import ConfigurationAnswer
 
 
 def outcome(record: Mechanism, pose: NDArray[Any], mode: str) -> Outcome:
@@ -30,11 +32,6 @@ def outcome(record: Mechanism, pose: NDArray[Any], mode: str) -> Outcome:
 
 def verdict_answer(record: Mechanism, pose: NDArray[Any], mode: str) -> ConfigurationAnswer:
     """The verdict at the border; for a pose that the mode does not reach, which quantity is negative."""
-    from assur.kinematics.answers.answer import missing
-    from assur.kinematics.answers.at_border import pose_at_border
-    from assur.kinematics.rates.units import unit_length
-    from assur.results.answers.singularity import ConfigurationAnswer
-
     verdict = record.singularity(pose, mode)
     # of home's mode without a closed form `home_by` says what stops the paths
     of_home = record.closed_form is None and (not mode or mode == record.modes.default_working)
@@ -79,9 +76,6 @@ def _measures(data: ConfigurationAnswer) -> Iterable[RenderableType]:
 
 
 def _factors(record: Mechanism, data: ConfigurationAnswer) -> Iterable[RenderableType]:
-    from assur.kinematics.answers.at_border import power
-    from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of
-
     listed = closed_form_of(record).factor_list
     zero = {name: size is not None and abs(size) <= FACTOR_TOLERANCE for name, size in data.relative.items()}
     rows = [

@@ -3,23 +3,30 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from assur.cli.claims import Ledger
 from assur.cli.demo_position import entry_of
 from assur.cli.options import Plain
 from assur.cli.output import table
 from assur.cli.progress import progress
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.answers.at_border import pose_from_border
 from assur.kinematics.answers.style import style_of
+from assur.kinematics.closed_form.sweep import inverse_sweep
+from assur.kinematics.closure import mobility
+from assur.kinematics.rates.motions import general
+from assur.kinematics.rates.velocity import velocity_map
+from assur.kinematics.status import closed_form_of
+from assur.mechanism import Mechanism
+from assur.model.mechanism import MechanismRecord
+from assur.report.findings import Findings
+from assur.results.outward import outward
 from assur.results.plain_text import count, with_error
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from assur.mechanism import Mechanism
-    from assur.model.mechanism import MechanismRecord
-    from assur.report.findings import Findings
-    from assur.workspace.region import Workspace
+from assur.workspace.region import Workspace
 
 STEP = 1e-5
 """Step of a central difference, as a share of the characteristic length."""
@@ -33,11 +40,6 @@ SIGMAS = 4.0
 
 def velocity(ledger: Ledger, record: Mechanism) -> None:
     """Jp and Jq at the printed pose in the default working mode."""
-    import numpy as np
-
-    from assur.kinematics.answers.at_border import pose_from_border
-    from assur.kinematics.status import closed_form_of
-
     mode = record.modes.default_working
     ledger.section(f"Velocity, Jp v = Jq dq/dt (mode {mode})")
     pose = pose_from_border(record, [digits.value for digits in entry_of(record, "inverse").given])
@@ -67,9 +69,6 @@ def velocity(ledger: Ledger, record: Mechanism) -> None:
 
 def _difference(record: Mechanism, pose: NDArray[Any], mode: str, matrix: NDArray[Any]) -> tuple[float, float]:
     """How far central differences are from dq/dx (n, m), and how far from those of twice the step; relative."""
-    import numpy as np
-
-    from assur.joint_graph.geometry import characteristic_length
 
     def numeric(step: float) -> NDArray[Any]:
         steps = step * np.eye(len(pose))
@@ -84,9 +83,6 @@ def _difference(record: Mechanism, pose: NDArray[Any], mode: str, matrix: NDArra
 
 def singularities(ledger: Ledger, findings: Findings, shared: Plain) -> None:
     """One configuration for every factor that vanishes somewhere."""
-    from assur.kinematics.closure import mobility
-    from assur.kinematics.rates.motions import general
-
     record = findings.record
     ledger.section("Singular configurations, one for each factor")
     with progress("singular configurations", shared):
@@ -122,10 +118,6 @@ MILDER = ("serial", "parallel", "comprehensive")
 
 def _ratio(record: MechanismRecord, example: Any, kind: str) -> float:
     """Smallest over largest singular value of Jp or Jq at an example."""
-    import numpy as np
-
-    from assur.kinematics.rates.velocity import velocity_map
-
     here = velocity_map(record, example.pose, example.mode)
     values = np.linalg.svd(here.jp if kind == "parallel" else here.jq, compute_uv=False)
     return float(values[-1] / values[0])
@@ -161,8 +153,6 @@ def workspace(ledger: Ledger, findings: Findings, shared: Plain) -> None:
 
 def _proved(ledger: Ledger, findings: Findings, shared: Plain) -> None:
     """Proved bounds of the volume and of the sections, with the estimates by solids beside them."""
-    from assur.results.outward import outward
-
     with progress("workspace, proved", shared):
         proof, cube = findings.bounds, findings.cube
     if isinstance(proof, str) or isinstance(cube, str):
@@ -187,8 +177,6 @@ def _proved(ledger: Ledger, findings: Findings, shared: Plain) -> None:
 
 def _sampled(record: MechanismRecord, region: Workspace) -> tuple[float, float]:
     """Volume by random poses, and its standard deviation."""
-    import numpy as np
-
     low, high = np.array(region.box.low), np.array(region.box.high)
     share = float(np.mean(_random(record, region)["exists"]))
     whole = float(np.prod(high - low))
@@ -197,10 +185,6 @@ def _sampled(record: MechanismRecord, region: Workspace) -> tuple[float, float]:
 
 def _changes_sign(record: MechanismRecord, region: Workspace, factor: str) -> bool:
     """Whether a factor has both signs among random poses inside."""
-    import numpy as np
-
-    from assur.kinematics.status import closed_form_of
-
     sample = _random(record, region)
     place = [item.name for item in closed_form_of(record).factor_list].index(factor)
     values = sample["factors"][place][sample["exists"]]
@@ -209,10 +193,6 @@ def _changes_sign(record: MechanismRecord, region: Workspace, factor: str) -> bo
 
 def _random(record: MechanismRecord, region: Workspace) -> dict[str, NDArray[Any]]:
     """The inverse problem at random poses of the box."""
-    import numpy as np
-
-    from assur.kinematics.closed_form.sweep import inverse_sweep
-
     rng = np.random.default_rng(0)
     poses = [rng.uniform(low, high, POINTS) for low, high in zip(region.box.low, region.box.high, strict=True)]
     return inverse_sweep(record, poses, region.mode, ("exists", "factors"))

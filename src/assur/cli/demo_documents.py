@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,10 +11,8 @@ from assur.cli.claims import Ledger
 from assur.cli.options import Plain
 from assur.cli.paths import output_folder
 from assur.cli.progress import progress
-
-if TYPE_CHECKING:
-    from assur.mechanism import Mechanism
-    from assur.report.findings import Findings
+from assur.mechanism import Mechanism
+from assur.report.findings import Findings
 
 ROUNDING = 1e-9
 """Largest difference of two routes to a pose, as a share of the mechanism's size."""

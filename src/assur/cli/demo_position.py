@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import numpy as np
+
+from assur.audit.audit import FORMS, KINDS
+from assur.audit.reference import read_reference
+from assur.audit.rows import Row
 from assur.cli.auditing import rows_table
 from assur.cli.claims import Ledger
 from assur.cli.positions import lines
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.answers.at_border import inputs_from_border, pose_from_border
+from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.certified.certify import certified_direct, certified_inverse
+from assur.kinematics.certified.result import CertifiedSolutions
+from assur.kinematics.closure import CLOSED, closure_error
+from assur.kinematics.status import Status
+from assur.mechanism import Mechanism
 from assur.results.plain_text import count
-
-if TYPE_CHECKING:
-    from assur.audit.rows import Row
-    from assur.kinematics.answers.solution_set import SolutionSet
-    from assur.kinematics.certified.result import CertifiedSolutions
-    from assur.mechanism import Mechanism
 
 BACK = 1e-9
 """Share of the characteristic length within which a number must come back."""
@@ -41,9 +48,6 @@ def topology(ledger: Ledger, record: Mechanism) -> None:
 
 def direct(ledger: Ledger, record: Mechanism) -> None:
     """Every pose at the printed inputs."""
-    from assur.kinematics.answers.at_border import inputs_from_border
-    from assur.kinematics.certified.certify import certified_direct
-
     entry = entry_of(record, "direct")
     ledger.section(f"Direct solutions ({entry.source})")
     given = inputs_from_border(record, [digits.value for digits in entry.given])
@@ -57,10 +61,6 @@ def direct(ledger: Ledger, record: Mechanism) -> None:
 
 def inverse(ledger: Ledger, record: Mechanism) -> None:
     """All inputs at the printed pose."""
-    from assur.kinematics.answers.at_border import pose_from_border
-    from assur.kinematics.certified.certify import certified_inverse
-    from assur.kinematics.status import Status
-
     entry = entry_of(record, "inverse")
     ledger.section(f"Inverse solutions ({entry.source})")
     given = pose_from_border(record, [digits.value for digits in entry.given])
@@ -91,9 +91,6 @@ def _certified(ledger: Ledger, solutions: SolutionSet, proof: CertifiedSolutions
 
 
 def _rows(record: Mechanism, kinds: tuple[str, ...]) -> list[Row]:
-    from assur.audit.audit import FORMS, KINDS
-    from assur.audit.reference import read_reference
-
     reference = read_reference(record, FORMS)
     return [
         row for kind in kinds for entry in reference.entries[kind] for row in KINDS[kind].rows(record, reference, entry)
@@ -102,16 +99,10 @@ def _rows(record: Mechanism, kinds: tuple[str, ...]) -> list[Row]:
 
 def entry_of(record: Mechanism, kind: str) -> Any:
     """The first printed problem of a kind."""
-    from assur.audit.audit import FORMS
-    from assur.audit.reference import read_reference
-
     return read_reference(record, FORMS).entries[kind][0]
 
 
 def _closes(ledger: Ledger, record: Mechanism, solutions: SolutionSet) -> None:
-    from assur.joint_graph.geometry import characteristic_length
-    from assur.kinematics.closure import CLOSED
-
     worst = max(item.residual for item in solutions)
     ledger.claim(
         "every solution closes every loop of the joint graph",
@@ -121,8 +112,6 @@ def _closes(ledger: Ledger, record: Mechanism, solutions: SolutionSet) -> None:
 
 
 def _comes_back(ledger: Ledger, record: Mechanism, text: str, gaps: list[float]) -> None:
-    from assur.joint_graph.geometry import characteristic_length
-
     worst = max(gaps, default=float("inf"))  # no solution that could come back is no claim that holds
     ledger.claim(
         text, worst <= BACK * characteristic_length(record), f"{len(gaps)} times, to {worst:.1e} {record.unit}"
@@ -131,18 +120,11 @@ def _comes_back(ledger: Ledger, record: Mechanism, text: str, gaps: list[float])
 
 def _nearest(rows: Any, inputs: Any) -> float:
     """Distance of the nearest of some rows (K, n); rows of NaN do not exist."""
-    import numpy as np
-
     return float(np.nanmin(np.linalg.norm(rows - inputs, axis=-1), initial=np.inf))
 
 
 def _span(solutions: SolutionSet) -> float:
     """How far the platform gets on the longest curve, 0 where the loops do not close on the way."""
-    import numpy as np
-
-    from assur.joint_graph.geometry import characteristic_length
-    from assur.kinematics.closure import CLOSED, closure_error
-
     reach = [0.0]
     for curve in solutions.curves:
         gap = float(np.max(closure_error(solutions.record, curve.joints())))

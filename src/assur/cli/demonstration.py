@@ -5,19 +5,17 @@ from __future__ import annotations
 import time
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from rich.console import RenderableType
+
+from assur.cli import demo_position
 from assur.cli.called import called
 from assur.cli.claims import Ledger
 from assur.cli.options import Outcome, Plain
 from assur.cli.output import heading
+from assur.mechanism import Mechanism, load
 from assur.results.answers.installation import DemonstrationAnswer
 from assur.results.plain_text import count
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
-    from assur.mechanism import Mechanism
 
 MECHANISM = "zeng2019"
 BEGIN_WITH = "fivebar"
@@ -27,9 +25,6 @@ CLAIM_FAILS = 1
 
 def outcome(folder: Path, shared: Plain) -> Outcome:
     """Run every part; exit code 1 where a claim fails. Where one of solutions does, what stands on them is left out."""
-    from assur.cli import demo_position
-    from assur.mechanism import load
-
     begin = time.monotonic()
     record = load(MECHANISM)
     ledger = Ledger(silent=shared.json)

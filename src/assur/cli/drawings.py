@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+
+from rich.console import RenderableType
 
 from assur.cli.interruption import handing_over
 from assur.cli.options import Outcome, Shared
@@ -12,13 +13,9 @@ from assur.cli.output import heading, table
 from assur.cli.paths import made, planned_folder
 from assur.cli.progress import progress, stages
 from assur.errors import UnknownNameError
+from assur.mechanism import Mechanism
 from assur.results.answers.files import WrittenFigure, WrittenFigures
 from assur.results.plain_text import count
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
-    from assur.mechanism import Mechanism
 
 
 def outcome(record: Mechanism, output: str, only: Sequence[str], formats: Sequence[str], shared: Shared) -> Outcome:

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import cast
+
+from rich.console import RenderableType
 
 from assur.cli.numbers import numbers
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading
 from assur.cli.progress import progress
+from assur.figures.motion import Form
 from assur.kinematics.answers.style import style_of
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
-    from assur.figures.motion import Form
-    from assur.mechanism import Mechanism
-    from assur.results.answers.files import WrittenMotion
+from assur.mechanism import Mechanism
+from assur.results.answers.files import WrittenMotion
 
 
 def outcome(

@@ -3,25 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from rich.console import RenderableType
 
 from assur.cli import exit_codes
+from assur.cli.interruption import handing_over
 from assur.cli.numbers import numbers
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
+from assur.cli.positions import outcome as no_start
 from assur.errors import UsageError
+from assur.joint_graph.geometry import characteristic_length
+from assur.kinematics.answers.at_border import inputs_from_border, pose_from_border
+from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.answers.style import Style, style_of
+from assur.kinematics.border import input_names
+from assur.kinematics.following.course import Turns
+from assur.kinematics.following.following import follow
+from assur.kinematics.following.home_mode import home_mode_at
+from assur.kinematics.following.path import Path, Stop
+from assur.kinematics.turns import periodic
+from assur.mechanism import Mechanism
+from assur.results.answers.path import NoPath, PathAnswer
 from assur.results.plain_text import count, fixed, short
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-    from rich.console import RenderableType
-
-    from assur.kinematics.answers.solution_set import SolutionSet
-    from assur.kinematics.following.course import Turns
-    from assur.kinematics.following.path import Path, Stop
-    from assur.mechanism import Mechanism
-    from assur.results.answers.path import PathAnswer
 
 Along = Literal["pose", "inputs"]
 ROWS = 12
@@ -39,8 +46,6 @@ def outcome(
     use_limits: bool,
 ) -> Outcome:
     """The path from texts `start` (home where there are none) to texts `target`; or why there is no start."""
-    from assur.cli.positions import outcome as no_start
-
     goal = _points(record, along, target)
     if not start:
         if mode is not None:
@@ -66,9 +71,6 @@ def _from_home_mode(
     record: Mechanism, along: Along, place: NDArray[Any], goal: NDArray[Any], *, turns: Turns, use_limits: bool
 ) -> Outcome:
     """The path from where home's mode is at --from; without a closed form that is followed from home."""
-    from assur.kinematics.following.home_mode import home_mode_at
-    from assur.results.answers.path import NoPath
-
     start = home_mode_at(record, place, "poses" if along == "pose" else "inputs")
     if start.joints is None:
         said = f"{record.name}, no path: --from is not reached in home's mode: {start.words}"
@@ -84,10 +86,6 @@ def _from_home_mode(
 def _followed(
     record: Mechanism, joints: NDArray[Any], along: Along, goal: NDArray[Any], *, turns: Turns, use_limits: bool
 ) -> Outcome:
-    from assur.cli.interruption import handing_over
-    from assur.kinematics.following.following import follow
-    from assur.kinematics.following.path import Path
-
     poses, inputs = (goal, None) if along == "pose" else (None, goal)
     with handing_over(Path, lambda path: _outcome(record, path)):
         path = follow(record, joints, poses=poses, inputs=inputs, turns=turns, use_limits=use_limits)
@@ -104,11 +102,6 @@ def _outcome(record: Mechanism, path: Path) -> Outcome:
 
 def _points(record: Mechanism, along: Along, texts: Sequence[str], option: str = "--to") -> NDArray[Any]:
     """Points (k, m) or (k, n) from texts, in lengths and rad."""
-    import numpy as np
-
-    from assur.kinematics.answers.at_border import inputs_from_border, pose_from_border
-    from assur.kinematics.border import input_names
-
     names = record.platform.pose if along == "pose" else input_names(record)
     what = f"{option}, {'pose' if along == 'pose' else 'inputs'} of {record.name}"
     points = max(1, round(len(texts) / len(names)))
@@ -118,10 +111,6 @@ def _points(record: Mechanism, along: Along, texts: Sequence[str], option: str =
 
 def _nearest_home(record: Mechanism, solutions: SolutionSet, default: str) -> int | None:
     """The listed solution of the default mode that is nearest to home; None where there is none."""
-    import numpy as np
-
-    from assur.kinematics.turns import periodic
-
     rows = [
         k
         for k in np.flatnonzero(solutions.exists)
@@ -135,8 +124,6 @@ def _nearest_home(record: Mechanism, solutions: SolutionSet, default: str) -> in
 
 
 def _shown(record: Mechanism, path: Path, data: PathAnswer) -> Iterable[RenderableType]:
-    from assur.joint_graph.geometry import characteristic_length
-
     style = style_of(record)
     stop = path.stopped
     along = "poses" if path.prescribed == "poses" else "inputs"
@@ -185,8 +172,6 @@ def _mode(working: str, assembly: str) -> str:
 
 def _picked(shares: Sequence[float]) -> list[int]:
     """At most `ROWS` indices, evenly spread over the way, both ends among them."""
-    import numpy as np
-
     wanted = np.linspace(shares[0], shares[-1], ROWS)
     nearest = np.argmin(np.abs(np.asarray(shares)[:, None] - wanted), axis=0)
     return sorted({0, *nearest.tolist(), len(shares) - 1})[-ROWS:]

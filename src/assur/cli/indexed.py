@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
+
+from numpy.typing import NDArray
+from rich.console import RenderableType
 
 from assur.cli import exit_codes
 from assur.cli.configuration import of_modes
@@ -14,18 +17,31 @@ from assur.cli.positions import failures
 from assur.cli.progress import progress
 from assur.cli.region_question import Question
 from assur.errors import UsageError
+from assur.kinematics.answers.answer import missing
+from assur.kinematics.answers.at_border import coordinates_at_border, pose_at_border
+from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.answers.style import style_of
+from assur.kinematics.border import input_names
+from assur.kinematics.following.home_mode import HomeMode, home_mode_at
+from assur.kinematics.rates.units import is_mixed
+from assur.kinematics.status import Status
+from assur.mechanism import Mechanism
+from assur.model.pose import LENGTHS
+from assur.performance.indices import INDICES, indices
+from assur.performance.overall import Overall, overall
+from assur.performance.transmission import GOOD
+from assur.results.answers.indices import (
+    GoodTransmission,
+    IndicesAnswer,
+    NearestSingularity,
+    OverallAnswer,
+    OverallIndex,
+)
+from assur.results.json_text import plain
 from assur.results.plain_text import short, with_error
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-    from rich.console import RenderableType
-
-    from assur.kinematics.answers.solution_set import SolutionSet
-    from assur.kinematics.following.home_mode import HomeMode
-    from assur.mechanism import Mechanism
-    from assur.performance.overall import Overall
-    from assur.results.answers.indices import IndicesAnswer, NearestSingularity, OverallAnswer, OverallIndex
+from assur.singularity.distance import distance
+from assur.singularity.verdict import modes_at
+from assur.workspace.region import workspace
 
 Length = float | Literal["isotropic"] | None
 
@@ -48,16 +64,6 @@ def length_asked(text: str | None) -> Length:
 
 def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) -> Outcome:
     """Every index at one pose (m,) in a working mode."""
-    from assur.kinematics.answers.answer import missing
-    from assur.kinematics.answers.at_border import pose_at_border
-    from assur.kinematics.border import input_names
-    from assur.kinematics.following.home_mode import home_mode_at
-    from assur.kinematics.status import Status
-    from assur.performance.indices import INDICES, indices
-    from assur.results.answers.indices import IndicesAnswer
-    from assur.results.json_text import plain
-    from assur.singularity.verdict import modes_at
-
     of_home = record.closed_form is None and (not mode or mode == record.modes.default_working)
     home = home_mode_at(record, pose) if record.closed_form is None else None
     solved = None if of_home else record.inverse(pose, mode)
@@ -100,12 +106,6 @@ def _other(record: Mechanism, solutions: SolutionSet, home: HomeMode) -> str:
 
 def _distance(record: Mechanism, pose: NDArray[Any], mode: str) -> NearestSingularity:
     """The distance from the nearest parallel singularity, where there is a closed form and a length in the pose."""
-    from assur.kinematics.answers.at_border import pose_at_border
-    from assur.model.pose import LENGTHS
-    from assur.results.answers.indices import NearestSingularity
-    from assur.results.json_text import plain
-    from assur.singularity.distance import distance
-
     if record.closed_form is None or not set(record.platform.pose) & set(LENGTHS):
         return NearestSingularity(None, None, None, None)
     found = distance(record, pose, mode)
@@ -116,12 +116,6 @@ def _distance(record: Mechanism, pose: NDArray[Any], mode: str) -> NearestSingul
 
 def over_workspace(record: Mechanism, asked: Question, points: str, length: Length, shared: Shared) -> Outcome:
     """Means and extremes of every index over the workspace of a working mode."""
-    from assur.kinematics.answers.at_border import coordinates_at_border
-    from assur.performance.overall import overall
-    from assur.performance.transmission import GOOD
-    from assur.results.answers.indices import GoodTransmission, OverallAnswer
-    from assur.workspace.region import workspace
-
     count = whole_number(points, "--points")
     with progress("workspace", shared) as step:
         region = workspace(
@@ -152,17 +146,12 @@ def over_workspace(record: Mechanism, asked: Question, points: str, length: Leng
 
 
 def _overall_index(record: Mechanism, overall: Overall) -> OverallIndex:
-    from assur.kinematics.answers.at_border import pose_at_border
-    from assur.results.answers.indices import OverallIndex
-
     places = {"least_at": overall.least_at, "most_at": overall.most_at}
     at_border = {name: pose_at_border(record, pose).tolist() for name, pose in places.items()}
     return OverallIndex(**{**vars(overall), **at_border})
 
 
 def _pose_shown(record: Mechanism, data: IndicesAnswer, units: dict[str, str]) -> Iterable[RenderableType]:
-    from assur.performance.indices import INDICES
-
     yield heading(f"{data.mechanism}, indices: {data.status}")
     of_mode = f", working mode {data.mode}" if data.mode else ""
     yield f"at {style_of(record).pose(data.coordinates, data.pose)}{of_mode}"
@@ -235,8 +224,6 @@ def _overall_shown(record: Mechanism, data: OverallAnswer) -> Iterable[Renderabl
 
 def length_words(record: Mechanism, length: float | None) -> str:
     """What lengths are divided by, and why nothing where that is so."""
-    from assur.kinematics.rates.units import is_mixed
-
     if length is not None:
         return f"lengths are divided by the characteristic length {length:.6g} {record.unit}"
     if is_mixed(record):

@@ -5,7 +5,10 @@ from __future__ import annotations
 import io
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
+
+import numpy as np
+from rich.console import RenderableType
 
 from assur.cli import region_question
 from assur.cli.indexed import Length, length_words
@@ -15,16 +18,17 @@ from assur.cli.output import heading, table
 from assur.cli.paths import output_file
 from assur.cli.progress import progress
 from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.answers.at_border import angle_at_border
 from assur.kinematics.answers.style import style_of
+from assur.mechanism import Mechanism
+from assur.model.pose import LENGTHS
+from assur.results.answers.indices import MapsAnswer
+from assur.results.files import write_whole
+from assur.results.json_text import json_text
 from assur.results.plain_text import short
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
-    from assur.mechanism import Mechanism
-    from assur.results.answers.indices import MapsAnswer
-    from assur.workspace.index_maps import IndexMaps
-    from assur.workspace.region import Workspace
+from assur.workspace.index_maps import IndexMaps, index_maps
+from assur.workspace.region import Workspace, workspace
+from assur.workspace.slices import MOST, coordinates, slice_at
 
 PICTURES = (".png", ".pdf", ".svg")
 ENDINGS = (".npz", ".csv", ".json", *PICTURES)
@@ -41,9 +45,6 @@ def over_plane(
     shared: Shared,
 ) -> Outcome:
     """Every index over the coordinates of `plane`; `asked` is the mode, boxes, strokes and resolution."""
-    from assur.workspace.index_maps import index_maps
-    from assur.workspace.region import workspace
-
     names = _names(record, plane)
     mode, box, stroke, resolution = asked
     question = region_question.question(
@@ -74,8 +75,6 @@ def over_plane(
 
 
 def _names(record: Mechanism, plane: str) -> tuple[str, ...]:
-    from assur.workspace.slices import coordinates
-
     names = tuple(name.strip() for name in plane.split(","))
     for name in names:
         if name not in coordinates(record):
@@ -87,10 +86,6 @@ def _names(record: Mechanism, plane: str) -> tuple[str, ...]:
 
 def _rest(record: Mechanism, names: Sequence[str], at: Sequence[str]) -> list[str]:
     """The coordinates of which nothing was said, held where they are at home (angles of many) or in mid-box."""
-    from assur.kinematics.answers.at_border import angle_at_border
-    from assur.model.pose import LENGTHS
-    from assur.workspace.slices import MOST, coordinates, slice_at
-
     given = assignments(at, "--at", f"{record.platform.pose[-1]}=0")
     twice = [name for name in names if name in given]
     if twice:
@@ -111,9 +106,6 @@ def _rest(record: Mechanism, names: Sequence[str], at: Sequence[str]) -> list[st
 def _write(
     path: Path, record: Mechanism, region: Workspace, maps: IndexMaps, shown: IndexMaps, answer: MapsAnswer
 ) -> None:
-    from assur.results.files import write_whole
-    from assur.results.json_text import json_text
-
     ending = path.suffix.lower()
     if ending in PICTURES:
         from assur.figures.context import Context
@@ -135,8 +127,6 @@ def _write(
 
 
 def _shown(record: Mechanism, maps: IndexMaps, written: Path | None) -> Iterable[RenderableType]:
-    import numpy as np
-
     style, names = style_of(record), maps.coordinates
     of_mode = f" of working mode {maps.mode}" if maps.mode else ""
     yield heading(f"{maps.mechanism}, index maps{of_mode}")

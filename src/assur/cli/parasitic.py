@@ -3,27 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING
+
+from rich.console import RenderableType
 
 from assur.cli.output import heading, table
+from assur.kinematics.answers.at_border import coordinate_unit, coordinates_at_border
+from assur.mechanism import Mechanism
 from assur.model.pose import is_angle
+from assur.results.answers.position import InputsSolution, PoseSolution
+from assur.results.answers.region import LargestCoordinate
 from assur.results.plain_text import short
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
-    from assur.mechanism import Mechanism
-    from assur.results.answers.position import InputsSolution, PoseSolution
-    from assur.results.answers.region import LargestCoordinate
-    from assur.workspace.region import Workspace
+from assur.workspace.parasitic import largest_parasitic
+from assur.workspace.region import Workspace
 
 
 def largest(record: Mechanism, region: Workspace) -> dict[str, LargestCoordinate]:
     """Coordinate -> its largest value in size over a workspace and where; angles in the mechanism's angle unit."""
-    from assur.kinematics.answers.at_border import coordinate_unit, coordinates_at_border
-    from assur.results.answers.region import LargestCoordinate
-    from assur.workspace.parasitic import largest_parasitic
-
     return {
         name: LargestCoordinate(item.value / coordinate_unit(record, name), coordinates_at_border(record, item.at))
         for name, item in largest_parasitic(record, region).items()

@@ -4,31 +4,29 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
+
+from rich.console import RenderableType
 
 from assur.cli import exit_codes, parasitic
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
+from assur.kinematics.answers.answer import answer
+from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.answers.style import Style, given_words, style_of, texts_of, titles_of
+from assur.mechanism import Mechanism
+from assur.results.answers.certified import BoundedSolution, CertifiedDirect, CertifiedInverse
+from assur.results.answers.position import (
+    DirectAnswer,
+    InputsSolution,
+    InverseAnswer,
+    ListedSolution,
+    NegativeQuantity,
+    PoseSolution,
+)
 from assur.results.plain_text import count, short, tiny
 
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
-    from assur.kinematics.answers.solution_set import SolutionSet
-    from assur.mechanism import Mechanism
-    from assur.results.answers.certified import BoundedSolution, CertifiedDirect, CertifiedInverse
-    from assur.results.answers.position import (
-        DirectAnswer,
-        InputsSolution,
-        InverseAnswer,
-        ListedSolution,
-        NegativeQuantity,
-        PoseSolution,
-    )
-
-    Positions = DirectAnswer | InverseAnswer
-    CertifiedPositions = CertifiedDirect | CertifiedInverse
+Positions = DirectAnswer | InverseAnswer
+CertifiedPositions = CertifiedDirect | CertifiedInverse
 
 
 def outcome(record: Mechanism, solutions: SolutionSet) -> Outcome:
@@ -36,16 +34,12 @@ def outcome(record: Mechanism, solutions: SolutionSet) -> Outcome:
 
     Exit code 4 where it is proved that no solution exists, 5 where that is undecided, 3 where one is not closed.
     """
-    from assur.kinematics.answers.answer import answer
-
     data = answer(solutions)
     return Outcome(data, lambda: _shown(record, data, solutions.candidates), exit_codes.of_status(data.status))
 
 
 def lines(record: Mechanism, solutions: SolutionSet) -> Iterable[RenderableType]:
     """An answer as a person reads it."""
-    from assur.kinematics.answers.answer import answer
-
     return _shown(record, answer(solutions), solutions.candidates)
 
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from assur.cli.numbers import assignments, interval, number, parts, whole_number
 from assur.errors import UnknownNameError, UsageError
-
-if TYPE_CHECKING:
-    from assur.mechanism import Mechanism
+from assur.kinematics.answers.at_border import coordinate_unit, input_unit
+from assur.mechanism import Mechanism
+from assur.workspace.slices import coordinates, slice_at
 
 Interval = tuple[float, float]
 
@@ -39,9 +38,6 @@ def question(
     at: Sequence[str] = (),
 ) -> Question:
     """What was asked for, with every word checked."""
-    from assur.kinematics.answers.at_border import coordinate_unit
-    from assur.workspace.slices import slice_at
-
     held = _held(record, at)
     last = slice_at(record, held).free[-1]
     cuts = tuple(number(text, "--section") * coordinate_unit(record, last) for text in section)
@@ -60,9 +56,6 @@ def question(
 
 
 def _box(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
-    from assur.kinematics.answers.at_border import coordinate_unit
-    from assur.workspace.slices import coordinates
-
     example = f"{record.platform.pose[0]}=-110:90"
     found = {}
     for name, text in assignments(texts, "--box", example).items():
@@ -74,8 +67,6 @@ def _box(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
 
 def _held(record: Mechanism, texts: Sequence[str]) -> dict[str, float] | None:
     """What is held, None where nothing was said."""
-    from assur.kinematics.answers.at_border import coordinate_unit
-
     example = f"{record.platform.pose[-1]}=0"
     found = {
         name: number(text, f"--at {name}") * coordinate_unit(record, name)
@@ -86,8 +77,6 @@ def _held(record: Mechanism, texts: Sequence[str]) -> dict[str, float] | None:
 
 def _strokes(record: Mechanism, texts: Sequence[str]) -> dict[str, Interval]:
     """Strokes by input; one without a name is for every input that has none of its own."""
-    from assur.kinematics.answers.at_border import input_unit
-
     units = {item.name: input_unit(record, item) for item in record.inputs}
     example = f"{record.inputs[0].name}=-300:300"
     given = parts(texts, "--stroke")

@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
+
+from rich.console import RenderableType
 
 from assur.cli import parasitic
 from assur.cli.options import Outcome, Shared
@@ -14,14 +16,22 @@ from assur.cli.paths import output_file
 from assur.cli.progress import progress
 from assur.cli.quantities import is_length, mode_words
 from assur.cli.region_question import Question
+from assur.kinematics.answers.at_border import (
+    box_at_border,
+    coordinate_unit,
+    coordinates_at_border,
+    input_unit,
+    power,
+)
+from assur.kinematics.limits import NO_LIMITS, joint_limits, limits_stated
+from assur.mechanism import Mechanism
+from assur.results.answers.answer import entries
+from assur.results.answers.region import SectionArea, WorkspaceAnswer
+from assur.results.files import write_whole
+from assur.results.json_text import json_text
 from assur.results.plain_text import short, with_error
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
-    from assur.mechanism import Mechanism
-    from assur.results.answers.region import WorkspaceAnswer
-    from assur.workspace.region import Workspace
+from assur.workspace.aspects.nowhere import nothing_reached, nowhere_zero
+from assur.workspace.region import Workspace, default_resolution, workspace
 
 ENDINGS = (".json", ".obj")
 SAME = 1e-9
@@ -35,9 +45,6 @@ def target(text: str) -> Path:
 
 def outcome(record: Mechanism, asked: Question, written: Path | None, shared: Shared) -> Outcome:
     """The workspace as data and for a person; written to a file where one is named."""
-    from assur.results.files import write_whole
-    from assur.workspace.region import workspace
-
     with progress("workspace", shared) as step:
         found = workspace(
             record,
@@ -58,16 +65,6 @@ def outcome(record: Mechanism, asked: Question, written: Path | None, shared: Sh
 
 def _answer(record: Mechanism, asked: Question, region: Workspace) -> WorkspaceAnswer:
     """The answer, with angles in the mechanism's angle unit."""
-    from assur.kinematics.answers.at_border import (
-        box_at_border,
-        coordinate_unit,
-        coordinates_at_border,
-        input_unit,
-    )
-    from assur.kinematics.limits import joint_limits, limits_stated
-    from assur.results.answers.region import SectionArea, WorkspaceAnswer
-    from assur.workspace.region import default_resolution
-
     names, last = region.box.names, region.box.names[-1]
     limits = {item.name: item.stroke for item in record.inputs if item.stroke is not None} | asked.strokes
     units = {item.name: input_unit(record, item) for item in record.inputs}
@@ -98,8 +95,6 @@ def _answer(record: Mechanism, asked: Question, region: Workspace) -> WorkspaceA
 
 def _nowhere(record: Mechanism, asked: Question, region: Workspace) -> tuple[str, ...]:
     """Of the parallel factors without a locus inside those that are proved to have none."""
-    from assur.workspace.aspects.nowhere import nowhere_zero
-
     unseen = [item.factor for item in region.loci if not item.area and not item.everywhere]
     if record.closed_form is None or not unseen or region.volume == 0:
         return ()
@@ -108,8 +103,6 @@ def _nowhere(record: Mechanism, asked: Question, region: Workspace) -> tuple[str
 
 def _empty(record: Mechanism, asked: Question, region: Workspace) -> Literal["proved", "sampled"] | None:
     """How it is known that nothing is reached, where nothing is."""
-    from assur.workspace.aspects.nowhere import nothing_reached
-
     if region.volume > 0:
         return None
     proved = record.closed_form is not None and nothing_reached(
@@ -119,9 +112,6 @@ def _empty(record: Mechanism, asked: Question, region: Workspace) -> Literal["pr
 
 
 def _content(path: Path, region: Workspace, data: WorkspaceAnswer) -> str:
-    from assur.results.answers.answer import entries
-    from assur.results.json_text import json_text
-
     if path.suffix.lower() == ".obj":
         points = [f"v {' '.join(f'{value:.9g}' for value in vertex)}" for vertex in region.vertices.tolist()]
         faces = [f"f {' '.join(str(index + 1) for index in face)}" for face in region.faces.tolist()]
@@ -131,8 +121,6 @@ def _content(path: Path, region: Workspace, data: WorkspaceAnswer) -> str:
 
 
 def _shown(record: Mechanism, data: WorkspaceAnswer, written: Path | None) -> Iterable[RenderableType]:
-    from assur.kinematics.limits import NO_LIMITS
-
     dimension = len(data.coordinates)
     yield heading(f"{data.mechanism}, workspace of {mode_words(record, data.mode)}")
     yield f"how: {data.how}"
@@ -167,8 +155,6 @@ def _shown(record: Mechanism, data: WorkspaceAnswer, written: Path | None) -> It
 
 def _whole(record: Mechanism, data: WorkspaceAnswer) -> bool:
     """Whether the region is the box, as far as its grid can tell."""
-    from assur.kinematics.answers.at_border import coordinate_unit
-
     units = [coordinate_unit(record, name) for name in data.coordinates]
     box = math.prod((high - low) * unit for (low, high), unit in zip(data.box, units, strict=True))
     return bool(data.volume_error <= SAME * box and abs(data.volume - box) <= SAME * box)
@@ -204,8 +190,6 @@ def area_title(record: Mechanism, names: Sequence[str]) -> str:
     >>> area_title(record, ("x", "y", "z")), area_title(record, ("z", "theta", "psi"))
     ('area [mm^2]', 'area [1 mm as 1 rad]')
     """
-    from assur.kinematics.answers.at_border import power
-
     lengths, dimension = [is_length(name) for name in names], len(names) - 1
     if any(lengths) and not all(lengths):
         return f"area [1 {record.unit} as 1 rad]"
@@ -216,8 +200,6 @@ def area_title(record: Mechanism, names: Sequence[str]) -> str:
 def _sections(record: Mechanism, data: WorkspaceAnswer) -> Iterable[RenderableType]:
     if not data.sections:
         return
-    from assur.kinematics.answers.at_border import power
-
     *others, last = data.coordinates
     angles = sum(not is_length(name) for name in others)
     powers = ((record.unit, len(others) - angles), ("rad", angles))

@@ -3,25 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+
+from rich.console import RenderableType
 
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.progress import progress
 from assur.cli.quantities import mode_words
 from assur.cli.regions import area_title
+from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
 from assur.kinematics.answers.style import style_of
+from assur.kinematics.status import closed_form_of, scale
+from assur.mechanism import Mechanism
+from assur.results.answers.singularity import ListedExample, ListedFactor, SingularityAnswer, SingularLocus
 from assur.results.plain_text import short
+from assur.singularity.examples import SingularExample, singular_examples
+from assur.workspace.region import Workspace, workspace
+from assur.workspace.sign_changes import ways_across
 
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
-    from assur.mechanism import Mechanism
-    from assur.results.answers.singularity import ListedExample, ListedFactor, SingularityAnswer, SingularLocus
-    from assur.singularity.examples import SingularExample
-    from assur.workspace.region import Workspace
-
-    Groups = tuple[tuple[str, ...], ...]
+Groups = tuple[tuple[str, ...], ...]
 
 RESOLUTION = 48
 """Cells along each coordinate of the box in which loci are looked for."""
@@ -29,11 +29,6 @@ RESOLUTION = 48
 
 def outcome(record: Mechanism, mode: str, shared: Shared) -> Outcome:
     """The outcome for a whole mechanism, its loci being those of one working mode."""
-    from assur.results.answers.singularity import SingularityAnswer
-    from assur.singularity.examples import singular_examples
-    from assur.workspace.region import workspace
-    from assur.workspace.sign_changes import ways_across
-
     with progress("loci in the workspace", shared) as step:
         region = workspace(record, mode, resolution=RESOLUTION if record.closed_form else None, progress=step)
     with progress("example configurations", shared) as step:
@@ -55,10 +50,6 @@ def outcome(record: Mechanism, mode: str, shared: Shared) -> Outcome:
 
 
 def _factors(record: Mechanism) -> tuple[ListedFactor, ...]:
-    from assur.kinematics.answers.at_border import power
-    from assur.kinematics.status import closed_form_of, scale
-    from assur.results.answers.singularity import ListedFactor
-
     if record.closed_form is None:
         return ()
     return tuple(
@@ -69,8 +60,6 @@ def _factors(record: Mechanism) -> tuple[ListedFactor, ...]:
 
 def _groups(record: Mechanism) -> tuple[Groups, Groups]:
     """Names of factors that are zero together where the joint graph loses rank, and where the platform moves alone."""
-    from assur.kinematics.status import closed_form_of
-
     if record.closed_form is None:
         return (), ()
     form = closed_form_of(record)
@@ -78,16 +67,11 @@ def _groups(record: Mechanism) -> tuple[Groups, Groups]:
 
 
 def _loci(region: Workspace) -> tuple[SingularLocus, ...]:
-    from assur.results.answers.singularity import SingularLocus
-
     surfaces = region.parallel_singular.factors.items()
     return tuple(SingularLocus(name, item.area, item.everywhere, item.meaning) for name, item in surfaces)
 
 
 def _example(record: Mechanism, example: SingularExample) -> ListedExample:
-    from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border
-    from assur.results.answers.singularity import ListedExample
-
     return ListedExample(
         example.factor.name,
         example.status.name,

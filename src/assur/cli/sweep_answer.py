@@ -7,25 +7,26 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+
+from rich.console import RenderableType
 
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import InterruptedByUserError, Verbatim, heading, table
 from assur.cli.paths import planned_folder
 from assur.cli.progress import Step, progress
 from assur.errors import OutputError, UsageError
+from assur.kinematics.closed_form.about import described, told
+from assur.kinematics.closed_form.grids import Grid
+from assur.kinematics.closed_form.home_sweep import HOME
+from assur.kinematics.closed_form.stored import stored_sweep
+from assur.kinematics.modes import Problem
+from assur.mechanism import Mechanism
+from assur.results.answers.sweep import SweepAnswer, SweptCoordinate, SweptCounts, SweptFile, SweptShard
 from assur.results.plain_text import size_text
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
-    from assur.kinematics.closed_form.grids import Grid
-    from assur.kinematics.modes import Problem
-    from assur.mechanism import Mechanism
-    from assur.results.answers.sweep import SweepAnswer
-    from assur.results.store.inspection import Fault
-    from assur.results.store.layout import Shard
-    from assur.results.store.store import Store
+from assur.results.store.inspection import Fault
+from assur.results.store.layout import Shard
+from assur.results.store.merged import parts_in
+from assur.results.store.store import ABOUT, Store
 
 REASONS = 5
 """So many reasons are printed; the note beside the files has all."""
@@ -62,8 +63,6 @@ def outcome(
     shared: Shared,
 ) -> Outcome:
     """The sweep, run into a folder, as data and for a person; `name` is what the mechanism was called by."""
-    from assur.kinematics.closed_form.stored import stored_sweep
-
     if request.threads < 0:
         raise UsageError(f"--threads: {request.threads} is no number of threads", hint="leave it out")
     sweep = stored_sweep(record, problem, grid, mode or "", keep)
@@ -84,10 +83,6 @@ def outcome(
 
 def merged(folders: Sequence[str], request: Request, shared: Shared) -> Outcome:
     """Shards joined in a folder, as data and for a person."""
-    from assur.kinematics.closed_form.about import told
-    from assur.results.store.merged import parts_in
-    from assur.results.store.store import Store
-
     folder = planned_folder(request.output)
     given = [Path(text) for text in folders]
     if folder.resolve() in [one.resolve() for one in given]:
@@ -106,9 +101,6 @@ def merged(folders: Sequence[str], request: Request, shared: Shared) -> Outcome:
 
 def _run(store: Store, fill: Callable[[Store, Step], None], how: str, request: Request, shared: Shared) -> Outcome:
     """Fill a store and say so."""
-    from assur.kinematics.closed_form.about import described
-    from assur.results.answers.sweep import SweepAnswer, SweptCoordinate, SweptCounts, SweptFile, SweptShard
-
     with _told(store):
         with progress("check", shared) as step:
             faults = store.open(repair=request.repair, progress=step)
@@ -170,16 +162,12 @@ def _mode_of(about: SweepAnswer) -> str:
         return f"{len(about.modes)} modes"
     if about.problem == "direct":
         return f"assembly mode {mode}"
-    from assur.kinematics.closed_form.home_sweep import HOME
-
     if mode == HOME:
         return "the working mode of home"
     return f"working mode {mode}" if mode else "its only working mode"
 
 
 def _shown(data: SweepAnswer) -> Iterable[RenderableType]:
-    from assur.results.store.store import ABOUT
-
     inverse, folder = data.problem == "inverse", Path(data.folder)
     yield heading(f"{data.mechanism}, {data.problem} problem, {_mode_of(data)}: {data.problems} problems")
     yield f"how: {data.how}"

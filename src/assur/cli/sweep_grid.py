@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from assur.cli.numbers import assignments, interval, number, whole_number
 from assur.errors import UnknownNameError, UsageError
-
-if TYPE_CHECKING:
-    from assur.kinematics.closed_form.grids import Grid
-    from assur.kinematics.modes import Problem
-    from assur.model.mechanism import MechanismRecord
+from assur.kinematics.border import inputs_of
+from assur.kinematics.closed_form.about import coordinates
+from assur.kinematics.closed_form.grids import Grid
+from assur.kinematics.home import home_values
+from assur.kinematics.modes import Problem
+from assur.kinematics.pose import pose_of
+from assur.kinematics.status import NO_CLOSED_FORM
+from assur.model.mechanism import MechanismRecord
+from assur.model.pose import has_quaternion
 
 Place = tuple[float, float, int]
 """(low, high, count), in the mechanism's units."""
@@ -25,11 +28,6 @@ def asked(
 
     Before them come the dimensions that vary; where nothing else is said, the mechanism is held at home.
     """
-    from assur.kinematics.closed_form.about import coordinates
-    from assur.kinematics.closed_form.grids import Grid
-    from assur.kinematics.status import NO_CLOSED_FORM
-    from assur.model.pose import has_quaternion
-
     if problem == "direct" and record.closed_form is None:
         raise UsageError(f"{record.name} has no closed form to sweep its inputs with", hint=NO_CLOSED_FORM)
     if problem == "inverse" and has_quaternion(record.platform.pose):
@@ -97,11 +95,6 @@ def _range(text: str, what: str, example: str, held: str, limits: tuple[float, f
 
 def _at_home(record: MechanismRecord, problem: Problem) -> dict[str, Place]:
     """Pose or inputs of home, in the mechanism's units."""
-    from assur.kinematics.border import inputs_of
-    from assur.kinematics.closed_form.about import coordinates
-    from assur.kinematics.home import home_values
-    from assur.kinematics.pose import pose_of
-
     values = (pose_of if problem == "inverse" else inputs_of)(record, home_values(record))
     kinds = coordinates(record, problem)
     sizes = (record.angle_unit if kind == "angle" else 1.0 for kind in kinds.values())

@@ -6,16 +6,15 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+
+from rich.console import RenderableType
+from rich.padding import Padding
 
 from assur.cli.ascii_text import ascii_rule, ascii_text
 from assur.cli.options import Outcome
 from assur.cli.output import Verbatim, heading, table
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
-    from assur.topology.facts import Known, Topology
+from assur.topology.answers import answers, replacements_by_kind
+from assur.topology.facts import Known, Topology
 
 Said = Callable[[str], str]
 """A text as it is printed: as it is, or in plain letters."""
@@ -45,8 +44,6 @@ def shortened(text: str) -> str:
 
 def outcome(topology: Topology, graph: Path | None, *, latex: bool, ascii_only: bool) -> Outcome:
     """The answer; the graph is written where a path is given."""
-    from assur.topology.answers import answers
-
     data = answers(topology)
     wrong = 1 if any(note.startswith("declared ") for note in topology.notes) else 0  # a claim of the file fails
     if graph is not None:
@@ -118,8 +115,6 @@ def _sum(topology: Topology) -> str:
 
 def _derivation(topology: Topology, say: Said) -> Iterator[RenderableType]:
     """Lines as far in as they are, also where they are broken."""
-    from rich.padding import Padding
-
     for derivation in topology.derivations:
         for line in derivation.text("unicode").splitlines():
             text = line.lstrip()
@@ -232,8 +227,6 @@ def _joints(topology: Topology, say: Said) -> Iterator[RenderableType]:
 
 
 def _relaxation(topology: Topology, say: Said) -> Iterator[RenderableType]:
-    from assur.topology.answers import replacements_by_kind
-
     if topology.is_shaky:
         yield say(f"No answer: {topology.plan.shaky}.")
         return
