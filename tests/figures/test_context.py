@@ -73,7 +73,7 @@ def test_aspects_are_cut_so_coarsely_that_they_take_seconds():
 def test_the_file_configuration_is_reached(every):
     inputs = every.companion.inputs
     if inputs:
-        drawn = inputs_at_border(every.record, inputs_of(every.record, every.home))
+        drawn = inputs_at_border(every.record, inputs_of(every.record, every.drawn_joints))
         angles = [item.coordinate.kind == "angle" for item in every.record.inputs]
         turn = np.where(angles, 360.0 if every.record.angle == "deg" else 2 * np.pi, 1e9)
         np.testing.assert_allclose((drawn - inputs + turn / 2) % turn, turn / 2, atol=1e-8)

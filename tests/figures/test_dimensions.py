@@ -30,7 +30,7 @@ def test_the_zero_direction_stands_still_when_only_that_joint_moves(every):
         coordinate = every.record.angles.get(arc.name) or next(
             item.coordinate for item in every.record.inputs if item.name == arc.name
         )
-        values = every.home.copy()
+        values = every.drawn_joints.copy()
         values[coordinate.index] += 0.3
         moved = skeleton_at(every.record, every.companion, values)
         other = next(item for item in arcs(moved, 10.0) if item.name == arc.name)

@@ -7,7 +7,7 @@ from matplotlib.colors import to_rgba
 import assur
 from assur import figures
 from assur.figures import indices as module
-from assur.figures.indices import MANIPULABILITY, TRANSMISSION, field, whole
+from assur.figures.indices import MANIPULABILITY, TRANSMISSION, field
 from assur.figures.plane_map import continued
 from assur.figures.singular import symbol_of
 from assur.figures.style import ORANGE, styled
@@ -100,7 +100,7 @@ def test_the_thick_line_is_where_transmission_becomes_good(context):
 
 def test_captions_state_the_length_and_the_share(context):
     transmission, jacobian = TRANSMISSION.caption(context), MANIPULABILITY.caption(context)
-    found = whole(context)
+    found = context.overall_indices
     share = f"in {100 * found.good.share:.1f} ± " if found.good.share else "nowhere among the poses sampled;"
     assert f"at least 0.7 {share}" in transmission
     assert "0.0 ± 0.0" not in transmission

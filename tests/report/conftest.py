@@ -21,7 +21,7 @@ VOID = {"meta", "input", "img", "br", "mspace", "path"}
 @pytest.fixture(scope="session")
 def findings():
     """Of the paper's mechanism, without figures."""
-    return Findings(assur.load("zeng2019"), RESOLUTION, illustrated=False)
+    return Findings(assur.load("zeng2019"), resolution=RESOLUTION, illustrated=False)
 
 
 @pytest.fixture(scope="session")

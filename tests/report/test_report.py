@@ -207,7 +207,7 @@ def test_no_date_and_no_place_of_this_machine(html, findings):
 def test_every_figure_is_there(findings, read, monkeypatch):
     """Drawing is tested with the figures; here each is a small empty one."""
     monkeypatch.setattr(figures, "draw", lambda *_: Figure(figsize=(1, 1)))
-    drawn = Findings(findings.record, findings.resolution, illustrated=True)
+    drawn = Findings(findings.record, resolution=findings.resolution, illustrated=True)
     for name in ("audit", "workspace", "examples", "proved", "bounds", "cube"):  # as computed before
         drawn.__dict__[name] = getattr(findings, name)
     page = read(page_html(report_page(drawn)))

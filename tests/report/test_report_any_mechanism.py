@@ -30,7 +30,7 @@ def test_without_closed_form_and_reference_data(bare, read):
 
 
 def test_without_closed_form_it_says_what_is_not_proved(fivebar_graph, without_right):
-    found = Findings(fivebar_graph, 12, illustrated=False)
+    found = Findings(fivebar_graph, resolution=12, illustrated=False)
     page = report_page(found)
     assert without_right(page) == []
     html = page_html(page)
@@ -44,13 +44,13 @@ def test_without_closed_form_it_says_what_is_not_proved(fivebar_graph, without_r
 
 
 def test_a_quaternion_has_no_cube_and_the_report_says_so():
-    found = Findings(assur.load("gough_stewart"), 8, illustrated=False)
+    found = Findings(assur.load("gough_stewart"), resolution=8, illustrated=False)
     assert found.cube == "the orientation of its pose is a quaternion, about which no cube is looked for"
 
 
 @pytest.mark.parametrize("name", ["planar_3rrr", "delta_4s"])
 def test_an_estimate_by_solids_agrees_with_the_proved_bounds(name):
-    found = Findings(assur.load(name), 24, illustrated=False)
+    found = Findings(assur.load(name), resolution=24, illustrated=False)
     section = reach(found)
     (_, solids) = section.results[:2]
     assert "proved bounds" in solids.note

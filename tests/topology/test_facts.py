@@ -4,9 +4,10 @@ import dataclasses
 
 import pytest
 
+from assur.results.answers.topology import RedundantConstraints
 from assur.topology.counting.coupling import Loop
 from assur.topology.counting.solution_plan import SolutionPlan
-from assur.topology.facts import Known, LimbFacts, RedundantConstraints, Topology
+from assur.topology.facts import Known, LimbFacts, Topology
 from assur.topology.poc import PocSet
 from assur.topology.screws.linkage import Linkage
 

@@ -15,7 +15,7 @@ from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.paths import output_file
 from assur.cli.progress import progress
-from assur.cli.quantities import is_length
+from assur.cli.quantities import interval_words, unit_of, value_words
 from assur.errors import UsageError
 from assur.kinematics.answers.at_border import box_at_border, coordinate_unit, coordinates_at_border
 from assur.kinematics.limits import limits_note
@@ -26,14 +26,14 @@ from assur.results.answers.region import (
     AspectsAnswer,
     AspectsOfMode,
     AspectsOfModes,
-    CheckedPath,
     ListedAspect,
     ListedPath,
+    PathCheck,
     PlacedPose,
 )
 from assur.results.outward import outward as bounds
 from assur.workspace.aspects.aspects import Aspects, aspects
-from assur.workspace.aspects.checking import PathCheck, check_path
+from assur.workspace.aspects.checking import check_path
 from assur.workspace.aspects.path import AspectPath
 from assur.workspace.aspects.places import Place
 
@@ -188,7 +188,7 @@ def _listed_path(record: Mechanism, path: AspectPath, check: PathCheck | None) -
         tuple([value / unit for value, unit in zip(row, units, strict=True)] for row in path.points.tolist()),
         path.names,
         tuple(box_at_border(record, path.names, list(zip(low, high, strict=True))) for low, high in ends),
-        None if check is None else CheckedPath(**vars(check), passed=check.passed),
+        check,
     )
 
 
@@ -244,14 +244,9 @@ def _modes(record: Mechanism, modes: Sequence[Aspects]) -> Iterable[RenderableTy
 def _mode(record: Mechanism, aspects: Aspects, data: AspectsAnswer) -> Iterable[RenderableType]:
     of_mode = f" of working mode {aspects.mode}" if aspects.mode else ""
     yield heading(f"{record.name}, aspects{of_mode}: {len(aspects)}")
-    parts = [
-        f"{name} {low:g} .. {high:g} {_unit(record, name)}"
-        for name, (low, high) in zip(data.coordinates, data.box, strict=True)
-    ]
-    yield f"box: {', '.join(parts)}"
+    yield f"box: {interval_words(record, zip(data.coordinates, data.box, strict=True))}"
     if data.held:
-        held = (f"{name} = {value:g} {_unit(record, name)}" for name, value in data.held.items())
-        yield f"held: {', '.join(held)}"
+        yield f"held: {value_words(record, data.held)}"
     if limits := limits_note(record, aspects.strokes):
         yield f"limits: {limits}"
     if not len(aspects):
@@ -289,14 +284,10 @@ def _way(record: Mechanism, path: ListedPath) -> Iterable[RenderableType]:
     points = path.points
     step = max(1, -(-(len(points) - 1) // (VERTICES - 1)))
     shown = [*range(0, len(points) - 1, step), len(points) - 1]
-    titles = [f"{name} [{_unit(record, name)}]" for name in path.coordinates]
+    titles = [f"{name} [{unit_of(record, name)}]" for name in path.coordinates]
     yield table(("vertex", *titles), [(str(k + 1), *(f"{value:.7g}" for value in points[k])) for k in shown])
     yield f"certificate: each of the {len(path.boxes)} pieces lies in a box that is proved"
     if (check := path.check) is not None:
         moved = {True: "; followed on the joint graph", False: f"; not followed: {check.stopped}", None: ""}
         holds = "reached, with the same signs, " if check.reached and check.kept else "NOT so "
         yield f"check: {holds}at {check.samples} poses by the closed form{moved[check.followed]}"
-
-
-def _unit(record: Mechanism, name: str) -> str:
-    return record.unit if is_length(name) else record.angle

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from rich.console import RenderableType
@@ -13,7 +13,7 @@ from assur.cli.numbers import assignments, interval, number, whole_number
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.progress import progress
-from assur.cli.quantities import is_length, mode_words
+from assur.cli.quantities import interval_words, mode_words, value_words
 from assur.cli.region_question import Question
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics.answers.at_border import box_at_border, coordinate_unit, coordinates_at_border
@@ -109,9 +109,9 @@ def _volume(record: Mechanism, question: Question, asked: ProofQuestion, shared:
 
 def _shown_volume(record: Mechanism, region: CertifiedWorkspace, data: CertifiedVolume) -> Iterable[RenderableType]:
     yield heading(f"{record.name}, certified workspace of {mode_words(record, region.mode)}")
-    yield f"box: {_pairs(record, data.coordinates, data.box)}"
+    yield f"box: {interval_words(record, zip(data.coordinates, data.box, strict=True))}"
     if data.held:
-        yield f"held: {_values(record, data.held)}"
+        yield f"held: {value_words(record, data.held)}"
     yield from _limits(data)
     what = ("length", "area", "volume")[len(region.box.names) - 1]
     low, high = outward(*region.volume)
@@ -170,16 +170,16 @@ def outer_box(
 
 def _shown_box(record: Mechanism, box: ProvedBox, data: CertifiedBox) -> Iterable[RenderableType]:
     yield heading(f"{record.name}, a box in {mode_words(record, box.mode)}")
-    yield f"box: {_pairs(record, data.coordinates, data.box)}"
+    yield f"box: {interval_words(record, zip(data.coordinates, data.box, strict=True))}"
     if data.held:
-        yield f"held: {_values(record, data.held)}"
+        yield f"held: {value_words(record, data.held)}"
     yield from _limits(data)
     yield f"question: is every pose {_reached(data)}, and none singular?"
     yield f"answer: {box.status}"
     if box.status != "proved":
         yield f"proved for {_floored(100 * box.share)} % of it"
     if data.witness is not None:
-        yield f"fails at: {_values(record, data.witness.pose)}"
+        yield f"fails at: {value_words(record, data.witness.pose)}"
         yield f"because: {data.witness.why}"
     boxes = data.boxes
     if boxes.failed or boxes.doubtful:
@@ -215,9 +215,9 @@ def _largest(record: Mechanism, question: Question, asked: ProofQuestion, shape:
 def _shown_largest(record: Mechanism, shape: LargestShape, data: CertifiedShape) -> Iterable[RenderableType]:
     name = shape.shape.name
     yield heading(f"{record.name}, the largest {name} in {mode_words(record, shape.mode)}")
-    yield f"around: {_values(record, data.centre)}"
+    yield f"around: {value_words(record, data.centre)}"
     if data.held:
-        yield f"held: {_values(record, data.held)}"
+        yield f"held: {value_words(record, data.held)}"
     yield from _limits(data)
     yield f"inside: every pose is {_reached(data)}, and none is singular"
     side = "edge" if name == "cube" else "diameter"
@@ -225,7 +225,7 @@ def _shown_largest(record: Mechanism, shape: LargestShape, data: CertifiedShape)
     yield f"proved up to: {side} {_floored(shape.size)} {record.unit}{more}"
     if data.witness is not None:
         yield f"not beyond: {side} {outward(shape.size, shape.refuted)[1]} {record.unit}"
-        yield f"fails at: {_values(record, data.witness.pose)}"
+        yield f"fails at: {value_words(record, data.witness.pose)}"
         yield f"because: {data.witness.why}"
     if shape.stopped:
         yield f"note: {NOTES[shape.stopped]}"
@@ -339,15 +339,3 @@ def _limits(data: RegionProof) -> Iterable[str]:
 
 def _reached(data: RegionProof) -> str:
     return "reached within limits" if data.limits_stated else "reached"
-
-
-def _pairs(record: Mechanism, names: Sequence[str], pairs: Sequence[Sequence[float]]) -> str:
-    parts = []
-    for name, (low, high) in zip(names, pairs, strict=True):
-        parts.append(f"{name} {low:g} .. {high:g} {record.unit if is_length(name) else record.angle}")
-    return ", ".join(parts)
-
-
-def _values(record: Mechanism, values: Mapping[str, float]) -> str:
-    units = {name: record.unit if is_length(name) else record.angle for name in values}
-    return ", ".join(f"{name} = {value:.7g} {units[name]}" for name, value in values.items())

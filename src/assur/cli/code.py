@@ -13,7 +13,7 @@ from assur.cli.options import Outcome, Plain, Shared
 from assur.errors import CodeNotRunWarning, visible
 
 if TYPE_CHECKING:
-    from assur.model.consent import NotRun
+    from assur.results.answers.answer import NotRun
 
 
 @contextmanager

@@ -41,7 +41,7 @@ def figures(ledger: Ledger, findings: Findings, folder: Path, shared: Plain) -> 
 
     ledger.section("Figures")
     with progress("figures", shared) as step:
-        paths = write(findings.record, output_folder(str(folder)), progress=step, context=findings.context)
+        paths = write(findings.record, output_folder(str(folder)), progress=step, context=findings)
     ledger.show([", ".join(path.name for path in paths if path.suffix == ".png")])
     kinds = {suffix: [path for path in paths if path.suffix == suffix] for suffix in BEGINNINGS}
     sound = [path for path in paths if path.read_bytes().startswith(BEGINNINGS[path.suffix])]

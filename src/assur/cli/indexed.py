@@ -31,7 +31,6 @@ from assur.performance.indices import INDICES, indices
 from assur.performance.overall import Overall, overall
 from assur.performance.transmission import GOOD
 from assur.results.answers.indices import (
-    GoodTransmission,
     IndicesAnswer,
     NearestSingularity,
     OverallAnswer,
@@ -123,7 +122,6 @@ def over_workspace(record: Mechanism, asked: Question, points: str, length: Leng
         )
     with progress("indices", shared):
         found = overall(record, region, count, length)
-    good = found.good
     answer = OverallAnswer(
         mechanism=record.name,
         unit=record.unit,
@@ -135,7 +133,7 @@ def over_workspace(record: Mechanism, asked: Question, points: str, length: Leng
         characteristic_length=found.length,
         velocity_factor_unit=found.factor_unit,
         good_from=GOOD,
-        good_transmission=None if good is None else GoodTransmission(**vars(good)),
+        good_transmission=found.good,
         indices={name: _overall_index(record, item) for name, item in found.values.items()},
         held=coordinates_at_border(record, region.slice.held),
         volume=region.volume,

@@ -14,8 +14,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from assur.mechanism import Mechanism
-    from assur.model.consent import NotRun
-    from assur.results.answers.answer import Answer
+    from assur.results.answers.answer import Answer, NotRun
 
 SHARED = Group("Shared options", sort_key=9)
 

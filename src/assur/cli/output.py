@@ -49,11 +49,10 @@ def emit(outcome: Outcome, *, json: bool) -> None:
 
 
 def _circumstances(outcome: Outcome) -> Circumstances:
-    from assur.results.answers.answer import ABSENT, Circumstances, CodeNotRun
+    from assur.results.answers.answer import ABSENT, Circumstances
 
-    codes = tuple(CodeNotRun(code.file, code.line, code.reason, code.instead) for code in outcome.not_run)
     at = outcome.interrupted_at if outcome.interrupted else ABSENT
-    return Circumstances(True if outcome.interrupted else ABSENT, at, codes or ABSENT)
+    return Circumstances(True if outcome.interrupted else ABSENT, at, outcome.not_run or ABSENT)
 
 
 class Verbatim(str):

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from rich.console import RenderableType
 
-from assur.cli import exit_codes, parasitic
+from assur.cli import exit_codes
 from assur.cli.options import Outcome
 from assur.cli.output import heading, table
+from assur.cli.quantities import unit_of
 from assur.kinematics.answers.answer import answer
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.answers.style import Style, given_words, style_of, texts_of, titles_of
 from assur.mechanism import Mechanism
-from assur.results.answers.certified import BoundedSolution, CertifiedDirect, CertifiedInverse
 from assur.results.answers.position import (
     DirectAnswer,
     InputsSolution,
@@ -25,8 +26,12 @@ from assur.results.answers.position import (
 )
 from assur.results.plain_text import count, short, tiny
 
+if TYPE_CHECKING:
+    from assur.results.answers.certified import BoundedSolution, CertifiedDirect, CertifiedInverse
+
+    CertifiedPositions = CertifiedDirect | CertifiedInverse
+
 Positions = DirectAnswer | InverseAnswer
-CertifiedPositions = CertifiedDirect | CertifiedInverse
 
 
 def outcome(record: Mechanism, solutions: SolutionSet) -> Outcome:
@@ -53,7 +58,7 @@ def _shown(record: Mechanism, data: Positions, branches: int) -> Iterable[Render
         yield from exceeded(data)
         yield from _open_loops(data)
         yield from _remarks(data)
-        yield from parasitic.shown_solutions(record, data.solutions)
+        yield from _parasitic(record, data.solutions)
     if data.curves:
         yield from _curves(data, style)
     if data.failures:
@@ -181,6 +186,19 @@ def _remarks(data: Positions) -> Iterable[str]:
 
 def _listed(modes: list[str], data: Positions | CertifiedPositions) -> str:
     return "all" if len(modes) == len(data.solutions) else ", ".join(modes)
+
+
+def _parasitic(record: Mechanism, solutions: Iterable[PoseSolution | InputsSolution]) -> Iterable[RenderableType]:
+    """Of every solution the platform's coordinates that the pose leaves out; nothing where none of them moves."""
+    listed = [item for item in solutions if item.parasitic]
+    if not listed:
+        return
+    names = tuple(listed[0].parasitic)
+    yield "the platform's coordinates that the pose leaves out:"
+    yield table(
+        ("mode", *(f"{name} [{unit_of(record, name)}]" for name in names)),
+        [(item.mode, *(short(item.parasitic[name]) for name in names)) for item in listed],
+    )
 
 
 def _curves(data: Positions, style: Style) -> Iterable[RenderableType]:

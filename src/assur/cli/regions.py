@@ -9,12 +9,11 @@ from typing import Literal
 
 from rich.console import RenderableType
 
-from assur.cli import parasitic
 from assur.cli.options import Outcome, Shared
 from assur.cli.output import heading, table
 from assur.cli.paths import output_file
 from assur.cli.progress import progress
-from assur.cli.quantities import is_length, mode_words
+from assur.cli.quantities import interval_words, mode_words, unit_of, value_words
 from assur.cli.region_question import Question
 from assur.kinematics.answers.at_border import (
     box_at_border,
@@ -25,12 +24,14 @@ from assur.kinematics.answers.at_border import (
 )
 from assur.kinematics.limits import NO_LIMITS, joint_limits, limits_stated
 from assur.mechanism import Mechanism
+from assur.model.pose import is_angle
 from assur.results.answers.answer import entries
-from assur.results.answers.region import SectionArea, WorkspaceAnswer
+from assur.results.answers.region import LargestCoordinate, SectionArea, WorkspaceAnswer
 from assur.results.files import write_whole
 from assur.results.json_text import json_text
 from assur.results.plain_text import short, with_error
 from assur.workspace.aspects.nowhere import nothing_reached, nowhere_zero
+from assur.workspace.parasitic import largest_parasitic
 from assur.workspace.region import Workspace, default_resolution, workspace
 
 ENDINGS = (".json", ".obj")
@@ -87,7 +88,7 @@ def _answer(record: Mechanism, asked: Question, region: Workspace) -> WorkspaceA
         strokes={name: (low / units[name], high / units[name]) for name, (low, high) in limits.items()},
         limits_stated=limits_stated(record, asked.strokes),
         joint_limits=tuple(joint_limits(record)),
-        parasitic=parasitic.largest(record, region),
+        parasitic=_parasitic(record, region),
         nowhere=_nowhere(record, asked, region),
         empty=_empty(record, asked, region),
     )
@@ -124,11 +125,11 @@ def _shown(record: Mechanism, data: WorkspaceAnswer, written: Path | None) -> It
     dimension = len(data.coordinates)
     yield heading(f"{data.mechanism}, workspace of {mode_words(record, data.mode)}")
     yield f"how: {data.how}"
-    yield f"box: {_intervals(record, dict(zip(data.coordinates, data.box, strict=True)))}"
+    yield f"box: {interval_words(record, zip(data.coordinates, data.box, strict=True))}"
     if data.held:
-        yield f"held: {', '.join(_value(record, name, value) for name, value in data.held.items())}"
+        yield f"held: {value_words(record, data.held)}"
     if data.strokes:
-        yield f"strokes: {_intervals(record, data.strokes)}"
+        yield f"strokes: {interval_words(record, data.strokes.items())}"
     if not data.limits_stated:
         yield f"limits: {NO_LIMITS}"
     if data.joint_limits:
@@ -148,7 +149,7 @@ def _shown(record: Mechanism, data: WorkspaceAnswer, written: Path | None) -> It
     yield from _singular(record, data)
     if data.parasitic:
         yield ""
-        yield from parasitic.shown_largest(record, data.parasitic)
+        yield from _shown_parasitic(record, data.parasitic)
     if written is not None:
         yield f"written: {written}"
 
@@ -167,19 +168,6 @@ def _unlimited(data: WorkspaceAnswer) -> str:
     return "no limit was seen in it; a larger --box may show one"
 
 
-def _intervals(record: Mechanism, pairs: Mapping[str, Sequence[float]]) -> str:
-    lengths = {item.name: item.coordinate.kind == "length" for item in record.inputs}
-    parts = []
-    for name, (low, high) in pairs.items():
-        unit = record.unit if lengths.get(name, is_length(name)) else record.angle
-        parts.append(f"{name} {low:g} .. {high:g} {unit}")
-    return ", ".join(parts)
-
-
-def _value(record: Mechanism, name: str, value: float) -> str:
-    return f"{name} = {value:g} {record.unit if is_length(name) else record.angle}"
-
-
 def area_title(record: Mechanism, names: Sequence[str]) -> str:
     """What stands over areas of surfaces in the space of some coordinates, with its unit.
 
@@ -190,7 +178,7 @@ def area_title(record: Mechanism, names: Sequence[str]) -> str:
     >>> area_title(record, ("x", "y", "z")), area_title(record, ("z", "theta", "psi"))
     ('area [mm^2]', 'area [1 mm as 1 rad]')
     """
-    lengths, dimension = [is_length(name) for name in names], len(names) - 1
+    lengths, dimension = [not is_angle(name) for name in names], len(names) - 1
     if any(lengths) and not all(lengths):
         return f"area [1 {record.unit} as 1 rad]"
     unit = power(record.unit if all(lengths) else "rad", dimension)
@@ -201,7 +189,7 @@ def _sections(record: Mechanism, data: WorkspaceAnswer) -> Iterable[RenderableTy
     if not data.sections:
         return
     *others, last = data.coordinates
-    angles = sum(not is_length(name) for name in others)
+    angles = sum(map(is_angle, others))
     powers = ((record.unit, len(others) - angles), ("rad", angles))
     unit = " ".join(power(name, exponent) for name, exponent in powers if exponent)
     yield table(
@@ -228,9 +216,31 @@ def _singular(record: Mechanism, data: WorkspaceAnswer) -> Iterable[RenderableTy
     if "none found" in {row[1] for row in rows}:
         yield f"none found: on {data.resolution} cells along each coordinate, which is no proof"
     share, near = singular.share, f"{singular.near:g} {record.unit}"
-    if not all(is_length(name) for name in data.coordinates):
+    if any(map(is_angle, data.coordinates)):
         return  # no distance where angles vary
     if share is None:
         yield f"share within {near} of one: not known"
     else:
         yield f"share within {near} of one: {100 * share:.2f} %; the border of the workspace is not counted"
+
+
+def _parasitic(record: Mechanism, region: Workspace) -> dict[str, LargestCoordinate]:
+    """Coordinate -> its largest value in size over a workspace and where; angles in the mechanism's angle unit."""
+    return {
+        name: LargestCoordinate(item.value / coordinate_unit(record, name), coordinates_at_border(record, item.at))
+        for name, item in largest_parasitic(record, region).items()
+    }
+
+
+def _shown_parasitic(record: Mechanism, data: Mapping[str, LargestCoordinate]) -> Iterable[RenderableType]:
+    """The same for a person."""
+    yield heading("largest parasitic motion, of the coordinates that the pose leaves out")
+    rows = [
+        (
+            name,
+            f"{short(item.value)} {unit_of(record, name)}",
+            value_words(record, item.at, digits=5),
+        )
+        for name, item in data.items()
+    ]
+    yield table(("coordinate", "value", "at"), rows, left=("coordinate", "at"))

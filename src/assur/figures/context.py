@@ -1,4 +1,4 @@
-"""The context of a figure: what several figures of one mechanism share, computed once and only where asked."""
+"""What figures and reports of one mechanism share: each analysis is made once, and only where something asks for it."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from assur.figures.near import near_solid
 from assur.figures.written import minus
 from assur.kinematics.answers.at_border import inputs_from_border
 from assur.kinematics.answers.solution_set import SolutionSet
+from assur.kinematics.border import inputs_of
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import direct, inverse
@@ -26,7 +27,7 @@ from assur.model.dimensions import with_parameters
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.performance.indices import Indices, indices, indices_at
-from assur.performance.overall import GlobalIndex, global_condition_index
+from assur.performance.overall import GlobalIndex, OverallIndices, global_condition_index, overall
 from assur.results.attempt import REFUSED, attempt
 from assur.scene.camera import Camera, plane
 from assur.scene.companion import Companion, companion
@@ -38,11 +39,14 @@ from assur.workspace.certified.criteria import criteria
 from assur.workspace.certified.region import CertifiedWorkspace
 from assur.workspace.certified.volume_bounds import volume_bounds
 from assur.workspace.domain import box_of
-from assur.workspace.region import Workspace, workspace
+from assur.workspace.region import Workspace, default_resolution, workspace
 from assur.workspace.sign_changes import ways_across
 from assur.workspace.slices import MOST, slice_at
 
 FloatArray = NDArray[np.float64]
+
+POINTS = 2**10
+"""Of the workspace's box, over which a caption's means are taken."""
 
 IN_SPACE, TURNING = 32, 64
 """Into so many parts a box in space is cut for its aspects, along each length and along each angle."""
@@ -55,11 +59,13 @@ class Context:
     Attributes:
         record: the mechanism.
         given_workspace: one that is there already; else it is computed when a figure needs it.
+        resolution: cells along each coordinate of a workspace that is computed; None for the usual number.
         drawings: by name, those that have been drawn; a second user of the context gets the same ones.
     """
 
     record: MechanismRecord
     given_workspace: Workspace | None = None
+    resolution: int | None = None
     drawings: dict[str, Any] = field(default_factory=dict, repr=False)
     _known: dict[tuple[tuple[int, ...], bytes], Indices] = field(default_factory=dict, repr=False)
 
@@ -69,19 +75,15 @@ class Context:
         return companion(self.record)
 
     @cached_property
-    def home(self) -> FloatArray:
+    def drawn_joints(self) -> FloatArray:
         """Joint values (n,) of the configuration that is drawn: at the companion's inputs, else home."""
         if self.companion.inputs and self.record.closed_form:
-            found = direct(self.record, self._inside(self.companion.inputs), self.record.modes.default_assembly or None)
+            inputs = inputs_from_border(self.record, self.companion.inputs)
+            found = direct(self.record, inputs, self.record.modes.default_assembly or None)
             if np.any(found.exists):
                 near = skeleton(self.record, self.companion, home_values(self.record))
                 return np.asarray(min(found.joints[found.exists], key=lambda values: self._gap(near, values)))
         return home_values(self.record)
-
-    @cached_property
-    def pose(self) -> FloatArray:
-        """Pose (m,) of the platform in that configuration, in the file's coordinates."""
-        return pose_of(self.record, self.home)
 
     def apart(self, values: FloatArray) -> float:
         """How far joints and points are at joint values (n,) from where they are in that configuration.
@@ -97,7 +99,7 @@ class Context:
     @cached_property
     def skeleton(self) -> Skeleton:
         """The mechanism in that configuration."""
-        return skeleton(self.record, self.companion, self.home)
+        return skeleton(self.record, self.companion, self.drawn_joints)
 
     @cached_property
     def schematic(self) -> Skeleton:
@@ -145,16 +147,15 @@ class Context:
     @cached_property
     def assemblies(self) -> SolutionSet:
         """Every direct solution at the inputs of the configuration that is drawn."""
-        values = self.home[list(self.record.input_indices)]
-        signs = np.array([item.sign for item in self.record.inputs])
-        offsets = np.array([item.offset for item in self.record.inputs])
-        return direct(self.record, signs * values + offsets)
+        return direct(self.record, inputs_of(self.record, self.drawn_joints))
 
     @cached_property
     def examples(self) -> tuple[SingularExample, ...]:
-        """One singular configuration for each factor that has one."""
-        found = singular_examples(self.record, ways=self._ways)
-        return tuple(brought_to(self.record, self.pose, item) for item in found)
+        """One singular configuration for each factor that has one; `UsageError` where there is no box to look in."""
+        if not self.record.box:
+            raise UsageError(f"the file of {self.record.name} gives no box to look for configurations in")
+        pose = pose_of(self.record, self.drawn_joints)
+        return tuple(brought_to(self.record, pose, item) for item in singular_examples(self.record, ways=self._ways))
 
     def _ways(self) -> Iterator[Way]:
         """Ways on which the map of the workspace shows that something vanishes; none where there is no workspace."""
@@ -166,10 +167,15 @@ class Context:
         """Its topology, derived."""
         return derived_topology.topology(self.record)
 
+    @property
+    def cells(self) -> int:
+        """Cells of the workspace along each coordinate."""
+        return self.resolution or default_resolution(self.record)
+
     @cached_property
     def workspace(self) -> Workspace:
         """The workspace in the default working mode and the file's box."""
-        return self.given_workspace or workspace(self.record)
+        return self.given_workspace or workspace(self.record, resolution=self.cells)
 
     @cached_property
     def bounds(self) -> CertifiedWorkspace | str:
@@ -211,11 +217,11 @@ class Context:
         return indices_at(self.record, found.joints(flat).reshape(*batch, -1))
 
     @cached_property
+    def overall_indices(self) -> OverallIndices | None:
+        """Means over the workspace; None without a closed form, where each pose would have to be searched for."""
+        return overall(self.record, self.workspace, POINTS) if self.record.closed_form else None
+
+    @cached_property
     def mean_index(self) -> GlobalIndex:
         """The mean of the local condition index over the workspace."""
         return global_condition_index(self.record, self.workspace)
-
-    def _inside(self, printed: list[float]) -> list[float]:
-        """Inputs of the companion, angles of which are in the mechanism's angle unit."""
-        inside: list[float] = inputs_from_border(self.record, printed).tolist()
-        return inside

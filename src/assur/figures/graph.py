@@ -24,7 +24,8 @@ from assur.figures.symbols import hatching
 from assur.topology.screws.linkage import Linkage
 
 if TYPE_CHECKING:
-    from assur.topology.counting.coupling import AssurChain, Loop
+    from assur.results.answers.topology import AssurChain
+    from assur.topology.counting.coupling import Loop
 
 FloatArray = NDArray[np.float64]
 RADIUS = 6.6

@@ -7,7 +7,7 @@ workspace (Wang, Wu and Liu 2010).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import partial
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
@@ -21,12 +21,10 @@ from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import ORANGE, PAGE, TEXT, new_figure
 from assur.figures.written import units
 from assur.performance.indices import INDICES, Indices
-from assur.performance.overall import OverallIndices, overall
 from assur.performance.transmission import GOOD
 
 FloatArray = NDArray[np.float64]
 NODES = 48
-POINTS = 2**10
 TALL = 75.0
 LEVELS = [round(0.1 * k, 1) for k in range(1, 10)]
 TRANSMISSION_MAPS = ("input_transmission", "output_transmission", "transmission")
@@ -50,19 +48,10 @@ class IndexField:
         return values / top, top
 
 
-@lru_cache(maxsize=4)
 def field(context: Context) -> IndexField:
     """The indices in the middle plane: through the middle of the box, of two lengths where there are two."""
     plane = plane_of_lengths(context, NODES)
     return IndexField(plane, context.indices_at(plane.points))
-
-
-@lru_cache(maxsize=4)
-def whole(context: Context) -> OverallIndices | None:
-    """Means over the workspace; None without a closed form, where each of its poses would have to be searched for."""
-    if context.record.closed_form is None:
-        return None
-    return overall(context.record, context.workspace, POINTS)
 
 
 def _transmission_caption(context: Context) -> str:
@@ -70,7 +59,7 @@ def _transmission_caption(context: Context) -> str:
         f"Transmission indices ({mode_words(context)}): the least input transmission index, the least output"
         f" transmission index, and the least of all; 0 is singular, 1 the best. Thick lines: {GOOD:g}."
     )
-    found = whole(context)
+    found = context.overall_indices
     if found is None or found.good is None:
         return words
     mean = found.values["transmission"]

@@ -17,25 +17,12 @@ from pathlib import Path
 from typing import Literal
 
 from assur.errors import CodeNotRunWarning, UsageError
+from assur.results.answers.answer import NotRun
 
 VARIABLE = "ASSUR_RUN_CODE"
 Policy = Literal["always", "never", "ask"]
 POLICIES: tuple[Policy, ...] = ("always", "never", "ask")
 KEPT = "consent"
-
-
-@dataclass(frozen=True)
-class NotRun:
-    """Python that was not run: where it is, why it would have had to run, and what answers instead."""
-
-    file: str
-    line: int | None
-    reason: str
-    instead: str
-
-    def __str__(self) -> str:
-        place = f"{self.file}:{self.line}" if self.line else self.file
-        return f"{place}: {self.reason}; not run: {self.instead}"
 
 
 @dataclass

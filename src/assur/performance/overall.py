@@ -18,6 +18,7 @@ from assur.errors import UsageError
 from assur.model.mechanism import MechanismRecord
 from assur.performance.indices import INDICES, Indices, indices, indices_at
 from assur.performance.scaling import Length
+from assur.results.answers.indices import Share
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]
@@ -92,17 +93,6 @@ class Overall:
     most: float
     most_error: float
     most_at: tuple[float, ...]
-
-
-@dataclass(frozen=True)
-class Share:
-    """A part of a region: its share with half of the 95 % interval, and its volume with the error of both."""
-
-    share: float
-    share_error: float
-    volume: float
-    volume_error: float
-    unit: str
 
 
 @dataclass(frozen=True)

@@ -11,12 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.audit import audit as auditing
-from assur.audit.reference import Reference, read_reference
+from assur.audit.reference import Reference
 from assur.audit.rows import Audit, Row
 from assur.audit.tables import PrintedTable
 from assur.errors import UsageError
 from assur.figures import Context
-from assur.figures.aspects import no_aspects
 from assur.joint_graph.frames import frames
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.points import point
@@ -24,6 +23,7 @@ from assur.kinematics.answers.at_border import inputs_from_border, pose_from_bor
 from assur.kinematics.answers.solution import Solution
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.answers.style import Style, style_of
+from assur.kinematics.border import inputs_of
 from assur.kinematics.certified.certify import certified_direct, certified_inverse
 from assur.kinematics.certified.result import CertifiedSolutions
 from assur.kinematics.home import home_values
@@ -32,36 +32,26 @@ from assur.kinematics.position import direct, inverse
 from assur.kinematics.rates.velocity import VelocityMap, velocity_map, velocity_map_at
 from assur.kinematics.status import closed_form_of
 from assur.model.closed_form import Branch, ClosedForm, Eliminant, PolynomialSystem
-from assur.model.mechanism import MechanismRecord
-from assur.performance.overall import GlobalIndex, global_condition_index
 from assur.report.formulas.reading import FormulaReading, reading
 from assur.report.pictures import pictures
 from assur.report.proofs import cube
-from assur.results.attempt import REFUSED, attempt
+from assur.results.attempt import attempt
 from assur.results.kinds import Picture
-from assur.singularity.examples import SingularExample
 from assur.singularity.verdict import Verdict, verdict_at
-from assur.topology.facts import Topology
-from assur.workspace.aspects.aspects import Aspects
 from assur.workspace.aspects.nowhere import nothing_reached, nowhere_zero
 from assur.workspace.certified.largest import LargestShape
-from assur.workspace.certified.region import CertifiedWorkspace
-from assur.workspace.region import RESOLUTION, Workspace, workspace
 
 FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Findings:
+class Findings(Context):
     """A mechanism and what is found about it.
 
     Attributes:
-        resolution: cells of the workspace along each coordinate.
         illustrated: whether figures are drawn.
     """
 
-    record: MechanismRecord
-    resolution: int = RESOLUTION
     illustrated: bool = True
 
     @cached_property
@@ -90,18 +80,9 @@ class Findings:
     def reference(self) -> Reference | None:
         """The reference data, None where there are none for these dimensions."""
         try:
-            return read_reference(self.record, auditing.FORMS)
+            return auditing.reference_of(self.record)
         except UsageError:
             return None
-
-    @cached_property
-    def unaudited(self) -> str:
-        """Why there is no audit; empty where there is one."""
-        try:
-            read_reference(self.record, auditing.FORMS)
-        except UsageError as error:
-            return error.message
-        return ""
 
     @property
     def given(self) -> str:
@@ -124,13 +105,6 @@ class Findings:
         """The source's first table of solutions of a problem."""
         entries = self.reference.entries[problem] if self.reference else ()
         return cast("PrintedTable", entries[0]) if entries else None
-
-    # ---- topology ----------------------------------------------------------------------------------------------
-
-    @property
-    def topology(self) -> Topology:
-        """POC sets, freedoms, loops, coupling: derived once for the report and its figures."""
-        return self.context.topology
 
     # ---- position ----------------------------------------------------------------------------------------------
 
@@ -157,11 +131,7 @@ class Findings:
         table = self.table("direct")
         if table:
             return inputs_from_border(self.record, np.array([printed.value for printed in table.given]))
-        values = self.home[list(self.record.input_indices)]
-        signs, offsets = (
-            np.array([getattr(actuated, name) for actuated in self.record.inputs]) for name in ("sign", "offset")
-        )
-        return np.asarray(signs * values + offsets)
+        return inputs_of(self.record, self.home)
 
     @cached_property
     def direct(self) -> SolutionSet:
@@ -237,28 +207,6 @@ class Findings:
     # ---- regions -----------------------------------------------------------------------------------------------
 
     @cached_property
-    def examples(self) -> tuple[SingularExample, ...]:
-        """A singular configuration for every factor that has one."""
-        if not self.record.box:
-            raise UsageError(f"the file of {self.record.name} gives no box to look for configurations in")
-        return self.context.examples
-
-    @cached_property
-    def workspace(self) -> Workspace:
-        """The workspace of the default working mode in the file's box."""
-        return workspace(self.record, resolution=self.resolution)
-
-    @cached_property
-    def bounds(self) -> CertifiedWorkspace | str:
-        """Proved bounds of its volume and of its sections, or why there are none."""
-        return self.context.bounds
-
-    @cached_property
-    def aspects(self) -> Aspects | str:
-        """The aspects of the default working mode, or why there are none; the figure's."""
-        return no_aspects(self.context) or attempt(lambda: self.context.aspects)
-
-    @cached_property
     def nowhere(self) -> frozenset[str]:
         """Of the parallel factors that have no locus inside the workspace those that are proved to have none."""
         if self.workspace.volume == 0:  # of nothing everything is true
@@ -277,21 +225,8 @@ class Findings:
         """The largest cube about this configuration that is proved free of singularities, or why there is none."""
         return attempt(lambda: cube(self.record, self.solution))
 
-    @cached_property
-    def global_index(self) -> GlobalIndex:
-        """Mean of the local condition index over the workspace."""
-        return global_condition_index(self.record, self.workspace)
-
     # ---- figures -----------------------------------------------------------------------------------------------
-
-    @cached_property
-    def context(self) -> Context:
-        """What the figures share, with the workspace where there is one."""
-        try:
-            return Context(self.record, self.workspace)
-        except REFUSED:
-            return Context(self.record)
 
     def picture(self, *names: str) -> tuple[Picture, ...]:
         """The figures of these names, as far as the mechanism has them and figures are drawn."""
-        return tuple(picture for name in names if self.illustrated for picture in pictures(self.context, name))
+        return tuple(picture for name in names if self.illustrated for picture in pictures(self, name))

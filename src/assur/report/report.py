@@ -32,7 +32,6 @@ from assur.results.attempt import REFUSED, reason
 from assur.results.files import write_whole
 from assur.results.kinds import Facts, Picture, Result, Scalar, Section
 from assur.work import stage
-from assur.workspace.region import default_resolution
 
 Progress = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
@@ -55,7 +54,7 @@ SECTIONS: tuple[tuple[str, Callable[[Findings], Section]], ...] = (
 """In the order of a paper; adding one is one line."""
 
 
-ANALYSES = ("audit", "workspace", "examples", "proved", "bounds", "cube", "nowhere", "aspects")
+ANALYSES = ("audit", "workspace", "examples", "proved", "bounds", "cube", "nowhere")
 """What takes long, and is made before the sections that share it."""
 
 
@@ -80,8 +79,7 @@ def report_html(
         >>> text.startswith("<!DOCTYPE html>"), "http://" in text
         (True, False)
     """
-    cells = default_resolution(record) if resolution is None else resolution
-    return page_html(report_page(Findings(record, cells, figures), progress))
+    return page_html(report_page(Findings(record, resolution=resolution, illustrated=figures), progress))
 
 
 def report_page(findings: Findings, progress: Progress | None = None) -> Page:
@@ -131,7 +129,7 @@ def write_report(
     record: MechanismRecord, path: str | Path, progress: Progress | None = None, *, figures: bool = True
 ) -> Page:
     """Write the report; the file is there whole or, with an `OutputError`, what was there before still is."""
-    page = report_page(Findings(record, default_resolution(record), figures), progress)
+    page = report_page(Findings(record, illustrated=figures), progress)
     write_whole(path, page_html(page))
     return page
 

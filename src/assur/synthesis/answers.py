@@ -13,7 +13,6 @@ from assur.results.answers.topology import (
     DesignAnswer,
     DesignLimb,
     LimbTypeCounts,
-    RedundantAnswer,
     SynthesisAnswer,
 )
 from assur.synthesis.assembly import MEMBERS
@@ -84,7 +83,7 @@ def _design(rank: int, design: Design) -> DesignAnswer:
         xi=tuple(design.xi),
         delta=tuple(loop.delta for loop in design.loops.loops),
         coupling_degree=design.coupling_degree,
-        redundant_constraints=RedundantAnswer(design.redundant.collapsed, design.redundant.joint_graph),
+        redundant_constraints=design.redundant,
         joints=design.joints,
         route=design.known.route,
         reason=design.reason,

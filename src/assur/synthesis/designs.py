@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from assur.model.topology_description import Mode
+from assur.results.answers.topology import RedundantConstraints
 from assur.synthesis.limb_motions import CandidateLimb
 from assur.topology.chains import Chain
 from assur.topology.counting.coupling import Decomposition
-from assur.topology.facts import Known, RedundantConstraints
+from assur.topology.facts import Known
 
 PARALLELOGRAM_REDUNDANT = 3
 """Redundant constraints of a planar loop of four R by itself, 6 - 3."""

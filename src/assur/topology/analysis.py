@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
+from assur.results.answers.topology import OperationModeFacts, RedundantConstraints
 from assur.results.plain_text import count as plural
 from assur.topology.agreement import RoutesDisagreeError, by_twists
 from assur.topology.chains import Chain
@@ -23,7 +24,7 @@ from assur.topology.counting.drives import admissible_drives
 from assur.topology.counting.mobility import Mobility, mobility, motions
 from assur.topology.counting.relaxation import relaxation
 from assur.topology.counting.solution_plan import solution_plan
-from assur.topology.facts import InputsBy, Known, LimbFacts, OperationModeFacts, RedundantConstraints, Topology
+from assur.topology.facts import InputsBy, Known, LimbFacts, Topology
 from assur.topology.notation import plain_text, symbolic_text
 from assur.topology.poc import PocSet
 from assur.topology.routes import KnownLimb, Rules, as_the_limbs_are, both, by_rules, check_xi, limb_known

@@ -7,25 +7,22 @@ from typing import Any
 
 from assur.results.answers.topology import (
     ActuationAnswer,
-    AssurChainAnswer,
     AssurPlanAnswer,
     LimbAnswer,
     LoopAnswer,
-    OperationModeAnswer,
     PlanAnswer,
     PlanStepAnswer,
     PlatformPoc,
     PocDirection,
-    RedundantAnswer,
     RelaxationAnswer,
-    ReplacementAnswer,
+    Replacement,
     RulesRefusal,
     TopologyAnswer,
     WrittenPoc,
 )
 from assur.topology.counting.actuation import Actuation
 from assur.topology.counting.coupling import Loop
-from assur.topology.counting.relaxation import Relaxation, Replacement
+from assur.topology.counting.relaxation import Relaxation
 from assur.topology.counting.solution_plan import AssurPlan
 from assur.topology.facts import Known, LimbFacts, Topology
 from assur.topology.poc import Mark, PocSet
@@ -37,7 +34,7 @@ def answers(topology: Topology) -> TopologyAnswer:
     `loops` are in the order that attains the coupling degree, and `loops` inside `assur_chains` are indices into
     it. `decoupling[i][j]` says whether output i of `outputs` depends on input j of `inputs`.
     """
-    decoupling, redundant = topology.decoupling, topology.redundant_constraints
+    decoupling = topology.decoupling
     return TopologyAnswer(
         name=topology.name,
         title=topology.title,
@@ -50,10 +47,10 @@ def answers(topology: Topology) -> TopologyAnswer:
         internal_joints=topology.internal_joints,
         idle_joints=topology.idle_joints,
         loops=tuple(_loop(loop) for loop in topology.loops),
-        assur_chains=tuple(AssurChainAnswer(chain.loops, chain.coupling_degree) for chain in topology.assur_chains),
+        assur_chains=topology.assur_chains,
         coupling_degree=topology.coupling_degree,
         coupling_refusal=topology.coupling_refusal,
-        redundant_constraints=RedundantAnswer(redundant.collapsed, redundant.joint_graph),
+        redundant_constraints=topology.redundant_constraints,
         redundant_by_loop=dict(topology.redundant_by_loop),
         inputs=decoupling.inputs if decoupling else topology.inputs,
         inputs_by=topology.inputs_by,
@@ -66,7 +63,7 @@ def answers(topology: Topology) -> TopologyAnswer:
         routes_agree=topology.routes_agree,
         refusals=refusals(topology),
         derivation=tuple(line for derivation in topology.derivations for line in derivation.text().splitlines()),
-        operation_modes=tuple(OperationModeAnswer(**vars(mode)) for mode in topology.modes),
+        operation_modes=topology.modes,
         notes=topology.notes,
     )
 
@@ -131,11 +128,7 @@ def _actuation(asked: Actuation) -> ActuationAnswer:
 
 
 def _relaxation(asked: Relaxation) -> RelaxationAnswer:
-    single, together = (
-        tuple(ReplacementAnswer(**vars(replacement)) for replacement in replacements)
-        for replacements in (asked.single, asked.together)
-    )
-    return RelaxationAnswer(asked.redundant, asked.left, single, together)
+    return RelaxationAnswer(asked.redundant, asked.left, asked.single, asked.together)
 
 
 def _plan(part: AssurPlan) -> AssurPlanAnswer:

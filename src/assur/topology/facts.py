@@ -11,8 +11,9 @@ from assur.topology.counting.solution_plan import SolutionPlan
 from assur.topology.poc import PocSet
 
 if TYPE_CHECKING:
+    from assur.results.answers.topology import AssurChain, OperationModeFacts, RedundantConstraints
     from assur.topology.counting.actuation import Actuation
-    from assur.topology.counting.coupling import AssurChain, Loop
+    from assur.topology.counting.coupling import Loop
     from assur.topology.counting.decoupling import Decoupling
     from assur.topology.counting.relaxation import Relaxation
     from assur.topology.screws.linkage import Linkage
@@ -48,33 +49,6 @@ class LimbFacts:
     def poc(self) -> PocSet:
         """The POC set of the limb's end link, O' on its last R axis or joint centre."""
         return self.known.poc
-
-
-@dataclass(frozen=True)
-class OperationModeFacts:
-    """A motion that starts at home: F, the platform's POC set, and whether its freedoms are real or it is shaky.
-
-    `poc` is the set as text, with the directions that a real motion keeps.
-    """
-
-    dof: int
-    t: int
-    r: int
-    dim: int
-    real: bool
-    poc: str
-
-    def __str__(self) -> str:
-        shaky = "" if self.real else " (shaky: singular all along, with instantaneous freedoms that lead nowhere)"
-        return f"F = {self.dof}, {self.poc} with dim {self.dim}{shaky}"
-
-
-@dataclass(frozen=True)
-class RedundantConstraints:
-    """6 v - rank of the closure: with parallelograms as generalised joints, and with all joints."""
-
-    collapsed: int
-    joint_graph: int
 
 
 @dataclass(frozen=True, eq=False)

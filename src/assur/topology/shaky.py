@@ -14,6 +14,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.results.answers.topology import OperationModeFacts, RedundantConstraints
 from assur.results.plain_text import count as plural
 from assur.topology.analysis import (
     ADMISSIBLE,
@@ -33,7 +34,7 @@ from assur.topology.counting.drives import admissible_drives
 from assur.topology.counting.mobility import mobility, motions
 from assur.topology.counting.relaxation import Relaxation
 from assur.topology.counting.solution_plan import SolutionPlan
-from assur.topology.facts import InputsBy, Known, OperationModeFacts, RedundantConstraints, Topology
+from assur.topology.facts import InputsBy, Known, Topology
 from assur.topology.poc import PocSet
 from assur.topology.routes import KnownLimb, Rules, as_the_limbs_are, by_rules, limb_alone
 from assur.topology.screws.configurations import UNSTEADY

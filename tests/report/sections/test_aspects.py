@@ -12,7 +12,7 @@ from assur.results.kinds import PROVED, Scalar, Table
 
 
 def section(name):
-    found = Findings(load_record(name), 16, False)
+    found = Findings(load_record(name), resolution=16, illustrated=False)
     return found, aspects(found)
 
 
@@ -43,7 +43,7 @@ def test_parts_that_are_not_told_apart_are_not_counted_twice():
 
 @pytest.mark.parametrize(("name", "said"), [("h4_robot", "nowhere: proved"), ("tripteron", "none found on 16 cells")])
 def test_that_there_is_no_singularity_inside_says_how_it_is_known(name, said):
-    made = reach(Findings(load_record(name), 16, False))
+    made = reach(Findings(load_record(name), resolution=16, illustrated=False))
     table = next(item for item in made.results if isinstance(item, Table))
     assert all(row[2].startswith(said) for row in table.rows)
     assert table.known_by.startswith("proved" if "proved" in said else "not proved")
@@ -57,7 +57,7 @@ def test_that_there_is_no_singularity_inside_says_how_it_is_known(name, said):
     ],
 )
 def test_of_an_empty_workspace_no_factor_is_said_to_be_proved(box, known):
-    found = Findings(dataclasses.replace(load_record("fivebar"), box=box), 4, False)
+    found = Findings(dataclasses.replace(load_record("fivebar"), box=box), resolution=4, illustrated=False)
     assert found.workspace.volume == 0
     table = next(item for item in reach(found).results if isinstance(item, Table))
     assert {row[2] for row in table.rows} == {"nothing is reached"}

@@ -66,6 +66,6 @@ def test_each_step_of_the_derivation_has_its_rule_and_its_reason(findings):
 
 
 def test_a_mechanism_without_closed_form_has_its_topology(fourbar):
-    found = Findings(fourbar, 12, illustrated=False)
+    found = Findings(fourbar, resolution=12, illustrated=False)
     values = {name: item.value for name, item in parts(derived(found), Scalar).items()}
     assert values["degrees of freedom F"] == 1

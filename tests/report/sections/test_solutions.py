@@ -8,7 +8,7 @@ from assur.report.sections.solutions import solutions
 
 
 def tables(record, problem):
-    return solutions(Findings(record, 8, illustrated=False), problem)
+    return solutions(Findings(record, resolution=8, illustrated=False), problem)
 
 
 def test_limits_that_a_solution_exceeds_stand_in_its_row():

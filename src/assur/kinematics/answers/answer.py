@@ -31,7 +31,6 @@ from assur.results.answers.position import (
     NegativeQuantity,
     PoseCurve,
     PoseSolution,
-    WidestGap,
 )
 
 
@@ -96,12 +95,11 @@ def missing(record: MechanismRecord, failures: tuple[Failure, ...]) -> tuple[Neg
 
 
 def _said(record: MechanismRecord, solution: Solution, home: bool | None) -> dict[str, Any]:
-    loop = solution.open_loop
     return {
         "mode": solution.mode,
         "residual": solution.residual,
         "status": solution.status.name,
-        "open_loop": None if loop is None else WidestGap(loop.loop, loop.joint, loop.gap),
+        "open_loop": solution.open_loop,
         "limits": limits_at_border(record, solution),
         "angles": angles_remark(record, solution.pose),
         "parasitic": _parasitic(record, solution),

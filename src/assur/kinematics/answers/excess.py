@@ -17,6 +17,7 @@ from assur.kinematics.limits import Limit, stated_limits, turns_to
 from assur.kinematics.modes import Problem
 from assur.kinematics.validation.gaps import loops
 from assur.model.mechanism import MechanismRecord
+from assur.results.answers.position import OpenLoop
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -43,15 +44,6 @@ class Excess:
     high: float
     by: float
     angular: bool
-
-
-@dataclass(frozen=True)
-class OpenLoop:
-    """The loop that a solution leaves open most, the joint at which its gap was measured, and the gap."""
-
-    loop: str
-    joint: str
-    gap: float
 
 
 def beyond(record: MechanismRecord, problem: Problem, given: FloatArray, joints: FloatArray) -> FloatArray:

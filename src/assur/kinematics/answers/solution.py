@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.answers.excess import Excess, OpenLoop
+from assur.kinematics.answers.excess import Excess
 from assur.kinematics.status import Status
+from assur.results.answers.position import OpenLoop
 
 FloatArray = NDArray[np.float64]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from assur.errors import UsageError
-from assur.figures.aspects import shown
+from assur.figures.aspects import no_aspects, shown
 from assur.report.findings import Findings
 from assur.report.sections.reach import size_name
 from assur.report.sections.singularities import plain
@@ -23,9 +23,9 @@ UNTOLD = "; not proved: that aspects that the last column names beside each othe
 
 def aspects(findings: Findings) -> Section:
     """The aspects of the default working mode in the file's box, as the figure of them has them."""
+    if why := no_aspects(findings):
+        raise UsageError(why)
     answer = findings.aspects
-    if isinstance(answer, str):
-        raise UsageError(answer)
     mode = f"the working mode {answer.mode}" if answer.mode else "the mechanism"
     said = (
         f"An aspect is a connected part of what {mode} reaches in the file’s box in which no factor of det Jp and none "

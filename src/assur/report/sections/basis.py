@@ -53,7 +53,7 @@ def basis(findings: Findings) -> Section:
     routes += AUDITED if findings.reference else ()
     known = Table("Two routes to every number", ("number", "first route", "second route"), tuple(routes))
     parts: list[Result] = [known, Facts("Conventions", _conventions(findings.record)), _tolerances()]
-    missing = left_out(findings.record, findings.context) if findings.illustrated else {}
+    missing = left_out(findings.record, findings) if findings.illustrated else {}
     if missing:
         parts.append(Facts("Figures that this mechanism does not have", _by_reason(missing)))
     return Section("How the numbers are known", results=parts)

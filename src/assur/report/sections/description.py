@@ -29,7 +29,7 @@ def _text(findings: Findings) -> str:
     changed = ", ".join(f"{name} = {short(value)}" for name, value in record.overrides.items())
     numbered = (
         " Captions name the figures of the source that show the same."
-        if findings.illustrated and findings.context.companion.numbers
+        if findings.illustrated and findings.companion.numbers
         else ""
     )
     overrides = f"\n\nDimensions other than the file's are used in this report: {changed}." if changed else ""

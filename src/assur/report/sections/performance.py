@@ -23,7 +23,7 @@ def performance(findings: Findings) -> Section:
         return _of_the_joint_graph(findings)
     record, solution = findings.record, findings.solution
     found = indices(record, solution.pose, solution.working_mode)
-    index = findings.global_index
+    index = findings.mean_index
     said = (
         "The local condition index is 1/cond(J) in the 2-norm with J = Jp⁻¹ Jq, between 0 (singular) and 1 "
         "(isotropic); the velocity factors are the singular values of J: by how much the inputs’ speed is multiplied "

@@ -85,7 +85,7 @@ def extents(findings: Findings) -> list[Scalar]:
     """The volume by every route, the best known first: proved bounds, then the estimate by solids."""
     region, proof = findings.workspace, findings.bounds
     name, unit = size_name(region), extent_unit(findings.record, region.box.names)
-    cells = f"{findings.resolution} cells along each coordinate"
+    cells = f"{findings.cells} cells along each coordinate"
     limits = limits_note(findings.record)
     noted = "; ".join(filter(None, (cells, limits)))
     estimate = Scalar(name, region.volume, unit, TWO_RESOLUTIONS, region.volume_error, note=noted)
@@ -230,7 +230,7 @@ def _size(findings: Findings, locus: Locus, *, mixed: bool) -> str:
         return "nothing is reached"
     if locus.factor in findings.nowhere:
         return "nowhere: proved"
-    return f"none found on {findings.resolution} cells along each coordinate"
+    return f"none found on {findings.cells} cells along each coordinate"
 
 
 def _projections(findings: Findings) -> list[Table]:

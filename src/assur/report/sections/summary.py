@@ -67,7 +67,7 @@ def _workspace(findings: Findings) -> list[Scalar]:
 def _dexterity(findings: Findings) -> list[Scalar]:
     if is_mixed(findings.record):
         return []  # a number that depends on a characteristic length is nobody's first question
-    index = findings.global_index
+    index = findings.mean_index
     of_what = "mean of 1/cond over the workspace"
     return [Scalar("global condition index", index.value, "", SPREAD, index.error, note=of_what)]
 

@@ -62,13 +62,17 @@ class Answer:
 
 
 @dataclass(frozen=True)
-class CodeNotRun:
+class NotRun:
     """Python beside a mechanism's file that was not run: where, why it would have had to, what answers instead."""
 
     file: str
     line: int | None
     reason: str
     instead: str
+
+    def __str__(self) -> str:
+        place = f"{self.file}:{self.line}" if self.line else self.file
+        return f"{place}: {self.reason}; not run: {self.instead}"
 
 
 @dataclass(frozen=True)
@@ -77,7 +81,7 @@ class Circumstances:
 
     interrupted: Literal[True] | Absent = ABSENT
     interrupted_at: str | Absent = ABSENT
-    code_not_run: tuple[CodeNotRun, ...] | Absent = ABSENT
+    code_not_run: tuple[NotRun, ...] | Absent = ABSENT
 
 
 @dataclass(frozen=True)

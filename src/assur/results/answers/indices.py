@@ -65,8 +65,8 @@ class OverallIndex:
 
 
 @dataclass(frozen=True)
-class GoodTransmission:
-    """The part of a workspace in which transmission is good."""
+class Share:
+    """A part of a region: its share with half of the 95 % interval, and its volume with the error of both."""
 
     share: float
     share_error: float
@@ -89,7 +89,7 @@ class OverallAnswer(Answer):
     characteristic_length: float | None
     velocity_factor_unit: str
     good_from: float
-    good_transmission: GoodTransmission | None
+    good_transmission: Share | None
     indices: Mapping[str, OverallIndex]
     held: Mapping[str, float]
     volume: float

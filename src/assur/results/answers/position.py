@@ -33,8 +33,8 @@ class KeptLimits:
 
 
 @dataclass(frozen=True)
-class WidestGap:
-    """The loop that stays open most, the joint at which its gap was measured, and the gap."""
+class OpenLoop:
+    """The loop that a solution leaves open most, the joint at which its gap was measured, and the gap."""
 
     loop: str
     joint: str
@@ -52,7 +52,7 @@ class ListedSolution:
     mode: str
     residual: float
     status: str
-    open_loop: WidestGap | None
+    open_loop: OpenLoop | None
     limits: KeptLimits
     angles: str
     parasitic: Mapping[str, float]

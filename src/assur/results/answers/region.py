@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal
 
 from assur.results.answers.answer import ABSENT, Absent, Answer, spread
 from assur.results.answers.position import Numbers
@@ -184,8 +184,19 @@ class ListedAspect:
 
 
 @dataclass(frozen=True)
-class CheckedPath:
-    """A path checked by the closed form and on the joint graph."""
+class PathCheck:
+    """What a check of a path found.
+
+    Attributes:
+        covered: every piece lies in its box, compared exactly.
+        samples: poses at which the closed form was asked.
+        reached: it reaches all of them, within the strokes that were given.
+        kept: every factor has one sign at all of them.
+        followed: the joint graph can be moved along the path; None where that was not tried.
+        stopped: what stopped it; "" where nothing did.
+    """
+
+    derived: ClassVar = ("passed",)
 
     covered: bool
     samples: int
@@ -193,7 +204,11 @@ class CheckedPath:
     kept: bool
     followed: bool | None
     stopped: str
-    passed: bool
+
+    @property
+    def passed(self) -> bool:
+        """Whether nothing speaks against the path."""
+        return self.covered and self.reached and self.kept and self.followed is not False
 
 
 @dataclass(frozen=True)
@@ -207,7 +222,7 @@ class ListedPath:
     points: tuple[Numbers, ...]
     paved: tuple[str, ...]
     boxes: tuple[tuple[Pair, ...], ...]
-    check: CheckedPath | None
+    check: PathCheck | None
 
 
 @dataclass(frozen=True)

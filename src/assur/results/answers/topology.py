@@ -75,22 +75,6 @@ class LoopAnswer:
 
 
 @dataclass(frozen=True)
-class AssurChainAnswer:
-    """An Assur chain: indices of its loops."""
-
-    loops: tuple[int, ...]
-    coupling_degree: int
-
-
-@dataclass(frozen=True)
-class RedundantAnswer:
-    """Redundant constraints with parallelograms as one joint, and of all joints."""
-
-    collapsed: int
-    joint_graph: int
-
-
-@dataclass(frozen=True)
 class ActuationAnswer:
     """Which joints may be actuated: in some admissible set, in every, and the sets themselves."""
 
@@ -104,14 +88,60 @@ class ActuationAnswer:
 
 
 @dataclass(frozen=True)
-class ReplacementAnswer:
-    """A joint in the place of another: what that removes, and the internal freedoms that it adds."""
+class OperationModeFacts:
+    """A motion that starts at home: F, the platform's POC set, and whether its freedoms are real or it is shaky.
+
+    `poc` is the set as text, with the directions that a real motion keeps.
+    """
+
+    dof: int
+    t: int
+    r: int
+    dim: int
+    real: bool
+    poc: str
+
+    def __str__(self) -> str:
+        shaky = "" if self.real else " (shaky: singular all along, with instantaneous freedoms that lead nowhere)"
+        return f"F = {self.dof}, {self.poc} with dim {self.dim}{shaky}"
+
+
+@dataclass(frozen=True)
+class RedundantConstraints:
+    """6 v - rank of the closure: with parallelograms as generalised joints, and with all joints."""
+
+    collapsed: int
+    joint_graph: int
+
+
+@dataclass(frozen=True)
+class AssurChain:
+    """Loops (their indices) whose constraint degrees add up to zero, none fewer of them from the first; Eq. (6)."""
+
+    loops: tuple[int, ...]
+    coupling_degree: int
+
+
+@dataclass(frozen=True)
+class Replacement:
+    """A joint in the place of another.
+
+    Attributes:
+        joint: its name.
+        old, new: letters, R or P before and C, U or S after.
+        removed: redundant constraints that it removes.
+        internal: internal freedoms that it adds.
+    """
 
     joint: str
     old: str
     new: str
     removed: int
     internal: int
+
+    def __str__(self) -> str:
+        spin = f", {self.internal} internal freedom{'s' if self.internal > 1 else ''} more" if self.internal else ""
+        return f"{self.joint}: {self.old} to {self.new} removes {self.removed}{spin}"
 
 
 @dataclass(frozen=True)
@@ -120,8 +150,8 @@ class RelaxationAnswer:
 
     redundant: int
     left: int
-    single: tuple[ReplacementAnswer, ...]
-    together: tuple[ReplacementAnswer, ...]
+    single: tuple[Replacement, ...]
+    together: tuple[Replacement, ...]
 
 
 @dataclass(frozen=True)
@@ -163,18 +193,6 @@ class RulesRefusal:
 
 
 @dataclass(frozen=True)
-class OperationModeAnswer:
-    """A motion that starts at home."""
-
-    dof: int
-    t: int
-    r: int
-    dim: int
-    real: bool
-    poc: str
-
-
-@dataclass(frozen=True)
 class TopologyAnswer(Answer):
     """The facts of a topology; what does not exist is null.
 
@@ -193,10 +211,10 @@ class TopologyAnswer(Answer):
     internal_joints: tuple[Names, ...]
     idle_joints: Names
     loops: tuple[LoopAnswer, ...]
-    assur_chains: tuple[AssurChainAnswer, ...]
+    assur_chains: tuple[AssurChain, ...]
     coupling_degree: int | None
     coupling_refusal: str
-    redundant_constraints: RedundantAnswer
+    redundant_constraints: RedundantConstraints
     redundant_by_loop: Mapping[str, int]
     inputs: Names
     inputs_by: str
@@ -209,7 +227,7 @@ class TopologyAnswer(Answer):
     routes_agree: bool | None
     refusals: tuple[RulesRefusal, ...]
     derivation: Names
-    operation_modes: tuple[OperationModeAnswer, ...]
+    operation_modes: tuple[OperationModeFacts, ...]
     notes: Names
     graph: str | Absent = ABSENT
     latex: str | Absent = ABSENT
@@ -275,7 +293,7 @@ class DesignAnswer:
     xi: tuple[int, ...]
     delta: tuple[int, ...]
     coupling_degree: int
-    redundant_constraints: RedundantAnswer
+    redundant_constraints: RedundantConstraints
     joints: int
     route: str
     reason: str

@@ -28,6 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
+from assur.results.answers.topology import AssurChain
 from assur.topology.counting.branches import LoopBranch, branches, names_along, next_loops
 from assur.topology.screws.edges import Edge, closure, rank
 
@@ -65,14 +66,6 @@ class Loop:
     def redundant_constraints(self) -> int:
         """6 - ξ_Lj."""
         return 6 - self.xi
-
-
-@dataclass(frozen=True)
-class AssurChain:
-    """Loops (their indices) whose constraint degrees add up to zero, none fewer of them from the first; Eq. (6)."""
-
-    loops: tuple[int, ...]
-    coupling_degree: int
 
 
 @dataclass(frozen=True)

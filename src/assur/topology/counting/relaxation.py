@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.results.answers.topology import Replacement
 from assur.topology.counting.mobility import motions
 from assur.topology.screws.edges import Edge, closure, rank
 
@@ -25,28 +26,6 @@ TURN = 1e-9
 
 FREQUENCIES = (1.0, 2.0**0.5, 3.0**0.5)
 """Of the sines that put the new axes in general places: nothing forces them to be parallel or to meet."""
-
-
-@dataclass(frozen=True)
-class Replacement:
-    """A joint in the place of another.
-
-    Attributes:
-        joint: its name.
-        old, new: letters, R or P before and C, U or S after.
-        removed: redundant constraints that it removes.
-        internal: internal freedoms that it adds.
-    """
-
-    joint: str
-    old: str
-    new: str
-    removed: int
-    internal: int
-
-    def __str__(self) -> str:
-        spin = f", {self.internal} internal freedom{'s' if self.internal > 1 else ''} more" if self.internal else ""
-        return f"{self.joint}: {self.old} to {self.new} removes {self.removed}{spin}"
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.results.answers.topology import AssurChain
 from assur.topology.counting.actuation import locked_freedoms
-from assur.topology.counting.coupling import AssurChain, Decomposition, Loop
+from assur.topology.counting.coupling import Decomposition, Loop
 from assur.topology.counting.special_constraints import SpecialConstraint, connected, special_constraints, way_to
 from assur.topology.screws.edges import Edge, along, at_generic, closure, input_columns, null_basis, rank
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,36 +9,11 @@ from assur.errors import UsageError
 from assur.kinematics.following.following import follow
 from assur.kinematics.position import inverse
 from assur.model.mechanism import MechanismRecord
+from assur.results.answers.region import PathCheck
 from assur.workspace.aspects.aspects import Aspects
 from assur.workspace.aspects.path import AspectPath
 
 FloatArray = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class PathCheck:
-    """What a check of a path found.
-
-    Attributes:
-        covered: every piece lies in its box, compared exactly.
-        samples: poses at which the closed form was asked.
-        reached: it reaches all of them, within the strokes that were given.
-        kept: every factor has one sign at all of them.
-        followed: the joint graph can be moved along the path; None where that was not tried.
-        stopped: what stopped it; "" where nothing did.
-    """
-
-    covered: bool
-    samples: int
-    reached: bool
-    kept: bool
-    followed: bool | None
-    stopped: str
-
-    @property
-    def passed(self) -> bool:
-        """Whether nothing speaks against the path."""
-        return self.covered and self.reached and self.kept and self.followed is not False
 
 
 def check_path(
