@@ -11,12 +11,11 @@ from matplotlib.collections import PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
-from matplotlib.ticker import FixedLocator, FuncFormatter
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.figures.context import Context
-from assur.figures.coordinates import angle_ticks, axis_title, symbol, value_words
+from assur.figures.coordinates import dress, symbol, value_words
 from assur.figures.plots import limits_words, no_workspace
 from assur.figures.singular import symbol_of
 from assur.figures.spec import Drawing, FigureKind
@@ -81,7 +80,7 @@ def drawn(context: Context, aspects: Aspects, path: AspectPath | None = None) ->
         _panel(axes, aspects, value, PATCH * room)
         if path is not None and value is None:
             _way(axes, path)
-        _dress(context, axes, aspects, (across, upward))
+        dress(context, axes, aspects.box, (across, upward))
         if value is not None:
             title = f"({chr(97 + k)}) {symbol(aspects.names[2])} = {value_words(context, aspects.names[2], value)}"
             figure.text((start + PANEL / 2) / width, (low - 14.0) / height, title, ha="center", fontsize=TEXT)
@@ -235,17 +234,6 @@ def _way(axes: Axes, path: AspectPath) -> None:
     halo = [withStroke(linewidth=3.0, foreground=PAPER)]
     axes.plot(*line.T, color=INK, linewidth=1.3, path_effects=halo, zorder=5)
     axes.plot(*line[[0, -1]].T, "o", color=INK, markersize=3.5, zorder=6)
-
-
-def _dress(context: Context, axes: Axes, aspects: Aspects, names: tuple[str, str]) -> None:
-    for name, axis in zip(names, (axes.xaxis, axes.yaxis), strict=True):
-        k = aspects.box.axis(name)
-        low, high = aspects.box.low[k], aspects.box.high[k]
-        axis.set_view_interval(low, high, ignore=True)
-        axis.set_label_text(axis_title(context, name))
-        if is_angle(name) and context.record.angle == "deg":
-            axis.set_major_locator(FixedLocator([float(np.radians(tick)) for tick in angle_ticks(low, high)]))
-            axis.set_major_formatter(FuncFormatter(lambda value, _: minus(f"{np.degrees(value):.0f}")))
 
 
 def _legend(aspects: Aspects, path: AspectPath | None) -> list[Any]:

@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 from assur.figures.context import Context
 from assur.figures.letters import mathematics
 from assur.figures.written import minus
+from assur.kinematics.answers.at_border import angle_at_border
 from assur.model.pose import LENGTHS, is_angle
+from assur.workspace.domain import Box
 
 FloatArray = NDArray[np.float64]
 
@@ -34,16 +36,19 @@ def symbol(name: str) -> str:
 
 def value_words(context: Context, name: str, value: float) -> str:
     """A value of a coordinate with its unit, e.g. "300 mm" or "−30°"."""
-    number = minus(f"{shown(context, name, value):.6g}")
-    if not is_angle(name):
-        return f"{number} {context.record.unit}"
-    return f"{number}°" if context.record.angle == "deg" else f"{number} rad"
+    return f"{minus(f'{shown(context, name, value):.6g}')}{unit_after(context, angle=is_angle(name))}"
+
+
+def unit_after(context: Context, *, angle: bool) -> str:
+    """The unit as it stands after a number of a length or an angle."""
+    return (
+        "°" if angle and context.record.angle == "deg" else f" {context.record.angle if angle else context.record.unit}"
+    )
 
 
 def shown(context: Context, name: str, value: float) -> float:
     """A value of a coordinate as axes show it: angles in the mechanism's angle unit."""
-    degrees = is_angle(name) and context.record.angle == "deg"
-    return float(np.round(np.degrees(value), 9)) + 0.0 if degrees else float(value)
+    return float(np.round(angle_at_border(context.record, value), 9)) + 0.0 if is_angle(name) else float(value)
 
 
 def stretch(context: Context) -> FloatArray:
@@ -73,9 +78,8 @@ def plane_words(first: str, second: str) -> str:
     return f"{symbol(first)} and {symbol(second)}"
 
 
-def dress(context: Context, axes: Axes, names: Sequence[str]) -> None:
-    """Limits, titles and ticks of a plot of two coordinates over the box of the workspace."""
-    box = context.workspace.box
+def dress(context: Context, axes: Axes, box: Box, names: Sequence[str]) -> None:
+    """Limits, titles and ticks of a plot of two coordinates over a box of poses."""
     for name, axis in zip(names, (axes.xaxis, axes.yaxis), strict=True):
         low, high = box.intervals[box.axis(name)]
         axis.set_view_interval(low, high, ignore=True)

@@ -131,7 +131,7 @@ def coloured(
 
     All ends at the border of the workspace, which is drawn. None, and no colours, where nothing is known.
     """
-    dress(plane.context, axes, plane.names)
+    dress(plane.context, axes, plane.context.workspace.box, plane.names)
     axes.tick_params(color=GREY)
     path, known = outline(plane.polygons), np.isfinite(values)
     if path is None:

@@ -71,7 +71,7 @@ def _draw(context: Context) -> Drawing:
         keep = [found.box.axis(a), found.box.axis(b)]
         for j, locus in enumerate(present(found)):
             curves(axes, rim(locus)[:, :, keep], j)
-        dress(context, axes, (a, b))
+        dress(context, axes, context.workspace.box, (a, b))
         middle = (start + scale * wide / 2) / width
         figure.text(middle, 1.5 / height, f"({chr(97 + k)}) {plane_words(a, b)}", ha="center", fontsize=TEXT)
         start += scale * wide + gap

@@ -99,7 +99,7 @@ def _plane(context: Context) -> Any:
     fill(axes, shadow(context.near, 2)[1], CLOSE)
     for k, locus in enumerate(present(found)):
         curves(axes, locus.vertices[locus.faces], k)
-    dress(context, axes, found.box.names)
+    dress(context, axes, found.box, found.box.names)
     figure.legend(handles=legend_of(context), loc="upper center", ncols=2)
     return figure
 

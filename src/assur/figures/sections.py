@@ -87,7 +87,7 @@ def _draw(context: Context) -> Drawing:
         low = (rows - 1 - k // columns) * (tall + bottom) + bottom
         axes = figure.add_axes((start / PAGE, low / height, wide / PAGE, tall / height))
         _panel(context, axes, item, used)
-        dress(context, axes, names)
+        dress(context, axes, context.workspace.box, names)
         if k % columns:
             axes.set_ylabel("")
             axes.set_yticklabels([])

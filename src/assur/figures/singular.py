@@ -11,6 +11,7 @@ import numpy as np
 from assur.figures.canvas import POINTS, Canvas, canvas
 from assur.figures.configuration import Scene, draw_model, scene_of
 from assur.figures.context import Context
+from assur.figures.coordinates import shown
 from assur.figures.labels import label
 from assur.figures.meaning import typeset
 from assur.figures.solid import model_camera, triad
@@ -126,11 +127,11 @@ def _where(context: Context, example: SingularExample) -> str:
 
 def _value(context: Context, name: str, value: float) -> str:
     degrees = is_angle(name) and context.record.angle == "deg"
-    shown = np.degrees(value) if degrees else value
+    number = shown(context, name, value)
     mixed = name in LENGTHS and not all(other in LENGTHS for other in context.record.platform.pose)
     unit = "°" if degrees else f" {context.record.unit}" if mixed else ""
     digits = 2 if degrees or context.skeleton.size > 20 else 4
-    return minus(f"{round(shown, digits) + 0.0:.{digits}f}") + unit
+    return minus(f"{round(number, digits) + 0.0:.{digits}f}") + unit
 
 
 def _draw_one(kind: str, context: Context) -> Drawing:

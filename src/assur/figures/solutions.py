@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.figures.canvas import POINTS, Canvas, View, canvas, inside
 from assur.figures.context import Context
+from assur.figures.coordinates import unit_after
 from assur.figures.labels import label
 from assur.figures.letters import mathematics
 from assur.figures.placing import Letters
@@ -18,7 +19,7 @@ from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import BLUE, GREEN, INK, ORANGE, PAGE, PINK, RED, SKY, SMALL, TEXT
 from assur.figures.written import minus
-from assur.kinematics.answers.at_border import pose_at_border
+from assur.kinematics.answers.at_border import angle_at_border, pose_at_border
 from assur.kinematics.answers.solution import Solution
 from assur.model.pose import QUATERNION, is_angle
 from assur.scene.camera import oblique, plane
@@ -85,10 +86,10 @@ def _caption(context: Context) -> str:
 
 
 def _printed(context: Context, value: float, kind: str) -> str:
-    if kind == "length":
-        return minus(f"{round(value, 4) + 0.0:.4f} {context.record.unit}")
-    degrees = context.record.angle == "deg"
-    return minus(f"{round(np.degrees(value), 3) + 0.0:.3f}°" if degrees else f"{round(value, 4) + 0.0:.4f} rad")
+    angle = kind == "angle"
+    digits = 3 if angle and context.record.angle == "deg" else 4
+    number = angle_at_border(context.record, value) if angle else value
+    return f"{minus(f'{round(float(number), digits) + 0.0:.{digits}f}')}{unit_after(context, angle=angle)}"
 
 
 def _draw(context: Context) -> Drawing:

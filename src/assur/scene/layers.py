@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.frames import frames
+from assur.kinematics.answers.at_border import quantity_text
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
@@ -133,10 +134,7 @@ def layers_note(record: MechanismRecord, workspace: Workspace | None) -> str:
 
 def _held_words(record: MechanismRecord, workspace: Workspace) -> list[str]:
     """A sentence on the angles that are held, in the mechanism's unit."""
-    turned = 180.0 / np.pi if record.angle == "deg" else 1.0
-    words = [
-        f"{name} = {round(value * turned, 4) + 0.0:g} {record.angle}" for name, value in workspace.slice.held.items()
-    ]
+    words = [f"{name} = {quantity_text(record, value, 'angle')}" for name, value in workspace.slice.held.items()]
     return [f"All of it at {', '.join(words)}."] if words else []
 
 

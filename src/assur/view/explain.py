@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.tree import joint_graph
+from assur.kinematics.answers.at_border import quantity_text
 from assur.kinematics.border import held_inputs
 from assur.kinematics.closure import assemble, residuals
 from assur.kinematics.following.path import Path, Stop
@@ -89,9 +89,9 @@ def _end(record: MechanismRecord, bound: Limit, joints: FloatArray) -> str:
 
 
 def _number(record: MechanismRecord, bound: Limit, value: float) -> str:
-    if not bound.angular:
-        return f"{value:.5g} {record.unit}"
-    return f"{math.degrees(value):.4g} deg" if record.angle == "deg" else f"{value:.4g} rad"
+    return (
+        quantity_text(record, value, "angle", digits=4) if bound.angular else quantity_text(record, value, "length", 5)
+    )
 
 
 def gap(path: Path, target: FloatArray) -> str:

@@ -15,6 +15,7 @@ from typing import Any, Literal
 import numpy as np
 
 from assur.errors import UnknownNameError, UsageError
+from assur.kinematics.answers.at_border import quantity_text
 from assur.kinematics.limits import Limit, stated_limits
 from assur.kinematics.turns import periodic
 from assur.model.mechanism import MechanismRecord
@@ -82,8 +83,7 @@ def _shown(record: MechanismRecord, ends: Stroke, *, angular: bool) -> tuple[str
     """Both ends of an interval as the file would have them, with a unit where they are angles."""
     if not angular:
         return f"{ends[0]:g}", f"{ends[1]:g}"
-    factor = math.degrees(1.0) if record.angle == "deg" else 1.0
-    return f"{ends[0] * factor:g} {record.angle}", f"{ends[1] * factor:g} {record.angle}"
+    return quantity_text(record, ends[0], "angle"), quantity_text(record, ends[1], "angle")
 
 
 def _checked(record: MechanismRecord, strokes: Mapping[str, Stroke | None] | None) -> dict[str, Stroke | None]:

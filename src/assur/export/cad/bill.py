@@ -13,6 +13,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.answers.at_border import quantity_text
 from assur.kinematics.validation.check import METRES
 from assur.model.mechanism import Input, Joint, MechanismRecord
 from assur.results.answers.files import BillRow
@@ -146,14 +147,18 @@ def _to_buy(
         ball = next((item.shape for item in own if isinstance(item.shape, Ball)), None)
         bought.append(f"ball joint, ball d {2 * ball.radius * millimetre:.3g}" if ball else "ball joint")
     if driven is not None:
-        bought.append(_drive(driven, millimetre))
+        bought.append(_drive(record, driven, millimetre))
     return bought
 
 
-def _drive(driven: Input, millimetre: float) -> str:
+def _drive(record: MechanismRecord, driven: Input, millimetre: float) -> str:
     """The drive of an input, with its stroke where the file has one."""
     if driven.coordinate.kind == "angle":
-        reach = "" if driven.stroke is None else f", turns by {np.degrees(np.ptp(driven.stroke)):.4g} deg"
+        reach = (
+            ""
+            if driven.stroke is None
+            else f", turns by {quantity_text(record, float(np.ptp(driven.stroke)), 'angle', digits=4)}"
+        )
         return f"rotary drive (gear motor){reach}"
     reach = "" if driven.stroke is None else f", stroke {np.ptp(driven.stroke) * millimetre:.4g} mm"
     return f"linear drive (ball screw, belt or linear motor){reach}"

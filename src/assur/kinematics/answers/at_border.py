@@ -59,6 +59,19 @@ def angle_at_border(record: MechanismRecord, angle: Any) -> Any:
     return np.degrees(angle) if record.angle == "deg" else angle
 
 
+def quantity_text(record: MechanismRecord, value: float, kind: str, digits: int = 6) -> str:
+    """A length or an angle (rad inside) in the file's unit, or a number.
+
+    >>> from assur.model.registry import load_record
+    >>> record = load_record("fivebar")
+    >>> quantity_text(record, 1.0, "length"), quantity_text(record, np.pi / 3, "angle", 4)
+    ('1 mm', '60 deg')
+    """
+    unit = {"length": record.unit, "angle": record.angle}.get(kind, "")
+    shown = round(float(angle_at_border(record, value)), 9) if kind == "angle" else value
+    return f"{shown:.{digits}g} {unit}".rstrip()
+
+
 def inputs_at_border(record: MechanismRecord, inputs: Any) -> FloatArray:
     """Inputs (..., n) with angles in the mechanism's angle unit."""
     angular = np.array([item.coordinate.kind == "angle" for item in record.inputs])

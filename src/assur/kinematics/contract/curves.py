@@ -9,12 +9,13 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border
+from assur.kinematics.answers.at_border import quantity_text
 from assur.kinematics.answers.self_motion import self_motion_curves
 from assur.kinematics.closed_form.branches import Branches
 from assur.kinematics.closed_form.existence import vanishes
 from assur.kinematics.closure import closure_error
 from assur.kinematics.contract.kernel import Kernel
-from assur.kinematics.contract.mismatch import Mismatch, place_text, quantity_text
+from assur.kinematics.contract.mismatch import Mismatch, place_text
 from assur.kinematics.contract.solutions import Solutions
 from assur.kinematics.contract.undeclared import zeros
 from assur.kinematics.pose import pose_error

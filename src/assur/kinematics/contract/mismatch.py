@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.answers.at_border import quantity_text
 from assur.kinematics.modes import Problem
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import LENGTHS, is_angle
@@ -81,16 +82,3 @@ def place_text(record: MechanismRecord, problem: Problem, given: FloatArray) -> 
     ]
     changed = [f"{name} = {value:.6g}" for name, value in record.overrides.items()]
     return ", ".join(told) + (f" (with {', '.join(changed)})" if changed else "")
-
-
-def quantity_text(record: MechanismRecord, value: float, kind: str) -> str:
-    """A length or an angle (rad inside) in the file's unit, or a number.
-
-    >>> from assur.model.registry import load_record
-    >>> quantity_text(load_record("fivebar"), 1.0, "length")
-    '1 mm'
-    """
-    if kind == "angle" and record.angle == "deg":
-        return f"{round(float(np.degrees(value)), 9):.6g} deg"
-    unit = {"length": f" {record.unit}", "angle": " rad"}.get(kind, "")
-    return f"{value:.6g}{unit}"

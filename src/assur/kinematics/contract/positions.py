@@ -8,9 +8,10 @@ from numpy.typing import NDArray
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics import border
+from assur.kinematics.answers.at_border import quantity_text
 from assur.kinematics.closure import CLOSED, residuals
 from assur.kinematics.contract.blame import blamed
-from assur.kinematics.contract.mismatch import Mismatch, place_text, quantity_text
+from assur.kinematics.contract.mismatch import Mismatch, place_text
 from assur.kinematics.contract.solutions import Solutions
 from assur.kinematics.pose import pose_error
 

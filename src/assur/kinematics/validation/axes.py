@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.joint_graph.frames import frames
+from assur.kinematics.answers.at_border import quantity_text
 from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
@@ -41,7 +42,8 @@ def axes_hint(record: MechanismRecord, values: FloatArray, joints: Sequence[str]
     near = {pair: angle for pair, angle in angles.items() if SAME < angle < NEARLY}
     if near:
         one, other = min(near, key=lambda pair: (round(near[pair], 9), not _share_link(record, pair)))
-        return f"the axes of {other} and {one} are {np.degrees(near[one, other]):.3g} deg from parallel"
+        apart = quantity_text(record, near[one, other], "angle", digits=3)
+        return f"the axes of {other} and {one} are {apart} from parallel"
     for name in names:
         rest = [other for other in names if other != name]
         among = [angle for pair, angle in angles.items() if name not in pair]

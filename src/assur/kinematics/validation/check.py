@@ -9,6 +9,7 @@ import numpy as np
 from assur.errors import MechanismFileError, Problem
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
+from assur.kinematics.answers.at_border import quantity_text
 from assur.kinematics.home import home_values
 from assur.kinematics.limits import Limit, limits
 from assur.kinematics.pose import pose_of
@@ -161,7 +162,7 @@ def _box(record: MechanismRecord) -> list[Problem]:
         angular = is_angle(name)
         spare = ROUND * (1.0 if angular else characteristic_length(record))
         if not low - spare <= home[name] <= high + spare:
-            own, least, most = (_quantity(record, item, angular=angular) for item in (home[name], low, high))
+            own, least, most = (quantity_text(record, item, _kind(angular)) for item in (home[name], low, high))
             text, hint = f"home has {name} = {own}, outside {least} to {most}", "look for the workspace about home"
             found.append(problem(record, ("workspace", "box", name), text, "it is unusual, but may be", hint))
     return found
@@ -194,10 +195,13 @@ def _limits(record: MechanismRecord) -> list[Problem]:
 def _outside(record: MechanismRecord, limit: Limit, value: float, written: float) -> Problem:
     kind, name = limit.what, limit.of
     joint = record.coordinates[limit.index].joint
-    own, low, high = (_shown(record, limit, item) for item in (value, limit.low, limit.high))
+    unit_kind = _kind(limit.angular)
+    own, low, high = (quantity_text(record, item, unit_kind) for item in (value, limit.low, limit.high))
     inside = limit.low <= written <= limit.high
     hint = (
-        f"the file's home has {_shown(record, limit, written)}; from there the loops close at {own}" if inside else ""
+        f"the file's home has {quantity_text(record, written, unit_kind)}; from there the loops close at {own}"
+        if inside
+        else ""
     )
     if kind == "cone":
         path = (*place(record, "joints", joint), "cone")
@@ -212,20 +216,13 @@ def _outside(record: MechanismRecord, limit: Limit, value: float, written: float
     return problem(record, path, found, "a home inside", hint)
 
 
-def _shown(record: MechanismRecord, limit: Limit, value: float) -> str:
-    return _quantity(record, value, angular=limit.angular)
-
-
-def _quantity(record: MechanismRecord, value: float, *, angular: bool) -> str:
-    if not angular:
-        return f"{value:.6g} {record.unit}"
-    return f"{np.degrees(value):.6g} deg" if record.angle == "deg" else f"{value:.6g} rad"
-
-
 def _rounded(record: MechanismRecord, value: float, *, angular: bool) -> str:
     """To four digits of the file's unit, which is finer than a home needs."""
-    shown = np.degrees(value) if angular and record.angle == "deg" else value
-    return f"{round(float(shown), 9):.4g} {record.angle if angular else record.unit}"
+    return quantity_text(record, value, _kind(angular), digits=4)
+
+
+def _kind(angular: bool) -> str:
+    return "angle" if angular else "length"
 
 
 def _one_each(problems: list[Problem]) -> list[Problem]:

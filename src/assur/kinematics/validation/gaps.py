@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from assur.errors import Problem
 from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.joint_graph.tree import joint_graph
+from assur.kinematics.answers.at_border import angle_at_border, quantity_text
 from assur.kinematics.closure import Assembly, assemble, residuals
 from assur.kinematics.limits import limits
 from assur.kinematics.turns import unwrapped
@@ -164,8 +165,8 @@ def _gap(record: MechanismRecord, assembly: Assembly) -> str:
     gaps = np.linalg.norm(residuals(record, assembly.values).reshape(-1, 2, 3), axis=-1)
     distance, turn = np.max(gaps, axis=0)
     if distance >= turn:
-        return f"{distance:.3g} {record.unit}"
-    return f"{np.degrees(turn / characteristic_length(record)):.3g} deg"
+        return quantity_text(record, distance, "length", digits=3)
+    return quantity_text(record, turn / characteristic_length(record), "angle", digits=3)
 
 
 def _hint(
@@ -177,7 +178,7 @@ def _hint(
         return f"nor from {home} other starts, so a dimension or an axis is at fault{'; ' if axes else ''}{axes}"
     values: dict[str, list[str]] = {}
     for item, value in zip(coordinates, home, strict=True):
-        shown = np.degrees(value) if item.kind == "angle" and record.angle == "deg" else value
+        shown = angle_at_border(record, value) if item.kind == "angle" else value
         values.setdefault(item.joint, []).append(f"{round(float(shown), 6):.6g}")
     lists = [f"{name} = " + (only[0] if len(only) == 1 else f"[{', '.join(only)}]") for name, only in values.items()]
     more = ", ..." if len(lists) > SHOWN else ""

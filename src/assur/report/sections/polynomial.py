@@ -7,8 +7,10 @@ import itertools
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.answers.at_border import angle_at_border
 from assur.kinematics.closed_form.roots import coefficients_of
 from assur.model.closed_form import Eliminant, PolynomialSystem
+from assur.model.mechanism import MechanismRecord
 from assur.numerics import polynomials
 from assur.report.findings import Findings
 from assur.results.kinds import FLOATING, Cell, Table
@@ -61,9 +63,9 @@ def polynomial(findings: Findings, eliminant: Eliminant) -> list[Table]:
     coefficients = Table(
         "Coefficients of the polynomial", heads, rows, "The largest is made 1.", folded=True, known_by=FLOATING
     )
-    angle = (f"{eliminant.unknown} [°]",) if _angular(eliminant) else ()
+    angle = (f"{eliminant.unknown} [{findings.style.kind_unit('angle')}]",) if _angular(eliminant) else ()
     columns = ("root", "real part", "imaginary part", *angle)
-    listed = tuple(row for label, values in parts for row in _roots(eliminant, label, values))
+    listed = tuple(row for label, values in parts for row in _roots(findings.record, eliminant, label, values))
     of_what = "the tangent of half of the angle" if _angular(eliminant) else "the unknown itself"
     caption = f"Of {of_what}. Real roots come first; a double one is one pose."
     return [coefficients, Table("Roots of the polynomial", columns, listed, caption, folded=True, known_by=FLOATING)]
@@ -91,15 +93,19 @@ def _angular(eliminant: Eliminant) -> bool:
     return eliminant.kind == "angle"
 
 
-def _roots(eliminant: Eliminant, label: str, coefficients: NDArray[np.float64]) -> list[tuple[Cell, ...]]:
+def _roots(
+    record: MechanismRecord, eliminant: Eliminant, label: str, coefficients: NDArray[np.float64]
+) -> list[tuple[Cell, ...]]:
     roots = polynomials.roots(coefficients)
     order = np.lexsort((roots.real, np.abs(roots.imag) > REAL * (1 + np.abs(roots))))
-    return [_root(eliminant, f"{number} {label}".strip(), complex(roots[k])) for number, k in enumerate(order, 1)]
+    return [
+        _root(record, eliminant, f"{number} {label}".strip(), complex(roots[k])) for number, k in enumerate(order, 1)
+    ]
 
 
-def _root(eliminant: Eliminant, name: str, root: complex) -> tuple[Cell, ...]:
+def _root(record: MechanismRecord, eliminant: Eliminant, name: str, root: complex) -> tuple[Cell, ...]:
     real = abs(root.imag) <= REAL * (1 + abs(root))
     cells: tuple[Cell, ...] = (name, short(root.real, DIGITS), "0" if real else short(root.imag, DIGITS))
     if not _angular(eliminant):
         return cells
-    return (*cells, short(float(np.degrees(2 * np.arctan(root.real))), DIGITS) if real else None)
+    return (*cells, short(float(angle_at_border(record, 2 * np.arctan(root.real))), DIGITS) if real else None)
