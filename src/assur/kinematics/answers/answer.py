@@ -11,10 +11,10 @@ from assur.kinematics.answers.at_border import (
     angle_at_border,
     coordinates_at_border,
     inputs_at_border,
-    limits_at_border,
     pose_at_border,
     power,
 )
+from assur.kinematics.answers.excess import limits_at_border
 from assur.kinematics.answers.remarks import angles_remark, doubles
 from assur.kinematics.answers.solution import Failure, Solution
 from assur.kinematics.answers.solution_set import SolutionSet
@@ -100,7 +100,7 @@ def _said(record: MechanismRecord, solution: Solution, home: bool | None) -> dic
         "residual": solution.residual,
         "status": solution.status.name,
         "open_loop": solution.open_loop,
-        "limits": limits_at_border(record, solution),
+        "limits": limits_at_border(record, solution.within_limits, solution.excesses),
         "angles": angles_remark(record, solution.pose),
         "parasitic": _parasitic(record, solution),
         "home": home,

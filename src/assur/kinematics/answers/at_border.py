@@ -9,26 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.kinematics.answers.solution import Solution
 from assur.model.mechanism import Input, MechanismRecord
 from assur.model.pose import is_angle
-from assur.results.answers.position import ExceededLimit, KeptLimits
 
 FloatArray = NDArray[np.float64]
 Box = tuple[tuple[float, float], ...]
-
-
-def limits_at_border(record: MechanismRecord, solution: Solution) -> KeptLimits:
-    """Whether a solution keeps the limits of the file, and each that it does not keep."""
-    outside = []
-    for each in solution.excesses:
-        value, low, high, by = (
-            float(angle_at_border(record, number) if each.angular else number)
-            for number in (each.value, each.low, each.high, each.by)
-        )
-        unit = record.angle if each.angular else record.unit
-        outside.append(ExceededLimit(each.limit, each.joint, value, low, high, by, unit))
-    return KeptLimits(solution.within_limits, tuple(outside))
 
 
 def coordinate_unit(record: MechanismRecord, name: str) -> float:

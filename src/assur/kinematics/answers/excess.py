@@ -5,6 +5,7 @@ Nothing is dropped for it: a solution outside the limits is one of the equations
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,12 +13,13 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.geometry import characteristic_length
 from assur.joint_graph.tree import joint_graph
+from assur.kinematics.answers.at_border import angle_at_border
 from assur.kinematics.closure import CLOSED, residuals
 from assur.kinematics.limits import Limit, stated_limits, turns_to
 from assur.kinematics.modes import Problem
 from assur.kinematics.validation.gaps import loops
 from assur.model.mechanism import MechanismRecord
-from assur.results.answers.position import OpenLoop
+from assur.results.answers.position import ExceededLimit, KeptLimits, OpenLoop
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -44,6 +46,19 @@ class Excess:
     high: float
     by: float
     angular: bool
+
+
+def limits_at_border(record: MechanismRecord, within: bool | None, excesses: Iterable[Excess]) -> KeptLimits:
+    """Whether a solution keeps the limits of the file, and each that it does not keep, in the file's units."""
+    outside = []
+    for each in excesses:
+        value, low, high, by = (
+            float(angle_at_border(record, number) if each.angular else number)
+            for number in (each.value, each.low, each.high, each.by)
+        )
+        unit = record.angle if each.angular else record.unit
+        outside.append(ExceededLimit(each.limit, each.joint, value, low, high, by, unit))
+    return KeptLimits(within, tuple(outside))
 
 
 def beyond(record: MechanismRecord, problem: Problem, given: FloatArray, joints: FloatArray) -> FloatArray:

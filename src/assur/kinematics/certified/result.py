@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics import border, position
-from assur.kinematics.answers.at_border import inputs_at_border, limits_at_border, pose_at_border, power
+from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
+from assur.kinematics.answers.excess import limits_at_border
 from assur.kinematics.limits import limits_stated
 from assur.kinematics.modes import Problem
 from assur.kinematics.turns import periodic_inputs
@@ -218,7 +219,7 @@ def _limits(solutions: CertifiedSolutions) -> list[KeptLimits]:
         change = np.where(same, rotations.nearest_turn(change), change)
         away = np.max(np.abs(change) / sizes, axis=-1) if len(rows) else np.array([np.inf])
         k = int(np.argmin(away))
-        kept.append(limits_at_border(record, floats[k]) if away[k] < THERE else none)
+        kept.append(limits_at_border(record, floats[k].within_limits, floats[k].excesses) if away[k] < THERE else none)
     return kept
 
 
