@@ -117,11 +117,12 @@ def drawing(record: MechanismRecord, name: str, context: Context | None = None) 
     """
     shared = context or Context(record)
     entry = _entry(record, name, shared)
-    if name not in shared.drawings:
+
+    def drawn() -> Drawing:
         with stage(f"figure {name}"), styled():
-            shared.drawings[name] = entry.draw(shared)
-    made: Drawing = shared.drawings[name]
-    return made
+            return entry.draw(shared)
+
+    return shared.kept(f"figure {name}", drawn)
 
 
 def draw(record: MechanismRecord, name: str, context: Context | None = None) -> Figure:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Callable, Hashable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from manifold3d import Manifold
@@ -45,6 +45,8 @@ from assur.workspace.slices import MOST, slice_at
 
 FloatArray = NDArray[np.float64]
 
+Made = TypeVar("Made")
+
 POINTS = 2**10
 """Of the workspace's box, over which a caption's means are taken."""
 
@@ -60,14 +62,19 @@ class Context:
         record: the mechanism.
         given_workspace: one that is there already; else it is computed when a figure needs it.
         resolution: cells along each coordinate of a workspace that is computed; None for the usual number.
-        drawings: by name, those that have been drawn; a second user of the context gets the same ones.
     """
 
     record: MechanismRecord
     given_workspace: Workspace | None = None
     resolution: int | None = None
-    drawings: dict[str, Any] = field(default_factory=dict, repr=False)
-    _known: dict[tuple[tuple[int, ...], bytes], Indices] = field(default_factory=dict, repr=False)
+    _kept: dict[Hashable, Any] = field(default_factory=dict, repr=False)
+
+    def kept(self, name: Hashable, make: Callable[[], Made]) -> Made:
+        """What is made under a name, the first time that it is asked for; a drawing, or what several figures show."""
+        if name not in self._kept:
+            self._kept[name] = make()
+        made: Made = self._kept[name]
+        return made
 
     @cached_property
     def companion(self) -> Companion:
@@ -206,9 +213,7 @@ class Context:
         [True, False]
         """
         key = (points.shape, hashlib.blake2b(np.ascontiguousarray(points).tobytes()).digest())
-        if key not in self._known:  # several figures show the same plane
-            self._known[key] = self._indices_at(points)
-        return self._known[key]
+        return self.kept(key, lambda: self._indices_at(points))  # several figures show the same plane
 
     def _indices_at(self, points: FloatArray) -> Indices:
         found, flat, batch = self.workspace, points.reshape(-1, points.shape[-1]), points.shape[:-1]

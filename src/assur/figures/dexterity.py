@@ -13,10 +13,10 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from assur.figures.context import Context
-from assur.figures.plane_map import COLOURS, SHOWN, beyond, coloured, planes
+from assur.figures.plane_map import COLOURS, SHOWN, beyond, coloured, planes, row
 from assur.figures.plots import mode_words, no_workspace
 from assur.figures.spec import Drawing, FigureKind
-from assur.figures.style import PAGE, TEXT, new_figure
+from assur.figures.style import TEXT
 from assur.kinematics.rates.units import factor_unit, is_mixed
 from assur.performance.indices import INDICES
 
@@ -81,29 +81,16 @@ def _factor_caption(measure: Measure, which: str, end: str) -> Callable[[Context
 
 def _draw(context: Context, measure: Measure) -> Drawing:
     mapped = planes(context, NODES)
-    left, gap, bottom, right = 14.0, 18.0, 17.0, 22.0
-    room = PAGE - left - right - gap * (len(mapped) - 1)
-    across = sum(plane.spans[0] for plane in mapped)
-    scale = min(90.0 / max(plane.spans[1] for plane in mapped), room / across)
-    width = left + right + gap * (len(mapped) - 1) + scale * across
-    height = bottom + 5.0 + scale * max(plane.spans[1] for plane in mapped)
-    figure = new_figure(width, height)
+    titles = [plane.words for plane in mapped]
+    figure, axes, bar = row(mapped, titles, gap=18.0, bottom=17.0, right=22.0, tallest=90.0)
     maps = [context.indices_at(plane.points)[measure.name] for plane in mapped]
     known = [values[np.isfinite(values)] for values in maps]
     top = max((float(np.quantile(values, measure.quantile)) for values in known if len(values)), default=0.0) or 1.0
-    colours, start, data = Normalize(0.0, top), left, []
-    for k, (plane, values) in enumerate(zip(mapped, maps, strict=True)):
-        wide, tall = plane.spans
-        axes = figure.add_axes((start / width, bottom / height, scale * wide / width, scale * tall / height))
-        coloured(axes, plane, values, colours, levels=_levels(top))
-        middle = (start + scale * wide / 2) / width
-        figure.text(middle, 1.5 / height, f"({chr(97 + k)}) {plane.words}", ha="center", fontsize=TEXT)
-        start += scale * wide + gap
+    colours, data = Normalize(0.0, top), []
+    for place, plane, values in zip(axes, mapped, maps, strict=True):
+        coloured(place, plane, values, colours, levels=_levels(top))
         nodes = dict(zip(plane.names, (plane.xs, plane.ys), strict=True))
         data.append({"plane": plane.names, "held": plane.held, **nodes, measure.key: values})
-    bar = figure.add_axes(
-        ((width - right + 5.0) / width, bottom / height, 3.5 / width, (height - bottom - 5.0) / height)
-    )
     colorbar = figure.colorbar(ScalarMappable(colours, COLOURS), cax=bar, extend=beyond(top, *known))
     unit = "" if measure is INDEX else factor_unit(context.record, None)
     colorbar.set_label(f"${measure.symbol}$" + (f" ({unit})" if unit else ""), fontsize=TEXT)

@@ -24,12 +24,10 @@ NODES = 32
 
 def whole(context: Context) -> IndexMaps:
     """The maps of the middle plane of the workspace, worked out once."""
-    key = "index maps: data"
-    if key not in context.drawings:
-        plane = plane_of_lengths(context, NODES)
-        context.drawings[key] = index_maps(context.record, context.workspace, plane.names, plane.held, NODES)
-    found: IndexMaps = context.drawings[key]
-    return found
+    plane = plane_of_lengths(context, NODES)
+    return context.kept(
+        "index maps", lambda: index_maps(context.record, context.workspace, plane.names, plane.held, NODES)
+    )
 
 
 def drawn(context: Context, maps: IndexMaps) -> Drawing:

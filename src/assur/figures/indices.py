@@ -15,17 +15,16 @@ from matplotlib.colors import Normalize
 from numpy.typing import NDArray
 
 from assur.figures.context import Context
-from assur.figures.plane_map import COLOURS, SHOWN, MappedPlane, beyond, coloured, plane_of_lengths
+from assur.figures.plane_map import COLOURS, SHOWN, MappedPlane, beyond, coloured, headed, plane_of_lengths, row
 from assur.figures.plots import mode_words, no_workspace
 from assur.figures.spec import Drawing, FigureKind
-from assur.figures.style import ORANGE, PAGE, TEXT, new_figure
+from assur.figures.style import ORANGE
 from assur.figures.written import units
 from assur.performance.indices import INDICES, Indices
 from assur.performance.transmission import GOOD
 
 FloatArray = NDArray[np.float64]
 NODES = 48
-TALL = 75.0
 LEVELS = [round(0.1 * k, 1) for k in range(1, 10)]
 TRANSMISSION_MAPS = ("input_transmission", "output_transmission", "transmission")
 JACOBIAN_MAPS = ("condition", "frobenius", "manipulability")
@@ -84,26 +83,17 @@ def _jacobian_caption(context: Context) -> str:
 
 def _draw(context: Context, names: tuple[str, ...], *, good: bool) -> Drawing:
     there = field(context)
-    plane, (wide, tall) = there.plane, there.plane.spans
-    left, gap, bottom, top, right = 14.0, 6.0, 14.0, 5.0, 20.0
-    scale = min(TALL / tall, (PAGE - left - right - gap * (len(names) - 1)) / (len(names) * wide))
-    width = left + right + gap * (len(names) - 1) + len(names) * scale * wide
-    height = bottom + top + scale * tall
-    figure = new_figure(width, height)
+    plane, titles = there.plane, [f"${INDICES[name].symbol}$" for name in names]
+    figure, maps, bar = row([plane] * len(names), titles, gap=6.0, bottom=14.0, right=20.0, tallest=75.0)
     data = {}
-    for k, name in enumerate(names):
-        start = left + k * (scale * wide + gap)
-        axes = figure.add_axes((start / width, bottom / height, scale * wide / width, scale * tall / height))
+    for name, axes in zip(names, maps, strict=True):
         values, divisor = there.shares(name)
         coloured(axes, plane, values, Normalize(0.0, 1.0), levels=LEVELS, marked={GOOD: ORANGE} if good else None)
-        if k:
+        if axes is not maps[0]:
             axes.set_ylabel("")
             axes.tick_params(labelleft=False)
-        label = f"({chr(97 + k)}) ${INDICES[name].symbol}$"
-        figure.text((start + scale * wide / 2) / width, 1.5 / height, label, ha="center", fontsize=TEXT)
         data[name] = {"values": there.indices[name], "divided_by": divisor}
-    figure.text(left / width, 1.0 - 3.5 / height, plane.words, fontsize=TEXT)
-    bar = figure.add_axes(((width - right + 5.0) / width, bottom / height, 3.5 / width, scale * tall / height))
+    headed(figure, plane)
     end = beyond(1.0, *(there.shares(name)[0] for name in names))
     scale_bar = figure.colorbar(ScalarMappable(Normalize(0.0, 1.0), COLOURS), cax=bar, extend=end)
     scale_bar.set_ticks([0.0, *LEVELS[1::2], 1.0])

@@ -38,11 +38,7 @@ class ParasiticMaps:
 
 def maps(context: Context) -> ParasiticMaps:
     """The maps, worked out once."""
-    key = "parasitic: data"
-    if key not in context.drawings:
-        context.drawings[key] = _maps(context)
-    found: ParasiticMaps = context.drawings[key]
-    return found
+    return context.kept("parasitic maps", lambda: _maps(context))
 
 
 def _maps(context: Context) -> ParasiticMaps:

@@ -20,7 +20,7 @@ from scipy.ndimage import distance_transform_edt
 from assur.figures.context import Context
 from assur.figures.coordinates import drawn_span, dress, plane_words, symbol, value_words
 from assur.figures.plots import outline
-from assur.figures.style import GREY, INK, PAGE, SMALL, TEXT, new_figure
+from assur.figures.style import GREY, INK, MILLIMETRE, PAGE, SMALL, TEXT, new_figure
 from assur.model.pose import LENGTHS, is_angle
 
 FloatArray = NDArray[np.float64]
@@ -28,8 +28,8 @@ COLOURS = "cividis"
 SHOWN = 0.75
 """Colours end at this quantile of what grows without bound towards a singularity."""
 
-ACROSS, TALLEST = 3, 50.0
-"""Maps in a row of panels, and the height of one in mm at most."""
+ACROSS, TALLEST, LEFT = 3, 50.0, 14.0
+"""Maps in a row of panels, the height of one in mm at most, and the room to the left of the first."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,12 +157,12 @@ def coloured(
 def panels(plane: MappedPlane, titles: Sequence[str], right: float) -> tuple[Figure, list[tuple[Axes, Axes]]]:
     """A figure with a map of the same plane for each title, and beside each its bar of colours, `right` mm wide."""
     wide, tall = plane.spans
-    left, bottom, top = 14.0, 13.0, 7.0
+    left, bottom, top = LEFT, 13.0, 7.0
     scale = min((PAGE / ACROSS - left - right) / wide, TALLEST / tall)
     cell, row = PAGE / ACROSS, bottom + top + scale * tall
     height = math.ceil(len(titles) / ACROSS) * row + 5.0
     figure = new_figure(PAGE, height)
-    figure.text(left / PAGE, 1.0 - 3.5 / height, plane.words, fontsize=TEXT)
+    headed(figure, plane)
     pairs = []
     for k, title in enumerate(titles):
         x, y = (k % ACROSS) * cell + left, height - 5.0 - (k // ACROSS) * row - top - scale * tall
@@ -172,6 +172,34 @@ def panels(plane: MappedPlane, titles: Sequence[str], right: float) -> tuple[Fig
         figure.text(middle, above, f"({chr(97 + k)}) {title}", ha="center", fontsize=TEXT)
         pairs.append((axes, bar))
     return figure, pairs
+
+
+def row(
+    planes: Sequence[MappedPlane], titles: Sequence[str], *, gap: float, bottom: float, right: float, tallest: float
+) -> tuple[Figure, list[Axes], Axes]:
+    """A figure with maps of planes side by side, true to one scale, their titles below, and one bar of colours.
+
+    Lengths are in mm: between two maps, below them, to the right for the bar, and the height of a map at most.
+    """
+    left, top, spans = LEFT, 5.0, [plane.spans for plane in planes]
+    between = gap * (len(planes) - 1)
+    across, upward = sum(wide for wide, _ in spans), max(tall for _, tall in spans)
+    scale = min(tallest / upward, (PAGE - left - right - between) / across)
+    width, height = left + right + between + scale * across, bottom + top + scale * upward
+    figure, maps, start = new_figure(width, height), [], left
+    for k, ((wide, tall), title) in enumerate(zip(spans, titles, strict=True)):
+        maps.append(figure.add_axes((start / width, bottom / height, scale * wide / width, scale * tall / height)))
+        middle = (start + scale * wide / 2) / width
+        figure.text(middle, 1.5 / height, f"({chr(97 + k)}) {title}", ha="center", fontsize=TEXT)
+        start += scale * wide + gap
+    bar = figure.add_axes(((width - right + 5.0) / width, bottom / height, 3.5 / width, scale * upward / height))
+    return figure, maps, bar
+
+
+def headed(figure: Figure, plane: MappedPlane) -> None:
+    """The name of a plane over the maps of it."""
+    width, height = figure.get_size_inches() / MILLIMETRE
+    figure.text(LEFT / width, 1.0 - 3.5 / height, plane.words, fontsize=TEXT)
 
 
 def with_bar(
