@@ -15,7 +15,7 @@ from assur.figures.symbols import ground_pivot, ground_rail, joint_symbol
 from assur.scene.companion import Companion
 from assur.scene.hull import hull
 from assur.scene.rails import rails
-from assur.scene.skeleton import JointMark, Skeleton
+from assur.scene.skeleton import Skeleton
 
 FloatArray = NDArray[np.float64]
 BROWN = "#8c564b"
@@ -103,12 +103,6 @@ def cloud_of(skeleton: Skeleton, companion: Companion) -> FloatArray:
     """Every point (k, 3) that must be on the page, ends of the rails included."""
     ends = [point for rail in rails(skeleton, companion) for point in rail]
     return np.concatenate([skeleton.cloud, np.array(ends).reshape(-1, 3)])
-
-
-def sliders_on_one_place(marks: tuple[JointMark, ...]) -> bool:
-    """Whether two sliding joints are drawn at one place."""
-    places = [mark.at for mark in marks if mark.slides]
-    return any(np.allclose(a, b) for k, a in enumerate(places) for b in places[:k])
 
 
 def _step(ends: FloatArray, share: float) -> FloatArray:

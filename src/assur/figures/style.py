@@ -13,9 +13,6 @@ from matplotlib.figure import Figure
 MILLIMETRE = 1 / 25.4
 """In inches."""
 
-COLUMN = 85.0
-"""Width of one column of a journal, in mm."""
-
 PAGE = 175.0
 """Width of two columns, in mm."""
 
@@ -26,7 +23,6 @@ PAPER = "#ffffff"
 ORANGE = "#e69f00"
 SKY = "#56b4e9"
 GREEN = "#009e73"
-YELLOW = "#f0e442"
 BLUE = "#0072b2"
 RED = "#d55e00"
 PINK = "#cc79a7"

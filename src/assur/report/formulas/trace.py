@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -115,9 +115,6 @@ class Traced:
 
     def _make(self, operator: Operator, *parts: Traced) -> Traced:
         return made(self.book, operator, *parts)
-
-
-TracedPair: TypeAlias = tuple[Traced, Traced]
 
 
 @dataclass(frozen=True)
