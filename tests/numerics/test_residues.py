@@ -30,6 +30,8 @@ def test_roots_of_rationals_are_the_positive_ones(draws):
     assert draws.vanishes(draws.cos(pi * Fraction(1, 4)) - draws.sqrt(2) / 2)
     assert draws.vanishes(draws.cos(pi * Fraction(1, 5)) - (1 + draws.sqrt(5)) / 4)
     assert draws.vanishes(draws.sin(pi * Fraction(1, 2)) - 1)
+    assert draws.vanishes(draws.sqrt((draws.sqrt(3) / 2) * (draws.sqrt(3) / 2) + Fraction(1, 4)) - 1)
+    assert draws.vanishes(draws.sqrt(draws.sqrt(2) * draws.sqrt(2)) - draws.sqrt(2))
     sevenths = [draws.sin(pi * Fraction(2 * k, 7)) for k in (1, 2, 4)]
     assert math.isclose(sum(math.sin(2 * math.pi * k / 7) for k in (1, 2, 4)), math.sqrt(7) / 2)
     assert draws.vanishes(sum(sevenths) - draws.sqrt(7) / 2)

@@ -256,8 +256,9 @@ class Draws(DrawnAngles):
         return root
 
     def _known_root(self, value: Residues) -> tuple[Residues, object, Fraction]:
-        if value.exact is not None:
-            return self._of_rational(value.exact), None, Fraction(1)
+        exact = self._rational(value, self.number(1)) if value.exact is None else value.exact
+        if exact is not None:
+            return self._of_rational(exact), None, Fraction(1)
         for inverse, known in self._known:
             share = self._rational(value, inverse)
             if share is not None:

@@ -105,3 +105,23 @@ def test_other_primes_say_the_same(name, seed):
         trial = Trial(load_record(name), problem, True, np.random.default_rng(seed))
         assert trial.mismatch() is None
         assert trial.error < 1e-15 or trial.draws.tied or trial.places < 8  # then others are drawn
+
+
+TEMPLATE = {
+    'about = "z", count = 3': 'about = [0, 0, "sqrt(2)"], angles = [30, "5*pi/6", "270 deg"]',
+    'axis = "-y"': 'axis = ["-1/2", "-sqrt(3)/2", 0]',
+    '[0, "-w/2", 0]': '["-w/4", "-w*sqrt(3)/4", 0]',
+    '[0, "w/2", 0]': '["w/4", "w*sqrt(3)/4", 0]',
+} | {f'["{size}", 0, 0]': f'["{size}*cos(30 deg)", "-{size}*sin(pi/6)", 0]' for size in "rabc"}
+"""A template that is written 30 degrees back, in limbs that are turned by as much more: the same mechanism."""
+
+
+@pytest.mark.parametrize("slip", ["", "sqrt(3)/2"])
+def test_axes_places_and_angles_keep_their_formulas(copied, slip):
+    path = copied("tsai_platform") / "mechanism.toml"
+    text = path.read_text()
+    for old, new in TEMPLATE.items():
+        assert old in text
+        text = text.replace(old, new)
+    path.write_text(text.replace(slip, "0.866025403784") if slip else text)
+    assert exactness(load_record(path)).proved == (not slip)
