@@ -27,13 +27,12 @@ from rich.table import Table
 
 import assur
 from assur.joint_graph.geometry import characteristic_length
-from assur.kinematics.closure import FloatArray, assemble, closure_error
+from assur.kinematics.closure import FloatArray, assemble, closure_error, closure_jacobian
 from assur.kinematics.following.from_home import followed_together
 from assur.kinematics.newton import ENOUGH, Newton, NewtonStep
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.finite_motion import classify_at, status_of
 from assur.kinematics.rates.instantaneous import instantaneous
-from assur.kinematics.rates.motions import closure_at_platform
 from assur.kinematics.search import search
 from assur.numerics.newton import BLOCK
 from assur.synthesis.drafting.drafting import drafted
@@ -125,7 +124,7 @@ def statuses(rows: Table, mechanism: assur.Mechanism, joints: FloatArray, repeat
     right = np.array_equal(
         classify_at(mechanism, joints), status_of(mechanism, joints, instantaneous(mechanism, joints))
     )
-    closure = closure_at_platform(mechanism, joints[:BLOCK])
+    closure = closure_jacobian(mechanism, joints[:BLOCK])
     least = timed(lambda: np.linalg.svd(closure), 20 * repeats, time.process_time) / len(closure)
     took = f"{1e6 * ours:.1f} µs a pose", f"{1e6 * least:.1f} µs", f"{ours / least:.1f}"
     rows.add_row("its statuses", *took, "one singular value decomposition of the closure")

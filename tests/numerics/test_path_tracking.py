@@ -59,11 +59,12 @@ def test_each_path_of_a_batch_has_its_own_step():
     assert along(system, start[1:], both[1:], np.ones(1), np.zeros(1), 1e-5)[2] < most
 
 
-def test_polishing_reaches_rounding_and_says_where_it_does_not():
+def test_polishing_reaches_rounding_and_says_where_it_does_not(monkeypatch):
     system = ellipse_and_line()
     rough = exact(0.0) + np.array([1e-3, -2e-3, 0])
     found, good = polished(system, rough[None].astype(complex), np.zeros(1), ONE)
     assert good[0]
     np.testing.assert_allclose(affine(found)[0], exact(0.0), rtol=0, atol=1e-14)
-    _, good = polished(system, rough[None].astype(complex), np.zeros(1), ONE, steps=1)
+    monkeypatch.setattr("assur.numerics.path_tracking.POLISHINGS", 1)
+    _, good = polished(system, rough[None].astype(complex), np.zeros(1), ONE)
     assert not good[0]

@@ -36,8 +36,8 @@ def checked(values: Named, names: tuple[str, ...], what: str) -> FloatArray:
         raise UsageError(f"{what}: not an array of numbers", hint=f"give {', '.join(names)}")
     array = given.astype(float)
     if array.ndim == 0 or array.shape[-1] != len(names):
-        found = "a single number" if array.ndim == 0 else f"{array.shape[-1]} values"
-        raise UsageError(f"{what}: {found}, {len(names)} wanted", hint=f"give {', '.join(names)}")
+        given_shape = "a single number" if array.ndim == 0 else f"{array.shape[-1]} values"
+        raise UsageError(f"{what}: {given_shape}, {len(names)} wanted", hint=f"give {', '.join(names)}")
     if not np.all(np.isfinite(array)):
         raise UsageError(f"{what}: every value must be finite, not NaN or infinite")
     if np.any(np.abs(array) > LARGEST):
@@ -76,7 +76,7 @@ def joint_array(record: MechanismRecord, joints: Named) -> FloatArray:
 
 def joint_names(record: MechanismRecord) -> tuple[str, ...]:
     """Names of the joint values."""
-    return tuple(record.coordinate_label(item) for item in record.coordinates)
+    return tuple(record.coordinate_label(coordinate) for coordinate in record.coordinates)
 
 
 def checked_poses(record: MechanismRecord, values: ArrayLike) -> FloatArray:
@@ -111,12 +111,12 @@ def in_range(record: MechanismRecord, poses: FloatArray) -> FloatArray:
 
 def input_names(record: MechanismRecord) -> tuple[str, ...]:
     """Printed names of the inputs."""
-    return tuple(item.name for item in record.inputs)
+    return tuple(driven.name for driven in record.inputs)
 
 
 def input_components(record: MechanismRecord, inputs: FloatArray) -> tuple[Any, ...]:
     """Kernel inputs from printed ones (N, n): an angle as (cosine, sine), a length or counted turns as they are."""
-    values = [item.joint_value(inputs[:, k]) for k, item in enumerate(record.inputs)]
+    values = [driven.joint_value(inputs[:, k]) for k, driven in enumerate(record.inputs)]
     return tuple(
         (np.cos(value), np.sin(value)) if same else value
         for value, same in zip(values, periodic_inputs(record), strict=True)
@@ -127,14 +127,14 @@ def printed_inputs(record: MechanismRecord, components: tuple[Any, ...]) -> list
     """Printed inputs from a kernel's, one array each; no arithmetic where a printed input is the joint's value."""
     values = [scalar(value) for value in components]
     return [
-        value if (item.sign, item.offset) == (1.0, 0.0) else item.printed(value)
-        for value, item in zip(values, record.inputs, strict=True)
+        value if (driven.sign, driven.offset) == (1.0, 0.0) else driven.printed(value)
+        for value, driven in zip(values, record.inputs, strict=True)
     ]
 
 
 def inputs_of(record: MechanismRecord, joints: FloatArray) -> FloatArray:
     """Printed inputs (..., n) at joint values (..., coordinates)."""
-    columns = [item.printed(joints[..., item.coordinate.index]) for item in record.inputs]
+    columns = [driven.printed(joints[..., driven.coordinate.index]) for driven in record.inputs]
     return np.stack(columns, axis=-1)
 
 
@@ -142,8 +142,8 @@ def held_inputs(record: MechanismRecord, joints: FloatArray, inputs: FloatArray)
     """Joint values (..., coordinates) with the actuated ones as printed inputs (..., n) say."""
     answer = np.broadcast_to(joints, (*np.broadcast_shapes(joints.shape[:-1], inputs.shape[:-1]), joints.shape[-1]))
     answer = np.array(answer)
-    for k, item in enumerate(record.inputs):
-        answer[..., item.coordinate.index] = item.joint_value(inputs[..., k])
+    for k, driven in enumerate(record.inputs):
+        answer[..., driven.coordinate.index] = driven.joint_value(inputs[..., k])
     return answer
 
 
@@ -191,11 +191,11 @@ def distance(record: MechanismRecord, joints: FloatArray, poses: FloatArray, inp
     """
     length = characteristic_length(record)
     gaps = np.max(np.abs(pose_error(record, joints, poses, length)), axis=-1)
-    for k, (item, same) in enumerate(zip(record.inputs, periodic_inputs(record), strict=True)):
-        gap = np.abs(item.printed(joints[:, item.coordinate.index]) - inputs[:, k])
+    for k, (driven, same) in enumerate(zip(record.inputs, periodic_inputs(record), strict=True)):
+        gap = np.abs(driven.printed(joints[:, driven.coordinate.index]) - inputs[:, k])
         if same:
             gap = np.abs(rotations.nearest_turn(gap))
-        if item.coordinate.kind == "angle":
+        if driven.coordinate.kind == "angle":
             gap = length * gap
         gaps = np.maximum(gaps, gap)
     return np.asarray(gaps)

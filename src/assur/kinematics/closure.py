@@ -240,16 +240,16 @@ def assemble(
     if wrong:
         raise UsageError(f"held: no joint values {wrong} among 0 .. {count - 1}")
     values: FloatArray = np.array(start, dtype=float).reshape(int(np.prod(start.shape[:-1])), count)
-    wanted = None
+    asked = None
     if poses is not None:
-        wanted = np.broadcast_to(poses, (*start.shape[:-1], poses.shape[-1])).reshape(len(values), -1)
+        asked = np.broadcast_to(poses, (*start.shape[:-1], poses.shape[-1])).reshape(len(values), -1)
     free = np.setdiff1d(np.arange(count), np.asarray(held, dtype=int))
     length = characteristic_length(record)
     left = np.arange(len(values))
     steps = 0
     if near and len(values) >= MANY and joint_graph(record).cut:
-        step = NewtonStep(tuple(sorted(held)), () if wanted is None else record.platform.pose)
-        closest = Newton(record, step)(values, wanted)
+        step = NewtonStep(tuple(sorted(held)), () if asked is None else record.platform.pose)
+        closest = Newton(record, step)(values, asked)
         closed, steps = closest.residual <= ENOUGH, closest.steps
         values[closed] = closest.values[closed]
         left = np.flatnonzero(~closed)
@@ -259,7 +259,7 @@ def assemble(
         rows = block[rows]
         trial = values[rows]
         trial[:, free] = unknowns * scale
-        gaps, derivative = closing_system(record, trial, None if wanted is None else wanted[rows])
+        gaps, derivative = closing_system(record, trial, None if asked is None else asked[rows])
         return gaps / length, derivative[..., free] * (scale / length)
 
     turns = [range(k, k + 3) for k in range(len(free)) for turn in joint_graph(record).turns if free[k] == turn.start]
@@ -273,7 +273,7 @@ def assemble(
         damping = NEAR_DAMPING if near else FAR_DAMPING if far else least_squares.DAMPING
         for first in range(0, len(left), BLOCK):
             block = left[first : first + BLOCK]
-            found = least_squares.minimise(
+            nearest = least_squares.minimise(
                 partial(system, block),
                 values[np.ix_(block, free)] / scale,
                 tolerance=tolerance,
@@ -281,11 +281,11 @@ def assemble(
                 damping=damping,
                 same=unwound if far else None,
             )
-            values[np.ix_(block, free)] = found.x * scale
-            steps = max(steps, found.steps)
+            values[np.ix_(block, free)] = nearest.x * scale
+            steps = max(steps, nearest.steps)
     error = closure_error(record, values)
-    if wanted is not None:
-        error = np.maximum(error, np.max(np.abs(pose_error(record, values, wanted, length)), axis=-1))
+    if asked is not None:
+        error = np.maximum(error, np.max(np.abs(pose_error(record, values, asked, length)), axis=-1))
     error = error.reshape(start.shape[:-1])
     return Assembly(values.reshape(start.shape), error, error <= CLOSED * length, steps)
 

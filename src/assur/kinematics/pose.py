@@ -183,9 +183,9 @@ def turning_of(pose: tuple[str, ...], phi: FloatArray, theta: FloatArray) -> Flo
     matrix = np.broadcast_to(np.eye(len(names)), (*np.shape(phi), len(names), len(names))).copy()
     if not all(name in names for name in ANGLES):
         return matrix
-    zero, one = np.zeros_like(phi), np.ones_like(phi)
+    zero, unit = np.zeros_like(phi), np.ones_like(phi)
     columns = {
-        "phi": (zero, zero, one),
+        "phi": (zero, zero, unit),
         "theta": (-np.sin(phi), np.cos(phi), zero),
         "psi": (np.cos(phi) * np.cos(theta), np.sin(phi) * np.cos(theta), -np.sin(theta)),
     }
@@ -205,10 +205,10 @@ def turned_alike(pose: tuple[str, ...], start: FloatArray, end: FloatArray) -> F
     phi, theta, psi = (pose.index(name) for name in ANGLES)
     if abs(np.cos(start[theta])) > UPRIGHT:
         return start
-    found = start.copy()
-    found[phi] = end[phi]
-    found[psi] += np.sign(start[theta]) * (end[phi] - start[phi])
-    return found
+    turned = start.copy()
+    turned[phi] = end[phi]
+    turned[psi] += np.sign(start[theta]) * (end[phi] - start[phi])
+    return turned
 
 
 def _angle_rates(rotation: FloatArray, angular: FloatArray) -> tuple[FloatArray, ...]:

@@ -88,20 +88,20 @@ def _searched(
                 begun[0] = home_values(record)
                 if counts_turns(record):
                     begun[1 : 1 + WAY] = _on_the_way(record, problem, given)
-            found = _assembled(record, problem, given, begun)
+            assembled = _assembled(record, problem, given, begun)
         except KeyboardInterrupt:
             if not starts:
                 raise
             raise Interrupted(Search(known, starts, last, nearest, False)) from None
-        counted, same = with_turns_of_home(record, found.values, _held(record, problem))
-        closed = np.flatnonzero(found.closed & same)
+        counted, same = with_turns_of_home(record, assembled.values, _held(record, problem))
+        closed = np.flatnonzero(assembled.closed & same)
         joints = np.concatenate([known, counted[closed]])
         kept = distinct(record, joints)
         again += len(closed)
         if len(kept) > len(known):
             newest = int(kept[-1]) - len(known)
             last, again = starts + int(closed[newest]) + 1, len(closed) - newest - 1
-        known, nearest, starts = joints[kept], min(nearest, float(np.min(found.residual))), starts + STARTS
+        known, nearest, starts = joints[kept], min(nearest, float(np.min(assembled.residual))), starts + STARTS
         work.at(starts, MOST, f"{len(known)} assemblies so far")
     return Search(known, starts, last, nearest, again >= _enough(known))
 
@@ -174,8 +174,8 @@ def places(record: MechanismRecord, joints: FloatArray) -> FloatArray:
         columns.append((rotation @ joint.at + origin) / length)
     rotation, origin = placed[record.platform.link]
     columns += [(rotation @ record.platform.point + origin) / length, rotation.reshape(len(joints), 9)]
-    for item, same in zip(record.inputs, periodic_inputs(record), strict=True):
-        value = joints[:, [item.coordinate.index]]
-        columns += [np.cos(value), np.sin(value)] if same else [value / joint_scales(record)[item.coordinate.index]]
+    for driven, same in zip(record.inputs, periodic_inputs(record), strict=True):
+        value = joints[:, [driven.coordinate.index]]
+        columns += [np.cos(value), np.sin(value)] if same else [value / joint_scales(record)[driven.coordinate.index]]
     columns.append(joints[:, counted(record)])
     return np.concatenate(columns, axis=-1)

@@ -66,9 +66,9 @@ class Indices:
         """Transmission indices of each input; NaN out of reach, 0 where Jp or Jq is singular."""
         known = np.all(np.isfinite(self.joints), axis=-1)[..., None]
         at = transmission_at(self.record, np.where(known, self.joints, 0.0))
-        there = self.singular[..., None]
-        inputs, outputs = (np.where(known, np.where(there, 0.0, values), np.nan) for values in (at.inputs, at.outputs))
-        return Transmission(inputs, outputs)
+        at_singular = np.where(known, 0.0, np.nan)
+        usable = known & ~self.singular[..., None]
+        return Transmission(*(np.where(usable, values, at_singular) for values in (at.inputs, at.outputs)))
 
     def __getitem__(self, name: str) -> FloatArray:
         """One index (...) by its name in `INDICES`."""
@@ -308,8 +308,8 @@ def _at_poses(record: MechanismRecord, poses: FloatArray, mode: str) -> Part:
 
 def _of_branches(solved: Branches, kept: NDArray[np.bool_]) -> Part:
     """Those poses of a batch (N,) in one mode that are kept: every number is a column of one reading."""
-    here = velocity_map_of(solved.reading, solved.batch_shape).rows(kept)
-    return _part(solved.status[kept, 0], here, solved.joints[kept, 0])
+    velocity = velocity_map_of(solved.reading, solved.batch_shape).rows(kept)
+    return _part(solved.status[kept, 0], velocity, solved.joints[kept, 0])
 
 
 def _of_home(record: MechanismRecord, poses: FloatArray) -> Part:
@@ -318,13 +318,13 @@ def _of_home(record: MechanismRecord, poses: FloatArray) -> Part:
     """
     joints = np.full((len(poses), len(record.coordinates)), np.nan)
     reached = [home_mode_at(record, pose) for pose in poses]
-    for row, there in zip(joints, reached, strict=True):
-        if there.joints is not None:
-            row[:] = there.joints
+    for row, ends in zip(joints, reached, strict=True):
+        if ends.joints is not None:
+            row[:] = ends.joints
     status, matrices, joints, singular = _at_joints(record, joints)
-    for k, there in enumerate(reached):
-        if there.joints is None:
-            status[k] = there.status
+    for k, ends in enumerate(reached):
+        if ends.joints is None:
+            status[k] = ends.status
     return status, matrices, joints, singular
 
 
@@ -337,10 +337,10 @@ def _first(solved: SolutionSet) -> FloatArray:
 
 
 def _at_joints(record: MechanismRecord, joints: FloatArray) -> Part:
-    there = np.all(np.isfinite(joints), axis=-1)
-    here = velocity_map_at(record, np.where(there[:, None], joints, 0.0))
-    status = np.where(there, status_of(here), Status.unreachable).astype(np.int8)
-    return _part(status, here, joints)
+    known = np.all(np.isfinite(joints), axis=-1)
+    velocity = velocity_map_at(record, np.where(known[:, None], joints, 0.0))
+    status = np.where(known, status_of(velocity), Status.unreachable).astype(np.int8)
+    return _part(status, velocity, joints)
 
 
 def status_of(velocity: VelocityMap) -> NDArray[np.int8]:
@@ -350,8 +350,8 @@ def status_of(velocity: VelocityMap) -> NDArray[np.int8]:
     """
     kinds = 2 * velocity.singular_input + 3 * velocity.singular_output
     of_kind = np.array([Status.regular, 0, Status.serial, Status.parallel, 0, Status.comprehensive], dtype=np.int8)
-    found = np.where((kinds == 0) & velocity.no_rates, Status.undecided, of_kind[kinds])
-    return np.where(velocity.exists, found, Status.unreachable).astype(np.int8)
+    status = np.where((kinds == 0) & velocity.no_rates, Status.undecided, of_kind[kinds])
+    return np.where(velocity.exists, status, Status.unreachable).astype(np.int8)
 
 
 def _part(status: NDArray[np.int8], velocity: VelocityMap, joints: FloatArray) -> Part:

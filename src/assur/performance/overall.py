@@ -149,16 +149,16 @@ def overall(
     poses, shift, joints = _points(region, count, rng)
     if not len(poses):
         return OverallIndices(region.mode, 0, 0, None, "", {}, None)
-    found = _indices(record, region, poses, joints, characteristic_length)
-    values = {name: _overall(found[name], poses, shift) for name in INDICES}
+    at_points = _indices(record, region, poses, joints, characteristic_length)
+    values = {name: _overall(at_points[name], poses, shift) for name in INDICES}
     return OverallIndices(
         mode=region.mode,
         points=len(poses),
-        singular=int(np.sum(~np.isfinite(found["condition"]))),
-        length=found.length,
-        factor_unit=found.unit,
+        singular=int(np.sum(~np.isfinite(at_points["condition"]))),
+        length=at_points.length,
+        factor_unit=at_points.unit,
         values={name: value for name, value in values.items() if value is not None},
-        good=_good(found, shift, region),
+        good=_good(at_points, shift, region),
     )
 
 

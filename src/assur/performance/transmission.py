@@ -79,8 +79,8 @@ def transmission_at(record: MechanismRecord, joints: ArrayLike) -> Transmission:
     rows = np.flatnonzero(closed)
     for start in range(0, len(rows), BLOCK):
         block = rows[start : start + BLOCK]
-        there = transmitted(record, flat[block])
-        inputs[block], outputs[block] = _inputs(record, there), _outputs(record, there)
+        passed = transmitted(record, flat[block])
+        inputs[block], outputs[block] = _inputs(record, passed), _outputs(record, passed)
     shape = (*values.shape[:-1], len(record.inputs))
     return Transmission(inputs.reshape(shape), outputs.reshape(shape))
 
@@ -88,16 +88,16 @@ def transmission_at(record: MechanismRecord, joints: ArrayLike) -> Transmission:
 def _inputs(record: MechanismRecord, transmitted: Transmitted) -> FloatArray:
     """Input transmission indices (N, F)."""
     names = list(record.joints)
-    found = np.zeros(transmitted.pushes.shape)
-    for k, (item, after) in enumerate(zip(record.inputs, _after(record), strict=True)):
-        wrench = transmitted.wrenches[:, k, names.index(item.coordinate.joint)]
-        found[:, k] = power_coefficient(wrench, transmitted.input_twists[:, k], _centre(transmitted, k, after))
-    return np.where(transmitted.pushes, found, 0.0)
+    coefficients = np.zeros(transmitted.pushes.shape)
+    for k, (driven, after) in enumerate(zip(record.inputs, _after(record), strict=True)):
+        wrench = transmitted.wrenches[:, k, names.index(driven.coordinate.joint)]
+        coefficients[:, k] = power_coefficient(wrench, transmitted.input_twists[:, k], _centre(transmitted, k, after))
+    return np.where(transmitted.pushes, coefficients, 0.0)
 
 
 def _outputs(record: MechanismRecord, transmitted: Transmitted) -> FloatArray:
     """Output transmission indices (N, F)."""
-    found = np.zeros(transmitted.moves.shape)
+    coefficients = np.zeros(transmitted.moves.shape)
     at_platform = _joints_of(record, record.platform.link)
     for k in range(len(record.inputs)):
         centre = (
@@ -105,8 +105,8 @@ def _outputs(record: MechanismRecord, transmitted: Transmitted) -> FloatArray:
             if is_point(record)
             else _centre(transmitted, k, at_platform)
         )
-        found[:, k] = power_coefficient(transmitted.at_platform[:, k], transmitted.twists[:, k], centre)
-    return np.where(transmitted.moves, found, 0.0)
+        coefficients[:, k] = power_coefficient(transmitted.at_platform[:, k], transmitted.twists[:, k], centre)
+    return np.where(transmitted.moves, coefficients, 0.0)
 
 
 def _centre(transmitted: Transmitted, index: int, joints: tuple[int, ...]) -> FloatArray:
@@ -123,13 +123,13 @@ def _centre(transmitted: Transmitted, index: int, joints: tuple[int, ...]) -> Fl
 def _after(record: MechanismRecord) -> tuple[tuple[int, ...], ...]:
     """Per input, the joints by which the driven link, of the two the one farther from the base, passes the push on."""
     depth = {link: len(path) for link, path in joint_graph(record).paths.items()}
-    found = []
-    for item in record.inputs:
-        joint = record.joints[item.coordinate.joint]
+    places = []
+    for driven in record.inputs:
+        joint = record.joints[driven.coordinate.joint]
         link = max(joint.child, joint.parent, key=lambda name: depth[name])
         own = list(record.joints).index(joint.name)
-        found.append(tuple(place for place in _joints_of(record, link) if place != own))
-    return tuple(found)
+        places.append(tuple(place for place in _joints_of(record, link) if place != own))
+    return tuple(places)
 
 
 def _joints_of(record: MechanismRecord, link: str) -> tuple[int, ...]:

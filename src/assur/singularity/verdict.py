@@ -89,35 +89,35 @@ def verdict(record: MechanismRecord, pose: ArrayLike, mode: str | None = None) -
     mode = mode or record.modes.default_working or None
     if record.closed_form is None and (not named or named == record.modes.default_working):
         return _of_home(record, checked_pose(record, pose))
-    found = inverse(record, pose, mode)
-    if found.batch_shape:
-        raise UsageError(f"one pose is judged at a time, not a batch of shape {found.batch_shape}")
+    solutions = inverse(record, pose, mode)
+    if solutions.batch_shape:
+        raise UsageError(f"one pose is judged at a time, not a batch of shape {solutions.batch_shape}")
     if record.closed_form is None:
-        return _of_the_one(record, found)
-    status = Status(int(found.status[0]))
+        return _of_the_one(record, solutions)
+    status = Status(int(solutions.status[0]))
     if status is Status.unreachable:
-        return replace(_nothing(status), known_modes=modes_at(record, found.given))
+        return replace(_nothing(status), known_modes=modes_at(record, solutions.given))
     if status in (Status.not_closed, Status.undecided):
         return _nothing(status)
-    free = mobility(record, found.joints[0])
+    free = mobility(record, solutions.joints[0])
     usual = max(int(general(record).closure), int(free.rank))
-    factors = {name: value[..., 0] for name, value in found.factors.items()}
+    factors = {name: value[..., 0] for name, value in solutions.factors.items()}
     relative = {name: float(value) for name, value in relative_factors(record, factors).items()}
-    dividing = [item.name for item in closed_form_of(record).factor_list if item.kind != "other"]
+    dividing = [factor.name for factor in closed_form_of(record).factor_list if factor.kind != "other"]
     kind = status
     if int(free.rank) < usual:
         kind = max(kind, Status.constraint)
-    here = velocity_map(record, pose, mode)
+    velocities = velocity_map(record, pose, mode)
     return Verdict(
         kind="regular" if kind == Status.near_singular else kind.name,
         near=kind == Status.near_singular,
-        reduced_kind=_reduced_kind(bool(here.singular_input), bool(here.singular_output)),
+        reduced_kind=_reduced_kind(bool(velocities.singular_input), bool(velocities.singular_output)),
         closest=min(dividing, key=lambda name: abs(relative[name])),
         factors={name: float(value) for name, value in factors.items()},
         relative=relative,
-        det_jp=float(here.det_jp),
-        det_jq=float(here.det_jq),
-        condition=_finite(here.condition),
+        det_jp=float(velocities.det_jp),
+        det_jq=float(velocities.det_jq),
+        condition=_finite(velocities.condition),
         rank=int(free.rank),
         generic_rank=usual,
         freedoms=int(free.freedoms),
@@ -141,7 +141,7 @@ def verdict_at(record: MechanismRecord, joints: Named) -> Verdict:
     status = Status(int(status_of(record, values, instant)))
     if status == Status.not_closed:
         return _nothing(status)
-    here = VelocityMap.of(record, instant)
+    velocities = VelocityMap.of(record, instant)
     measures = {name: float(value) for name, value in instant.measures.items()}
     serial, parallel = sides(instant)
     return Verdict(
@@ -151,9 +151,9 @@ def verdict_at(record: MechanismRecord, joints: Named) -> Verdict:
         closest=min(measures, key=lambda name: measures[name]),
         factors=measures,
         relative=measures,
-        det_jp=_finite(here.det_jp),
-        det_jq=_finite(here.det_jq),
-        condition=_finite(here.condition),
+        det_jp=_finite(velocities.det_jp),
+        det_jq=_finite(velocities.det_jq),
+        condition=_finite(velocities.condition),
         rank=int(instant.ranks.closure),
         generic_rank=int(instant.general.closure),
         freedoms=int(instant.ranks.freedoms),
@@ -178,8 +178,8 @@ def modes_at(record: MechanismRecord, pose: FloatArray) -> tuple[str, ...]:
     >>> modes_at(load_record("fivebar"), np.array([0.0, 200.0]))
     ('++', '+-', '-+', '--')
     """
-    found = inverse(record, pose)
-    return tuple(str(label) for label in found.labels[found.exists])
+    solutions = inverse(record, pose)
+    return tuple(str(label) for label in solutions.labels[solutions.exists])
 
 
 def _of_home(record: MechanismRecord, pose: FloatArray) -> Verdict:

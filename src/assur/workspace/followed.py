@@ -67,8 +67,8 @@ class FollowedField:
 
     def values(self, points: FloatArray) -> FloatArray:
         """The field (N,) at points (N, d); where the mode does not reach that at the nearest node, continued."""
-        found = self.over.at(points)
-        return np.where(found.reached, self.of(found), self._at_nodes[tuple(self.over.nodes(points).T)])
+        at_points = self.over.at(points)
+        return np.where(at_points.reached, self.of(at_points), self._at_nodes[tuple(self.over.nodes(points).T)])
 
     def known(self, points: FloatArray) -> FloatArray:
         """The field (N,) at points (N, d); NaN where the mode does not reach that."""
@@ -99,14 +99,14 @@ class FollowedField:
         crossed = (first >= 0) != (last >= 0)
         with np.errstate(divide="ignore", invalid="ignore"):
             share = np.where(crossed, first / (first - last), np.nan)
-        there, beyond = self.over.at(start).reached, self.over.at(end).reached
-        rows = np.flatnonzero(crossed & there & beyond)
+        from_start, beyond = self.over.at(start).reached, self.over.at(end).reached
+        rows = np.flatnonzero(crossed & from_start & beyond)
         share[rows] = self._zero(start[rows], end[rows], first[rows], last[rows])
-        for rows, turned in ((crossed & there & ~beyond, False), (crossed & beyond & ~there, True)):
+        for rows, turned in ((crossed & from_start & ~beyond, False), (crossed & beyond & ~from_start, True)):
             inside, outside = (end[rows], start[rows]) if turned else (start[rows], end[rows])
             ahead, behind = (last[rows], first[rows]) if turned else (first[rows], last[rows])
-            found = self._across(inside, outside, ahead, behind)
-            share[rows] = 1.0 - found if turned else found
+            portion = self._across(inside, outside, ahead, behind)
+            share[rows] = 1.0 - portion if turned else portion
         return share
 
     def _across(self, inside: FloatArray, outside: FloatArray, ahead: FloatArray, behind: FloatArray) -> FloatArray:
@@ -135,15 +135,15 @@ class FollowedField:
         for _ in range(ROUNDS):
             share[rows] = low[rows] + (high[rows] - low[rows]) * first[rows] / (first[rows] - last[rows])
             part = _straight(share[rows], bent)
-            here = self.values(start[rows] + part[:, None] * (end[rows] - start[rows]))
-            same = (here >= 0) == (first[rows] >= 0)
+            value = self.values(start[rows] + part[:, None] * (end[rows] - start[rows]))
+            same = (value >= 0) == (first[rows] >= 0)
             front, back = rows[same], rows[~same]
             # the end that stays for a second time counts half
             last[front[before[front] == 1]] *= 0.5
             first[back[before[back] == -1]] *= 0.5
-            low[front], first[front], before[front] = share[front], here[same], 1
-            high[back], last[back], before[back] = share[back], here[~same], -1
-            rows = rows[np.abs(here) > ZERO * size[rows]]
+            low[front], first[front], before[front] = share[front], value[same], 1
+            high[back], last[back], before[back] = share[back], value[~same], -1
+            rows = rows[np.abs(value) > ZERO * size[rows]]
         return _straight(share, bent)
 
 
@@ -198,19 +198,19 @@ class ReachField(FollowedField):
 
     def values(self, points: FloatArray) -> FloatArray:
         """The measure (N,) of the serial side, -1 where a point (N, d) is not reached."""
-        found = self.over.at(points)
-        return np.where(found.reached, self.of(found), -1.0)
+        at_points = self.over.at(points)
+        return np.where(at_points.reached, self.of(at_points), -1.0)
 
     def crossing(self, start: FloatArray, end: FloatArray) -> FloatArray:
         """Share (N,) of the way between points (N, 3) at which the reach ends."""
         size = len(self.over.axes)
         start, end = start[:, :size], end[:, :size]
-        there, beyond = self.over.at(start).reached, self.over.at(end).reached
+        from_start, beyond = self.over.at(start).reached, self.over.at(end).reached
         shares = np.full(len(start), np.nan)
-        for turned, rows in ((False, there & ~beyond), (True, beyond & ~there)):
+        for turned, rows in ((False, from_start & ~beyond), (True, beyond & ~from_start)):
             inside, outside = (end[rows], start[rows]) if turned else (start[rows], end[rows])
-            found, _ = self.over.border(inside, outside)
-            shares[rows] = 1.0 - found if turned else found
+            portion, _ = self.over.border(inside, outside)
+            shares[rows] = 1.0 - portion if turned else portion
         return shares
 
 
@@ -219,10 +219,10 @@ def followed_margins(
 ) -> dict[str, FollowedField]:
     """The margins of a mode that was followed: its reach, then strokes and limits."""
     record = over.record
-    found: dict[str, FollowedField] = {REACH: ReachField(over, lambda grid: grid.measures[0])}
+    margins: dict[str, FollowedField] = {REACH: ReachField(over, lambda grid: grid.measures[0])}
     for name, bound in bounds(record, strokes).items():
-        found[name] = FollowedField(over, _of_joints(record, bound))
-    return found
+        margins[name] = FollowedField(over, _of_joints(record, bound))
+    return margins
 
 
 def followed_factors(over: Continuation) -> dict[str, FollowedField]:
@@ -271,9 +271,9 @@ def _start(
     if not mode:  # a mode without a name is home's: what a search finds may be another
         return None, "home's mode was not followed into the box: no path from home led there"
     for point in spread:
-        found = inverse(record, slice_.poses(point[None])[0], mode or None, crossed="~" in mode)
-        if np.any(found.exists):
-            joints = found.joints[found.exists][0]
+        solutions = inverse(record, slice_.poses(point[None])[0], mode or None, crossed="~" in mode)
+        if np.any(solutions.exists):
+            joints = solutions.joints[solutions.exists][0]
             where = ", ".join(
                 f"{name} = {angle_at_border(record, value):.4g} {record.angle}"
                 if is_angle(name)
@@ -291,9 +291,9 @@ def _of_joints(record: MechanismRecord, bound: Bound) -> Callable[[Followed], Fl
 def _values(record: MechanismRecord, joints: FloatArray) -> Values:
     """Joint values (N, n) as bounds take them."""
     values: dict[str, object] = {}
-    for item, same in zip(record.coordinates, periodic(record), strict=True):
-        value = joints[:, item.index]
-        values[record.coordinate_label(item)] = (np.cos(value), np.sin(value)) if same else value
+    for coordinate, same in zip(record.coordinates, periodic(record), strict=True):
+        value = joints[:, coordinate.index]
+        values[record.coordinate_label(coordinate)] = (np.cos(value), np.sin(value)) if same else value
     for name, joint in record.joints.items():
         if joint.type.ball:
             turn = rotations.from_vector(joints[:, joint_graph(record).slices[name]])

@@ -97,8 +97,8 @@ def _unit(axis: FloatArray) -> Vector:
         return _vector(np.sign(axis))
     parts = [Interval.of(value) for value in axis.tolist()]
     size = (parts[0].square() + parts[1].square() + parts[2].square()).sqrt()
-    found = [0 if value == 0 else part / size for value, part in zip(axis.tolist(), parts, strict=True)]
-    return found[0], found[1], found[2]
+    vector = [0 if value == 0 else part / size for value, part in zip(axis.tolist(), parts, strict=True)]
+    return vector[0], vector[1], vector[2]
 
 
 def _vector(values: FloatArray) -> Vector:

@@ -68,11 +68,11 @@ def conditions_of(
     form = closed_form_of(record)
     branch = form.inverse(ns, p, pose, sign)
     zero: list[Any] = []
-    positive = [branch.margins[item.name] for item in form.inverse_margins if item.zero == "merge"]
-    for found, wanted in zip(branch.inputs, given, strict=True):
-        if isinstance(wanted, tuple):  # an angle: the sine of the difference is zero, its cosine is positive
-            zero.append(found[1] * wanted[0] - found[0] * wanted[1])
-            positive.append(found[0] * wanted[0] + found[1] * wanted[1])
+    positive = [branch.margins[margin.name] for margin in form.inverse_margins if margin.zero == "merge"]
+    for value, asked in zip(branch.inputs, given, strict=True):
+        if isinstance(asked, tuple):  # an angle: the sine of the difference is zero, its cosine is positive
+            zero.append(value[1] * asked[0] - value[0] * asked[1])
+            positive.append(value[0] * asked[0] + value[1] * asked[1])
         else:
-            zero.append(found - wanted)
+            zero.append(value - asked)
     return zero, positive

@@ -29,7 +29,7 @@ def pose_parts(names: Pose, platform: Placed) -> list[Any]:
     rotation, point = platform
     level = plus(times(rotation[0][0], rotation[0][0]), times(rotation[1][0], rotation[1][0]))
     scalar = Intervals().sqrt(plus(plus(plus(1, rotation[0][0]), rotation[1][1]), rotation[2][2])) / 2
-    found: dict[str, Any] = {
+    coordinates: dict[str, Any] = {
         **dict(zip(LENGTHS, point, strict=True)),
         "phi": (as_interval(rotation[0][0]), as_interval(rotation[1][0])),
         "theta": (Intervals().sqrt(level), as_interval(minus(0, rotation[2][0]))),
@@ -38,8 +38,8 @@ def pose_parts(names: Pose, platform: Placed) -> list[Any]:
     }
     for k, (i, j) in enumerate(((2, 1), (0, 2), (1, 0))):
         quotient = as_interval(minus(rotation[i][j], rotation[j][i])) / (scalar * 4)
-        found[QUATERNION[k + 1]] = _at_most(quotient, _size(rotation, k))
-    return [found[name] for name in names]
+        coordinates[QUATERNION[k + 1]] = _at_most(quotient, _size(rotation, k))
+    return [coordinates[name] for name in names]
 
 
 def _size(rotation: Any, axis: int) -> Interval:
@@ -57,16 +57,16 @@ def _at_most(number: Interval, size: Interval) -> Interval:
 def pose_rows(names: Pose, platform: Placed, pose: Interval) -> tuple[list[Any], list[Any]]:
     """What is zero, and what is positive, where the platform is at a pose (m,) within bounds."""
     rotation, point = platform
-    wanted = dict(zip(names, parts(pose), strict=True))
-    rows: list[Any] = [minus(point[LENGTHS.index(name)], wanted[name]) for name in LENGTHS if name in wanted]
+    asked = dict(zip(names, parts(pose), strict=True))
+    rows: list[Any] = [minus(point[LENGTHS.index(name)], asked[name]) for name in LENGTHS if name in asked]
     positive: list[Any] = []
-    if has_quaternion(names) or all(name in wanted for name in ANGLES):
+    if has_quaternion(names) or all(name in asked for name in ANGLES):
         # the whole orientation by one rotation: three angles lose a direction where theta is a right angle
-        own, more = _turned_to(rotation, _wanted_rotation(wanted))
+        own, more = _turned_to(rotation, _wanted_rotation(asked))
         return rows + own, positive + more
     pairs = {"phi": (rotation[0][0], rotation[1][0]), "psi": (rotation[2][2], rotation[2][1])}
-    for name in (name for name in wanted if is_angle(name)):
-        cosine, sine = turn(wanted[name])
+    for name in (name for name in asked if is_angle(name)):
+        cosine, sine = turn(asked[name])
         if name == "theta":
             rows.append(plus(rotation[2][0], sine))
             continue

@@ -28,10 +28,10 @@ def direct_by_signs(record: MechanismRecord, inputs: FloatArray) -> CertifiedSol
     signs, sign = _every(record, "direct")
     kernel, p, given = branch_kernel(record), parameters(record), joint_inputs(record, inputs)
     margins = closed_form_of(record).direct_margins
-    found = judged(record, lambda ns: kernel(ns, p, given, sign), margins, len(signs))
+    branches = judged(record, lambda ns: kernel(ns, p, given, sign), margins, len(signs))
     floats = position.direct(record, inputs)
     names = tuple(mode_text(row) for row in signs.astype(int))
-    candidates = Candidates(found, names, tuple(str(text) for text in floats.other_labels))
+    candidates = Candidates(branches, names, tuple(str(text) for text in floats.other_labels))
     return matched(record, inputs, candidates, proofs(Legs(record, inputs), floats), floats, RIGHT)
 
 
@@ -41,21 +41,21 @@ def inverse_by_signs(record: MechanismRecord, pose: FloatArray) -> CertifiedSolu
     form = closed_form_of(record)
     asked = pose_meant(record, pose)
     p, given = parameters(record), pose_numbers(record, parts(asked))
-    found = judged(record, lambda ns: form.inverse(ns, p, given, sign), form.inverse_margins, len(signs))
+    branches = judged(record, lambda ns: form.inverse(ns, p, given, sign), form.inverse_margins, len(signs))
     others = position.inverse(record, pose).other_labels
     solutions = tuple(
         ProvedSolution(
             pose=asked,
-            inputs=found.inputs[k],
+            inputs=branches.inputs[k],
             mode=mode_text(signs[k].astype(int)),
             working_mode=mode_text(signs[k].astype(int)),
             assembly_mode=str(others[k]),
             how="the legs over intervals",
         )
-        for k in np.flatnonzero(found.exists)
+        for k in np.flatnonzero(branches.exists)
     )
     return CertifiedSolutions(
-        record, "inverse", pose, solutions, grouped(found.doubts), True, form.complete_for, RIGHT, found.by
+        record, "inverse", pose, solutions, grouped(branches.doubts), True, form.complete_for, RIGHT, branches.by
     )  # fmt: skip
 
 

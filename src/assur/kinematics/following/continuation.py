@@ -55,26 +55,26 @@ def continued(
     none = np.zeros((0, len(axes)), dtype=np.intp)
     nowhere = np.full((*shape, 2 * len(axes)), -1)
     ends = ModeEnds(none, none, np.zeros(0), np.zeros((0, joints.shape[-1])), nowhere)
-    found = Continuation(mode, axes, joints, np.full(shape, np.nan), ends)
+    continuation = Continuation(mode, axes, joints, np.full(shape, np.nan), ends)
     if start is None:
-        return found
+        return continuation
     node = np.array([np.argmin(np.abs(axis - value)) for axis, value in zip(axes, start[0], strict=True)])
     point = np.array([axis[k] for axis, k in zip(axes, node, strict=True)])
     first, good = mode.stepped(start[1][None], start[0][None], point[None])
     if not good[0]:
-        return found
+        return continuation
     joints[tuple(node)] = first[0]
     rounds = sum(max(k, size - 1 - k) for k, size in zip(node.tolist(), shape, strict=True))
     front = node[None]
     done = 0
     while len(front):
-        front = _spread(found, front)
+        front = _spread(continuation, front)
         if not len(front):
-            front = _across_the_rim(found)
+            front = _across_the_rim(continuation)
         done += 1
         if tick is not None:
             tick(min(done / max(rounds, 1), 1.0))
-    return replace(found, ends=_ends(found))
+    return replace(continuation, ends=_ends(continuation))
 
 
 def _spread(continuation: Continuation, front: IntArray) -> IntArray:

@@ -54,14 +54,14 @@ class Course:
             return np.asarray(self.vertices[segment + 1] - (1.0 - part) * self.changes[segment])
         if part == 1.0:
             return np.asarray(self.vertices[segment + 1])
-        here: FloatArray = self.vertices[segment]
+        vertex: FloatArray = self.vertices[segment]
         columns = [self.names.index(name) for name in QUATERNION]
         others = [k for k, name in enumerate(self.names) if name not in QUATERNION]
-        found: FloatArray = np.array(here)
-        found[others] = here[others] + part * self.changes[segment, :-3]
+        pose: FloatArray = np.array(vertex)
+        pose[others] = vertex[others] + part * self.changes[segment, :-3]
         turn = rotations.from_vector(part * self.changes[segment, -3:])
-        found[columns] = rotations.to_quaternion(turn @ rotations.from_quaternion(here[columns]))
-        return found
+        pose[columns] = rotations.to_quaternion(turn @ rotations.from_quaternion(vertex[columns]))
+        return pose
 
     def rate(self, share: float, segment: int) -> FloatArray:
         """Change (r,) of the driven joint values or of the pose per share of the way, in units of `scales`.
@@ -69,12 +69,12 @@ class Course:
         Of a pose with phi, theta and psi it is that of the angular velocity, which exists at every orientation
         (`assur.kinematics.pose.turning_rates`).
         """
-        found = self.changes[segment] / (self.shares[segment + 1] - self.shares[segment])
+        rate = self.changes[segment] / (self.shares[segment + 1] - self.shares[segment])
         if self.prescribed == "poses" and all(name in self.names for name in ANGLES):
-            here = self.at(share, segment)
-            phi, theta = (here[self.names.index(name)] for name in ("phi", "theta"))
-            found = turning_of(self.names, phi, theta) @ found
-        return np.asarray(found / self.scales)
+            pose = self.at(share, segment)
+            phi, theta = (pose[self.names.index(name)] for name in ("phi", "theta"))
+            rate = turning_of(self.names, phi, theta) @ rate
+        return np.asarray(rate / self.scales)
 
 
 def course(
@@ -102,16 +102,16 @@ def course(
     sizes = _sizes(record, prescribed)
     vertices, changes, lengths = [np.asarray(start, dtype=float)], [], []
     for target in np.atleast_2d(given):
-        here = vertices[-1]
-        there = target.copy()
+        begin = vertices[-1]
+        aim = target.copy()
         if turns == "short":
             if prescribed == "poses":
-                here, there = turned_alike(names, here, there), turned_alike(names, there, here)
-            there[turning] = here[turning] + rotations.nearest_turn(there[turning] - here[turning])
-        change = _change(names, prescribed, here, there)
+                begin, aim = turned_alike(names, begin, aim), turned_alike(names, aim, begin)
+            aim[turning] = begin[turning] + rotations.nearest_turn(aim[turning] - begin[turning])
+        change = _change(names, prescribed, begin, aim)
         if np.linalg.norm(change / sizes) <= LEAST:
             continue
-        vertices.append(there)
+        vertices.append(aim)
         changes.append(change)
         lengths.append(float(np.linalg.norm(change / sizes)))
     along = np.concatenate([[0.0], np.cumsum(lengths)])
@@ -130,7 +130,7 @@ def _sizes(record: MechanismRecord, prescribed: Prescribed) -> FloatArray:
     """What counts as a change of one, per rate."""
     if prescribed == "poses":
         return pose_units(record)
-    return joint_units(record)[list(record.input_indices)] * [item.sign for item in record.inputs]
+    return joint_units(record)[list(record.input_indices)] * [driven.sign for driven in record.inputs]
 
 
 def _change(names: tuple[str, ...], prescribed: Prescribed, start: FloatArray, end: FloatArray) -> FloatArray:
@@ -138,5 +138,5 @@ def _change(names: tuple[str, ...], prescribed: Prescribed, start: FloatArray, e
         return np.asarray(end - start)
     columns = [names.index(name) for name in QUATERNION]
     others = [k for k, name in enumerate(names) if name not in QUATERNION]
-    first, second = (rotations.from_quaternion(item[columns]) for item in (start, end))
+    first, second = (rotations.from_quaternion(pose[columns]) for pose in (start, end))
     return np.concatenate([end[others] - start[others], rotations.to_vector(second @ first.T)])

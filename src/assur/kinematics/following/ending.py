@@ -63,8 +63,8 @@ class Mode:
         """
         shares, last = np.ones(len(joints)), joints.copy()
         for rows in blocks(np.arange(len(joints))):
-            shares[rows], last[rows], found = self._turnings(joints[rows], inside[rows], outside[rows])
-            other = rows[~found]
+            shares[rows], last[rows], located = self._turnings(joints[rows], inside[rows], outside[rows])
+            other = rows[~located]
             if len(other):
                 shares[other], last[other] = self._halved(joints[other], inside[other], outside[other])
         return shares, last
@@ -74,15 +74,15 @@ class Mode:
     ) -> tuple[FloatArray, FloatArray, BoolArray]:
         if whole_orientation(self.record.platform.pose):  # its rates change along the way
             return np.ones(len(joints)), joints, np.zeros(len(joints), dtype=bool)
-        here = self.steps(joints, inside)
-        way = Straight(self.record, here.poses, self.poses(outside))
-        turned = turnings(way, joints, here.places.matrix)
+        start = self.steps(joints, inside)
+        way = Straight(self.record, start.poses, self.poses(outside))
+        turned = turnings(way, joints, start.places.matrix)
         far = np.max(np.abs(turned.joints - joints) / joint_units(self.record), axis=1, initial=0.0) > FURTHEST
         rows = np.flatnonzero(turned.located & ~far)
-        found = np.zeros(len(joints), dtype=bool)
+        located = np.zeros(len(joints), dtype=bool)
         ends = Places(turned.share[rows], turned.joints[rows], turned.matrix[rows])
-        found[rows] = here.guard.kept(here.places.of(rows), ends)
-        return turned.share, turned.joints, found
+        located[rows] = start.guard.kept(start.places.of(rows), ends)
+        return turned.share, turned.joints, located
 
     def _halved(self, joints: FloatArray, inside: FloatArray, outside: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Steps along the way that are halved where they fail, down to the shortest."""

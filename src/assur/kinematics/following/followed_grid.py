@@ -42,11 +42,11 @@ class Followed:
     @cached_property
     def measures(self) -> tuple[FloatArray, FloatArray]:
         """The measures `serial` and `output` (N,) of `PlatformHeld` there; of NaN both are NaN."""
-        found = np.full((2, len(self.joints)), np.nan)
+        numbers = np.full((2, len(self.joints)), np.nan)
         for rows in blocks(np.flatnonzero(self.reached)):
             held = platform_held(self.record, self.joints[rows])
-            found[:, rows] = held.serial, held.output
-        return found[0], found[1]
+            numbers[:, rows] = held.serial, held.output
+        return numbers[0], numbers[1]
 
 
 @dataclass(frozen=True, eq=False)

@@ -89,9 +89,9 @@ def follow(
             f"follow: tolerance {tolerance:g} and largest_step {largest_step:g}; 0 < the first < the second <= 1"
         )
     prescribed: Prescribed = "inputs" if poses is None else "poses"
-    wanted = inputs if poses is None else poses
-    here = inputs_of(record, start) if prescribed == "inputs" else pose_of(record, start)
-    way = course(record, prescribed, here, np.asarray([] if wanted is None else wanted), turns)
+    targets = inputs if poses is None else poses
+    begun = inputs_of(record, start) if prescribed == "inputs" else pose_of(record, start)
+    way = course(record, prescribed, begun, np.asarray([] if targets is None else targets), turns)
     bounds = limits(record, start) if use_limits else ()
     known = general_ranks(record, start) if ranks is None else ranks
     with stage("path") as work:
@@ -107,7 +107,7 @@ def follow(
 
 
 def _checked_start(record: MechanismRecord, joints: ArrayLike) -> FloatArray:
-    names = tuple(record.coordinate_label(item) for item in record.coordinates)
+    names = tuple(record.coordinate_label(coordinate) for coordinate in record.coordinates)
     start = checked(joints, names, f"joint values of {record.name}").copy()
     if start.ndim != 1:
         raise UsageError(f"follow: joint values of shape {start.shape}; one configuration is followed at a time")
@@ -123,10 +123,10 @@ def _checked_start(record: MechanismRecord, joints: ArrayLike) -> FloatArray:
 def walked(record: MechanismRecord, way: Course, start: FloatArray, guard: RankGuard, pace: Pace) -> bool:
     """Whether the end of a way is come to from joint values (n,); the guard has the points up to there."""
     matrix = system_of(record, way.prescribed, start[None], way.vertices[:1])[1]
-    here, steps = Places(np.zeros(1), start[None].copy(), matrix), np.array([pace.largest])
-    going = guard.begun(Stretch(record, way, 0), here)
+    places, steps = Places(np.zeros(1), start[None].copy(), matrix), np.array([pace.largest])
+    going = guard.begun(Stretch(record, way, 0), places)
     for segment, end in enumerate(way.shares[1:]):
-        going = going and bool(followed(Stretch(record, way, segment), here, guard, pace, steps, float(end))[0])
+        going = going and bool(followed(Stretch(record, way, segment), places, guard, pace, steps, float(end))[0])
     return going
 
 

@@ -59,22 +59,22 @@ def general_ranks(record: MechanismRecord, values: FloatArray) -> dict[str, int]
     away = AWAY * joint_units(record) * rng.normal(size=(NEIGHBOURS, len(values)))
     near = assemble(record, values + away, max_steps=30)
     around = np.concatenate([values[None], near.values[near.closed]])
-    found = {}
+    ranks = {}
     for name, matrix in matrices(record, around).items():
         sizes = np.linalg.svd(matrix, compute_uv=False)
-        found[name] = int(np.max(np.sum(sizes > RANK * sizes[..., :1], axis=-1)))
+        ranks[name] = int(np.max(np.sum(sizes > RANK * sizes[..., :1], axis=-1)))
     usual = general(record)
     for name, independent in (("inputs", usual.inputs), ("poses", usual.pose)):
-        found[name] = min(max(found[name], found["closure"] + int(independent)), len(values))
-    return found
+        ranks[name] = min(max(ranks[name], ranks["closure"] + int(independent)), len(values))
+    return ranks
 
 
 def smallest(record: MechanismRecord, values: FloatArray, ranks: Mapping[str, int]) -> dict[str, FloatArray]:
     """Per matrix, the singular value (...) that goes to zero where it loses rank, at joint values (..., n)."""
-    found: dict[str, FloatArray] = {}
+    values_by_matrix: dict[str, FloatArray] = {}
     for name, matrix in matrices(record, values).items():
-        found[name] = np.asarray(np.linalg.svd(matrix, compute_uv=False)[..., ranks[name] - 1])
-    return found
+        values_by_matrix[name] = np.asarray(np.linalg.svd(matrix, compute_uv=False)[..., ranks[name] - 1])
+    return values_by_matrix
 
 
 @dataclass(frozen=True, eq=False)

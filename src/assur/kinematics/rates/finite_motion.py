@@ -84,7 +84,7 @@ def has_finite_motion(record: MechanismRecord, values: FloatArray) -> BoolArray:
     """
     ways, speeds = _loose_ways(record, values)  # (d, N, n), (d, N)
     start = frames(record, values)[record.platform.link]
-    found = np.zeros(len(values), dtype=bool)
+    moves = np.zeros(len(values), dtype=bool)
     for way, speed in zip(ways, speeds, strict=True):
         for sense in (1.0, -1.0):
             held = speed > 0.0
@@ -94,8 +94,8 @@ def has_finite_motion(record: MechanismRecord, values: FloatArray) -> BoolArray:
                 trial = assemble(record, values[held] + sense * step * way[held], held=record.input_indices)
                 away = _distance(record, start, frames(record, trial.values)[record.platform.link], held)
                 held[held] = trial.closed & (away > 0.5 * step * speed[held]) & (away < 2.0 * step * speed[held])
-            found |= held
-    return found
+            moves |= held
+    return moves
 
 
 def _loose_ways(record: MechanismRecord, values: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -76,16 +76,16 @@ class Instant:
         the mechanism has more freedoms than in general. RPM: a motion of passive joints alone. Each is judged
         against what holds in general, so that the spin of a rod is no singularity.
         """
-        here, usual = self.ranks, self.general
-        found = {
-            "RI": here.related - here.pose > usual.related - usual.pose,
-            "RO": here.moving - here.inputs > usual.moving - usual.inputs,
-            "IO": here.pose < usual.pose,
-            "II": here.inputs < usual.inputs,
-            "IIM": here.freedoms > usual.freedoms,
-            "RPM": here.internal > usual.internal,
+        ranks, usual = self.ranks, self.general
+        held = {
+            "RI": ranks.related - ranks.pose > usual.related - usual.pose,
+            "RO": ranks.moving - ranks.inputs > usual.moving - usual.inputs,
+            "IO": ranks.pose < usual.pose,
+            "II": ranks.inputs < usual.inputs,
+            "IIM": ranks.freedoms > usual.freedoms,
+            "RPM": ranks.internal > usual.internal,
         }
-        return {name: np.asarray(value & self.closed) for name, value in found.items()}
+        return {name: np.asarray(value & self.closed) for name, value in held.items()}
 
     @cached_property
     def platform_gains(self) -> BoolArray:

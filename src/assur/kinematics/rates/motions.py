@@ -120,11 +120,11 @@ def general_share(record: MechanismRecord) -> float:
 def _around_home(record: MechanismRecord) -> InstantaneousMotion:
     """The motion at home and at assemblies near it."""
     home = home_values(record)
-    there = motions(record, home, RANK_GAP)
+    at_home = motions(record, home, RANK_GAP)
     random = np.random.default_rng(0).normal(size=(len(AROUND_HOME), SAMPLES, len(home)))
-    away = np.array(AROUND_HOME)[:, None, None] * random @ there.null.T * there.scale
-    found = assemble(record, (home + away).reshape(-1, len(home)))
-    return motions(record, np.concatenate([home[None], found.values[found.closed]]), RANK_GAP)
+    away = np.array(AROUND_HOME)[:, None, None] * random @ at_home.null.T * at_home.scale
+    near = assemble(record, (home + away).reshape(-1, len(home)))
+    return motions(record, np.concatenate([home[None], near.values[near.closed]]), RANK_GAP)
 
 
 def motions(record: MechanismRecord, values: FloatArray, threshold: float | None = None) -> InstantaneousMotion:
@@ -140,8 +140,8 @@ def motions(record: MechanismRecord, values: FloatArray, threshold: float | None
     rank, gap = rank_of(singular, threshold * singular[..., 0])
     null = np.swapaxes(right, -1, -2) * (np.arange(values.shape[-1]) >= rank[..., None])[..., None, :]
     inputs = np.zeros((len(record.inputs), values.shape[-1]))
-    for row, item in enumerate(record.inputs):
-        inputs[row, item.coordinate.index] = item.sign
+    for row, driven in enumerate(record.inputs):
+        inputs[row, driven.coordinate.index] = driven.sign
     inputs = np.broadcast_to(inputs * scale / input_units(record)[:, None], (*values.shape[:-1], *inputs.shape))
     pose = turning_rates(record, values) * scale / pose_units(record)[:, None]
     twists = platform_twists(record, values) * scale / twist_units(record)[:, None]

@@ -188,9 +188,9 @@ def acceleration(
     NaN out of reach and where Jp is singular; the acceleration is NaN where Jq is singular too, because the
     kernels have no derivative at the root of zero.
     """
-    here = velocity_map(record, poses, mode)
+    velocities = velocity_map(record, poses, mode)
     rates = np.asarray(input_rates, dtype=float)
-    velocity = here.output(rates)
+    velocity = velocities.output(rates)
     given = border.checked_poses(record, poses)
     flat = given.reshape(-1, given.shape[-1])
     moving = _coordinate_rates(record, flat, velocity.reshape(len(flat), -1))
@@ -200,8 +200,8 @@ def acceleration(
     jp_rate = _matrix(jp, given.shape[:-1], derivative=True)
     jq_rate = _matrix(jq, given.shape[:-1], derivative=True) * _input_signs(record)
     accelerations = np.asarray(input_accelerations, dtype=float)
-    right = (here.jq @ accelerations[..., None]) + (jq_rate @ rates[..., None]) - (jp_rate @ velocity[..., None])
-    return velocity, _solve(here.jp, right, here.singular_output | here.singular_input)[..., 0]
+    right = (velocities.jq @ accelerations[..., None]) + (jq_rate @ rates[..., None]) - (jp_rate @ velocity[..., None])
+    return velocity, _solve(velocities.jp, right, velocities.singular_output | velocities.singular_input)[..., 0]
 
 
 def _coordinate_rates(record: MechanismRecord, poses: FloatArray, velocity: FloatArray) -> FloatArray:
@@ -223,7 +223,7 @@ def _moving(value: Any, rate: FloatArray) -> Any:
 
 def _input_signs(record: MechanismRecord) -> FloatArray:
     """d(joint value)/d(printed input), per input."""
-    return np.array([item.sign for item in record.inputs])
+    return np.array([driven.sign for driven in record.inputs])
 
 
 def _velocity_map(read: ModeReading, batch: tuple[int, ...], jp: Sequence[Any], jq: Sequence[Any]) -> VelocityMap:
@@ -232,16 +232,16 @@ def _velocity_map(read: ModeReading, batch: tuple[int, ...], jp: Sequence[Any], 
     count = int(np.prod(batch, dtype=int))
     zero = {name: np.broadcast_to(np.abs(size) <= FACTOR_TOLERANCE, (count,)) for name, size in sizes.items()}
     real = np.broadcast_to(read.exists, (count,))
-    output = np.any([zero[item.name] for item in form.factor_list if item.kind == "parallel"], axis=0)
-    inputs = np.any([zero[item.name] for item in form.factor_list if item.kind == "serial"], axis=0)
-    there = real.reshape(batch)
+    output = np.any([zero[factor.name] for factor in form.factor_list if factor.kind == "parallel"], axis=0)
+    inputs = np.any([zero[factor.name] for factor in form.factor_list if factor.kind == "serial"], axis=0)
+    exists = real.reshape(batch)
     return VelocityMap(
         record,
-        np.where(there[..., None, None], _matrix(jp, batch), np.nan),
-        np.where(there[..., None, None], _matrix(jq, batch) * _input_signs(record), np.nan),
+        np.where(exists[..., None, None], _matrix(jp, batch), np.nan),
+        np.where(exists[..., None, None], _matrix(jq, batch) * _input_signs(record), np.nan),
         (np.asarray(output) & real).reshape(batch),
         (np.asarray(inputs) & real).reshape(batch),
-        there,
+        exists,
         np.zeros(batch, dtype=bool),
     )
 

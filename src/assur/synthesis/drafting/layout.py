@@ -10,6 +10,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from assur.numerics.vectors import cross, dot
 from assur.topology.chains import ChainJoint, Element, InnerLoop, Parallelogram
 from assur.topology.directions import Vector
 
@@ -171,24 +172,12 @@ def across(axis: Vector, rod: Vector) -> Vector:
     >>> across((0.0, 1.0, 0.0), (10.0, 0.0, 300.0))
     (1.0, 0.0, 0.0)
     """
-    level = [unit for unit in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) if abs(_dot(unit, axis)) < 1e-9]
+    level = [unit for unit in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) if abs(dot(unit, axis)) < 1e-9]
     if level:
-        return min(level, key=lambda unit: abs(_dot(unit, rod)))
-    x, y, z = _cross(axis, rod)
+        return min(level, key=lambda unit: abs(dot(unit, rod)))
+    x, y, z = cross(axis, rod)
     length = math.hypot(x, y, z)
     if length < 1e-6 * math.hypot(*rod):
-        x, y, z = _cross(axis, (1.0, 0.0, 0.0))
+        x, y, z = cross(axis, (1.0, 0.0, 0.0))
         length = math.hypot(x, y, z)
     return (x / length, y / length, z / length)
-
-
-def _dot(first: Vector, second: Vector) -> float:
-    return sum(a * b for a, b in zip(first, second, strict=True))
-
-
-def _cross(first: Vector, second: Vector) -> Vector:
-    return (
-        first[1] * second[2] - first[2] * second[1],
-        first[2] * second[0] - first[0] * second[2],
-        first[0] * second[1] - first[1] * second[0],
-    )

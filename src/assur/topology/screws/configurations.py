@@ -152,6 +152,7 @@ def walked(
     system = _System.of(linkage, tree, hold)
     rng = np.random.default_rng(seed)
     values = start / tree.scales
+    # a walk has neither inputs nor a pose to hold nor a mode to keep, so no way or guard of the follower fits it
     heading = rng.normal(size=values.shape)
     heading[1::2] *= rng.random(heading[1::2].shape) < 0.5  # a motion may be of few joints
     alive = np.ones(len(values), dtype=bool)

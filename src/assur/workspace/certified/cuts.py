@@ -61,9 +61,9 @@ def _mean(start: FloatArray, rises: FloatArray, *, upper: bool) -> FloatArray:
     lost = np.sum(np.abs(rises), axis=0) * 4 * UNIT + 1e-290
     middle = start + np.sum(rises, axis=0) / 2
     lost += np.abs(middle) * 8 * UNIT + np.abs(start) * 8 * UNIT
-    found = share_bound(middle + lost if upper else middle - lost, rises / 2, upper=upper)
-    size = found.shape[0] * 2 * UNIT
-    return np.asarray(np.clip(np.mean(found, axis=0) + (size if upper else -size), 0.0, 1.0))
+    bounds = share_bound(middle + lost if upper else middle - lost, rises / 2, upper=upper)
+    size = bounds.shape[0] * 2 * UNIT
+    return np.asarray(np.clip(np.mean(bounds, axis=0) + (size if upper else -size), 0.0, 1.0))
 
 
 def share_bound(height: FloatArray, slopes: FloatArray, *, upper: bool) -> FloatArray:
@@ -88,11 +88,11 @@ def share_bound(height: FloatArray, slopes: FloatArray, *, upper: bool) -> Float
     steep = np.maximum(rise, least)
     moved = np.sum(steep - rise, axis=0) * (1 + 1e-12)
     height = rounding.up_sum(height + moved) if upper else rounding.down_sum(height - moved)
-    found, wrong = _share(height, steep)
+    share, wrong = _share(height, steep)
     whole = np.sum(steep, axis=0)
     far = whole * (1 + 16 * UNIT)
     above, below = (whole, far) if upper else (far, whole)
-    inner = np.clip(found + (wrong if upper else -wrong), 0.0, 1.0)
+    inner = np.clip(share + (wrong if upper else -wrong), 0.0, 1.0)
     return np.where(height >= above, 1.0, np.where(height <= -below, 0.0, inner))
 
 
@@ -111,6 +111,6 @@ def _share(height: FloatArray, rise: FloatArray) -> tuple[FloatArray, FloatArray
             total = total + power if math.prod(corner) > 0 else total - power
         whole, product = np.sum(rise, axis=0), math.factorial(size) * np.prod(rise, axis=0)
         wrong = 256 * UNIT * whole**size / product + 16 * UNIT
-        found = total / (product * 2.0**size)
-    known = np.isfinite(wrong) & np.isfinite(found)
-    return np.where(known, found, 0.5), np.where(known, wrong, 1.0)
+        share = total / (product * 2.0**size)
+    known = np.isfinite(wrong) & np.isfinite(share)
+    return np.where(known, share, 0.5), np.where(known, wrong, 1.0)
