@@ -7,7 +7,7 @@ from assur.synthesis import assembly
 from assur.synthesis.assembly import MEMBERS, Range, assemble
 from assur.synthesis.classes import classes
 from assur.synthesis.expected import Counts
-from assur.synthesis.wanted import MOTIONS
+from assur.synthesis.required import MOTIONS
 from assur.topology.symbolic.refusals import Refusal
 
 SPACE, ANY = MOTIONS["3T"], Range(0, 9)

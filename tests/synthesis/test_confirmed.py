@@ -5,7 +5,7 @@ from assur.synthesis.isomorphism import limb_key
 from assur.synthesis.limb_motions import verdict
 from assur.synthesis.limbs import LimbType
 from assur.synthesis.positions import positions
-from assur.synthesis.wanted import MOTIONS
+from assur.synthesis.required import MOTIONS
 from assur.topology.notation import parse_chain
 
 

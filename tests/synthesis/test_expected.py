@@ -1,7 +1,7 @@
 import pytest
 
 from assur.synthesis.expected import Counts, Expected, expected
-from assur.synthesis.wanted import MOTIONS
+from assur.synthesis.required import MOTIONS
 from assur.topology.notation import parse_chain
 from assur.topology.symbolic.refusals import Refusal
 from assur.topology.symbolic.union import serial

@@ -7,7 +7,7 @@ from assur.errors import UsageError
 from assur.numerics.rotations import from_vector
 from assur.synthesis.isomorphism import limb_key, mechanism_key
 from assur.synthesis.positions import turned
-from assur.synthesis.wanted import MOTIONS
+from assur.synthesis.required import MOTIONS
 from assur.topology.notation import parse_chain
 
 SPACE, PLANE = MOTIONS["3T"], MOTIONS["2T1R"]

@@ -1,7 +1,7 @@
 from assur.model.topologies import load_topology
 from assur.synthesis.isomorphism import limb_key, mechanism_key
 from assur.synthesis.known_mechanisms import known_mechanisms
-from assur.synthesis.wanted import MOTIONS
+from assur.synthesis.required import MOTIONS
 from assur.topology.notation import parse_chain
 
 

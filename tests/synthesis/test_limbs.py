@@ -6,7 +6,7 @@ import pytest
 from assur.synthesis.isomorphism import limb_key
 from assur.synthesis.limb_motions import verdict
 from assur.synthesis.limbs import LimbType, limb_types
-from assur.synthesis.wanted import MOTIONS
+from assur.synthesis.required import MOTIONS
 from assur.topology.notation import parse_chain, plain_text
 
 SPACE = MOTIONS["3T"]

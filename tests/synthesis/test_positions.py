@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from assur.synthesis.positions import in_words, positions, turned, upright
-from assur.synthesis.wanted import MOTIONS
+from assur.synthesis.required import MOTIONS
 from assur.topology.notation import parse_chain, plain_text
 
 

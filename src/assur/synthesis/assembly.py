@@ -11,8 +11,8 @@ from assur.synthesis.confirmed import Confirmed, confirmed
 from assur.synthesis.designs import Design
 from assur.synthesis.expected import Expected, expected
 from assur.synthesis.limb_motions import CandidateLimb
+from assur.synthesis.required import RequiredMotion
 from assur.synthesis.tally import Tally
-from assur.synthesis.wanted import WantedMotion
 from assur.topology.facts import Known
 from assur.topology.notation import parse_chains
 from assur.topology.poc import PocSet
@@ -53,13 +53,13 @@ class DesignsOfClasses:
 
 
 def assemble(
-    chosen: Sequence[Class], motion: WantedMotion, degrees_allowed: Range, *, symmetric: bool
+    chosen: Sequence[Class], motion: RequiredMotion, degrees_allowed: Range, *, symmetric: bool
 ) -> DesignsOfClasses:
     """The mechanisms with one limb of each of these classes: those of equal limbs all, of the others the simplest.
 
     Args:
         chosen: one class for each position, equal ones side by side; only one class, if limbs must be equal.
-        motion: wanted of the platform.
+        motion: required of the platform.
         degrees_allowed: coupling degrees.
         symmetric: whether all limbs must be equal.
     """
@@ -90,7 +90,7 @@ def assemble(
     return DesignsOfClasses(tuple(outcome for outcome in outcomes if isinstance(outcome, Design)), tally)
 
 
-def _by_rules(chosen: Sequence[Class], motion: WantedMotion) -> Expected | Refusal:
+def _by_rules(chosen: Sequence[Class], motion: RequiredMotion) -> Expected | Refusal:
     """What the rules say of the classes, by their first members."""
     first = [members[0] for members in chosen]
     if not all(limb.motions for limb in first):
@@ -99,7 +99,7 @@ def _by_rules(chosen: Sequence[Class], motion: WantedMotion) -> Expected | Refus
 
 
 def _simplest(
-    chosen: Sequence[Class], rules: Expected | Refusal, motion: WantedMotion, degrees_allowed: Range
+    chosen: Sequence[Class], rules: Expected | Refusal, motion: RequiredMotion, degrees_allowed: Range
 ) -> list[Design | Rejected]:
     """The simplest mechanisms of limbs that are not all equal, and what was rejected on the way to them."""
     outcomes: list[Design | Rejected] = []
@@ -111,7 +111,7 @@ def _simplest(
 
 
 def _outcome(
-    limbs: Sequence[CandidateLimb], rules: Expected | Refusal, motion: WantedMotion, degrees_allowed: Range
+    limbs: Sequence[CandidateLimb], rules: Expected | Refusal, motion: RequiredMotion, degrees_allowed: Range
 ) -> Design | Rejected:
     """The mechanism of these limbs, if the twists confirm it and its driven joints fix the platform."""
     twists = confirmed(limbs)
@@ -149,7 +149,7 @@ def _difference(twists: Confirmed, rules: Expected | Refusal) -> str:
     )
 
 
-def _known(rules: Expected | Refusal, motion: WantedMotion) -> Known:
+def _known(rules: Expected | Refusal, motion: RequiredMotion) -> Known:
     if isinstance(rules, Refusal):
         poc = PocSet(len(motion.translations), len(motion.rotations), motion.dim)
         return Known(poc, "twists", rules.reason)

@@ -1,4 +1,4 @@
-"""Second route: limbs joined by their twists, at random poses of the wanted motion."""
+"""Second route: limbs joined by their twists, at random poses of the required motion."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Confirmed:
 def confirmed(limbs: Sequence[CandidateLimb]) -> Confirmed:
     """F, and what is left of it with the driven joints locked.
 
-    Every limb has the wanted motion, so the platform has it; with F equal to its dimension it has no other, and no
+    Every limb has the required motion, so the platform has it; with F equal to its dimension it has no other, and no
     limb moves by itself.
 
     Args:

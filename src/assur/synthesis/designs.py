@@ -19,7 +19,7 @@ _COUNTS = ("no", "one", "two", "three", "four", "five", "six")
 
 @dataclass(frozen=True, eq=False)
 class Design:
-    """A mechanism with the wanted motion, confirmed by both routes.
+    """A mechanism with the required motion, confirmed by both routes.
 
     Attributes:
         limbs: in the order of their positions.

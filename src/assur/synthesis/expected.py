@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise, permutations
 
-from assur.synthesis.wanted import WantedMotion
+from assur.synthesis.required import RequiredMotion
 from assur.topology.symbolic.intersection import parallel
 from assur.topology.symbolic.motion import Mode, Motion
 from assur.topology.symbolic.refusals import Refusal
@@ -64,7 +64,7 @@ class Expected:
 
     Attributes:
         platform: the motion of the platform.
-        reaches: whether it is the wanted one.
+        reaches: whether it is the required one.
         counts: None where the rules refuse on a part of the limbs.
     """
 
@@ -73,10 +73,10 @@ class Expected:
     counts: Counts | None
 
 
-def expected(motions: Sequence[Motion], motion: WantedMotion) -> Expected | Refusal:
+def expected(motions: Sequence[Motion], motion: RequiredMotion) -> Expected | Refusal:
     """What the rules say of limbs with these motions, side by side.
 
-    >>> from assur.synthesis.wanted import MOTIONS
+    >>> from assur.synthesis.required import MOTIONS
     >>> from assur.topology.notation import parse_chain
     >>> from assur.topology.symbolic.union import serial
     >>> limbs = [serial(parse_chain(f"C[{u}] R[{u}] R[{u}]"), "translation") for u in "xyz"]
@@ -100,7 +100,7 @@ def _sets(count: int) -> Iterator[Set]:
         yield from map(frozenset, combinations(range(count), size))
 
 
-def _reaches(platform: Motion, motion: WantedMotion) -> bool:
+def _reaches(platform: Motion, motion: RequiredMotion) -> bool:
     moves = all(platform.translations.contains(direction) for direction in motion.translations)
     turns = all(platform.rotations.contains(direction) for direction in motion.rotations)
     return moves and turns and platform.dim == motion.dim

@@ -2,7 +2,7 @@
 
 An axis about which something turns cuts a limb into *stretches*; a stretch holds directions that stay fixed
 against each other: the axis that leads into it, its P joints, the axis that leads out of it. Stretches that
-are not turned against each other while the platform has the wanted motion share a frame. So two limbs are the same if
+are not turned against each other while the platform has the required motion share a frame. So two limbs are the same if
 the same kinds of joints stand in the same order, and the directions in each frame have the same relations.
 
 Between two axes the order of P joints makes no difference, but it does which of them is driven. A limb and its
@@ -17,7 +17,7 @@ from itertools import combinations, permutations, product
 from typing import Any
 
 from assur.errors import UsageError
-from assur.synthesis.wanted import WantedMotion
+from assur.synthesis.required import RequiredMotion
 from assur.topology.chains import Chain, ChainJoint, Parallelogram
 from assur.topology.directions import EXACT, Vector, parallel
 
@@ -45,7 +45,7 @@ class _Turn:
     axis: Vector | None
 
 
-def limb_key(chain: Chain, motion: WantedMotion, driven: int | None = None) -> Key:
+def limb_key(chain: Chain, motion: RequiredMotion, driven: int | None = None) -> Key:
     """Canonical form of a limb whose platform has a wanted motion.
 
     Args:
@@ -58,7 +58,7 @@ def limb_key(chain: Chain, motion: WantedMotion, driven: int | None = None) -> K
 
     Example: the order of neighbouring P joints makes no difference, nor do the names of the axes.
 
-    >>> from assur.synthesis.wanted import MOTIONS
+    >>> from assur.synthesis.required import MOTIONS
     >>> from assur.topology.notation import parse_chain
     >>> first, second = parse_chain("P[x] P[z] R[z] R[z]"), parse_chain("P[x] P[y] R[x] R[x]")
     >>> space = MOTIONS["3T"]
@@ -107,7 +107,7 @@ def _cut(chain: Chain, driven: int | None) -> tuple[list[_Turn], list[list[_Dire
     return turns, stretches
 
 
-def _frames(turns: Sequence[_Turn], motion: WantedMotion) -> list[str]:
+def _frames(turns: Sequence[_Turn], motion: RequiredMotion) -> list[str]:
     """The frame of each stretch.
 
     Neighbouring parallel axes are a block. While the platform has its motion, a block turns what is behind it by

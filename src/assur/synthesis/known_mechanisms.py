@@ -10,17 +10,17 @@ from assur.model.registry import topology_names
 from assur.model.topologies import load_topology
 from assur.model.topology_description import TopologyDescription
 from assur.synthesis.isomorphism import Key, limb_key, mechanism_key
-from assur.synthesis.wanted import WantedMotion
+from assur.synthesis.required import RequiredMotion
 from assur.topology.chains import Chain
 from assur.topology.counting.inputs import default_inputs
 
 
-def known_mechanisms(motion: WantedMotion) -> Mapping[Key, tuple[str, ...]]:
+def known_mechanisms(motion: RequiredMotion) -> Mapping[Key, tuple[str, ...]]:
     """Names of built-in topologies by the canonical form of their limbs; how the limbs are placed makes no difference.
 
     A topology with an inner loop, or driven otherwise than by one joint in each limb, is left out.
 
-    >>> from assur.synthesis.wanted import MOTIONS
+    >>> from assur.synthesis.required import MOTIONS
     >>> sorted(name for names in known_mechanisms(MOTIONS["3T"]).values() for name in names if "glide" in name)
     ['orthoglide']
     """
@@ -32,7 +32,7 @@ def known_mechanisms(motion: WantedMotion) -> Mapping[Key, tuple[str, ...]]:
     return {key: tuple(names) for key, names in names_by_key.items()}
 
 
-def _key(described: TopologyDescription, motion: WantedMotion) -> Key | None:
+def _key(described: TopologyDescription, motion: RequiredMotion) -> Key | None:
     driven = _driven(described)
     if driven is None:
         return None

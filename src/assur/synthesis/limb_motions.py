@@ -1,4 +1,4 @@
-"""Limbs that have the wanted motion, by both routes: the rules on the chain, the twists at poses of that motion."""
+"""Limbs that have the required motion, by both routes: the rules on the chain, the twists at poses of that motion."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from assur.joints.spherical import SPHERICAL
 from assur.synthesis.limbs import LimbType
 from assur.synthesis.poses import twists_at_poses
 from assur.synthesis.positions import turned
-from assur.synthesis.wanted import WantedMotion
+from assur.synthesis.required import RequiredMotion
 from assur.topology.agreement import RoutesDisagreeError, agreed, by_twists
 from assur.topology.chains import Chain
 from assur.topology.facts import Known
@@ -40,7 +40,7 @@ Reason = Literal["", "a passive freedom", "not the motion", "an idle joint"]
 
 @dataclass(frozen=True, eq=False)
 class CandidateLimb:
-    """A limb that has the wanted motion.
+    """A limb that has the required motion.
 
     Attributes:
         type: the limb in its first position.
@@ -80,12 +80,12 @@ class LimbVerdict:
     disagreement: str = ""
 
 
-def verdict(limb: LimbType, motion: WantedMotion, turns: Sequence[FloatArray]) -> LimbVerdict:
-    """Whether a limb has the wanted motion, all its freedoms are independent, and no joint of it stays at rest.
+def verdict(limb: LimbType, motion: RequiredMotion, turns: Sequence[FloatArray]) -> LimbVerdict:
+    """Whether a limb has the required motion, all its freedoms are independent, and no joint of it stays at rest.
 
     Args:
         limb: in its first position.
-        motion: wanted of the platform.
+        motion: required of the platform.
         turns: (3, 3) into each position.
     """
     chains = tuple(parse_chain(plain_text(turned(limb.chain, turn))) for turn in turns)
@@ -114,7 +114,7 @@ def verdict(limb: LimbType, motion: WantedMotion, turns: Sequence[FloatArray]) -
     )
 
 
-def _by_rules(chain: Chain, motion: WantedMotion) -> Motion | Refusal:
+def _by_rules(chain: Chain, motion: RequiredMotion) -> Motion | Refusal:
     """The rules' answer for a limb whose end link takes the orientations that are wanted."""
     free = serial(chain, "free" if motion.rotations else "translation", chain.text)
     if isinstance(free, Refusal) or free.limb is None or not motion.rotations:
@@ -122,7 +122,7 @@ def _by_rules(chain: Chain, motion: WantedMotion) -> Motion | Refusal:
     return motion_of(free.limb, Orientations(1, motion.rotations))
 
 
-def _reason_by_rules(limb_motion: Motion, motion: WantedMotion) -> Reason:
+def _reason_by_rules(limb_motion: Motion, motion: RequiredMotion) -> Reason:
     if limb_motion.orientations.dim < len(motion.rotations):
         return "not the motion"
     if limb_motion.passive:
@@ -132,7 +132,7 @@ def _reason_by_rules(limb_motion: Motion, motion: WantedMotion) -> Reason:
     return "" if moves and turns else "not the motion"
 
 
-def _reason_by_twists(twists: FloatArray | None, limb: LimbType, motion: WantedMotion) -> Reason:
+def _reason_by_twists(twists: FloatArray | None, limb: LimbType, motion: RequiredMotion) -> Reason:
     if twists is None:
         return "not the motion"
     if rank(twists) < limb.freedoms:
@@ -141,7 +141,7 @@ def _reason_by_twists(twists: FloatArray | None, limb: LimbType, motion: WantedM
     return "" if rank(np.concatenate([twists, motion_twists], axis=-1)) == limb.freedoms else "not the motion"
 
 
-def _idles(limb: LimbType, twists: FloatArray, motion: WantedMotion) -> bool:
+def _idles(limb: LimbType, twists: FloatArray, motion: RequiredMotion) -> bool:
     """Whether a freedom stays at rest in all of the motion; of a ball joint, all three."""
     rates = np.max(np.abs(np.linalg.pinv(twists) @ motion.twists), axis=(0, 2))  # (f,)
     parts = np.split(rates, np.cumsum([joint.freedoms for joint in limb.chain.joints])[:-1])

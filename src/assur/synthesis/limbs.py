@@ -1,4 +1,4 @@
-"""Limb types: chains that could have the wanted motion, each one once, with the joint that is driven."""
+"""Limb types: chains that could have the required motion, each one once, with the joint that is driven."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from assur.joints.universal import UNIVERSAL
 from assur.synthesis.isomorphism import Key, limb_key
 from assur.synthesis.poses import is_special
 from assur.synthesis.positions import upright
-from assur.synthesis.wanted import WantedMotion
+from assur.synthesis.required import RequiredMotion
 from assur.synthesis.words import Word, crossing, words
 from assur.topology.chains import Chain, ChainJoint, Element, Parallelogram
 from assur.topology.directions import NAMED, Vector
@@ -63,13 +63,13 @@ class LimbType:
         return sum(isinstance(element, Parallelogram) for element in self.chain.elements)
 
 
-def limb_types(motion: WantedMotion, max_joints: int, actuators: Actuators) -> tuple[LimbType, ...]:
+def limb_types(motion: RequiredMotion, max_joints: int, actuators: Actuators) -> tuple[LimbType, ...]:
     """Every limb that can be told apart, has a joint to drive and no freedom that shows as passive or idle, once.
 
     Whether it has the motion is for the two routes to say. Of several ways to write a limb, the first is taken that is
     no special configuration of it, as P[x] R[z] P[x] is one of P[x] R[z] P[y].
 
-    >>> from assur.synthesis.wanted import MOTIONS
+    >>> from assur.synthesis.required import MOTIONS
     >>> from assur.topology.notation import plain_text
     >>> found = {plain_text(limb.chain) for limb in limb_types(MOTIONS["3T"], 3, "base")}
     >>> "C[x] R[x] R[x]" in found, "P[x] R[x] R[x] R[x]" in found
@@ -87,7 +87,7 @@ def limb_types(motion: WantedMotion, max_joints: int, actuators: Actuators) -> t
 
 
 def _candidates(
-    motion: WantedMotion, max_joints: int, actuators: Actuators
+    motion: RequiredMotion, max_joints: int, actuators: Actuators
 ) -> Iterator[tuple[tuple[_Group, ...], int]]:
     """Every way to write a limb, and the place of its driven joint."""
     always = next((name for name, vector in NAMED.items() if vector == motion.axis), "")

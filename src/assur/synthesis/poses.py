@@ -1,7 +1,7 @@
-"""A limb at random poses of the wanted motion, as twists: the second route's data, computed once for each limb.
+"""A limb at random poses of the required motion, as twists: the second route's data, computed once for each limb.
 
 Links have random lengths and joints random values, subject to one thing only: the platform is turned as the
-wanted motion says. Where a limb stands on the base is free, so each can be put at a common pose of the platform,
+required motion says. Where a limb stands on the base is free, so each can be put at a common pose of the platform,
 and limbs that were computed apart can be joined.
 """
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.numerics.rotations import about_axis
-from assur.synthesis.wanted import WantedMotion
+from assur.synthesis.required import RequiredMotion
 from assur.topology.chains import Chain, ChainJoint, Element, Parallelogram
 from assur.topology.directions import NAMED, Vector, parallel, unit
 
@@ -26,13 +26,13 @@ DIGITS = 15
 """Decimals of a direction that is not along x, y or z: enough for parallel axes, and short to read."""
 
 
-def positions(motion: WantedMotion, limbs: int) -> tuple[FloatArray, ...]:
+def positions(motion: RequiredMotion, limbs: int) -> tuple[FloatArray, ...]:
     """Rotations (3, 3) that take a limb as written into each of its positions.
 
     Where the motion singles out no direction, x -> y -> z -> x, as on three walls of a room; otherwise around its axis,
     evenly, but two limbs at a right angle.
 
-    >>> from assur.synthesis.wanted import MOTIONS
+    >>> from assur.synthesis.required import MOTIONS
     >>> [tuple(map(float, turn @ (1, 0, 0))) for turn in positions(MOTIONS["3T"], 3)]
     [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
     """
@@ -48,10 +48,10 @@ def _step(limbs: int) -> float:
     return 90.0 if limbs == 2 else 360.0 / limbs
 
 
-def in_words(motion: WantedMotion, limbs: int) -> str:
+def in_words(motion: RequiredMotion, limbs: int) -> str:
     """How the limbs stand to each other.
 
-    >>> from assur.synthesis.wanted import MOTIONS
+    >>> from assur.synthesis.required import MOTIONS
     >>> in_words(MOTIONS["2T1R"], 3)
     'each limb is the one before turned about z by 120°'
     """
@@ -74,7 +74,7 @@ def turned(chain: Chain, turn: FloatArray) -> Chain:
     return _with_axes(chain, axis)
 
 
-def upright(chain: Chain, motion: WantedMotion) -> Chain:
+def upright(chain: Chain, motion: RequiredMotion) -> Chain:
     """A chain along x, y and z written so that limbs of every kind fit together in their positions.
 
     Where the motion singles out z, the first other direction of its R comes to x. Else the one direction of its R

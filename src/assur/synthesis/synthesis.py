@@ -19,8 +19,8 @@ from assur.synthesis.known_mechanisms import known_mechanisms
 from assur.synthesis.limb_motions import CandidateLimb, LimbVerdict, verdict
 from assur.synthesis.limbs import Actuators, limb_types
 from assur.synthesis.positions import positions
+from assur.synthesis.required import RequiredMotion, motion_named
 from assur.synthesis.tally import Tally, total
-from assur.synthesis.wanted import WantedMotion, motion_named
 from assur.topology.agreement import RoutesDisagreeError
 
 Step = Callable[[int, int], None]
@@ -38,7 +38,7 @@ class TooManyError(UsageError):
 class SynthesisQuestion:
     """What was asked for; see `synthesis`."""
 
-    motion: WantedMotion
+    motion: RequiredMotion
     max_joints: int
     coupling: tuple[int, int]
     symmetric: bool
@@ -207,7 +207,7 @@ def _sorted(verdicts: Sequence[LimbVerdict]) -> tuple[list[CandidateLimb], Count
     )
 
 
-def _named(designs: list[Design], motion: WantedMotion) -> tuple[Design, ...]:
+def _named(designs: list[Design], motion: RequiredMotion) -> tuple[Design, ...]:
     """The designs with the names of known mechanisms that have the same limbs."""
     known = known_mechanisms(motion)
     keys = [mechanism_key(limb.type.key for limb in design.limbs) for design in designs]

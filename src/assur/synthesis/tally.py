@@ -14,7 +14,7 @@ class Tally:
     Attributes:
         classes: sets of classes of limbs that the rules were asked about.
         combinations: mechanisms that they stand for.
-        with_motion: those of them that have the wanted motion by the rules.
+        with_motion: those of them that have the required motion by the rules.
         coupling_degrees: number of these with each κ, where the rules give it.
         tried: those that were looked at one by one.
         unfixed: those of them whose driven joints, locked, leave a freedom.

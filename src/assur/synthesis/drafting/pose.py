@@ -23,7 +23,7 @@ def pose_for(twists: FloatArray, count: int, *, still: bool = False) -> Pose | N
 
     Args:
         twists: (6, n) platform's twists at home, one for each motion, lengths scaled to numbers.
-        count: how many coordinates are wanted; six are x, y, z and a quaternion.
+        count: how many coordinates are required; six are x, y, z and a quaternion.
         still: whether the platform keeps its orientation, so that only x, y, z count.
 
     >>> plane = np.eye(6)[:, [2, 3, 4]]

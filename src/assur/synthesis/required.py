@@ -1,4 +1,4 @@
-"""The motion that is wanted of a platform: translations and rotations along fixed directions of the base."""
+"""The motion that is required of a platform: translations and rotations along fixed directions of the base."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class WantedMotion:
+class RequiredMotion:
     """A POC set to be reached, all of it independent and permanent.
 
     Attributes:
@@ -54,15 +54,15 @@ _X, _Y, _Z = NAMED["x"], NAMED["y"], NAMED["z"]
 MOTIONS = {
     motion.name: motion
     for motion in (
-        WantedMotion("3T", (_X, _Y, _Z)),
-        WantedMotion("3T1R", (_X, _Y, _Z), (_Z,), _Z),
-        WantedMotion("2T1R", (_X, _Y), (_Z,), _Z),
+        RequiredMotion("3T", (_X, _Y, _Z)),
+        RequiredMotion("3T1R", (_X, _Y, _Z), (_Z,), _Z),
+        RequiredMotion("2T1R", (_X, _Y), (_Z,), _Z),
     )
 }
 """Motions that can be asked for; what singles out a direction has it along z."""
 
 
-def motion_named(name: str) -> WantedMotion:
+def motion_named(name: str) -> RequiredMotion:
     """The motion of a name, upper or lower case.
 
     >>> motion_named("3T").dim

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from assur.errors import UnknownNameError
-from assur.synthesis.wanted import MOTIONS, motion_named
+from assur.synthesis.required import MOTIONS, motion_named
 
 
 @pytest.mark.parametrize("motion", MOTIONS.values(), ids=MOTIONS)
