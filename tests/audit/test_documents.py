@@ -4,21 +4,16 @@ import re
 
 import pytest
 
-from assur.audit.documents import computed_text, conformance_text, documents, write_documents
+from assur.audit.audit import audit
+from assur.audit.documents import computed_text, conformance_text, documents
 from assur.audit.rows import Audit, Row
-from assur.errors import OutputError
 from assur.model.registry import load_record
 
 
-def test_both_documents_are_written(tmp_path):
-    paths = write_documents(load_record("fivebar"), tmp_path)
-    assert [path.name for path in paths] == ["ERRATA.md", "CONFORMANCE.md"]
-    assert all(path.read_text(encoding="utf-8").startswith("# ") for path in paths)
-
-
-def test_a_folder_that_is_not_there_is_refused(tmp_path):
-    with pytest.raises(OutputError, match="does not exist"):
-        write_documents(load_record("fivebar"), tmp_path / "nowhere")
+def test_both_documents_are_made():
+    made = documents(audit(load_record("fivebar")))
+    assert list(made) == ["ERRATA.md", "CONFORMANCE.md"]
+    assert all(text.startswith("# ") for text in made.values())
 
 
 def test_every_row_stands_in_the_table():

@@ -7,22 +7,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from pathlib import Path
 
-from assur.audit.audit import audit
 from assur.audit.printed import Printed
 from assur.audit.rows import Audit, Erratum, Row
 from assur.errors import UsageError
-from assur.model.mechanism import MechanismRecord
-from assur.results.files import write_whole
 
 ERRATA = "ERRATA.md"
 CONFORMANCE = "CONFORMANCE.md"
-
-
-def write_documents(record: MechanismRecord, folder: str | Path) -> tuple[Path, ...]:
-    """Audit a mechanism and write both documents into a folder; their paths."""
-    return tuple(write_whole(Path(folder) / name, text) for name, text in documents(audit(record)).items())
 
 
 def documents(audit: Audit) -> Mapping[str, str]:

@@ -71,11 +71,11 @@ def fill(axes: Axes, polygons: Sequence[FloatArray], colour: str, edge: str = "n
         axes.add_patch(PathPatch(path, facecolor=colour, edgecolor=edge, linewidth=0.7, zorder=order))
 
 
-def curves(axes: Axes, segments: FloatArray, index: int, width: float = 1.1) -> None:
+def curves(axes: Axes, segments: FloatArray, index: int) -> None:
     """Segments (k, 2, 2) in the colour and the dashes of the locus with that index."""
     style, colour = STYLES[index % len(STYLES)], LOCI[index % len(LOCI)]
     for line in strung(segments):
-        axes.plot(line[:, 0], line[:, 1], color=colour, linewidth=width, linestyle=style, zorder=4)
+        axes.plot(line[:, 0], line[:, 1], color=colour, linewidth=1.1, linestyle=style, zorder=4)
 
 
 def strung(segments: FloatArray) -> list[FloatArray]:

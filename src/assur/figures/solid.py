@@ -30,8 +30,8 @@ FloatArray = NDArray[np.float64]
 OUTLINE, CREASE = 0.7, 0.4
 """Widths of lines in points; what a journal prints is not under 0.25."""
 
-HALO = 2.2
-"""Width of the white edge of a letter, in points."""
+HALO, TRIAD = 2.2, 15.0
+"""Width of the white edge of a letter, and length of the directions X, Y, Z, in points."""
 
 BELOW = -14
 """Elevation in degrees from which a mechanism is seen that hangs from its base, whose plate would hide it."""
@@ -179,10 +179,10 @@ def strokes(page: Canvas, lines: FloatArray, width: float, order: float = 2.1, c
     )
 
 
-def triad(page: Canvas, camera: Camera, at: FloatArray, size: float = 15.0) -> None:
+def triad(page: Canvas, camera: Camera, at: FloatArray) -> None:
     """The directions X, Y, Z of the base at a place (2,) of the page, in points."""
     for name, axis in zip("XYZ", np.eye(3), strict=True):
-        way = size * camera.project(axis)
+        way = TRIAD * camera.project(axis)
         if np.linalg.norm(way) > 3.0:
             page.arrow(at, at + way, BLUE, 0.8, 11, head=5)
             page.text(at + way * (1 + 5.5 / np.linalg.norm(way)), f"${name}$", fontsize=SMALL, color=BLUE)

@@ -11,8 +11,8 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 FloatArray = NDArray[np.float64]
-ROUND = 36
-"""Sides of what is round."""
+ROUND, CREASE = 36, 25.0
+"""Sides of what is round; degrees beyond which two faces meet in an edge, more than those of what is round."""
 
 POINT = 1e-9
 """Two points that are nearer than this share of a part's radius are one."""
@@ -145,8 +145,8 @@ def slab(outline: FloatArray, along: FloatArray, colour: str) -> Mesh:
     )
 
 
-def surface(vertices: FloatArray, faces: NDArray[np.int64], colour: str, crease: float = 25.0) -> Mesh:
-    """A triangle mesh (n, 3), (f, 3), smooth except where two faces meet at more than `crease` degrees.
+def surface(vertices: FloatArray, faces: NDArray[np.int64], colour: str) -> Mesh:
+    """A triangle mesh (n, 3), (f, 3), smooth except where two faces meet at more than `CREASE` degrees.
 
     >>> square = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0.5, 1]])
     >>> roof = np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
@@ -157,7 +157,7 @@ def surface(vertices: FloatArray, faces: NDArray[np.int64], colour: str, crease:
     weighted = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])  # twice the area, outwards
     unit = weighted / np.maximum(np.linalg.norm(weighted, axis=1, keepdims=True), 1e-300)
     first, second = _neighbours(faces)
-    smooth = np.sum(unit[first] * unit[second], axis=1) > np.cos(np.radians(crease))
+    smooth = np.sum(unit[first] * unit[second], axis=1) > np.cos(np.radians(CREASE))
     links = coo_matrix((np.ones(int(smooth.sum())), (first[smooth], second[smooth])), shape=(len(faces),) * 2)
     patch = connected_components(links, directed=False)[1].astype(np.int64)
     # a corner's normal is the mean over the faces of its patch that meet there
@@ -168,13 +168,13 @@ def surface(vertices: FloatArray, faces: NDArray[np.int64], colour: str, crease:
     return Mesh(corners, normals.reshape(-1, 3, 3), patch, np.tile(rgb(colour), (len(faces), 1)))
 
 
-def creases(vertices: FloatArray, faces: NDArray[np.int64], crease: float = 25.0) -> FloatArray:
-    """Edges (e, 2, 3) at which two faces of a closed mesh meet at more than `crease` degrees."""
+def creases(vertices: FloatArray, faces: NDArray[np.int64]) -> FloatArray:
+    """Edges (e, 2, 3) at which two faces of a closed mesh meet at more than `CREASE` degrees."""
     corners = vertices[faces]
     unit = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     unit = unit / np.maximum(np.linalg.norm(unit, axis=1, keepdims=True), 1e-300)
     first, second = _neighbours(faces)
-    sharp = np.sum(unit[first] * unit[second], axis=1) < np.cos(np.radians(crease))
+    sharp = np.sum(unit[first] * unit[second], axis=1) < np.cos(np.radians(CREASE))
     edges = [np.intersect1d(faces[a], faces[b]) for a, b in zip(first[sharp], second[sharp], strict=True)]
     pairs = np.array([edge for edge in edges if len(edge) == 2], dtype=int).reshape(-1, 2)
     return np.asarray(vertices[pairs])
