@@ -17,7 +17,7 @@ def found():
 @pytest.fixture
 def quick(monkeypatch, found):
     """The audit has been done already."""
-    monkeypatch.setattr("assur.audit.audit.audit", lambda _: found)
+    monkeypatch.setattr("assur.cli.auditing.audit", lambda _: found)
 
 
 def test_shape_and_rows_are_those_of_the_audit(assur_cli, quick, found):
@@ -39,7 +39,7 @@ def test_a_paper_that_is_wrong_is_no_failure_of_ours(assur_cli, quick):
 def test_evidence_that_does_not_hold_exits_1(assur_cli, monkeypatch, found):
     first, *rest = found.errata
     broken = replace(first, evidence=replace(first.evidence, holds=False))
-    monkeypatch.setattr("assur.audit.audit.audit", lambda _: replace(found, errata=(broken, *rest)))
+    monkeypatch.setattr("assur.cli.auditing.audit", lambda _: replace(found, errata=(broken, *rest)))
     run = assur_cli("audit", "zeng2019")
     assert run.code == 1
     assert "A claim of ours does not hold." in run.out

@@ -81,8 +81,7 @@ def test_the_box_that_is_proved_holds_the_one_in_degrees(assur_cli, monkeypatch)
     asked = []
     honest = proving.prove_box
     monkeypatch.setattr(
-        proving,
-        "prove_box",
+        "assur.cli.certified_regions.prove_box",
         lambda record, box, *rest, **more: (
             asked.append(box),
             honest(record, box, *rest, **more),
