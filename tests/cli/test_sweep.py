@@ -284,6 +284,25 @@ def test_a_row_of_a_dimension_is_what_set_says(assur_cli, drafted, tmp_path, nam
     assert sum(data["counts"]["refused"].values()) == seen.count("no_mechanism")
 
 
+def test_inputs_are_swept_without_a_closed_form_too(assur_cli, drafted, tmp_path):
+    """Crossed with a dimension; against a search for every assembly of single inputs."""
+    along = ("--along", "q1=-20:40:4", "--along", "q3=-10:30:3", "--at", "q2=5", "--dimension", "J_y=170:200:2")
+    asked = ("sweep", drafted, "--problem", "direct", *along, "--keep", "poses,exists,status")
+    data = assur_cli(*asked, "-o", str(tmp_path / "o"), "--json").json
+    assert (data["mode"], data["files"]["poses"]["axes"]) == ("home", ["coordinate", "J_y", "q1", "q3"])
+    poses, exists, status = (load(tmp_path / "o", name) for name in ("poses", "exists", "status"))
+    for index, place in list(places(data))[::4]:
+        if not exists[index]:
+            assert (status_name(data, status[index]), np.isnan(poses[(0, *index)])) == ("undecided", True)
+            continue
+        given = (repr(place[name]) for name in ("q1", "q2", "q3"))
+        alone = assur_cli("direct", drafted, *given, "--set", f"J_y={place['J_y']!r}", "--json").json
+        away = [np.abs(np.subtract(one["pose"], poses[(slice(None), *index)])).max() for one in alone["solutions"]]
+        own = alone["solutions"][int(np.argmin(away))]
+        assert (min(away) < 1e-6, own["status"]) == (True, status_name(data, status[index]))
+    assert 4 < exists.sum() < 24
+
+
 def test_a_dimension_alone_is_swept_at_home(assur_cli, drafted, tmp_path):
     words = ("sweep", drafted, "--dimension", "J_y=160:180:3", "-o", str(tmp_path / "o"), "--json")
     data = assur_cli(*words).json
@@ -307,7 +326,7 @@ def test_shards_of_what_is_followed_are_the_whole_to_the_byte(assur_cli, drafted
     [
         (
             ("--along", "x=0:1:3", "--at", "y=0,z=320", "--mode", "2"),
-            "follows home's working mode, not '2'",
+            "follows home's mode, not '2'",
             "leave the",
         ),
         (
@@ -315,7 +334,6 @@ def test_shards_of_what_is_followed_are_the_whole_to_the_byte(assur_cli, drafted
             "unknown quantity",
             "in closed form, has this",
         ),
-        (("--problem", "direct", "--along", "q1=0:1:3"), "no closed form to sweep its inputs with", "sweeps of inputs"),
     ],
 )
 def test_what_needs_a_closed_form_is_refused(assur_cli, drafted, tmp_path, words, message, told):

@@ -214,9 +214,9 @@ def test_a_file_without_a_closed_form_is_told_what_works_without_one(assur_cli, 
     assert (run.code, run.out) == (2, "")
     error, hint = run.err.splitlines()
     assert error == "error: my has no closed form"
-    assert hint.startswith("hint: proofs over regions and sweeps of inputs need one")
+    assert hint.startswith("hint: proofs over regions need one")
     named = hint.partition("; ")[2].partition(" work on the joint graph")[0]
-    assert named == "direct, inverse, singularity, follow, sweeps of poses and workspace without a proof"
+    assert named == "direct, inverse, singularity, follow, sweeps and workspace without a proof"
     values = {
         "direct": ("127", "53"),
         "inverse": ("0", "200"),

@@ -71,8 +71,8 @@ def sweep(
     refused. --along and --at are given once per coordinate, or with commas
     between; lengths and angles are in the mechanism's units, in the files too.
     Where there is no solution the numbers are NaN. Without a closed form poses
-    are followed to from home and from neighbours; one that is not reached so is
-    undecided.
+    or inputs are followed to from home and from neighbours; what is not reached
+    so is undecided.
 
     --dimension sweeps a dimension too, alone or with a grid: each mechanism is
     the one of --set. Where the file does not allow the dimensions, or without a

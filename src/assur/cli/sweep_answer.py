@@ -160,10 +160,11 @@ def _mode_of(about: SweepAnswer) -> str:
     mode = about.mode
     if mode == "all":
         return f"{len(about.modes)} modes"
-    if about.problem == "direct":
-        return f"assembly mode {mode}"
+    kind = "assembly mode" if about.problem == "direct" else "working mode"
     if mode == HOME:
-        return "the working mode of home"
+        return f"the {kind} of home"
+    if about.problem == "direct":
+        return f"{kind} {mode}"
     return f"working mode {mode}" if mode else "its only working mode"
 
 

@@ -13,7 +13,6 @@ from assur.kinematics.closed_form.grids import Grid
 from assur.kinematics.home import home_values
 from assur.kinematics.modes import Problem
 from assur.kinematics.pose import pose_of
-from assur.kinematics.status import NO_CLOSED_FORM
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import has_quaternion
 
@@ -28,8 +27,6 @@ def asked(
 
     Before them come the dimensions that vary; where nothing else is said, the mechanism is held at home.
     """
-    if problem == "direct" and record.closed_form is None:
-        raise UsageError(f"{record.name} has no closed form to sweep its inputs with", hint=NO_CLOSED_FORM)
     if problem == "inverse" and has_quaternion(record.platform.pose):
         raise UsageError(
             f"{record.name}: no grid over quaternions", hint="Mechanism.inverse takes an array of poses of your own"

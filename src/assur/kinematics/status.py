@@ -28,8 +28,8 @@ NEAR_SINGULAR = 1e-3
 """A factor within this share of its scale makes a solution near_singular."""
 
 NO_CLOSED_FORM = (
-    "proofs over regions and sweeps of inputs need one beside the file (docs/closed-form.md says how it is written); "
-    "direct, inverse, singularity, follow, sweeps of poses and workspace without a proof work on the joint graph"
+    "proofs over regions need one beside the file (docs/closed-form.md says how it is written); "
+    "direct, inverse, singularity, follow, sweeps and workspace without a proof work on the joint graph"
 )
 """What to do where a mechanism has none."""
 

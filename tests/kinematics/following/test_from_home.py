@@ -59,6 +59,17 @@ def test_a_grid_is_reached_wherever_home_leads_straight():
     np.testing.assert_allclose((away + np.pi) % (2 * np.pi) - np.pi, 0.0, atol=1e-9)
 
 
+def test_a_grid_of_inputs_keeps_home_s_assembly_mode():
+    record = assur.load("fivebar")
+    axes = np.meshgrid(np.radians(np.linspace(-60.0, 170.0, 24)), np.radians(np.linspace(10.0, 240.0, 24)))
+    inputs = np.stack([axis.ravel() for axis in axes], axis=1)
+    joints, reached = followed_together(record, inputs, "inputs")
+    assert reached.mean() > 0.9
+    np.testing.assert_allclose(border.inputs_of(record, joints[reached]), inputs[reached], rtol=0, atol=1e-9)
+    wanted = record.direct(inputs[reached], record.modes.default_assembly).poses[:, 0]
+    np.testing.assert_allclose(pose_of(record, joints[reached]), wanted, rtol=0, atol=1e-7)
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_poses_in_a_row_are_reached_as_from_home(name):
     """Lines of a grid, several of them, longer than the distance of what is followed from home."""

@@ -1,4 +1,4 @@
-"""Stored sweeps on the joint graph: the inverse problem in home's working mode, where there is no closed form."""
+"""Stored sweeps on the joint graph: home's mode, where there is no closed form."""
 
 from __future__ import annotations
 
@@ -14,19 +14,20 @@ from assur.kinematics.border import inputs_of
 from assur.kinematics.closed_form.blocks import FloatArray
 from assur.kinematics.closed_form.grid_sweep import GridSweep
 from assur.kinematics.following.from_home import followed_together
+from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.finite_motion import classify_at
 from assur.kinematics.status import Status
 from assur.results.store.layout import block_length
 
 HOME = "home"
-"""Stands for the working mode of home."""
+"""Stands for the mode of home."""
 LONGEST = 8192
 """Places in a block: so many that those of a block that are followed from home are worked on together."""
 
 
 @dataclass(frozen=True, eq=False)
 class HomeSweep(GridSweep):
-    """A sweep in which poses are followed to from home, straight or by way of their neighbours in a block."""
+    """A sweep in which poses or inputs are followed to from home, straight or by way of their neighbours in a block."""
 
     @property
     def formulas(self) -> dict[str, str]:
@@ -45,7 +46,7 @@ class HomeSweep(GridSweep):
     @property
     def existence(self) -> str:
         """That a pose was reached."""
-        return "whether the pose was reached from home, straight or by way of neighbours"
+        return "whether home leads there, straight or by way of neighbours"
 
     @property
     def engine(self) -> str:
@@ -58,9 +59,14 @@ class HomeSweep(GridSweep):
         return block_length(self.grid.size, LONGEST, LONGEST)
 
     def answers(self, given: FloatArray) -> dict[str, NDArray[Any]]:
-        """What is kept of poses (m, b), angles in rad, and whether each was reached (b,)."""
-        joints, reached = followed_together(self.record, given.T)
-        found = {"exists": reached, "inputs": inputs_of(self.record, joints).T}
+        """What is kept of poses or inputs (m, b), angles in rad, and whether each was reached (b,)."""
+        if self.problem == "inverse":
+            joints, reached = followed_together(self.record, given.T)
+            found = {"exists": reached, "inputs": inputs_of(self.record, joints).T}
+        else:
+            joints, reached = followed_together(self.record, given.T, "inputs")
+            found = {"exists": reached, "poses": np.full((len(self.record.platform.pose), len(joints)), np.nan)}
+            found["poses"][:, reached] = pose_of(self.record, joints[reached]).T
         found["status"] = np.full(reached.shape, Status.undecided, dtype=np.int8)
         if np.any(reached):
             found["status"][reached] = classify_at(self.record, joints[reached])

@@ -1,8 +1,8 @@
 """Stored sweeps: the solutions of all problems of a grid as files hold them, NaN where there is none, with a status.
 
 Here a sweep is checked and made; `grid_sweep.py` has its files. In closed form both problems are swept, in one mode or
-in all of them, and a status is that of the answer to the single problem (`closed_form_sweep.py`). Without one the
-inverse problem is followed from home (`home_sweep.py`).
+in all of them, and a status is that of the answer to the single problem (`closed_form_sweep.py`). Without one home's
+mode is followed (`home_sweep.py`).
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def stored_sweep(
     """A sweep into files, checked.
 
     Args:
-        record: a mechanism; of the direct problem one with a closed form by signs.
+        record: a mechanism; of the direct problem one with a closed form by signs, or without any.
         problem: "inverse", the grid is one of poses, or "direct", of inputs as printed.
         grid: the problems; every coordinate of a pose, or every input, in the file's order; angles in rad. Before them
             may come dimensions, in the units of the file.
@@ -49,7 +49,7 @@ def stored_sweep(
         keep: of `quantities`; where empty the solutions with their status, for the direct problem with `exists`.
 
     Errors:
-        UsageError: a direct problem without a closed form by signs; another mode than home's without a closed form.
+        UsageError: a direct problem with a closed form that is not by signs; without any, another mode than home's.
         UnknownNameError: an unknown mode, quantity or dimension.
 
     Example: the inverse problem along a line, kept for good.
@@ -66,7 +66,7 @@ def stored_sweep(
         ...     found["inputs"].shape, found["status"].tolist(), store.counts["status"]
         ((3, 4), [0, 0, 8, 8], {'regular': 2, 'unreachable': 2})
     """
-    if problem == "direct":
+    if problem == "direct" and record.closed_form is not None:
         try:
             branch_kernel(record)
         except UsageError as error:
@@ -101,7 +101,7 @@ def _home(record: MechanismRecord, mode: str) -> str:
     """The one mode that is swept without a closed form."""
     if mode not in ("", HOME):
         raise UsageError(
-            f"{record.name} has no closed form: a sweep follows home's working mode, not '{mode}'",
-            hint="leave the mode out; `assur inverse` gives every mode of one pose",
+            f"{record.name} has no closed form: a sweep follows home's mode, not '{mode}'",
+            hint="leave the mode out; `assur inverse` and `assur direct` give every mode of one problem",
         )
     return HOME

@@ -1,15 +1,16 @@
-"""Poses that home's working mode reaches: many at once, each along the straight way from home, or by its neighbours."""
+"""Poses or inputs that home's mode reaches: many at once, along straight ways from home, or by neighbours."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.following.neighbours import SignGuard, joined, steps_at
+from assur.kinematics.border import inputs_of
+from assur.kinematics.following.course import Prescribed
+from assur.kinematics.following.neighbours import SignGuard, held_signs, joined, steps_at
 from assur.kinematics.following.stepping import Pace, followed
 from assur.kinematics.following.ways import Straight
 from assur.kinematics.home import home_values
-from assur.kinematics.named_signs import named_signs
 from assur.kinematics.pose import pose_of
 from assur.model.mechanism import MechanismRecord
 
@@ -30,9 +31,9 @@ WIDE = 1.5
 
 
 def followed_from_home(
-    record: MechanismRecord, poses: FloatArray, least: float = LEAST
+    record: MechanismRecord, poses: FloatArray, least: float = LEAST, held: Prescribed = "poses"
 ) -> tuple[FloatArray, BoolArray]:
-    """Assemblies of home's working mode at poses, each followed along the straight way of coordinates from home.
+    """Assemblies of home's mode at poses, or at inputs, each followed along the straight way of coordinates from home.
 
     A step is taken where the loops close, no joint moves far, the signs that name the mode stay and no two branches
     merge (`Steps`); else it is halved. What a pose gets depends on that pose alone. A pose that is not reached may be
@@ -40,8 +41,9 @@ def followed_from_home(
 
     Args:
         record: the mechanism.
-        poses: (N, m) in lengths and rad, not by quaternions.
+        poses: (N, m) in lengths and rad, not by quaternions; or printed inputs (N, k), as their numbers stand.
         least: share of the way of the shortest step that is tried.
+        held: whether those are poses or inputs.
 
     Returns:
         joint values (N, n), NaN where the way ended before, and whether a pose was reached (N,).
@@ -54,16 +56,23 @@ def followed_from_home(
         [True, False]
     """
     home, count = home_values(record), len(poses)
-    begun = steps_at(SignGuard(record, named_signs(record, "inverse", home)), pose_of(record, home[None]), home[None])
-    begun = begun.of(np.zeros(count, dtype=np.intp))
+    given = (pose_of if held == "poses" else inputs_of)(record, home[None])
+    begun = steps_at(home_guard(record, held), given, home[None]).of(np.zeros(count, dtype=np.intp))
     here, pace = begun.places, Pace(least, most=MOST)
-    reached = followed(Straight(record, begun.poses, poses), here, begun.guard, pace, np.full(count, FIRST))
+    reached = followed(Straight(record, begun.poses, poses, held), here, begun.guard, pace, np.full(count, FIRST))
     here.joints[~reached] = np.nan
     return here.joints, reached
 
 
-def followed_together(record: MechanismRecord, poses: FloatArray) -> tuple[FloatArray, BoolArray]:
-    """As `followed_from_home`, of poses (N, m) that are near one another, as on a grid.
+def home_guard(record: MechanismRecord, held: Prescribed) -> SignGuard:
+    """The guard of home's mode."""
+    return SignGuard(record, held_signs(record, held, home_values(record)), held)
+
+
+def followed_together(
+    record: MechanismRecord, poses: FloatArray, held: Prescribed = "poses"
+) -> tuple[FloatArray, BoolArray]:
+    """As `followed_from_home`, of poses (N, m) or inputs (N, k) that are near one another, as on a grid.
 
     Some are followed to from home, the others from neighbours that are reached, which takes a tenth of the time; and
     so on with some of those that are left, until none of these is reached. What a pose gets depends on all of them.
@@ -75,13 +84,14 @@ def followed_together(record: MechanismRecord, poses: FloatArray) -> tuple[Float
         >>> followed_together(load_record("fivebar"), line)[1].tolist()
         [True, True, True, True, True, False]
     """
-    guard = SignGuard(record, named_signs(record, "inverse", home_values(record)))
+    guard = home_guard(record, held)
     joints = np.full((len(poses), len(record.coordinates)), np.nan)
     around, left = neighbours(poses), np.arange(len(poses))
     tried = np.zeros(len(poses), dtype=bool)
     while len(left):
         some = left[:: -(-len(left) // SAMPLES)]
-        joints[some], good = followed_from_home(record, poses[some], LEAST if len(some) == len(left) else COARSE)
+        least = LEAST if len(some) == len(left) else COARSE
+        joints[some], good = followed_from_home(record, poses[some], least, held)
         if not np.any(good):
             break
         tried[some] = True

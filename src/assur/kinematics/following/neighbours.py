@@ -9,9 +9,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.kinematics.following.platform_held import PlatformHeld, held_by, held_matrix, passes_zero
+from assur.kinematics.following.course import Prescribed
+from assur.kinematics.following.platform_held import PlatformHeld, held_by, passes_zero
 from assur.kinematics.following.stepping import Pace, Places, followed, settled, tried
-from assur.kinematics.following.ways import Straight, Way
+from assur.kinematics.following.ways import Straight, Way, system_of
 from assur.kinematics.named_signs import named_signs
 from assur.kinematics.turns import joint_units
 from assur.model.mechanism import MechanismRecord
@@ -33,13 +34,14 @@ PARTS = 4
 
 @dataclass(frozen=True, eq=False)
 class SignGuard:
-    """The guard of many ways of poses: the signs of one working mode stay, and no two branches merge between.
+    """The guard of many ways of poses or inputs: the signs of one mode stay, and no two branches merge between.
 
     Of these two, the first is what names the mode, the second is told by one determinant (`passes_zero`).
     """
 
     record: MechanismRecord
     signs: NDArray[np.int8]
+    held: Prescribed = "poses"
 
     def step(self, way: Way, places: Places, ends: FloatArray, rows: IntArray) -> tuple[Places, BoolArray, FloatArray]:
         """Where steps lead, which of them may not be taken, and steps twice as long."""
@@ -54,7 +56,7 @@ class SignGuard:
 
     def kept(self, left: Places, reached: Places) -> BoolArray:
         """Whether assemblies (N,) near others are of the mode, with no merging between."""
-        same = np.all(named_signs(self.record, "inverse", reached.joints) * self.signs >= 0, axis=1)
+        same = np.all(held_signs(self.record, self.held, reached.joints) * self.signs >= 0, axis=1)
         rows = np.flatnonzero(same)
         same[rows] = ~passes_zero(self.record, left.matrix[rows], reached.matrix[rows])
         return np.asarray(same)
@@ -62,7 +64,7 @@ class SignGuard:
 
 @dataclass(frozen=True, eq=False)
 class Steps:
-    """Steps from assemblies at poses (N, m)."""
+    """Steps from assemblies at poses (N, m), or at inputs where the guard holds those."""
 
     guard: SignGuard
     poses: FloatArray
@@ -81,14 +83,15 @@ class Steps:
         """Steps from assemblies at other poses (N, m), and where they may be reached (N,); elsewhere they are near."""
         if not len(poses):
             return self, np.zeros(0, dtype=bool)
-        way, rows = Straight(self.guard.record, self.poses, poses), np.arange(len(poses))
+        way, rows = Straight(self.guard.record, self.poses, poses, self.guard.held), np.arange(len(poses))
         places, good, _ = self.guard.step(way, self.places, np.ones(len(poses)), rows)
         return steps_from(self.guard, poses, places), good
 
     def in_parts(self, poses: FloatArray) -> tuple[Steps, BoolArray]:
         """The same in several parts, none of which may fail."""
         places = self.places.of(np.arange(len(poses)))
-        way, part = Straight(self.guard.record, self.poses, poses), np.full(len(poses), 1.0 / PARTS)
+        way = Straight(self.guard.record, self.poses, poses, self.guard.held)
+        part = np.full(len(poses), 1.0 / PARTS)
         good = followed(way, places, self.guard, Pace(1.0 / PARTS, 1.0 / PARTS), part)
         return steps_from(self.guard, poses, places), good
 
@@ -109,4 +112,10 @@ def joined(parts: Sequence[Steps]) -> Steps:
 
 def steps_at(guard: SignGuard, poses: FloatArray, joints: FloatArray) -> Steps:
     """Steps from assemblies (N, n) at poses (N, m)."""
-    return Steps(guard, poses, Places(np.zeros(len(poses)), joints, held_matrix(guard.record, joints)))
+    _, matrix = system_of(guard.record, guard.held, joints, poses)
+    return Steps(guard, poses, Places(np.zeros(len(poses)), joints, matrix))
+
+
+def held_signs(record: MechanismRecord, held: Prescribed, joints: FloatArray) -> NDArray[np.int8]:
+    """Signs (..., s) of what names the modes with the platform held (working modes) or the inputs (assembly modes)."""
+    return named_signs(record, "inverse" if held == "poses" else "direct", joints)

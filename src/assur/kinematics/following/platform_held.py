@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.joint_graph.tree import joint_graph
 from assur.kinematics.following.ways import held_system
 from assur.kinematics.rates.motions import input_units, pose_units
 from assur.kinematics.turns import joint_units
@@ -101,7 +102,8 @@ def passes_zero(record: MechanismRecord, before: FloatArray, after: FloatArray) 
     Where the closure alone passes as well, the branch goes on through a constraint singularity: none has merged.
 
     >>> from assur.model.registry import load_record
-    >>> one, other = np.eye(5)[None], np.diag([1.0, 1.0, 1.0, 1.0, -1.0])[None]
+    >>> one = np.eye(5)[None, [0, 1, 2, 2, 2, 2, 3, 4]]  # six rows of a loop, two of the pose
+    >>> other = one * [1.0, 1.0, 1.0, 1.0, -1.0]
     >>> record = load_record("fivebar")
     >>> passes_zero(record, one, one).tolist(), passes_zero(record, one, other).tolist()
     ([False], [True])
@@ -109,7 +111,7 @@ def passes_zero(record: MechanismRecord, before: FloatArray, after: FloatArray) 
     passed = _turned(before, after)
     rows = np.flatnonzero(passed)
     if len(rows):
-        closure = slice(-len(pose_units(record)))
+        closure = slice(6 * len(joint_graph(record).cut))
         passed[rows] &= ~_turned(before[rows, closure], after[rows, closure])
     return passed
 

@@ -88,11 +88,12 @@ class Stretch:
 
 @dataclass(frozen=True, eq=False)
 class Straight:
-    """Poses (N, m) to others, straight in their coordinates."""
+    """Poses (N, m) or inputs (N, k) to others, straight in their coordinates, as their numbers stand."""
 
     record: MechanismRecord
     start: FloatArray
     end: FloatArray
+    held: Prescribed = "poses"
     linear: bool = True
 
     def mechanism(self, _share: float) -> MechanismRecord:
@@ -104,19 +105,23 @@ class Straight:
         return joint_units(self.mechanism(share))
 
     def system(self, joints: FloatArray, shares: FloatArray, rows: IntArray) -> tuple[FloatArray, FloatArray]:
-        """Gaps and D with the platform held."""
-        return held_system(self.record, joints, self.at(shares, rows))
+        """Gaps and D with the platform or the inputs held."""
+        return system_of(self.record, self.held, joints, self.at(shares, rows))
 
     def gaps(self, _joints: FloatArray, shares: FloatArray, ends: FloatArray, rows: IntArray) -> FloatArray:
-        """Gaps: the platform goes ahead, the loops stay closed."""
-        return -held_rows(self.record, pose_change(self.record, self.at(shares, rows), self.at(ends, rows)))
+        """Gaps: what is held goes ahead, the loops stay closed."""
+        start, end = self.at(shares, rows), self.at(ends, rows)
+        change = pose_change if self.held == "poses" else input_change
+        return -held_rows(self.record, change(self.record, start, end))
 
     def at(self, shares: FloatArray, rows: IntArray) -> FloatArray:
-        """Poses (k, m); at the end the very poses."""
+        """Poses (k, m) or inputs; at the end the very ones."""
         start, end, part = self.start[rows], self.end[rows], shares[:, None]
         between = start + part * (end - start)
         poses = np.where(part == 1.0, end, np.where(part == 0.0, start, between))
-        return checked_poses(self.record, poses) if has_quaternion(self.record.platform.pose) else poses
+        if self.held == "poses" and has_quaternion(self.record.platform.pose):
+            return checked_poses(self.record, poses)
+        return poses
 
 
 @dataclass(frozen=True, eq=False)
@@ -257,3 +262,9 @@ def pose_change(record: MechanismRecord, start: FloatArray, end: FloatArray) -> 
     else:
         rows += [rotations.nearest_turn(second[name] - first[name]) for name in names if name in ANGLES]
     return np.stack(rows, axis=1)
+
+
+def input_change(record: MechanismRecord, start: FloatArray, end: FloatArray) -> FloatArray:
+    """Change (N, k) of the actuated joint values from printed inputs to others (N, k), without dimensions."""
+    units = joint_units(record)[list(record.input_indices)] * [item.sign for item in record.inputs]
+    return np.asarray((end - start) / units)
