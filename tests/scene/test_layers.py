@@ -130,7 +130,7 @@ def turning(vertices, faces):
 def test_a_singular_surface_that_was_followed_lies_on_it_and_has_no_teeth():
     """In few cells it is cut finer, its new vertices on the surface; its rims turn far less than those of the cells."""
     record = replace(load("delta_4s"), closed_form=None)
-    found = region(record, resolution=8)
+    found = region(record, resolution=12)
     (locus,) = found.loci
     (item,) = of_kind(layers(record, found), "singular")
     assert len(item.faces) > 1.5 * len(locus.faces)
