@@ -212,7 +212,7 @@ def test_every_figure_is_there(findings, read, monkeypatch):
         drawn.__dict__[name] = getattr(findings, name)
     page = read(page_html(report_page(drawn)))
     shown = {attributes["id"] for tag, attributes in page.tags if tag == "figure" and "id" in attributes}
-    names = figures.names(findings.record, drawn.context)
+    names = figures.names(findings.record, drawn)
     assert len(names) > 10
     assert shown == {f"figure-{name}" for name in names}
     pictures = [attributes for tag, attributes in page.tags if tag == "img"]
@@ -221,7 +221,7 @@ def test_every_figure_is_there(findings, read, monkeypatch):
     numbers = re.findall(r"Figure (\d+)\. ", page.words["figcaption"])
     assert numbers == [str(k) for k in range(1, len(names) + 1)]
     own = re.findall(r"Compare Figure (\w+) of the source\.", page.words["figcaption"])
-    assert sorted(own) == sorted(drawn.context.companion.numbers.values())
+    assert sorted(own) == sorted(drawn.companion.numbers.values())
 
 
 def test_a_column_in_which_nothing_stands_is_left_out(document):

@@ -88,7 +88,7 @@ def coincident_spheres(
         >>> from assur.numerics.number_types import Floats
         >>> centres = ((0, 0, 0), (0, 0, 2), (0, 0, 0))
         >>> point, radicand = coincident_spheres(Floats(), centres, 10, (1, 0, 0), (1, 0))
-        >>> [float(part) for part in point], float(radicand)
+        >>> [float(part) + 0.0 for part in point], float(radicand)
         ([0.0, 3.0, 1.0], 9.0)
     """
     first, second, third = centres
