@@ -5,7 +5,7 @@ import pytest
 
 import assur
 from assur.kinematics.modes import all_modes
-from assur.singularity.loci import parallel_loci
+from assur.singularity.loci import parallel_loci, rim_area
 from assur.workspace.region import workspace
 from catalogue import each
 
@@ -115,3 +115,22 @@ def test_every_mechanism_and_mode_has_one_locus_per_parallel_factor(name):
         found = workspace(mechanism, mode, resolution=8)
         assert [locus.factor for locus in parallel_loci(mechanism, found.region)] == wanted
         assert all(locus.meaning for locus in found.loci)
+
+
+def test_the_rim_is_what_has_an_edge_of_its_own():
+    """A fan of six triangles is all rim; a ring around it makes it inside. Of a path of segments both ends are rim."""
+    angles = np.arange(6) * np.pi / 3
+    inner, outer = (size * np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1) for size in (1.0, 2.0))
+    vertices = np.concatenate([np.zeros((1, 3)), inner, outer])
+    around = [(k, k % 6 + 1) for k in range(1, 7)]
+    fan = np.array([(0, a, b) for a, b in around])
+    ring = np.array([face for a, b in around for face in ((a, b, a + 6), (b, b + 6, a + 6))])
+    hexagon = 6 * np.sqrt(3) / 4
+    assert rim_area(vertices, fan) == pytest.approx(hexagon)
+    outside = [face for face in ring.tolist() if max(face) > 6 and sum(k > 6 for k in face) == 2]
+    both = np.concatenate([fan, ring])
+    assert rim_area(vertices, both) == pytest.approx(rim_area(vertices, np.array(outside)))
+    assert rim_area(vertices, both) < 3 * hexagon
+    path = np.array([[0, 1], [1, 2], [2, 3]])
+    assert rim_area(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 5.0], [1.0, 7.0]]), path) == pytest.approx(3.0)
+    assert rim_area(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64)) == 0.0
