@@ -26,14 +26,11 @@ from yardstick import Arrays, Yardstick, compile_library, compiler
 import assur
 from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep, inverse_all_sweep
 from assur.kinematics.closed_form.filling import Filler
-from assur.kinematics.closed_form.grids import grid_over
+from assur.kinematics.closed_form.grids import Grid
 from assur.kinematics.closed_form.recorded import Recording, recording
-from assur.kinematics.closed_form.streamed import reduce_grid
 from assur.kinematics.closed_form.sweep import inverse_sweep
 from assur.kinematics.modes import mode_signs
 from assur.model.mechanism import MechanismRecord
-from assur.numerics.recording.derivatives import gradient
-from assur.numerics.recording.loops import compiled
 
 CORES = os.cpu_count() or 1
 ONE = ("inputs", "exists", "det_jp", "det_jq", "factors")
@@ -138,30 +135,22 @@ def same_bits(record: MechanismRecord, count: int) -> bool:
 
 
 def grid_seconds(record: MechanismRecord, places: int, c: Yardstick | None, repeats: int) -> dict[str, float]:
-    """Seconds of a cubic grid with determinants and condition: held as a whole; streamed into a mean.
+    """Seconds of a cubic grid with determinants and condition, held as a whole.
 
     Beside it C's inverse with determinants and factors, but no condition, over blocks into arrays in use; and memory
     of the size of poses and answers, filled.
     """
-    grid = grid_over(record, (places,) * 3)
+    low, high = zip(*(record.box[name] for name in record.platform.pose), strict=True)
+    grid = Grid(record.platform.pose, low, high, (places,) * 3)
     poses = grid.poses(slice(0, grid.size))
-
-    def mean(total: float, _: np.ndarray, found: dict[str, np.ndarray]) -> float:
-        return total + float(np.sum(found["condition_index"], where=found["exists"]))
 
     def held(threads: int) -> object:
         return inverse_sweep(record, poses, MODE, GRID_WANT, engine="compiled", threads=threads)
 
-    def streamed(threads: int) -> object:
-        return reduce_grid(
-            record, grid.counts, mean, 0.0, mode=MODE, want=GRID_WANT, engine="compiled", threads=threads
-        )
-
     there = np.zeros(poses.size + sum(array.nbytes for array in held(1).values()) // 8)
     works: dict[str, Callable[[], object]] = {
         "held": lambda: held(1),
-        "streamed": lambda: streamed(1),
-        "cores": lambda: streamed(CORES),
+        "cores": lambda: held(CORES),
         "memory": lambda: there.fill(1.0),
     }
     if c is not None:
@@ -169,26 +158,6 @@ def grid_seconds(record: MechanismRecord, places: int, c: Yardstick | None, repe
         parts = [np.ascontiguousarray(poses[:, k : k + CHUNK]) for k in range(0, grid.size, CHUNK)]
         works["c"] = lambda: [c.run("inverse_one", part, used) for part in parts]
     return seconds(works, min(repeats, 3))
-
-
-def gradient_ratio(record: MechanismRecord, repeats: int, count: int = 65536) -> tuple[float, int]:
-    """Time of the gradient of the condition index with respect to all dimensions, over that of the index."""
-    tape = recording(record, "inverse", ("condition_index",))
-    uniform = tape.uniform(mode_signs(record, "inverse", record.modes.default_working))
-    names = [name for name in tape.tape.uniform if name.startswith("p.")]
-    slopes = compiled(gradient(tape.tape, ["condition_index"], names, keep=False))
-    poses = problems(record, "poses", count)
-
-    def work(loop):
-        rows = np.array([loop.places[name] for name in loop.tape.outputs]), np.zeros(0, dtype=np.intp)
-        answer = np.zeros((len(rows[0]), count)), np.zeros((0, count), dtype=bool)
-        return lambda: loop.fill(poses, uniform, answer, rows, (0, count))
-
-    works = {"index": work(tape.loop), "gradient": work(slopes)}
-    for once in works.values():
-        once()
-    found = seconds(works, 3 * repeats)
-    return found["gradient"] / found["index"], len(names)
 
 
 def starts() -> tuple[float, float]:
@@ -229,14 +198,9 @@ def main() -> int:
     took = grid_seconds(record, args.grid, c, args.repeats)
     console.print(
         f"grid of {args.grid}^3, existence, determinants and condition, one thread: {took['held']:.2f} s held, "
-        f"{share(took, 'held', 'memory')} of filling memory"
+        f"{share(took, 'held', 'memory')} of filling memory, {share(took, 'held', 'c')} of C, which has no condition; "
+        f"{CORES} cores {took['cores']:.2f} s"
     )
-    console.print(
-        f"the same streamed into a mean: {took['streamed']:.2f} s, {share(took, 'streamed', 'c')} of C, which has no "
-        f"condition and no mean; {CORES} cores {took['cores']:.2f} s"
-    )
-    ratio, number = gradient_ratio(record, args.repeats)
-    console.print(f"gradient of the condition index with respect to {number} dimensions: {ratio:.1f} times the index")
     if not args.no_start:
         first, second = starts()
         console.print(

@@ -21,7 +21,6 @@ ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "docs" / "architecture.md"
 FILES = {name: path for name, path in module_files(SOURCE).items() if not name.startswith("assur.mechanisms.")}
 AWAITED = {
-    "assur.numerics.recording.derivatives",  # errors of dimensions and identification need all derivatives at once
     "assur.verifier.formula", "assur.verifier.graph", "assur.verifier.mechanism",  # the proof that formulas close loops
 }  # fmt: skip
 """What nothing reaches yet, and what it is for."""

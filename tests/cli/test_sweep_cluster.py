@@ -6,11 +6,17 @@ import signal
 import pytest
 
 from assur.kinematics.closed_form.cluster import fill_on_cluster, job_of, sweep_of
-from assur.kinematics.closed_form.grids import grid_over
+from assur.kinematics.closed_form.grids import Grid
 from assur.kinematics.closed_form.stored import stored_sweep
 from assur.mechanism import load
 
 WORDS = ("sweep", "zeng2019", "--along", "x=30", "--along", "y=31", "--along", "z=32", "--set", "l2=300")
+
+
+def grid_of(record, *counts):
+    """Over the file's box."""
+    low, high = zip(*(record.box[name] for name in record.platform.pose), strict=True)
+    return Grid(record.platform.pose, low, high, counts)
 
 
 def files_of(folder):
@@ -19,7 +25,7 @@ def files_of(folder):
 
 def test_a_job_says_all_of_its_sweep(tmp_path):
     record = load("zeng2019", l2=300)
-    sweep = stored_sweep(record, "inverse", grid_over(record, (3, 4, 5)), "+++++", ("status",))
+    sweep = stored_sweep(record, "inverse", grid_of(record, 3, 4, 5), "+++++", ("status",))
     again = sweep_of(job_of(sweep, "zeng2019"))
     assert again.plan() == sweep.plan()
 
@@ -51,7 +57,7 @@ def cluster():
 def test_a_worker_that_is_killed_half_way_loses_nothing(assur_cli, tmp_path, cluster):
     assert assur_cli(*WORDS, "-o", str(tmp_path / "alone")).code == 0
     record = load("zeng2019", l2=300)
-    sweep = stored_sweep(record, "inverse", grid_over(record, (30, 31, 32)))
+    sweep = stored_sweep(record, "inverse", grid_of(record, 30, 31, 32))
     killed = []
 
     def kill(done, total):

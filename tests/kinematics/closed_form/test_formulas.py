@@ -3,7 +3,6 @@
 import dataclasses
 import shutil
 
-import numpy as np
 import pytest
 
 import assur
@@ -12,7 +11,6 @@ from assur.kinematics.closed_form import formulas as module
 from assur.kinematics.closed_form.formulas import formulas
 from assur.kinematics.closed_form.grids import Grid
 from assur.kinematics.closed_form.stored import stored_sweep
-from assur.kinematics.closed_form.streamed import reduce_grid, sweep_grid
 
 LINE = "across = sign * ns.sqrt(reach)"
 OTHER = LINE.replace("reach", "reach * 1.0")  # as right, and another formula
@@ -44,16 +42,6 @@ def test_a_size_that_zero_is_judged_against_counts(tmp_path):
     assert formulas(dataclasses.replace(own, closed_form=form), "inverse") != formulas(own, "inverse")
 
 
-def test_a_sweep_is_not_carried_on_with_other_formulas(tmp_path):
-    own, other = assur.load("fivebar"), changed(tmp_path / "other", LINE, OTHER)
-    sweep_grid(own, (6, 5), tmp_path / "streamed", want=("inputs",))
-    with pytest.raises(UsageError, match="another question; it differs in formulas"):
-        sweep_grid(other, (6, 5), tmp_path / "streamed", want=("inputs",))
-    reduce_grid(own, (6, 5), lambda n, *_: n + 1, 0, keep=tmp_path / "total.json")
-    with pytest.raises(UsageError, match="another question; it differs in formulas"):
-        reduce_grid(other, (6, 5), lambda n, *_: n + 1, 0, keep=tmp_path / "total.json")
-
-
 @pytest.mark.parametrize("problem", ["inverse", "direct"])
 def test_a_stored_sweep_is_not_carried_on_with_other_formulas(tmp_path, problem):
     own, other = assur.load("fivebar"), changed(tmp_path / "other", LINE, OTHER)
@@ -67,9 +55,9 @@ def test_a_stored_sweep_is_not_carried_on_with_other_formulas(tmp_path, problem)
 
 
 def test_nor_with_another_version(tmp_path, monkeypatch):
-    own = assur.load("fivebar")
-    first = np.array(sweep_grid(own, (6, 5), tmp_path, want=("inputs",))["inputs"])
-    np.testing.assert_array_equal(sweep_grid(own, (6, 5), tmp_path, want=("inputs",))["inputs"], first)
+    sweep = stored_sweep(assur.load("fivebar"), "inverse", Grid(("x", "y"), (0.1, 0.2), (0.9, 1.1), (3, 2)))
+    with sweep.store(tmp_path) as store:
+        store.open()
     monkeypatch.setattr(module, "version", lambda _: "0.0.1")
-    with pytest.raises(UsageError, match="another question; it differs in version"):
-        sweep_grid(own, (6, 5), tmp_path, want=("inputs",))
+    with sweep.store(tmp_path) as kept, pytest.raises(UsageError, match="another question; it differs in version"):
+        kept.open()

@@ -1,11 +1,14 @@
 """Stored sweeps: at every problem of a block the status and the numbers of the single answer, for every mechanism."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
 import assur
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics import border
+from assur.kinematics.closed_form.closed_form_sweep import ClosedFormSweep
 from assur.kinematics.closed_form.grids import Grid
 from assur.kinematics.closed_form.stored import ALL, stored_sweep
 from assur.kinematics.home import home_values
@@ -121,6 +124,29 @@ def test_size_and_shapes_are_those_of_the_files(tmp_path):
         assert {name: values.shape for name, values in found.items()} == {one.name: one.shape for one in sweep.arrays}
         assert sum(values.nbytes for values in found.values()) == sweep.plan().bytes
         np.testing.assert_array_equal(np.isnan(found["inputs"]).any(axis=-3), ~found["exists"])
+
+
+def test_memory_is_that_of_a_block(tmp_path, monkeypatch):
+    record = assur.load("zeng2019")
+    low, high = zip(*(record.box[name] for name in record.platform.pose), strict=True)
+    monkeypatch.setattr(ClosedFormSweep, "block_length", 5000)
+
+    def peak(counts):
+        sweep = stored_sweep(
+            record, "inverse", Grid(record.platform.pose, low, high, counts), keep=("inputs", "exists")
+        )
+        tracemalloc.start()
+        with sweep.store(tmp_path / f"{counts[0]}") as store:
+            store.open()
+            sweep.fill(store, threads=1)
+            store.finish()
+        _, most = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+        return most
+
+    peak((2, 50, 50))
+    small, large = peak((4, 50, 50)), peak((200, 50, 50))  # 10^4 and 5 10^5 poses
+    assert large - small < 0.1 * (200 - 4) * 50 * 50 * 25  # 25 bytes a pose; the digests of the blocks stay
 
 
 def test_what_it_refuses():

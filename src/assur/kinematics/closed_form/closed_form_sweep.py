@@ -15,12 +15,14 @@ from assur.kinematics.closed_form.branches import Branches
 from assur.kinematics.closed_form.filling import engine_for
 from assur.kinematics.closed_form.formulas import formulas
 from assur.kinematics.closed_form.grid_sweep import GridSweep
-from assur.kinematics.closed_form.streamed import BLOCK
 from assur.kinematics.closed_form.sweep import Want, inverse_sweep
 from assur.kinematics.modes import all_modes, sign_names
 from assur.kinematics.position import direct, inverse
 from assur.kinematics.status import Status, classify, closed_form_of
 from assur.results.store.layout import block_length
+
+BLOCK = 65536
+"""Answers in memory at a time, per thread."""
 
 SolutionRows = Mapping[str, NDArray[Any]]
 

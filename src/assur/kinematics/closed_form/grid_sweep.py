@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.kinematics.answers.at_border import power
 from assur.kinematics.closed_form.about import coordinates, told
-from assur.kinematics.closed_form.blocks import FloatArray, Progress
+from assur.kinematics.closed_form.blocks import FloatArray, Progress, in_order
+from assur.kinematics.closed_form.filling import threads_of
 from assur.kinematics.closed_form.grids import Grid
-from assur.kinematics.closed_form.streamed import KINDS, fill
 from assur.kinematics.closed_form.swept_dimensions import mechanism_of, reasons, refusal, runs
 from assur.kinematics.modes import Problem, all_modes
 from assur.kinematics.status import Status, closed_form_of
@@ -30,6 +30,9 @@ from assur.results.store.note import Counts
 from assur.results.store.store import SolvedBlock, Store
 
 SolutionRows = Mapping[str, NDArray[Any]]
+
+_KINDS = {"exists": "bool", "status": "int8"}
+"""Numbers of an answer that are no floats, as NumPy names them."""
 
 _ROWS = {"inputs": "input", "poses": "coordinate", "factors": "factor"}
 
@@ -88,7 +91,7 @@ class GridSweep(ABC):
         first = (len(self.modes),) if self.every else ()
         places = tuple(count for count in self.grid.counts if count > 1)
         return tuple(
-            Array(name, KINDS.get(name, "float64"), first + ((rows[name],) if name in rows else ()), places)
+            Array(name, _KINDS.get(name, "float64"), first + ((rows[name],) if name in rows else ()), places)
             for name in self.keep
         )
 
@@ -143,7 +146,11 @@ class GridSweep(ABC):
 
     def fill(self, store: Store, *, progress: Progress | None = None, threads: int = 0) -> None:
         """Work out what a store lacks, in this process, which may be interrupted."""
-        fill(store, self.block, self.grid, progress=progress, threads=threads)
+
+        def solved(number: int) -> tuple[int, SolvedBlock]:
+            return number, self.block(self.grid.poses(store.plan.part(number)))
+
+        store.fill(in_order(solved, store.missing, threads_of(threads)), progress)
 
     def block(self, given: FloatArray) -> SolvedBlock:
         """What is kept of the problems (m, b) of a block, and what is counted in it."""
