@@ -6,10 +6,14 @@ one that is broken off by Ctrl-C is known whatever it was, also where its work h
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
+from itertools import count
+
+Progress = Callable[[int, int], None]
+"""Told how many steps are done, of how many."""
 
 
 @dataclass
@@ -110,3 +114,9 @@ def before() -> str:
 def _last(texts: list[str]) -> str:
     more = [f"{len(texts) - LISTED} more"] if len(texts) > LISTED else []
     return ", ".join([*more, *texts[-LISTED:]])
+
+
+def ticker(total: int, progress: Progress | None) -> Callable[[], None]:
+    """A function that reports one more step done."""
+    steps = count(1)
+    return (lambda: progress(next(steps), total)) if progress else (lambda: None)

@@ -1,8 +1,10 @@
-"""Chains of joints as edges of twists, for tests that need no file of a mechanism."""
+"""Chains of joints as edges of twists, for tests that need no file of a mechanism; what linkages give directly."""
 
 import numpy as np
 
 from assur.topology.screws.edges import Edge
+from assur.topology.screws.screws import screw_tree
+from assur.topology.screws.twists import edges, generic_values
 
 X, Y, Z = np.eye(3)
 
@@ -38,3 +40,24 @@ def chain(name, start, end, joints, actuated=(), letter="J"):
         Edge(f"{name}{letter}{i + 1}", *links[i : i + 2], twists, (), (0,) if i in actuated else (), len(joints[i]) < 3)
         for i, twists in enumerate(columns)
     ]
+
+
+def joint_twists(linkage, values):
+    """Twists (N, 6, n) of child against parent per unit of each joint value: (omega, v at the base's origin)."""
+    tree = screw_tree(linkage)
+    twists = tree.at(values / tree.scales).twists / tree.scales
+    omega = twists[:, :3]
+    moved = linkage.length * twists[:, 3:] + np.cross(linkage.point, omega, axisb=1, axisc=1)
+    return np.concatenate([omega, moved], axis=1)
+
+
+def closure_jacobian(linkage, values):
+    """Derivative (N, 6 v, n) of `residuals` by the joint values; exact also where the loops are open."""
+    tree = screw_tree(linkage)
+    _, jacobian = tree.misfit(tree.at(values / tree.scales), *tree.loops.T)
+    return jacobian.reshape(len(values), 6 * len(tree.loops), values.shape[1]) / tree.scales
+
+
+def generic_edges(linkage, *, count=4, seed=0, hold=None, collapsed=True):
+    """The joints as edges at `generic_values`; see there and at `edges`."""
+    return edges(linkage, generic_values(linkage, count, seed, hold), collapsed)

@@ -12,8 +12,9 @@ from assur.topology.counting.inputs import default_inputs
 from assur.topology.notation import parse_chains
 from assur.topology.routes import check_xi
 from assur.topology.screws.placing import place
-from assur.topology.screws.twists import ShakyError, generic_edges
+from assur.topology.screws.twists import ShakyError
 from assur.topology.symbolic.union import serial
+from twist_chains import generic_edges
 
 HYBRID = "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]"
 INNER = "P[z] {P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]"
@@ -60,7 +61,7 @@ def test_loops_that_close_whole_limbs_are_compared(texts, loops):
     for number, message in found.items():
         loop = closed(texts)[2][number - 1]
         said = f"the rules say xi = {loop.xi}, the rank of the closure {loop.xi - 1}"
-        assert message == f"loop {number} ({', '.join(loop.edges)}): {said}"
+        assert message == f"loop {number} ({', '.join(loop.joints)}): {said}"
 
 
 @pytest.mark.parametrize(

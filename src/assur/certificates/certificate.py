@@ -18,11 +18,12 @@ from numpy.typing import ArrayLike, NDArray
 from assur.certificates.exact_check import exact_check
 from assur.certificates.formulas import RegionFormulas, formulas
 from assur.certificates.leaves import INSIDE, OPEN, OUTSIDE, REGULAR, Leaves
-from assur.certificates.tree import Limits, Progress, Tree, grow, planted
+from assur.certificates.tree import Limits, Tree, grow, planted
 from assur.errors import UsageError
 from assur.model.mechanism import MechanismRecord
 from assur.model.registry import CLOSED_FORM
 from assur.results.files import write_whole
+from assur.work import Progress
 from assur.workspace.bounds import Stroke
 from assur.workspace.certified.boxes import Boxes, together
 from assur.workspace.domain import box_of

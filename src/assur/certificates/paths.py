@@ -18,9 +18,10 @@ from assur.certificates.certificate import (
 from assur.certificates.exact_check import exact_check
 from assur.certificates.formulas import formulas
 from assur.certificates.leaves import INSIDE, OPEN, Leaves
-from assur.certificates.tree import Limits, Progress, Tree
+from assur.certificates.tree import Limits, Tree
 from assur.errors import UsageError
 from assur.model.mechanism import MechanismRecord
+from assur.work import Progress
 from assur.workspace.aspects.aspects import Aspects
 from assur.workspace.aspects.path import AspectPath
 from assur.workspace.certified.boxes import Boxes

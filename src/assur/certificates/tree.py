@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 
 from assur.certificates.leaves import INSIDE, REGULAR
 from assur.errors import UsageError
+from assur.work import Progress
 from assur.workspace.certified.boxes import Boxes
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 Tokens = NDArray[np.str_]
-Progress = Callable[[int, int], None]
 TOKEN = re.compile(r"[0-9]|o[0-9a-f]{2}|[a-z]")
 
 SHARE = 0.5

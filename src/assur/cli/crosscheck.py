@@ -12,7 +12,7 @@ from assur.cli.options import SHARED_DEFAULTS, MechanismName, Outcome, Shared
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-    from assur.crosscheck.crosscheck import CrossCheck
+    from assur.results.answers.comparison import CrossCheckAnswer
 
 CLAIM_FAILS = 1
 
@@ -43,22 +43,23 @@ def crosscheck(
     from assur.cli.interruption import handing_over
     from assur.cli.numbers import whole_number
     from assur.cli.progress import progress
-    from assur.crosscheck.crosscheck import CrossCheck, crosscheck
+    from assur.crosscheck.crosscheck import crosscheck
     from assur.errors import UsageError
+    from assur.results.answers.comparison import CrossCheckAnswer
 
     poses, start = whole_number(samples, "--samples"), whole_number(seed, "--seed")
     if poses < 1 or start < 0:
         raise UsageError(f"--samples {poses}, --seed {start}: at least 1 pose, and a seed that is not negative")
-    with handing_over(CrossCheck, _outcome), progress("crosscheck", shared):
+    with handing_over(CrossCheckAnswer, _outcome), progress("crosscheck", shared):
         found = crosscheck(record, engine, samples=poses, seed=start)
     return _outcome(found)
 
 
-def _outcome(comparison: CrossCheck) -> Outcome:
-    return Outcome(comparison.answer(), lambda: _shown(comparison), 0 if comparison.holds else CLAIM_FAILS)
+def _outcome(comparison: CrossCheckAnswer) -> Outcome:
+    return Outcome(comparison, lambda: _shown(comparison), 0 if comparison.holds else CLAIM_FAILS)
 
 
-def _shown(comparison: CrossCheck) -> Iterable[RenderableType]:
+def _shown(comparison: CrossCheckAnswer) -> Iterable[RenderableType]:
     from assur.cli.output import heading, table
     from assur.results.plain_text import count
 
@@ -69,7 +70,7 @@ def _shown(comparison: CrossCheck) -> Iterable[RenderableType]:
         if comparison.differences
         else "nothing to compare: no pose was reached"
     )
-    yield heading(f"{comparison.record.name}, assur and MuJoCo {comparison.version}: {said}")
+    yield heading(f"{comparison.mechanism}, assur and MuJoCo {comparison.version}: {said}")
     for problem, modes in comparison.modes.items():
         yield f"{problem}: {count(sum(modes.values()), 'solution')} in {count(len(modes), 'mode')}"
     rows = [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any, Literal
 
 from numpy.typing import NDArray
@@ -28,7 +29,7 @@ from assur.kinematics.status import Status
 from assur.mechanism import Mechanism
 from assur.model.pose import LENGTHS
 from assur.performance.indices import INDICES, indices
-from assur.performance.overall import Overall, overall
+from assur.performance.overall import overall
 from assur.performance.transmission import GOOD
 from assur.results.answers.indices import (
     IndicesAnswer,
@@ -134,7 +135,7 @@ def over_workspace(record: Mechanism, asked: Question, points: str, length: Leng
         velocity_factor_unit=found.factor_unit,
         good_from=GOOD,
         good_transmission=found.good,
-        indices={name: _overall_index(record, item) for name, item in found.values.items()},
+        indices={name: _at_border(record, item) for name, item in found.values.items()},
         held=coordinates_at_border(record, region.slice.held),
         volume=region.volume,
         volume_error=region.volume_error,
@@ -143,10 +144,9 @@ def over_workspace(record: Mechanism, asked: Question, points: str, length: Leng
     return Outcome(answer, lambda: _overall_shown(record, answer))
 
 
-def _overall_index(record: Mechanism, overall: Overall) -> OverallIndex:
-    places = {"least_at": overall.least_at, "most_at": overall.most_at}
-    at_border = {name: pose_at_border(record, pose).tolist() for name, pose in places.items()}
-    return OverallIndex(**{**vars(overall), **at_border})
+def _index(record: Mechanism, index: OverallIndex) -> OverallIndex:
+    least, most = (pose_at_border(record, pose).tolist() for pose in (index.least_at, index.most_at))
+    return replace(overall_index, least_at=least, most_at=most)
 
 
 def _pose_shown(record: Mechanism, data: IndicesAnswer, units: dict[str, str]) -> Iterable[RenderableType]:

@@ -24,10 +24,9 @@ def list_(*, shared: Plain = PLAIN) -> Outcome:  # noqa: ARG001  # read by main
         assur list --json
     """
     from assur.model.registry import left_out
-    from assur.results.answers.catalogue import CatalogueAnswer, LeftOutMechanism
+    from assur.results.answers.catalogue import CatalogueAnswer
 
-    missing = (LeftOutMechanism(each.name, each.title, each.source, each.reason) for each in left_out())
-    answer = CatalogueAnswer(tuple(_mechanisms()), tuple(_topologies()), tuple(missing))
+    answer = CatalogueAnswer(tuple(_mechanisms()), tuple(_topologies()), left_out())
     return Outcome(answer, lambda: _shown(answer))
 
 

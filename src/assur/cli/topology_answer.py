@@ -161,7 +161,7 @@ def _loops(topology: Topology, say: Said) -> Iterator[RenderableType]:
         [
             (
                 str(number),
-                " ".join(loop.edges),
+                " ".join(loop.joints),
                 str(loop.freedoms),
                 *([str(loop.internal)] if internal else []),
                 str(loop.inputs),

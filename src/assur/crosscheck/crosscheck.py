@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -65,51 +64,9 @@ MEANINGS = {
 }
 
 
-@dataclass(frozen=True)
-class Difference:
-    """The largest difference of one kind, how often it was measured, and in which mode it occurs."""
-
-    kind: str
-    largest: float
-    tolerance: float
-    count: int
-    mode: str
-
-    @property
-    def holds(self) -> bool:
-        """Whether it is within its tolerance."""
-        return bool(self.largest <= self.tolerance)
-
-
-@dataclass(frozen=True, eq=False)
-class CrossCheck:
-    """What was compared with the engine; `modes`: problem -> mode -> number of solutions."""
-
-    record: MechanismRecord
-    engine: str
-    version: str
-    samples: int
-    seed: int
-    modes: dict[str, dict[str, int]]
-    differences: tuple[Difference, ...]
-
-    @property
-    def holds(self) -> bool:
-        """Whether something was compared, and every difference is within its tolerance."""
-        return bool(self.differences) and all(item.holds for item in self.differences)
-
-    def answer(self) -> CrossCheckAnswer:
-        """The same without the mechanism, each difference with what it means."""
-        compared = (
-            ComparedKind(**vars(each), meaning=MEANINGS[each.kind], holds=each.holds) for each in self.differences
-        )
-        about = (self.record.name, self.engine, self.version, self.samples, self.seed)
-        return CrossCheckAnswer(*about, self.holds, self.modes, tuple(compared))
-
-
 def crosscheck(
     record: MechanismRecord, name: EngineName = "mujoco", *, samples: int = 20, seed: int = 0, text: str | None = None
-) -> CrossCheck:
+) -> CrossCheckAnswer:
     """Compare our solutions at random poses and inputs with an engine that reads the exported file.
 
     Args:
@@ -141,7 +98,7 @@ def crosscheck(
     except KeyboardInterrupt:
         found = found[:done]
     differences = tuple(
-        Difference(kind, largest[kind][0], limit, count[kind], largest[kind][1])
+        ComparedKind(kind, largest[kind][0], limit, count[kind], largest[kind][1], MEANINGS[kind])
         for kind, limit in TOLERANCES.items()
         if kind in largest
     )
@@ -149,7 +106,7 @@ def crosscheck(
         problem: dict(sorted(Counter(item.mode for item in found if item.problem == problem).items()))
         for problem in ("direct", "inverse")
     }
-    answer = CrossCheck(record, name, there.version, samples, seed, modes, differences)
+    answer = CrossCheckAnswer(record.name, name, there.version, samples, seed, modes, differences)
     if done < total:
         raise Interrupted(answer)
     return answer

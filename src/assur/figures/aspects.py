@@ -20,8 +20,9 @@ from assur.figures.plots import limits_words, no_workspace
 from assur.figures.singular import symbol_of
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import INK, PALE, PAPER, SERIES, SMALL, TEXT, new_figure
-from assur.figures.written import at_least, minus, units
+from assur.figures.written import at_least, units
 from assur.model.pose import is_angle
+from assur.results.typeset_text import minus
 from assur.workspace.aspects.aspects import KINDS, Aspect, Aspects
 from assur.workspace.aspects.path import AspectPath
 from assur.workspace.certified.boxes import Boxes

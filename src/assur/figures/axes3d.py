@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from assur.figures.canvas import Canvas, View
 from assur.figures.style import GREY, INK, PALE, SMALL, TEXT
-from assur.figures.written import minus
+from assur.results.typeset_text import minus
 
 FloatArray = NDArray[np.float64]
 ROOM = 24.0

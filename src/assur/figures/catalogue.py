@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -31,7 +31,7 @@ from assur.figures.style import styled
 from assur.model.mechanism import MechanismRecord
 from assur.results.files import write_whole
 from assur.results.json_text import json_text
-from assur.work import stage
+from assur.work import Progress, stage
 
 ENTRIES: tuple[FigureKind, ...] = (
     STRUCTURE,
@@ -57,8 +57,6 @@ ENTRIES: tuple[FigureKind, ...] = (
     GRAPH,
 )
 COMPARE = "Compare Figure {} of the source."
-Progress = Callable[[int, int], None]
-"""Called with (figures done, figures in all)."""
 
 
 def catalogue(record: MechanismRecord, context: Context | None = None) -> list[FigureSpec]:

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from assur import derived_topology
 from assur.errors import UsageError
 from assur.figures.near import near_solid
-from assur.figures.written import minus
 from assur.kinematics.answers.at_border import inputs_from_border
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.border import inputs_of
@@ -29,6 +28,7 @@ from assur.model.pose import is_angle
 from assur.performance.indices import Indices, indices, indices_at
 from assur.performance.overall import GlobalIndex, OverallIndices, global_condition_index, overall
 from assur.results.attempt import REFUSED, attempt
+from assur.results.typeset_text import minus
 from assur.scene.camera import Camera, plane
 from assur.scene.companion import Companion, companion
 from assur.scene.skeleton import Skeleton, skeleton

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from assur.figures.context import Context
 from assur.figures.letters import mathematics
-from assur.figures.written import minus
 from assur.kinematics.answers.at_border import angle_at_border
 from assur.model.pose import LENGTHS, is_angle
+from assur.results.typeset_text import minus
 from assur.workspace.domain import Box
 
 FloatArray = NDArray[np.float64]

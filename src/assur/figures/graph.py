@@ -24,8 +24,7 @@ from assur.figures.symbols import hatching
 from assur.topology.screws.linkage import Linkage
 
 if TYPE_CHECKING:
-    from assur.results.answers.topology import AssurChain
-    from assur.topology.counting.coupling import Loop
+    from assur.results.answers.topology import AssurChain, Loop
 
 FloatArray = NDArray[np.float64]
 RADIUS = 6.6
@@ -141,7 +140,7 @@ def _tones(loops: Sequence[Loop], assur_chains: Sequence[AssurChain]) -> dict[st
         hue = SERIES[place % len(SERIES)]
         for step, index in enumerate(chain.loops):
             share = 1.0 - (1.0 - LIGHTEST) * step / max(len(chain.loops) - 1, 1)
-            tones |= dict.fromkeys(loops[index].edges, _Tone(index + 1, _mixed(hue, share)))
+            tones |= dict.fromkeys(loops[index].joints, _Tone(index + 1, _mixed(hue, share)))
     return tones
 
 
@@ -169,7 +168,7 @@ def _legend(
             loop = loops[index]
             delta = f"{loop.delta:+d}".replace("-", "\N{MINUS SIGN}") if loop.delta else "0"
             text = f"{index + 1}: $\\xi$ = {loop.xi}, $\\Delta$ = {delta}"
-            lines.append((text, tones[loop.edges[0]].colour))
+            lines.append((text, tones[loop.joints[0]].colour))
     if any(item.driven for item in edges):
         lines.append(("actuated", ORANGE))
     return lines
@@ -264,7 +263,7 @@ def _data(
             }
             for item in edges
         ],
-        "loops": [{"joints": list(loop.edges), "xi": loop.xi, "delta": loop.delta} for loop in loops],
+        "loops": [{"joints": list(loop.joints), "xi": loop.xi, "delta": loop.delta} for loop in loops],
         "assur_chains": [
             {"loops": list(chain.loops), "coupling_degree": chain.coupling_degree} for chain in assur_chains
         ],

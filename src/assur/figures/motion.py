@@ -7,7 +7,6 @@ import io
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -32,11 +31,10 @@ from assur.scene.motion import closed_motion
 from assur.scene.part import Part
 from assur.scene.parts import parts, placed, unit
 from assur.scene.skeleton import Skeleton, skeleton
+from assur.work import Progress
 
 FloatArray = NDArray[np.float64]
 Form = Literal["gif", "webp", "mp4"]
-Progress = Callable[[int, int], None]
-"""Called with (frames done, frames in all)."""
 
 FRAMES, SIZES, SECONDS = (8, 240), (64, 1280), (0.1, 60.0)
 """What may be asked for: frames, pixels of the longest side, seconds of a turn."""

@@ -18,9 +18,9 @@ from assur.figures.context import Context
 from assur.figures.coordinates import held_words
 from assur.figures.singular import condition
 from assur.figures.style import BLUE, GREEN, ORANGE, PINK, RED
-from assur.figures.written import minus
 from assur.kinematics.limits import limits_note
 from assur.model.closed_form import Factor
+from assur.results.typeset_text import minus
 from assur.singularity.loci import Locus, parallel_factors
 from assur.workspace.region import Workspace
 from assur.workspace.slices import slice_at

@@ -17,9 +17,9 @@ from assur.figures.meaning import typeset
 from assur.figures.solid import model_camera, triad
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import LETTER, PAGE, SMALL, TEXT
-from assur.figures.written import minus
 from assur.model.closed_form import Factor
 from assur.model.pose import LENGTHS, is_angle
+from assur.results.typeset_text import minus
 from assur.scene.skeleton import skeleton
 from assur.singularity.examples import AGAIN_SAMPLES, SAMPLES, SingularExample
 

@@ -19,7 +19,7 @@ from assur.figures.placing import Letters
 from assur.figures.raster import SAMPLES, Buffers, filled, lit
 from assur.figures.spec import Drawing, FigureKind, always
 from assur.figures.style import BLUE, DOTS_PER_INCH, INK, PAPER, SMALL
-from assur.figures.written import minus
+from assur.results.typeset_text import minus
 from assur.scene.camera import Camera, orthographic
 from assur.scene.letters import lettered
 from assur.scene.mesh import Mesh

@@ -18,10 +18,10 @@ from assur.figures.placing import Letters
 from assur.figures.sketch import Pen, cloud_of, draw_bodies, draw_ground
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import BLUE, GREEN, INK, ORANGE, PAGE, PINK, RED, SKY, SMALL, TEXT
-from assur.figures.written import minus
 from assur.kinematics.answers.at_border import angle_at_border, pose_at_border
 from assur.kinematics.answers.solution import Solution
 from assur.model.pose import QUATERNION, is_angle
+from assur.results.typeset_text import minus
 from assur.scene.camera import oblique, plane
 from assur.scene.skeleton import Skeleton, skeleton
 

@@ -5,26 +5,14 @@ from __future__ import annotations
 import math
 
 
-def minus(text: str) -> str:
-    """A number or a mode as text with minus signs as wide as plus signs.
-
-    >>> minus(f"{-2.5:g}"), minus("+-+")
-    ('−2.5', '+−+')
-    """
-    return text.replace("-", "−")
-
-
 def units(unit: str) -> str:
     """A unit as captions and axes show it: letters upright, powers raised.
 
     >>> units("mm^2 rad"), units("(mm/rad)^2"), units("m")
     ('mm$^2$ rad', '(mm/rad)$^2$', 'm')
     """
-    return " ".join(f"{base}$^{power}$" if power else base for base, _, power in _parts(unit))
-
-
-def _parts(unit: str) -> list[tuple[str, str, str]]:
-    return [part.partition("^") for part in unit.split(" ")]
+    parts = (part.partition("^") for part in unit.split(" "))
+    return " ".join(f"{base}$^{power}$" if power else base for base, _, power in parts)
 
 
 def times_ten(digits: str, power: int) -> str:

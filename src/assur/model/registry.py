@@ -17,6 +17,7 @@ from assur.model.consent import built_in
 from assur.model.file.description import description_text, with_ending
 from assur.model.kept_readings import keep_reading, kept_reading
 from assur.model.mechanism import MechanismRecord
+from assur.results.answers.catalogue import LeftOutMechanism
 from assur.results.reading import file_text
 from assur.work import stage
 
@@ -53,17 +54,7 @@ def is_built_in(record: MechanismRecord) -> bool:
     return built_in(record.file)
 
 
-@dataclasses.dataclass(frozen=True)
-class LeftOut:
-    """A mechanism of the literature that is not built in, and the reason."""
-
-    name: str
-    title: str
-    source: str
-    reason: str
-
-
-def left_out() -> tuple[LeftOut, ...]:
+def left_out() -> tuple[LeftOutMechanism, ...]:
     """What the catalogue does not have, in alphabetical order.
 
     >>> [item.title for item in left_out()]
@@ -72,7 +63,7 @@ def left_out() -> tuple[LeftOut, ...]:
     import tomllib  # which nothing else here needs
 
     entries = tomllib.loads((_folder() / LEFT_OUT).read_text(encoding="utf-8"))
-    return tuple(LeftOut(name, **entry) for name, entry in sorted(entries.items()))
+    return tuple(LeftOutMechanism(name, **entry) for name, entry in sorted(entries.items()))
 
 
 @stage("reading the file")

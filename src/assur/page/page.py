@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
 from importlib.resources import files
 from typing import Any
@@ -15,9 +15,7 @@ from assur.model.mechanism import MechanismRecord
 from assur.page.content import content
 from assur.results.json_text import json_text
 from assur.scene.layers import layers, layers_note, region
-
-Progress = Callable[[int, int], None]
-"""Called with (steps done, steps in all)."""
+from assur.work import Progress
 
 LARGEST = 1_000_000
 """Bytes that a page may have; a test holds every mechanism of the catalogue to it."""

@@ -18,7 +18,7 @@ from assur.errors import UsageError
 from assur.model.mechanism import MechanismRecord
 from assur.performance.indices import INDICES, Indices, indices, indices_at
 from assur.performance.scaling import Length
-from assur.results.answers.indices import Share
+from assur.results.answers.indices import OverallIndex, Share
 from assur.work import stage
 
 FloatArray = NDArray[np.float64]
@@ -75,27 +75,6 @@ class GlobalIndex:
 
 
 @dataclass(frozen=True)
-class Overall:
-    """One index over a region; None where it has no value anywhere.
-
-    Attributes:
-        mean: over the region, singular points left out; `mean_error` is half of its 95 % interval.
-        least, most: at the points that were seen. What is worst lies a little beyond: `least_error`, `most_error` say
-            how far, by the jackknife (7/8 of what the most extreme of the eight shifts is beyond the next).
-        least_at, most_at: the poses there.
-    """
-
-    mean: float
-    mean_error: float
-    least: float
-    least_error: float
-    least_at: tuple[float, ...]
-    most: float
-    most_error: float
-    most_at: tuple[float, ...]
-
-
-@dataclass(frozen=True)
 class OverallIndices:
     """Every index over a region of one working mode.
 
@@ -104,7 +83,7 @@ class OverallIndices:
         points: how many points were seen; 0 in an empty region, of which nothing is known.
         singular: at how many Jp is singular: the indices of J do not exist there.
         length, factor_unit: characteristic length and unit of a velocity factor, as in `Indices`.
-        values: `Overall` by the name of the index.
+        values: `OverallIndex` by the name of the index.
         good: the good-transmission workspace; None in an empty region.
     """
 
@@ -113,7 +92,7 @@ class OverallIndices:
     singular: int
     length: float | None
     factor_unit: str
-    values: Mapping[str, Overall]
+    values: Mapping[str, OverallIndex]
     good: Share | None
 
 
@@ -205,13 +184,13 @@ def _indices(
     return indices(record, poses, region.mode, length)
 
 
-def _overall(field: FloatArray, poses: FloatArray, shift: NDArray[np.int_]) -> Overall | None:
+def _overall(field: FloatArray, poses: FloatArray, shift: NDArray[np.int_]) -> OverallIndex | None:
     known = np.isfinite(field)
     if not np.any(known):
         return None
     mean, error = _mean(np.where(known, field, 0.0), known, shift)
     low, high = (int(np.argmin(np.where(known, sign * field, np.inf))) for sign in (1.0, -1.0))
-    return Overall(
+    return OverallIndex(
         mean=mean,
         mean_error=error,
         least=float(field[low]),

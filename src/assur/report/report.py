@@ -31,10 +31,7 @@ from assur.results.answers.files import ReportNumber
 from assur.results.attempt import REFUSED, reason
 from assur.results.files import write_whole
 from assur.results.kinds import Facts, Picture, Result, Scalar, Section
-from assur.work import stage
-
-Progress = Callable[[int, int], None]
-"""Called with (steps done, steps in all)."""
+from assur.work import Progress, stage, ticker
 
 KNOWN = "How the numbers are known"
 SECTIONS: tuple[tuple[str, Callable[[Findings], Section]], ...] = (
@@ -91,7 +88,7 @@ def report_page(findings: Findings, progress: Progress | None = None) -> Page:
     sections: dict[str, Section] = {}
     refused: dict[str, str] = {}
     try:
-        _make(findings, sections, refused, _ticker(len(ANALYSES) + len(SECTIONS), progress))
+        _make(findings, sections, refused, ticker(len(ANALYSES) + len(SECTIONS), progress))
     except KeyboardInterrupt:
         raise Interrupted(_page(findings, sections.values())) from None
     if refused:
@@ -155,12 +152,6 @@ def _sections(sections: Iterable[Section]) -> Iterator[tuple[str, list[Result]]]
     for section in sections:
         yield section.title, [result for result in section.results if not isinstance(result, Section)]
         yield from _sections(result for result in section.results if isinstance(result, Section))
-
-
-def _ticker(total: int, progress: Progress | None) -> Callable[[], None]:
-    """A function that reports one more step done."""
-    steps = itertools.count(1)
-    return (lambda: progress(next(steps), total)) if progress else (lambda: None)
 
 
 def _numbered(sections: Iterable[Section], numbers: Iterator[int]) -> tuple[Section, ...]:

@@ -85,7 +85,11 @@ def grouped(text: str) -> str:
 
 
 def minus(text: str) -> str:
-    """Text with a true minus sign."""
+    """A number or a mode as text with minus signs as wide as plus signs.
+
+    >>> minus(f"{-2.5:g}"), minus("+-+")
+    ('−2.5', '+−+')
+    """
     return text.replace("-", "−")
 
 

@@ -141,7 +141,7 @@ def _difference(twists: Confirmed, rules: Expected | Refusal) -> str:
     """Where the counts of the two routes differ, in words."""
     if isinstance(rules, Refusal) or rules.counts is None:
         return ""
-    order = [twists.names.index(name) for loop in twists.loops.loops for name in loop.edges]
+    order = [twists.names.index(name) for loop in twists.loops.loops for name in loop.joints]
     said = (rules.counts.xi(order), rules.counts.coupling_degree)
     counted = (tuple(loop.xi for loop in twists.loops.loops), twists.loops.coupling_degree)
     return (

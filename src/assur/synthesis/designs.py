@@ -90,7 +90,7 @@ class Design:
     def reason(self) -> str:
         """Why it stands where it stands, in one sentence without a full stop."""
         first, degree, surplus = self.loops.loops[0], self.coupling_degree, self.redundant.collapsed
-        both = " and ".join(edge.removeprefix("limb ") for edge in first.edges)
+        both = " and ".join(edge.removeprefix("limb ") for edge in first.joints)
         virtual = f"{_COUNTS[degree]} virtual variable{_plural(degree)}"
         coupled = f"{virtual}, for limbs {both} close a loop with Δ = {first.delta:+d}"
         exact = f"{surplus or 'no'} constraint{'s are' if surplus > 1 else ' is'} redundant"

@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.results.answers.topology import OperationModeFacts, RedundantConstraints
+from assur.results.answers.topology import Loop, OperationModeFacts, RedundantConstraints
 from assur.results.plain_text import count as plural
 from assur.topology.agreement import RoutesDisagreeError, by_twists
 from assur.topology.chains import Chain
 from assur.topology.counting.actuation import actuation
-from assur.topology.counting.coupling import Loop, coupling
+from assur.topology.counting.coupling import coupling
 from assur.topology.counting.decoupling import Decoupling, JudgedPattern, by_jacobian, judged
 from assur.topology.counting.decoupling import by_rules as decoupled_by_rules
 from assur.topology.counting.drives import admissible_drives

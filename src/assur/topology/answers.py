@@ -7,23 +7,16 @@ from typing import Any
 
 from assur.results.answers.topology import (
     ActuationAnswer,
-    AssurPlanAnswer,
     LimbAnswer,
-    LoopAnswer,
     PlanAnswer,
-    PlanStepAnswer,
     PlatformPoc,
     PocDirection,
-    RelaxationAnswer,
     Replacement,
     RulesRefusal,
     TopologyAnswer,
     WrittenPoc,
 )
 from assur.topology.counting.actuation import Actuation
-from assur.topology.counting.coupling import Loop
-from assur.topology.counting.relaxation import Relaxation
-from assur.topology.counting.solution_plan import AssurPlan
 from assur.topology.facts import Known, LimbFacts, Topology
 from assur.topology.poc import Mark, PocSet
 
@@ -46,7 +39,7 @@ def answers(topology: Topology) -> TopologyAnswer:
         internal_freedoms=topology.internal_freedoms,
         internal_joints=topology.internal_joints,
         idle_joints=topology.idle_joints,
-        loops=tuple(_loop(loop) for loop in topology.loops),
+        loops=topology.loops,
         assur_chains=topology.assur_chains,
         coupling_degree=topology.coupling_degree,
         coupling_refusal=topology.coupling_refusal,
@@ -58,8 +51,8 @@ def answers(topology: Topology) -> TopologyAnswer:
         decoupling=decoupling.depends if decoupling else None,
         decoupling_refusal=topology.decoupling_refusal,
         actuation=_actuation(topology.actuation),
-        relaxation=_relaxation(topology.relaxation),
-        plan=PlanAnswer(topology.plan.search, topology.plan.words, tuple(_plan(part) for part in topology.plan.parts)),
+        relaxation=topology.relaxation,
+        plan=PlanAnswer(topology.plan.search, topology.plan.words, topology.plan.parts),
         routes_agree=topology.routes_agree,
         refusals=refusals(topology),
         derivation=tuple(line for derivation in topology.derivations for line in derivation.text().splitlines()),
@@ -118,19 +111,6 @@ def _limb(limb: LimbFacts) -> LimbAnswer:
     return LimbAnswer(*numbers, limb.text, limb.symbolic, limb.freedoms, str(poc), **_known(limb.known))
 
 
-def _loop(loop: Loop) -> LoopAnswer:
-    return LoopAnswer(loop.xi, loop.delta, loop.edges, loop.freedoms, loop.inputs, loop.internal)
-
-
 def _actuation(asked: Actuation) -> ActuationAnswer:
     sets = (asked.in_some, asked.in_every, asked.sets)
     return ActuationAnswer(asked.verdict, asked.needed, asked.hint, *sets, asked.complete)
-
-
-def _relaxation(asked: Relaxation) -> RelaxationAnswer:
-    return RelaxationAnswer(asked.redundant, asked.left, asked.single, asked.together)
-
-
-def _plan(part: AssurPlan) -> AssurPlanAnswer:
-    steps = tuple(PlanStepAnswer(step.loop, step.delta, step.virtual, step.equations, step.left) for step in part.steps)
-    return AssurPlanAnswer(part.coupling_degree, part.search, part.reason, steps)

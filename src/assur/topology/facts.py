@@ -11,11 +11,9 @@ from assur.topology.counting.solution_plan import SolutionPlan
 from assur.topology.poc import PocSet
 
 if TYPE_CHECKING:
-    from assur.results.answers.topology import AssurChain, OperationModeFacts, RedundantConstraints
+    from assur.results.answers.topology import AssurChain, Loop, OperationModeFacts, RedundantConstraints, Relaxation
     from assur.topology.counting.actuation import Actuation
-    from assur.topology.counting.coupling import Loop
     from assur.topology.counting.decoupling import Decoupling
-    from assur.topology.counting.relaxation import Relaxation
     from assur.topology.screws.linkage import Linkage
     from assur.topology.symbolic.derivation import Derivation
 

@@ -144,7 +144,7 @@ def _freedoms(topology: Topology) -> Iterator[Equation]:
         return
     yield Equation(r"\xi_{L_j}", XI, "(4)", "independent equations of loop j")
     for number, loop in enumerate(topology.loops, 1):
-        yield Equation(rf"\xi_{{L_{{{number}}}}}", str(loop.xi), "", f"loop {number}: {' '.join(loop.edges)}")
+        yield Equation(rf"\xi_{{L_{{{number}}}}}", str(loop.xi), "", f"loop {number}: {' '.join(loop.joints)}")
     total = topology.dof + sum(topology.xi)
     equations = " + ".join(map(str, topology.xi))
     equations = f"({equations})" if len(topology.loops) > 1 else equations

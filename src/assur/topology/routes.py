@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.results.answers.topology import Loop
 from assur.topology.agreement import SPECIAL, RoutesDisagreeError, agreed, by_twists
 from assur.topology.chains import Chain, InnerLoop
-from assur.topology.counting.coupling import Loop
 from assur.topology.facts import Known
 from assur.topology.screws.configurations import configurations
 from assur.topology.screws.limb_linkage import limb_linkage, limb_values
@@ -166,7 +166,7 @@ def check_xi(chains: Sequence[Chain], limbs: Sequence[Motion | None], loops: Seq
     taken: set[str] = set()
     inside: list[int] = []
     for number, loop in enumerate(loops, 1):
-        taken |= set(loop.edges)
+        taken |= set(loop.joints)
         new = [index for index, name in enumerate(names) if name <= taken and index not in inside]
         # a loop may pass a limb and leave one of its branches to later loops: no POC set stands for such a part
         part = [
@@ -175,7 +175,7 @@ def check_xi(chains: Sequence[Chain], limbs: Sequence[Motion | None], loops: Seq
             if name & taken and not name <= taken
         ]
         broken = any(not names_of_part or names_of_part & taken for names_of_part in part)
-        whole = not broken and all(passed[index] and passed[index] <= set(loop.edges) for index in new)
+        whole = not broken and all(passed[index] and passed[index] <= set(loop.joints) for index in new)
         free = held or all(_by_itself(motions[index]) for index in (*inside, *new))
         if whole and free and (len(inside), len(new)) in ((0, 2), (len(inside) or -1, 1)):
             first, last = (inside or new[:1]), new[-1]
@@ -199,6 +199,6 @@ def _together(motions: Sequence[Motion], chosen: Sequence[int], held: bool) -> M
 def _compare(number: int, loop: Loop, xi: int) -> None:
     if xi != loop.xi:
         raise RoutesDisagreeError(
-            f"loop {number} ({', '.join(loop.edges)}): the rules say xi = {xi}, the rank of the closure {loop.xi}",
+            f"loop {number} ({', '.join(loop.joints)}): the rules say xi = {xi}, the rank of the closure {loop.xi}",
             hint=SPECIAL,
         )

@@ -14,7 +14,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.results.answers.topology import OperationModeFacts, RedundantConstraints
+from assur.results.answers.topology import OperationModeFacts, RedundantConstraints, Relaxation
 from assur.results.plain_text import count as plural
 from assur.topology.analysis import (
     ADMISSIBLE,
@@ -32,7 +32,6 @@ from assur.topology.counting.actuation import actuation
 from assur.topology.counting.coupling import coupling
 from assur.topology.counting.drives import admissible_drives
 from assur.topology.counting.mobility import mobility, motions
-from assur.topology.counting.relaxation import Relaxation
 from assur.topology.counting.solution_plan import SolutionPlan
 from assur.topology.facts import InputsBy, Known, Topology
 from assur.topology.poc import PocSet

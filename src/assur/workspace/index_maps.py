@@ -37,27 +37,6 @@ MEANING = "distance from the nearest parallel singularity inside the reach that 
 
 
 @dataclass(frozen=True, eq=False)
-class IndexMap:
-    """One index over a grid.
-
-    Attributes:
-        symbol, meaning, unit: of the index; the symbol in LaTeX, "" as the unit of a number.
-        values: one axis per coordinate; NaN where it does not exist. A distance is infinite where none was found within
-            the reach of the search.
-        mean: of the nodes at which it exists and is finite, all with the same weight; None where there is none.
-        least, most: among them; None where there is none. `assur.performance.overall` adds errors, over a whole region.
-    """
-
-    symbol: str
-    meaning: str
-    unit: str
-    values: FloatArray
-    mean: float | None
-    least: MapExtreme | None
-    most: MapExtreme | None
-
-
-@dataclass(frozen=True, eq=False)
 class IndexMaps:
     """Every index over one grid through a workspace.
 
@@ -86,13 +65,13 @@ class IndexMaps:
     length: float | None
     reach: float | None
     factor: NDArray[np.str_] | None
-    maps: Mapping[str, IndexMap]
+    maps: Mapping[str, MapAnswer]
 
     def __getitem__(self, name: str) -> FloatArray:
         """The values of one index, or a clear refusal."""
         if name not in self.maps:
             raise UnknownNameError("index map", name, self.maps)
-        return self.maps[name].values
+        return np.asarray(self.maps[name].values)
 
     def in_degrees(self) -> IndexMaps:
         """The same with every angle in degrees; indices keep their units."""
@@ -127,7 +106,7 @@ class IndexMaps:
             reach=self.reach,
             status=_names(self.status).tolist(),
             nearest_factor=None if self.factor is None else self.factor.tolist(),
-            maps={name: MapAnswer(**{**vars(item), "values": plain(item.values)}) for name, item in self.maps.items()},
+            maps={name: replace(item, values=plain(item.values)) for name, item in self.maps.items()},
         )
 
     def arrays(self) -> dict[str, NDArray[Any]]:
@@ -278,7 +257,7 @@ def _found(
 
 def _map(
     symbol: str, meaning: str, unit: str, values: FloatArray, points: FloatArray, shape: tuple[int, ...]
-) -> IndexMap:
+) -> MapAnswer:
     known = np.flatnonzero(np.isfinite(values))
     mean, least, most = None, None, None
     if len(known):
@@ -286,7 +265,7 @@ def _map(
         mean = float(np.mean(values[known]))
         least = MapExtreme(float(values[low]), tuple(points[low].tolist()))
         most = MapExtreme(float(values[high]), tuple(points[high].tolist()))
-    return IndexMap(symbol, meaning, unit, values.reshape(shape), mean, least, most)
+    return MapAnswer(symbol, meaning, unit, values.reshape(shape), mean, least, most)
 
 
 def _names(status: NDArray[np.int8]) -> NDArray[np.str_]:

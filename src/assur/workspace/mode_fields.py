@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from assur.model.mechanism import MechanismRecord
+from assur.work import Progress, ticker
 from assur.workspace.bounds import Stroke, bounds
 from assur.workspace.fields import Field, closed_form_fields
 from assur.workspace.followed import followed_factors, followed_margins, over_grid
 from assur.workspace.grid import UniformGrid
 from assur.workspace.slices import Slice
-
-Progress = Callable[[int, int], None]
-"""Called with (steps done, steps in all)."""
 
 FOLLOWING, LAST = 40, 3
 """Steps of progress: of following a mode, and of what comes after the margins."""
@@ -53,8 +50,8 @@ def mode_fields(
     """
     if record.closed_form is not None:
         margins, factors = closed_form_fields(record, mode, strokes, poses)
-        return ModeFields(margins, factors, CLOSED_FORM, _ticker(2 * len(margins) + LAST, progress))
-    tick = _ticker(FOLLOWING + 2 * (1 + len(bounds(record, strokes))) + LAST, progress)
+        return ModeFields(margins, factors, CLOSED_FORM, ticker(2 * len(margins) + LAST, progress))
+    tick = ticker(FOLLOWING + 2 * (1 + len(bounds(record, strokes))) + LAST, progress)
     done = 0
 
     def following(share: float) -> None:
@@ -66,9 +63,3 @@ def mode_fields(
     over, how = over_grid(record, mode, poses, grid, following)
     following(1.0)
     return ModeFields(followed_margins(over, strokes), followed_factors(over), how, tick)
-
-
-def _ticker(total: int, progress: Progress | None) -> Callable[[], None]:
-    """A function that reports one more step done."""
-    steps = itertools.count(1)
-    return (lambda: progress(next(steps), total)) if progress else (lambda: None)

@@ -23,13 +23,14 @@ from assur.model.pose import is_angle
 from assur.results.answers.region import ParallelSingular, SingularSurface
 from assur.results.json_text import plain
 from assur.singularity.loci import Locus, parallel_loci
+from assur.work import Progress
 from assur.workspace.bounds import Stroke
 from assur.workspace.certified.region import unit
 from assur.workspace.domain import Box, box_of
 from assur.workspace.fields import Field, inside_at
 from assur.workspace.followed import FollowedField
 from assur.workspace.grid import grid_over
-from assur.workspace.mode_fields import CLOSED_FORM, Progress, mode_fields
+from assur.workspace.mode_fields import CLOSED_FORM, mode_fields
 from assur.workspace.nearness import near_volume, triangles_of
 from assur.workspace.projections import Projection, projection
 from assur.workspace.reach import Reach

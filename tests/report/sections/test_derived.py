@@ -28,7 +28,7 @@ def test_tables_are_those_of_the_engine(findings):
     tables, found = parts(derived(findings), Table), findings.topology
     assert [row[3] for row in tables["Limbs"].rows] == [str(limb.poc) for limb in found.limbs]
     assert [(row[1], row[4]) for row in tables["Loops and Assur chains"].rows] == [
-        (" ".join(loop.edges), str(loop.xi)) for loop in found.loops
+        (" ".join(loop.joints), str(loop.xi)) for loop in found.loops
     ]
     assert [row[0] for row in tables["Decoupling"].rows] == list(found.decoupling.outputs)
     assert [tuple(cell == "×" for cell in row[1:]) for row in tables["Decoupling"].rows] == list(

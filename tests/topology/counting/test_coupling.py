@@ -11,7 +11,6 @@ from assur.model.registry import load_record
 from assur.topology.counting.coupling import coupling, coupling_of
 from assur.topology.counting.mobility import motions
 from assur.topology.counting.solution_plan import solution_plan
-from assur.topology.screws.twists import generic_edges
 from coupled_mechanisms import (
     crr,
     delta_4r,
@@ -33,7 +32,7 @@ from coupled_mechanisms import (
     zeng,
     zeng_with_one_five_dof_limb,
 )
-from twist_chains import X, Y, Z, chain, slide, turn, turns
+from twist_chains import X, Y, Z, chain, generic_edges, slide, turn, turns
 
 # ---- printed and tabulated values ----------------------------------------------------------------------------
 
@@ -70,8 +69,8 @@ def test_tabulated_mechanism(build, xi, delta, kappa, seed):
 def test_the_loops_of_the_paper():
     """LOOP 1 is the 2P4R mechanism, LOOP 2 runs R3 ∥ R4 - P(4R) - P(4R) - P3; f = 6 + 5, I = 2 + 1."""
     first, second = coupling(zeng(np.random.default_rng(0))).loops
-    assert first.edges == ("AJ1", "AJ2", "AJ3", "BJ3", "BJ2", "BJ1")
-    assert second.edges == ("CJ1", "CJ2", "DJ3", "DJ2", "DJ1")
+    assert first.joints == ("AJ1", "AJ2", "AJ3", "BJ3", "BJ2", "BJ1")
+    assert second.joints == ("CJ1", "CJ2", "DJ3", "DJ2", "DJ1")
     assert [(loop.freedoms, loop.inputs, loop.redundant_constraints) for loop in (first, second)] == [
         (6, 2, 3),
         (5, 1, 1),
@@ -117,7 +116,7 @@ def test_separate_inner_loops_first_double_the_coupling_degree():
 def test_the_order_of_the_paper_is_among_the_best():
     edges = zeng(np.random.default_rng(3))
     best = coupling(edges)
-    assert coupling_of(edges, [loop.edges for loop in best.loops]) == best
+    assert coupling_of(edges, [loop.joints for loop in best.loops]) == best
 
 
 def test_an_order_may_start_with_the_outer_loop():
@@ -125,7 +124,7 @@ def test_an_order_may_start_with_the_outer_loop():
     edges = zeng(np.random.default_rng(3))
     found = coupling_of(edges, [names(edges, "A", "C", "D"), names(edges, "B")])
     assert [loop.delta for loop in found.loops] == [1, -1]
-    assert found.loops[0].edges == ("AJ1", "AJ2", "AJ3", "CJ1", "CJ2", "DJ3", "DJ2", "DJ1")
+    assert found.loops[0].joints == ("AJ1", "AJ2", "AJ3", "CJ1", "CJ2", "DJ3", "DJ2", "DJ1")
 
 
 @pytest.mark.parametrize(
@@ -170,7 +169,7 @@ def test_an_assur_chain_stands_on_the_one_before_it():
     edges = four_bar + driven("C", "base", "coupler", turns(rng, Z, 3), ())
     found = coupling(edges)
     assert [item.coupling_degree for item in found.assur_chains] == [0, 0]
-    assert [loop.edges for loop in found.loops] == [("AJ1", "AJ2", "BJ2", "BJ1"), ("CJ1", "CJ2", "CJ3")]
+    assert [loop.joints for loop in found.loops] == [("AJ1", "AJ2", "BJ2", "BJ1"), ("CJ1", "CJ2", "CJ3")]
 
 
 def test_an_arm_in_no_loop_takes_no_part():
@@ -190,7 +189,7 @@ def test_a_single_loop_with_all_inputs_is_not_coupled():
     rng = np.random.default_rng(4)
     ring = driven("A", "base", "base", [[turn(rng.normal(size=3), rng.normal(size=3))] for _ in range(8)], (0, 1))
     found = coupling(ring)
-    assert [(loop.xi, loop.delta, len(loop.edges)) for loop in found.loops] == [(6, 0, 8)]
+    assert [(loop.xi, loop.delta, len(loop.joints)) for loop in found.loops] == [(6, 0, 8)]
     assert found.coupling_degree == 0
 
 

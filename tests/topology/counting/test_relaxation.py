@@ -15,8 +15,7 @@ from assur.model.registry import load_record
 from assur.topology.counting.coupling import coupling
 from assur.topology.counting.mobility import mobility
 from assur.topology.counting.relaxation import Replacement, relaxation
-from assur.topology.screws.twists import generic_edges
-from twist_chains import X, Y, Z, slide, turn
+from twist_chains import X, Y, Z, generic_edges, slide, turn
 from twist_chains import chain as named_chain
 
 chain = partial(named_chain, letter="")

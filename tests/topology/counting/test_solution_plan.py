@@ -9,18 +9,20 @@ import pytest
 
 import assur
 from assur.model.registry import topology_names
+from assur.results.answers.topology import AssurPlan, PlanStep
 from assur.topology.answers import answers
 from assur.topology.counting.coupling import coupling, coupling_of
 from assur.topology.counting.inputs import default_inputs, numbered_inputs
 from assur.topology.counting.mobility import motions
-from assur.topology.counting.solution_plan import AssurPlan, PlanStep, SolutionPlan, solution_plan
+from assur.topology.counting.solution_plan import SolutionPlan, solution_plan
 from assur.topology.notation import parse_chains
 from assur.topology.screws.configurations import configurations
 from assur.topology.screws.linkage import part
 from assur.topology.screws.placing import place
-from assur.topology.screws.screws import closure_jacobian, poses
+from assur.topology.screws.screws import poses
 from assur.topology.screws.twists import edges, generic_values
 from catalogue import topology_of
+from twist_chains import closure_jacobian
 
 NAMES = sorted({*assur.names(), *topology_names()})
 HYBRID = "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]"
@@ -85,7 +87,7 @@ def test_laws_of_every_plan(name):
         if not item.reason:  # the rank of the loops with inputs locked is the running sum of Eq. (5)
             assert [step.left for step in item.steps] == [step.virtual for step in item.steps]
         for step in item.steps:
-            assert step.joints == found.loops[step.loop].edges
+            assert step.joints == found.loops[step.loop].joints
             assert step.delta == found.loops[step.loop].delta == step.virtual - step.equations
 
 
@@ -265,7 +267,7 @@ def test_the_loops_by_themselves_are_as_free_as_the_plan_says(texts, actuate, wa
     taken: list[str] = []
     counts = []
     for loop, way, spin in zip(loops.loops, ways, spins, strict=True):
-        taken += loop.edges
+        taken += loop.joints
         loose = held(part(linkage, [*taken, *way], "platform"))
         counts.append(freedoms_with_orientation_held(loose, way) - spin)
     assert counts == left

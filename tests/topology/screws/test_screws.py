@@ -6,7 +6,8 @@ import pytest
 from assur.errors import UnknownNameError, UsageError
 from assur.topology.notation import parse_chain
 from assur.topology.screws.placing import place
-from assur.topology.screws.screws import closure_jacobian, joint_twists, poses, residuals
+from assur.topology.screws.screws import poses, residuals
+from twist_chains import closure_jacobian, joint_twists
 
 PAPER = ("{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", "P[y] P(4R)[x] P(4R)[y]")
 EVERY_JOINT = ("R[x] P[0.6,0,0.8] H[y] C[z] U[x,z] S",)

@@ -14,12 +14,13 @@ from assur.topology.chains import Chain, ChainJoint, Parallelogram
 from assur.topology.directions import unit
 from assur.topology.notation import parse_chains
 from assur.topology.screws.placing import place
-from assur.topology.screws.twists import generic_edges, poc_dimensions
+from assur.topology.screws.twists import poc_dimensions
 from assur.topology.symbolic.intersection import parallel, xi_of_next
 from assur.topology.symbolic.motion import Motion
 from assur.topology.symbolic.refusals import Refusal
 from assur.topology.symbolic.union import serial
 from examples import examples
+from twist_chains import generic_edges
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 

@@ -13,11 +13,12 @@ from assur.topology.directions import unit
 from assur.topology.notation import parse_chain
 from assur.topology.poc import Mark
 from assur.topology.screws.placing import place
-from assur.topology.screws.twists import generic_edges, poc_dimensions
+from assur.topology.screws.twists import poc_dimensions
 from assur.topology.symbolic.motion import Motion
 from assur.topology.symbolic.refusals import Refusal
 from assur.topology.symbolic.union import serial
 from examples import examples
+from twist_chains import generic_edges
 from work import calls
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)

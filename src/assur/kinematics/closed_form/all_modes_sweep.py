@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics import border
-from assur.kinematics.closed_form.blocks import Components, FloatArray, Progress, columns_of, each_block
+from assur.kinematics.closed_form.blocks import Components, FloatArray, columns_of, each_block
 from assur.kinematics.closed_form.existence import exists
 from assur.kinematics.closed_form.filling import Engine, Filler, chosen, run
 from assur.kinematics.closed_form.recorded import recording
@@ -17,6 +17,7 @@ from assur.kinematics.status import branch_kernel, closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.number_types import Floats
 from assur.numerics.recording.loops import empty_rows
+from assur.work import Progress
 
 BoolArray = NDArray[np.bool_]
 

@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UsageError
+from assur.work import Progress
 
 FloatArray = NDArray[np.float64]
 Components = Sequence[ArrayLike] | NDArray[np.float64]
 """One array (N,) per component, as a sequence or as the rows of one array."""
 
-Progress = Callable[[int, int], None]
 P = TypeVar("P")
 T = TypeVar("T")
 

@@ -18,7 +18,6 @@ from pathlib import Path
 from typing import Any
 
 from assur.errors import UsageError
-from assur.kinematics.closed_form.blocks import Progress
 from assur.kinematics.closed_form.grid_sweep import GridSweep
 from assur.kinematics.closed_form.grids import Grid
 from assur.kinematics.closed_form.stored import stored_sweep
@@ -26,6 +25,7 @@ from assur.kinematics.modes import Problem
 from assur.model.registry import load_record
 from assur.results.store.note import asked, differences
 from assur.results.store.store import SolvedBlock, Store
+from assur.work import Progress
 
 ANSWERS = 30.0
 """Seconds within which a scheduler must answer, and have a worker."""

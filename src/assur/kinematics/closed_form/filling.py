@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
 from assur.kinematics import border
-from assur.kinematics.closed_form.blocks import NOT_FINITE, Components, FloatArray, Progress, each_block
+from assur.kinematics.closed_form.blocks import NOT_FINITE, Components, FloatArray, each_block
 from assur.kinematics.closed_form.recorded import AnswerRow, Recording
 from assur.numerics.recording.loops import empty_rows
 from assur.numerics.singular_values import float_condition_index
 from assur.numerics.small_matrices import determinant
+from assur.work import Progress
 
 BoolArray = NDArray[np.bool_]
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.kinematics.answers.at_border import power
 from assur.kinematics.closed_form.about import coordinates, told
-from assur.kinematics.closed_form.blocks import FloatArray, Progress, in_order
+from assur.kinematics.closed_form.blocks import FloatArray, in_order
 from assur.kinematics.closed_form.filling import threads_of
 from assur.kinematics.closed_form.grids import Grid
 from assur.kinematics.closed_form.swept_dimensions import mechanism_of, reasons, refusal, runs
@@ -28,6 +28,7 @@ from assur.results.disk import DISK, Disk
 from assur.results.store.layout import Array, Plan, Shard
 from assur.results.store.note import Counts
 from assur.results.store.store import SolvedBlock, Store
+from assur.work import Progress
 
 SolutionRows = Mapping[str, NDArray[Any]]
 

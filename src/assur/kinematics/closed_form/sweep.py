@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError
 from assur.kinematics import border
-from assur.kinematics.closed_form.blocks import Components, FloatArray, Progress, columns_of, each_block
+from assur.kinematics.closed_form.blocks import Components, FloatArray, columns_of, each_block
 from assur.kinematics.closed_form.filling import Engine, Filler, chosen, empty, run
 from assur.kinematics.closed_form.mode_reading import mode_reading
 from assur.kinematics.closed_form.recorded import recording
@@ -31,6 +31,7 @@ from assur.kinematics.status import closed_form_of
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.singular_values import float_condition_index
 from assur.numerics.small_matrices import determinant
+from assur.work import Progress
 
 BoolArray = NDArray[np.bool_]
 Want = Literal["inputs", "exists", "det_jp", "det_jq", "factors", "condition_index", "smallest"]

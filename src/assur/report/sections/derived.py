@@ -103,7 +103,7 @@ def _loops(topology: Topology) -> Table:
     rows = tuple(
         (
             str(number),
-            " ".join(loop.edges),
+            " ".join(loop.joints),
             str(loop.freedoms),
             *([str(loop.internal)] if internal else []),
             str(loop.inputs),

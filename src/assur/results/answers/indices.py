@@ -52,7 +52,14 @@ class IndicesAnswer(NearestSingularity, Answer):
 
 @dataclass(frozen=True)
 class OverallIndex:
-    """Mean and extremes of an index over a workspace, with errors, and the poses of the extremes."""
+    """Mean and extremes of an index over a region.
+
+    Attributes:
+        mean: over the region, singular points left out; `mean_error` is half of its 95 % interval.
+        least, most: at the points that were seen. What is worst lies a little beyond: `least_error`, `most_error` say
+            how far, by the jackknife (7/8 of what the most extreme of the eight shifts is beyond the next).
+        least_at, most_at: the poses there.
+    """
 
     mean: float
     mean_error: float
@@ -105,9 +112,17 @@ class MapExtreme:
     at: tuple[float, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class MapAnswer:
-    """One index at the nodes of a grid, nested lists with one index per axis; null where it does not exist."""
+    """One index over a grid.
+
+    Attributes:
+        symbol, meaning, unit: of the index; the symbol in LaTeX, "" as the unit of a number.
+        values: one axis per coordinate; NaN where it does not exist, in an answer nested lists with null. A distance is
+            infinite where none was found within the reach of the search.
+        mean: of the nodes at which it exists and is finite, all with the same weight; None where there is none.
+        least, most: among them; None where there is none. `assur.performance.overall` adds errors, over a whole region.
+    """
 
     symbol: str
     meaning: str

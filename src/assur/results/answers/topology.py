@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import ClassVar
 
 from assur.results.answers.answer import ABSENT, Absent, Answer, named
 
@@ -63,15 +64,35 @@ class LimbAnswer(PocNumbers):
 
 
 @dataclass(frozen=True)
-class LoopAnswer:
-    """A loop in the order that attains the coupling degree: ξ, Δ, the joints that it adds, their freedoms."""
+class Loop:
+    """A loop in its place in an order: a single open chain on what is there before it.
 
-    xi: int
-    delta: int
+    Attributes:
+        joints: names in order along the chain.
+        freedoms: sum of f_i over the chain.
+        inputs: I_j, how many of them are actuated.
+        xi: ξ_Lj of Eq. (4), its number of independent equations.
+        internal: internal freedoms that move it and no loop before it; any value may be given to them, and they are not
+            counted.
+    """
+
+    derived: ClassVar = ("delta",)
+
     joints: Names
     freedoms: int
     inputs: int
-    internal: int
+    xi: int
+    internal: int = 0
+
+    @property
+    def delta(self) -> int:
+        """Constraint degree Δ_j = Σ f_i - I_j - ξ_Lj, Eq. (5), internal freedoms left out."""
+        return self.freedoms - self.internal - self.inputs - self.xi
+
+    @property
+    def redundant_constraints(self) -> int:
+        """6 - ξ_Lj."""
+        return 6 - self.xi
 
 
 @dataclass(frozen=True)
@@ -145,20 +166,42 @@ class Replacement:
 
 
 @dataclass(frozen=True)
-class RelaxationAnswer:
-    """Replacements of joints that remove redundant constraints, each by itself, and one after the other."""
+class Relaxation:
+    """Replacements that keep the platform's motion and the inputs.
+
+    Attributes:
+        redundant: redundant constraints before any replacement.
+        single: every replacement that removes some, by itself.
+        together: replacements one after the other, each that removes most; `removed` is what it removes in its turn.
+    """
+
+    derived: ClassVar = ("left",)
 
     redundant: int
-    left: int
     single: tuple[Replacement, ...]
     together: tuple[Replacement, ...]
 
+    @property
+    def left(self) -> int:
+        """Redundant constraints that remain after all of `together`."""
+        return self.redundant - sum(replacement.removed for replacement in self.together)
+
 
 @dataclass(frozen=True)
-class PlanStepAnswer:
-    """One loop of a plan: the virtual variables that are assumed, the equations that it gives, what is left."""
+class PlanStep:
+    """One loop of the plan.
+
+    Attributes:
+        loop: its index in the order of solution.
+        joints: its joints in order.
+        delta: its constraint degree, Eq. (5).
+        virtual: virtual variables that are assumed here.
+        equations: equations for virtual variables that it gives.
+        left: virtual variables that still must be assumed here once special constraints are used.
+    """
 
     loop: int
+    joints: Names
     delta: int
     virtual: int
     equations: int
@@ -166,13 +209,16 @@ class PlanStepAnswer:
 
 
 @dataclass(frozen=True)
-class AssurPlanAnswer:
-    """The plan of one Assur chain."""
+class AssurPlan:
+    """The plan of one Assur chain: of `coupling_degree` virtual variables `search` are found by a search, at most.
 
+    `reason` names the special constraints that make it fewer; empty where none does.
+    """
+
+    steps: tuple[PlanStep, ...]
     coupling_degree: int
     search: int
-    reason: str
-    steps: tuple[PlanStepAnswer, ...]
+    reason: str = ""
 
 
 @dataclass(frozen=True)
@@ -181,7 +227,7 @@ class PlanAnswer:
 
     search: int | None
     words: Names
-    assur_chains: tuple[AssurPlanAnswer, ...]
+    assur_chains: tuple[AssurPlan, ...]
 
 
 @dataclass(frozen=True)
@@ -210,7 +256,7 @@ class TopologyAnswer(Answer):
     internal_freedoms: int
     internal_joints: tuple[Names, ...]
     idle_joints: Names
-    loops: tuple[LoopAnswer, ...]
+    loops: tuple[Loop, ...]
     assur_chains: tuple[AssurChain, ...]
     coupling_degree: int | None
     coupling_refusal: str
@@ -222,7 +268,7 @@ class TopologyAnswer(Answer):
     decoupling: tuple[tuple[bool, ...], ...] | None
     decoupling_refusal: str
     actuation: ActuationAnswer
-    relaxation: RelaxationAnswer
+    relaxation: Relaxation
     plan: PlanAnswer
     routes_agree: bool | None
     refusals: tuple[RulesRefusal, ...]

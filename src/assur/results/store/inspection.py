@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -11,8 +11,8 @@ from assur.errors import DamagedStoreError, Problem
 from assur.results.disk import PART
 from assur.results.store.layout import Array, Plan
 from assur.results.store.note import Done, digest
+from assur.work import Progress
 
-Progress = Callable[[int, int], None]
 REPAIR = "the same command with --repair computes again what is damaged, and nothing else"
 
 

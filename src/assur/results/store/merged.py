@@ -10,10 +10,11 @@ from pathlib import Path
 import numpy as np
 
 from assur.errors import UsageError
-from assur.results.store.inspection import Fault, Progress, damaged, faults_of, path_of, read_rows, runs
+from assur.results.store.inspection import Fault, damaged, faults_of, path_of, read_rows, runs
 from assur.results.store.layout import Plan, Shard, known_array
 from assur.results.store.note import DamagedNoteError, Done, asked, blocks_done, differences, digest, unsealed
 from assur.results.store.store import STATE, SolvedBlock
+from assur.work import Progress
 
 REPAIR = "the command of that shard with --repair computes again what is damaged"
 

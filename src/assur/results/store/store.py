@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.results.disk import DISK, PART, Disk
-from assur.results.store.inspection import Fault, Progress, damaged, faults_of, part_of, path_of
+from assur.results.store.inspection import Fault, damaged, faults_of, part_of, path_of
 from assur.results.store.layout import Plan
 from assur.results.store.lock import locked
 from assur.results.store.note import (
@@ -36,6 +36,7 @@ from assur.results.store.note import (
     note_bytes,
     unsealed,
 )
+from assur.work import Progress
 
 STATE = "state.json"
 ABOUT = "sweep.json"

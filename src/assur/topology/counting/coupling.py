@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UnknownNameError, UsageError
-from assur.results.answers.topology import AssurChain
+from assur.results.answers.topology import AssurChain, Loop
 from assur.topology.counting.branches import LoopBranch, branches, names_along, next_loops
 from assur.topology.screws.edges import Edge, closure, rank
 
@@ -36,36 +36,6 @@ FloatArray = NDArray[np.float64]
 
 SETS = 200_000
 """Sets of branches that the search for the least coupled order may look at."""
-
-
-@dataclass(frozen=True)
-class Loop:
-    """A loop in its place in an order: a single open chain on what is there before it.
-
-    Attributes:
-        edges: names in order along the chain.
-        freedoms: sum of f_i over the chain.
-        inputs: I_j, how many of them are actuated.
-        xi: ξ_Lj of Eq. (4), its number of independent equations.
-        internal: internal freedoms that move it and no loop before it; any value may be given to them, and they are not
-            counted.
-    """
-
-    edges: tuple[str, ...]
-    freedoms: int
-    inputs: int
-    xi: int
-    internal: int = 0
-
-    @property
-    def delta(self) -> int:
-        """Constraint degree Δ_j = Σ f_i - I_j - ξ_Lj, Eq. (5), internal freedoms left out."""
-        return self.freedoms - self.internal - self.inputs - self.xi
-
-    @property
-    def redundant_constraints(self) -> int:
-        """6 - ξ_Lj."""
-        return 6 - self.xi
 
 
 @dataclass(frozen=True)
@@ -201,7 +171,7 @@ class _Counted:
             after = taken | set(part)
             loops.append(
                 Loop(
-                    edges=names_along(self.parts, taken, part),
+                    joints=names_along(self.parts, taken, part),
                     freedoms=sum(self._sums[index][0] for index in part),
                     inputs=sum(self._sums[index][1] for index in part),
                     xi=self.rank(after) - self.rank(taken),

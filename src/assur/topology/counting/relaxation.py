@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.results.answers.topology import Replacement
+from assur.results.answers.topology import Relaxation, Replacement
 from assur.topology.counting.mobility import motions
 from assur.topology.screws.edges import Edge, closure, rank
 
@@ -26,26 +26,6 @@ TURN = 1e-9
 
 FREQUENCIES = (1.0, 2.0**0.5, 3.0**0.5)
 """Of the sines that put the new axes in general places: nothing forces them to be parallel or to meet."""
-
-
-@dataclass(frozen=True)
-class Relaxation:
-    """Replacements that keep the platform's motion and the inputs.
-
-    Attributes:
-        redundant: redundant constraints before any replacement.
-        single: every replacement that removes some, by itself.
-        together: replacements one after the other, each that removes most; `removed` is what it removes in its turn.
-    """
-
-    redundant: int
-    single: tuple[Replacement, ...]
-    together: tuple[Replacement, ...]
-
-    @property
-    def left(self) -> int:
-        """Redundant constraints that remain after all of `together`."""
-        return self.redundant - sum(replacement.removed for replacement in self.together)
 
 
 def relaxation(edges: Sequence[Edge], base: str, platform: str) -> Relaxation:

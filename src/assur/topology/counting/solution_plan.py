@@ -13,47 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.results.answers.topology import AssurChain
+from assur.results.answers.topology import AssurChain, AssurPlan, Loop, PlanStep
 from assur.topology.counting.actuation import locked_freedoms
-from assur.topology.counting.coupling import Decomposition, Loop
+from assur.topology.counting.coupling import Decomposition
 from assur.topology.counting.special_constraints import SpecialConstraint, connected, special_constraints, way_to
 from assur.topology.screws.edges import Edge, along, at_generic, closure, input_columns, null_basis, rank
 
 FloatArray = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class PlanStep:
-    """One loop of the plan.
-
-    Attributes:
-        loop: its index in the order of solution.
-        joints: its joints in order.
-        delta: its constraint degree, Eq. (5).
-        virtual: virtual variables that are assumed here.
-        equations: equations for virtual variables that it gives.
-        left: virtual variables that still must be assumed here once special constraints are used.
-    """
-
-    loop: int
-    joints: tuple[str, ...]
-    delta: int
-    virtual: int
-    equations: int
-    left: int
-
-
-@dataclass(frozen=True)
-class AssurPlan:
-    """The plan of one Assur chain: of `coupling_degree` virtual variables `search` are found by a search, at most.
-
-    `reason` names the special constraints that make it fewer; empty where none does.
-    """
-
-    steps: tuple[PlanStep, ...]
-    coupling_degree: int
-    search: int
-    reason: str = ""
 
 
 @dataclass(frozen=True)
@@ -140,7 +106,7 @@ def _stages(loops: Sequence[Loop], edges: Sequence[Edge], base: str, platform: s
     internal = 0
     stages = []
     for loop in loops:
-        solved += [place[name] for name in loop.edges]
+        solved += [place[name] for name in loop.joints]
         internal += loop.internal
         stages.append(_stage(solved, internal, edges, base, platform))
     return stages
@@ -174,7 +140,7 @@ def _plan(
             used = fewer
     search, left = _searched(own_stages, used)
     steps = [
-        PlanStep(index, loops[index].edges, delta, max(delta, 0), max(-delta, 0), assumed)
+        PlanStep(index, loops[index].joints, delta, max(delta, 0), max(-delta, 0), assumed)
         for index, assumed in zip(chain.loops, left, strict=True)
         for delta in [loops[index].delta]
     ]

@@ -116,36 +116,11 @@ def poses(linkage: Linkage, values: FloatArray) -> dict[str, tuple[FloatArray, F
     return poses_of_links
 
 
-def joint_twists(linkage: Linkage, values: FloatArray) -> FloatArray:
-    """Twists (N, 6, n) of the child against the parent per unit of each joint value: (omega, v at the base's origin).
-
-    Args:
-        linkage: whose joints in order give the columns.
-        values: (N, n) joint values, rad and the linkage's own unit of length.
-    """
-    tree = screw_tree(linkage)
-    twists = tree.at(_checked(linkage, values) / tree.scales).twists / tree.scales
-    omega = twists[:, :3]
-    moved = linkage.length * twists[:, 3:] + np.cross(linkage.point, omega, axisb=1, axisc=1)
-    return np.concatenate([omega, moved], axis=1)
-
-
 def residuals(linkage: Linkage, values: FloatArray) -> FloatArray:
     """By how much each loop is open, (N, 6 v): rotation vector in rad and gap in lengths of the linkage."""
-    return _loop_system(linkage, values)[0]
-
-
-def closure_jacobian(linkage: Linkage, values: FloatArray) -> FloatArray:
-    """Derivative (N, 6 v, n) of `residuals` by the joint values; exact also where the loops are open."""
-    return _loop_system(linkage, values)[1] / screw_tree(linkage).scales
-
-
-def _loop_system(linkage: Linkage, values: FloatArray) -> tuple[FloatArray, FloatArray]:
     tree = screw_tree(linkage)
-    values = _checked(linkage, values)
-    residual, jacobian = tree.misfit(tree.at(values / tree.scales), tree.loops[:, 0], tree.loops[:, 1])
-    rows = 6 * len(tree.loops)
-    return residual.reshape(len(values), rows), jacobian.reshape(len(values), rows, values.shape[1])
+    residual, _ = tree.misfit(tree.at(_checked(linkage, values) / tree.scales), tree.loops[:, 0], tree.loops[:, 1])
+    return residual.reshape(len(residual), 6 * len(tree.loops))
 
 
 def _checked(linkage: Linkage, values: FloatArray) -> FloatArray:

@@ -192,13 +192,6 @@ def _agreeing(linkage: Linkage, values: FloatArray) -> FloatArray:
     return values
 
 
-def generic_edges(
-    linkage: Linkage, *, count: int = 4, seed: int = 0, hold: Hold | None = None, collapsed: bool = True
-) -> tuple[Edge, ...]:
-    """The joints as edges at `generic_values`; see there and at `edges`."""
-    return edges(linkage, generic_values(linkage, count, seed, hold), collapsed)
-
-
 def motion_space(edges: Sequence[Edge], base: str, link: str) -> FloatArray:
     """Orthonormal basis (N, 6, k) of a link's twists relative to the base, (omega, v at O') with lengths of one size.
 

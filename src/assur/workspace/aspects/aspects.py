@@ -19,6 +19,7 @@ from assur.joint_graph.geometry import characteristic_length
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
 from assur.numerics.intervals.interval import Interval, as_interval
+from assur.work import Progress
 from assur.workspace.aspects.path import AspectPath, path_between
 from assur.workspace.aspects.places import Place, place, point_of
 from assur.workspace.aspects.search import BoxSearch, search
@@ -27,7 +28,7 @@ from assur.workspace.aspects.volumes import Pair, volumes
 from assur.workspace.bounds import Stroke
 from assur.workspace.certified.boxes import LEAST, Boxes
 from assur.workspace.certified.criteria import criteria
-from assur.workspace.certified.paving import Progress, Stopped
+from assur.workspace.certified.paving import Stopped
 from assur.workspace.certified.planes import BoxQuestion
 from assur.workspace.certified.region import HOW, unit
 from assur.workspace.domain import Box, box_of

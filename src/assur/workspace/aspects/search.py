@@ -8,12 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.work import Progress
 from assur.workspace.aspects.components import Links, links
 from assur.workspace.aspects.neighbours import Neighbours, neighbours
 from assur.workspace.aspects.signs import Signs, factor_signs
 from assur.workspace.aspects.turning import ends_of
 from assur.workspace.certified.boxes import Boxes, together
-from assur.workspace.certified.paving import Progress, Stopped, pave
+from assur.workspace.certified.paving import Stopped, pave
 from assur.workspace.certified.planes import BoxQuestion, judged
 
 FloatArray = NDArray[np.float64]

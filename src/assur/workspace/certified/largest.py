@@ -18,10 +18,10 @@ from assur.errors import UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.intervals.interval import Interval
+from assur.work import Progress
 from assur.workspace.bounds import Stroke
 from assur.workspace.certified.boxes import Boxes, together
 from assur.workspace.certified.criteria import Criteria
-from assur.workspace.certified.paving import Progress
 from assur.workspace.certified.planes import BoxQuestion, judged
 from assur.workspace.certified.questions import Witness, asked_of, columns_of, violations
 from assur.workspace.certified.shapes import Shape, ShapeName, shape_about

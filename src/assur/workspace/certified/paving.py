@@ -7,7 +7,7 @@ or until they are as small as was asked for.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from assur.errors import UnknownNameError, UsageError
 from assur.numerics.intervals import rounding
 from assur.numerics.intervals.interval import Interval, as_interval
+from assur.work import Progress
 from assur.workspace.certified.boxes import Boxes, together
 from assur.workspace.certified.criteria import Criteria
 from assur.workspace.certified.planes import BoxQuestion, JudgedBoxes, joined, judged
@@ -24,7 +25,6 @@ from assur.workspace.domain import Box
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
-Progress = Callable[[int, int], None]
 
 MOST_OF = 0.8
 """The boxes that are cut next leave this share of the gap open."""

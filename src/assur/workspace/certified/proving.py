@@ -12,10 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.intervals.interval import Interval
+from assur.work import Progress
 from assur.workspace.bounds import Stroke
 from assur.workspace.certified.boxes import LEAST, Boxes
 from assur.workspace.certified.criteria import Criteria
-from assur.workspace.certified.paving import MOST, Paving, Progress, Stopped, pave
+from assur.workspace.certified.paving import MOST, Paving, Stopped, pave
 from assur.workspace.certified.planes import BLOCK
 from assur.workspace.certified.questions import Witness, asked_of, columns_of, violations
 from assur.workspace.domain import Box, box_of

@@ -16,9 +16,10 @@ from assur.errors import UsageError
 from assur.joint_graph.geometry import characteristic_length
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import is_angle
+from assur.work import Progress
 from assur.workspace.bounds import Stroke
 from assur.workspace.certified.criteria import criteria
-from assur.workspace.certified.paving import MOST, Paving, Progress, Stopped, pave
+from assur.workspace.certified.paving import MOST, Paving, Stopped, pave
 from assur.workspace.domain import Box, box_of
 from assur.workspace.slices import Slice, slice_at
 
