@@ -75,7 +75,7 @@ def _solutions(record: Mechanism, data: CertifiedPositions, style: Style) -> Ren
         values = texts_of(record, style, [0.5 * (low + high) for low, high in pairs], direct=direct)
         names = data.coordinates if direct else data.input_names
         values = [
-            _range(style, name, pair) if name in free else text
+            " .. ".join(dict.fromkeys(style.coordinate(name, end) for end in pair)) if name in free else text
             for name, pair, text in zip(names, pairs, values, strict=True)
         ]
         widths = [high - low for name, (low, high) in zip(names, pairs, strict=True) if name not in free]
@@ -88,10 +88,6 @@ def _solutions(record: Mechanism, data: CertifiedPositions, style: Style) -> Ren
 def _hows(data: CertifiedPositions) -> list[str]:
     """By what solutions are proved, each way once."""
     return list(dict.fromkeys(item.how for item in data.solutions))
-
-
-def _range(style: Style, name: str, pair: tuple[float, float]) -> str:
-    return " .. ".join(dict.fromkeys(style.coordinate(name, end) for end in pair))
 
 
 def _undetermined(style: Style, data: CertifiedPositions) -> Iterable[str]:

@@ -144,9 +144,9 @@ def over_workspace(record: Mechanism, asked: Question, points: str, length: Leng
     return Outcome(answer, lambda: _overall_shown(record, answer))
 
 
-def _index(record: Mechanism, index: OverallIndex) -> OverallIndex:
+def _at_border(record: Mechanism, index: OverallIndex) -> OverallIndex:
     least, most = (pose_at_border(record, pose).tolist() for pose in (index.least_at, index.most_at))
-    return replace(overall_index, least_at=least, most_at=most)
+    return replace(index, least_at=least, most_at=most)
 
 
 def _pose_shown(record: Mechanism, data: IndicesAnswer, units: dict[str, str]) -> Iterable[RenderableType]:

@@ -25,7 +25,7 @@ from assur.scene.companion import companion
 from assur.scene.layers import Layer
 from assur.scene.letters import letters
 from assur.scene.parts import parts
-from assur.scene.skeleton import Skeleton, skeleton
+from assur.scene.skeleton import skeleton
 from assur.work import stage
 
 VERSION = 1
@@ -78,7 +78,7 @@ def content(record: MechanismRecord, layers: Sequence[Layer], layers_note: str =
         "branches": branches(record),
         "modes": modes(record),
         "parts": _parts(parts(body, drawn), body.size),
-        "letters": _letters(body),
+        "letters": [{"name": item.name, "link": item.link, "at": item.at.tolist()} for item in letters(body)],
         "layers": [_layer(item) for item in layers],
         "layersNote": layers_note,
         "kernel": kernel.kernel(record),
@@ -141,10 +141,6 @@ def _rounded(value: Any, size: float) -> Any:
     array: NDArray[np.float64] = np.asarray(value, dtype=float)
     places = int(max(DIGITS, -np.log10(step)))
     return (np.round(array, places) + 0.0).tolist()
-
-
-def _letters(body: Skeleton) -> list[dict[str, Any]]:
-    return [{"name": item.name, "link": item.link, "at": item.at.tolist()} for item in letters(body)]
 
 
 def _factors(record: MechanismRecord) -> list[dict[str, Any]]:

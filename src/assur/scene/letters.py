@@ -53,13 +53,10 @@ def lettered(skeleton: Skeleton) -> dict[str, FloatArray]:
     record = skeleton.record
     points = {name: skeleton.points[name] for name in record.points}
     for name, joint in record.joints.items():
-        if not joint.type.turning or joint.type.slides > 1 or _one_of_many(record, name):
+        if (
+            not joint.type.turning or joint.type.slides > 1 or name[:-1] in record.points
+        ):  # one of several about a lettered point, as B3a about B3
             continue
         if all(np.linalg.norm(skeleton.points[name] - at) > 1e-9 for at in points.values()):
             points[name] = skeleton.points[name]
     return points
-
-
-def _one_of_many(record: MechanismRecord, name: str) -> bool:
-    """Whether a joint is one of several about a lettered point, as B3a and B3b about B3."""
-    return name[:-1] in record.points

@@ -111,7 +111,7 @@ def mechanism(text: str, changed: Mapping[str, float] | None = None) -> FileMech
     KeyError: 'platform'
     """
     data = tomllib.loads(text, parse_float=Fraction)
-    new = {name: _decimal(float(number)) for name, number in (changed or {}).items()}
+    new = {name: Fraction(repr(float(number))) for name, number in (changed or {}).items()}
     units = {name: entry.get("unit", "") for name, entry in data.get("parameters", {}).items()}
     written = {name: new.get(name, entry["value"]) for name, entry in data.get("parameters", {}).items()}
     parts: dict[str, FileJoint] = {}
@@ -194,8 +194,3 @@ def _axis(written: Any) -> Triple:
 def _triple(written: Any) -> Triple:
     x, y, z = written
     return x, y, z
-
-
-def _decimal(number: float) -> Fraction:
-    """A float as the decimal that it is written by."""
-    return Fraction(repr(number))

@@ -77,7 +77,7 @@ def built(description: Description, overrides: Mapping[str, float], faults: Faul
         parameters=parameters,
         links={name: Link(name, placed.entry.meaning) for name, placed in tables.links.items()},
         joints={name: joint for name, joint in joints.items() if joint},
-        base=_base(file, scope),
+        base="" if file.base is None else scope.link(file.base, ("base",)) or "",
         platform=_platform(file, scope, geometry),
         inputs=build_inputs(file, tables, scope, numbers),
         coordinates=tuple(scope.coordinates),
@@ -115,10 +115,6 @@ def _check_required(file: schema.FileEntry, cut: frozenset[KeyPath], faults: Fau
         in_limb = any(getattr(limb, key, None) for limb in file.limbs.values())
         if not given and not in_limb and not any(path[0] in (key, "limbs") for path in cut):
             faults.add((key,), "missing", f"this must be there: {what}")
-
-
-def _base(file: schema.FileEntry, scope: Scope) -> str:
-    return "" if file.base is None else scope.link(file.base, ("base",)) or ""
 
 
 def _platform(file: schema.FileEntry, scope: Scope, geometry: JointVectors) -> Platform:

@@ -131,7 +131,7 @@ def numeric(value: Value, left: int = LENGTH, depth: int = 6) -> int:
         return 1
     if kind is int and abs(value) > LARGEST_ENTRY:
         raise KernelFault("a whole number over a million is given to a function", "smaller ones, or write it as 1e6")
-    if is_number(value) or _is_namespace(value):
+    if is_number(value) or callable(getattr(type(value), "sqrt", None)):
         return 1
     if depth == 0 or not isinstance(value, (tuple, list, *TABLES)):
         raise KernelFault(f"{kind_of(value)} is given to a function of numbers", "numbers, and tuples of them")
@@ -140,10 +140,6 @@ def numeric(value: Value, left: int = LENGTH, depth: int = 6) -> int:
         count += numeric(part, left - count, depth - 1)
         checked_length(count + LENGTH - left)
     return count
-
-
-def _is_namespace(value: Value) -> bool:
-    return callable(getattr(type(value), "sqrt", None))
 
 
 def _combinations(values: Value, count: Value) -> Value:

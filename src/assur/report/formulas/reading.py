@@ -90,7 +90,7 @@ def reading(record: MechanismRecord, problem: Problem) -> FormulaReading:
     reader = _Reader(record, problem)
     first = reader.run(Book())
     everything = reader.run(Book(known=reader.known(first, first.branch.margins)))
-    used = _uses(everything.book.met.values())
+    used = Counter(letter for term in everything.book.met.values() for letter in _leaves(term))
     # a radicand that is needed once is written where it is needed
     shared = [name for name in first.branch.margins if used[margin_letter(name)] > 1]
     return reader.written(reader.run(Book(known=reader.known(first, shared))))
@@ -250,10 +250,6 @@ def _leaves(term: Traced) -> Iterable[Letter]:
         yield term.letter
     for part in term.parts:
         yield from _leaves(part)
-
-
-def _uses(terms: Iterable[Traced]) -> Counter[Letter]:
-    return Counter(letter for term in terms for letter in _leaves(term))
 
 
 def _needed(met: Mapping[Letter, Traced], results: Iterable[Number]) -> set[Letter]:

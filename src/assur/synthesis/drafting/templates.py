@@ -14,7 +14,7 @@ from assur.synthesis.drafting.knees import knee
 from assur.synthesis.drafting.layout import BASE, HEIGHT, PLATFORM, DraftLayout, Stand
 from assur.synthesis.drafting.limb import HEIGHT_NAME, LimbDrawing
 from assur.synthesis.drafting.tables import Dimension, DraftChain, Template
-from assur.topology.chains import Chain, ChainJoint, Element, InnerLoop, flattened
+from assur.topology.chains import Chain, ChainJoint, InnerLoop, flattened
 from assur.topology.directions import NAMED, parallel, perpendicular
 from assur.topology.notation import plain_text
 from assur.topology.screws.shared_points import common_end
@@ -169,13 +169,9 @@ def _chain(chain: Chain, letters: Sequence[str]) -> DraftChain | None:
         not isinstance(head, InnerLoop)
         or len(head.branches) != 2
         or not rest
-        or _nested((*rest, *head.branches[0], *head.branches[1]))
+        or any(isinstance(element, InnerLoop) for element in (*rest, *head.branches[0], *head.branches[1]))
     ):
         return None
     first, second = (len(branch) for branch in head.branches)
     loop = (*letters[:first], *reversed(letters[first : first + second]))
     return DraftChain(loop=loop, output=f"output{letters[0]}", tail=tuple(letters[first + second :]))
-
-
-def _nested(elements: Sequence[Element]) -> bool:
-    return any(isinstance(element, InnerLoop) for element in elements)

@@ -180,18 +180,13 @@ def _connected(edges: Sequence[Edge], base: str, platform: str) -> nx.MultiGraph
     for link in (base, platform):
         if link not in built:
             raise UnknownNameError("link", link, built)
-    apart = sorted(set(built) - _reached(built, base))
+    apart = sorted(set(built) - {base, *nx.descendants(built, base)})
     if apart:
         raise UsageError(
             f"no joints connect the links {', '.join(apart)} with the base '{base}'; every link must be connected",
             hint="a chain that does not reach the platform, or a misspelt link, leaves such links",
         )
     return built
-
-
-def _reached(built: nx.MultiGraph[str], start: str) -> set[str]:
-    """Links that joints connect with one link."""
-    return {start, *nx.descendants(built, start)}
 
 
 def _owners(edges: Sequence[Edge]) -> NDArray[np.int64]:
