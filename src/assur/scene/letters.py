@@ -53,9 +53,8 @@ def lettered(skeleton: Skeleton) -> dict[str, FloatArray]:
     record = skeleton.record
     points = {name: skeleton.points[name] for name in record.points}
     for name, joint in record.joints.items():
-        if (
-            not joint.type.turning or joint.type.slides > 1 or name[:-1] in record.points
-        ):  # one of several about a lettered point, as B3a about B3
+        of_many = name[:-1] in record.points  # one of several about a lettered point, as B3a about B3
+        if not joint.type.turning or joint.type.slides > 1 or of_many:
             continue
         if all(np.linalg.norm(skeleton.points[name] - at) > 1e-9 for at in points.values()):
             points[name] = skeleton.points[name]
