@@ -84,8 +84,8 @@ class Mechanism(MechanismRecord):
         input_accelerations: ArrayLike,
         mode: str | None = None,
     ) -> tuple[FloatArray, FloatArray]:
-        """Velocity and acceleration of the pose: see `assur.kinematics.rates.velocity.acceleration`."""
-        from assur.kinematics.rates.velocity import acceleration
+        """Velocity and acceleration of the pose: see `assur.kinematics.rates.acceleration`."""
+        from assur.kinematics.rates.acceleration import acceleration
 
         return acceleration(self, poses, input_rates, input_accelerations, mode)
 

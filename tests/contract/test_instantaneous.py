@@ -6,6 +6,7 @@ from assur.kinematics.rates.acceleration import acceleration_at
 from assur.kinematics.rates.finite_motion import classify_at
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.status import Status
+from dual_acceleration import dual_acceleration
 
 
 def test_the_relation_of_inputs_and_pose_is_that_of_the_joint_graph(mechanism, regular):
@@ -40,7 +41,9 @@ def test_the_acceleration_is_that_of_the_joint_graph(mechanism, regular):
     rng = np.random.default_rng(7)
     for pose, mode, _, joints in regular[:10]:
         rates, second = rng.normal(size=(2, len(mechanism.inputs)))
-        velocity, acceleration = mechanism.acceleration(pose, rates, second, mode)
+        velocity, acceleration = dual_acceleration(mechanism, pose[None], rates[None], second[None], mode)
         of_graph = acceleration_at(mechanism, joints, rates, second)
-        np.testing.assert_allclose(of_graph[0], velocity, rtol=0, atol=1e-8 * np.abs(velocity).max())
-        np.testing.assert_allclose(of_graph[1], acceleration, rtol=0, atol=1e-7 * np.abs(acceleration).max())
+        np.testing.assert_allclose(of_graph[0], velocity[0], rtol=0, atol=1e-8 * np.abs(velocity).max())
+        np.testing.assert_allclose(of_graph[1], acceleration[0], rtol=0, atol=1e-7 * np.abs(acceleration).max())
+        for found, same in zip(mechanism.acceleration(pose, rates, second, mode), of_graph, strict=True):
+            np.testing.assert_allclose(found, same, rtol=0, atol=1e-8 * np.abs(same).max())

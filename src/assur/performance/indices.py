@@ -23,7 +23,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from assur.errors import UnknownNameError
 from assur.kinematics import border
-from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.closed_form.branches import Branches
 from assur.kinematics.closed_form.mode_reading import ModeReading
 from assur.kinematics.following.home_mode import home_mode_at
@@ -301,7 +300,7 @@ def _at_poses(record: MechanismRecord, poses: FloatArray, mode: str) -> Part:
     if record.closed_form is None:
         if not mode or mode == record.modes.default_working:
             return _of_home(record, poses)
-        return _at_joints(record, _first(inverse(record, poses, mode)))
+        return _at_joints(record, inverse(record, poses, mode).first_joints)
     solved = branches_at(record, poses, mode)
     return _of_branches(solved, np.ones(len(poses), dtype=bool))
 
@@ -326,14 +325,6 @@ def _of_home(record: MechanismRecord, poses: FloatArray) -> Part:
         if ends.joints is None:
             status[k] = ends.status
     return status, matrices, joints, singular
-
-
-def _first(solved: SolutionSet) -> FloatArray:
-    """Joint values (N, n) of the first solution that is listed at each pose; NaN where there is none."""
-    joints = np.full((len(solved.exists), solved.joints.shape[-1]), np.nan)
-    for row in np.flatnonzero(np.any(solved.exists, axis=-1)):
-        joints[row] = solved.joints[row, np.argmax(solved.exists[row])]
-    return joints
 
 
 def _at_joints(record: MechanismRecord, joints: FloatArray) -> Part:

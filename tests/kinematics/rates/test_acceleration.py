@@ -1,5 +1,6 @@
 """Acceleration on the joint graph: against dual numbers through closed forms, and against second differences."""
 
+import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.acceleration import acceleration_at
 from assur.model.pose import LENGTHS
 from assur.numerics import rotations
+from dual_acceleration import dual_acceleration
 
 HERE = Path(__file__).parent
 DELTA = HERE.parents[1] / "model" / "file" / "delta.toml"
@@ -30,7 +32,7 @@ def test_it_is_that_of_the_closed_form(name, mode):
     regular = (found.exists & (found.status == 0))[:, 0]
     assert np.sum(regular) > 10
     rates, second = rng.normal(size=(2, int(np.sum(regular)), len(mechanism.inputs)))
-    velocity, acceleration = mechanism.acceleration(poses[regular], rates, second, mode)
+    velocity, acceleration = dual_acceleration(mechanism, poses[regular], rates, second, mode)
     there = acceleration_at(mechanism, found.joints[regular, 0], rates, second)
     np.testing.assert_allclose(there[0], velocity, atol=1e-7 * np.abs(velocity).max())
     np.testing.assert_allclose(there[1], acceleration, atol=1e-7 * np.abs(acceleration).max())
@@ -102,6 +104,16 @@ def test_it_is_known_at_a_serial_singularity_and_not_at_a_parallel_one():
     for numbers in acceleration_at(paper, np.array([serial, parallel]), [1.0, 2.0, 3.0], [0.0, 0.0, 0.0]):
         assert np.all(np.isfinite(numbers[0]))
         assert np.all(np.isnan(numbers[1]))
+
+
+def test_without_a_closed_form_home_s_mode_is_followed_to_the_pose():
+    bare = dataclasses.replace(assur.load("fivebar"), closed_form=None)
+    with_form = assur.load("fivebar")
+    poses = [[0.0, 224.0], [10.0, 230.0], [0.0, 5000.0]]
+    found = bare.acceleration(poses, [1.0, 2.0], [0.5, -1.0])
+    for numbers, same in zip(found, with_form.acceleration(poses, [1.0, 2.0], [0.5, -1.0], "-+"), strict=True):
+        assert np.isnan(numbers).tolist() == [[False, False], [False, False], [True, True]]
+        np.testing.assert_allclose(numbers, same, rtol=1e-6)
 
 
 def test_wrong_shapes_are_refused():

@@ -122,6 +122,14 @@ class SolutionSet(ABC):
         return int(self.exists.shape[-1])
 
     @property
+    def first_joints(self) -> FloatArray:
+        """Joint values (..., coordinates) of the first solution that is listed, NaN where there is none."""
+        joints = np.full((*self.batch_shape, self.joints.shape[-1]), np.nan)
+        for place in map(tuple, np.argwhere(np.any(self.exists, axis=-1))):
+            joints[place] = self.joints[place][np.argmax(self.exists[place])]
+        return joints
+
+    @property
     def batch_shape(self) -> tuple[int, ...]:
         """Shape (...) of the batch."""
         return self.given.shape[:-1]

@@ -18,7 +18,9 @@ from assur.joint_graph.programs import Outputs, program
 from assur.joint_graph.tree import joint_graph
 from assur.kinematics import border
 from assur.kinematics.closure import closure_jacobian
+from assur.kinematics.following.home_mode import home_mode_at
 from assur.kinematics.pose import LEAST_COSINE, platform_frame, platform_twists, pose_rates
+from assur.kinematics.position import inverse
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.rates.motions import SINGULAR, general_share, input_units, twist_units
 from assur.kinematics.turns import joint_units
@@ -28,6 +30,46 @@ from assur.numerics import rotations
 from assur.numerics.vectors import plus, times
 
 FloatArray = NDArray[np.float64]
+
+
+def acceleration(
+    record: MechanismRecord,
+    poses: ArrayLike,
+    input_rates: ArrayLike,
+    input_accelerations: ArrayLike,
+    mode: str | None = None,
+) -> tuple[FloatArray, FloatArray]:
+    """Velocity and acceleration (..., k) of the pose, as `acceleration_at`, at poses (..., m) in a working mode.
+
+    Without a mode it is the file's default; without a closed form home's, followed from home to each pose. Of several
+    solutions of a mode it is the first. NaN where the mode does not reach the pose too.
+
+    Example: the five-bar's platform at rest, while its cranks begin to turn.
+
+    >>> from assur.model.registry import load_record
+    >>> velocity, _ = acceleration(load_record("fivebar"), [0.0, 224.0], [0.0, 0.0], [1.0, -1.0])
+    >>> velocity.tolist()
+    [0.0, 0.0]
+    """
+    given = border.checked_poses(record, poses)
+    flat = given.reshape(-1, given.shape[-1])
+    asked = mode or record.modes.default_working
+    if record.closed_form is None and asked == record.modes.default_working:
+        reached = (home_mode_at(record, pose).joints for pose in flat)
+        lost = np.full(len(record.coordinates), np.nan)
+        joints = np.array([lost if values is None else values for values in reached])
+    else:
+        joints = inverse(record, flat, asked).first_joints
+    known = np.all(np.isfinite(joints), axis=-1)
+    shape, names = (len(flat), len(record.inputs)), border.input_names(record)
+    first = border.checked(input_rates, names, f"input rates of {record.name}")
+    second = border.checked(input_accelerations, names, f"input accelerations of {record.name}")
+    batch = np.broadcast_shapes(first.shape, second.shape, (*given.shape[:-1], len(names)))
+    rates = (np.broadcast_to(part, batch).reshape(shape)[known] for part in (first, second))
+    answers = np.full((2, len(flat), len(rate_names(record.platform.pose))), np.nan)
+    answers[:, known] = acceleration_at(record, joints[known], *rates)
+    velocity, changes = answers.reshape(2, *given.shape[:-1], -1)
+    return velocity, changes
 
 
 def acceleration_at(

@@ -1,4 +1,4 @@
-"""Velocity and acceleration: Jp v = Jq qdot (Eq. 25), both ways, with condition number and determinants."""
+"""Velocity: Jp v = Jq qdot (Eq. 25), both ways, with condition number and determinants."""
 
 from __future__ import annotations
 
@@ -13,14 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 from assur.errors import UsageError
 from assur.kinematics import border
 from assur.kinematics.border import Named
-from assur.kinematics.closed_form.mode_reading import ModeReading, mode_reading, mode_reading_at
+from assur.kinematics.closed_form.mode_reading import ModeReading, mode_reading_at
 from assur.kinematics.rates.instantaneous import Instant, instantaneous
 from assur.kinematics.rates.units import scaled, unit_length
 from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import QUATERNION, has_quaternion, rate_names
-from assur.numerics import rotations
-from assur.numerics.dual import Dual, Duals
 
 FloatArray = NDArray[np.float64]
 ARRAYS = ("jp", "jq", "singular_output", "singular_input", "exists", "no_rates")
@@ -174,53 +171,6 @@ def printed_velocity_map(record: MechanismRecord, poses: ArrayLike, mode: str | 
     return _velocity_map(read, given.shape[:-1], jp, jq)
 
 
-def acceleration(
-    record: MechanismRecord,
-    poses: ArrayLike,
-    input_rates: ArrayLike,
-    input_accelerations: ArrayLike,
-    mode: str | None = None,
-) -> tuple[FloatArray, FloatArray]:
-    """Velocity v and acceleration (..., k) of the pose for given rates and accelerations (..., n) of the inputs.
-
-    a = Jp^-1 (Jq qddot + Jq' qdot - Jp' v), the primes being derivatives along the motion, exact by dual
-    numbers through the same kernels. Of a quaternion they are the angular velocity and acceleration. Both are
-    NaN out of reach and where Jp is singular; the acceleration is NaN where Jq is singular too, because the
-    kernels have no derivative at the root of zero.
-    """
-    velocities = velocity_map(record, poses, mode)
-    rates = np.asarray(input_rates, dtype=float)
-    velocity = velocities.output(rates)
-    given = border.checked_poses(record, poses)
-    flat = given.reshape(-1, given.shape[-1])
-    moving = _coordinate_rates(record, flat, velocity.reshape(len(flat), -1))
-    values = border.pose_components(record, flat)
-    components = tuple(_moving(value, moving[:, k]) for k, value in enumerate(values))
-    jp, jq = mode_reading(record, mode, components, Duals()).jacobians
-    jp_rate = _matrix(jp, given.shape[:-1], derivative=True)
-    jq_rate = _matrix(jq, given.shape[:-1], derivative=True) * _input_signs(record)
-    accelerations = np.asarray(input_accelerations, dtype=float)
-    right = (velocities.jq @ accelerations[..., None]) + (jq_rate @ rates[..., None]) - (jp_rate @ velocity[..., None])
-    return velocity, _solve(velocities.jp, right, velocities.singular_output | velocities.singular_input)[..., 0]
-
-
-def _coordinate_rates(record: MechanismRecord, poses: FloatArray, velocity: FloatArray) -> FloatArray:
-    """Rates (N, m) of the coordinates of poses (N, m) at velocities (N, k): q' = (0, w) q / 2 for a quaternion."""
-    pose = record.platform.pose
-    named = dict(zip(rate_names(pose), velocity.T, strict=True))
-    if has_quaternion(pose):
-        quaternion = poses[:, [pose.index(name) for name in QUATERNION]]
-        named |= zip(QUATERNION, rotations.quaternion_rates(quaternion, velocity[:, -3:]).T, strict=True)
-    return np.stack([named[name] for name in pose], axis=-1)
-
-
-def _moving(value: Any, rate: FloatArray) -> Any:
-    if isinstance(value, tuple):
-        cosine, sine = value
-        return (Dual(cosine, -sine * rate), Dual(sine, cosine * rate))
-    return Dual(value, rate)
-
-
 def _input_signs(record: MechanismRecord) -> FloatArray:
     """d(joint value)/d(printed input), per input."""
     return np.array([driven.sign for driven in record.inputs])
@@ -246,16 +196,13 @@ def _velocity_map(read: ModeReading, batch: tuple[int, ...], jp: Sequence[Any], 
     )
 
 
-def _matrix(rows: Sequence[Any], batch: tuple[int, ...], *, derivative: bool = False) -> FloatArray:
+def _matrix(rows: Sequence[Any], batch: tuple[int, ...]) -> FloatArray:
     """Rows of components (N,) as (..., r, k)."""
     count = int(np.prod(batch, dtype=int))
     matrix = np.empty((count, len(rows), len(rows[0])))
     for r, row in enumerate(rows):
         for k, entry in enumerate(row):
-            if derivative:
-                matrix[:, r, k] = entry.derivative if isinstance(entry, Dual) else 0.0
-            else:
-                matrix[:, r, k] = entry
+            matrix[:, r, k] = entry
     return matrix.reshape(*batch, len(rows), len(rows[0]))
 
 
