@@ -29,12 +29,12 @@ import assur
 from assur.joint_graph.geometry import characteristic_length
 from assur.kinematics.closure import FloatArray, assemble, closure_error, closure_jacobian
 from assur.kinematics.following.from_home import followed_together
-from assur.kinematics.newton import ENOUGH, Newton, NewtonStep
+from assur.kinematics.newton import BLOCK, ENOUGH, Newton
+from assur.kinematics.newton_step import NewtonStep
 from assur.kinematics.pose import pose_of
 from assur.kinematics.rates.finite_motion import classify_at, status_of
 from assur.kinematics.rates.instantaneous import instantaneous
 from assur.kinematics.search import search
-from assur.numerics.newton import BLOCK
 from assur.synthesis.drafting.drafting import drafted
 from assur.topology.notation import parse_chains
 

@@ -33,7 +33,8 @@ import assur
 from assur.kinematics.certified.certify import certified_direct
 from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep
 from assur.kinematics.closed_form.sweep import inverse_sweep
-from assur.kinematics.newton import ENOUGH, Newton, NewtonStep
+from assur.kinematics.newton import ENOUGH, Newton
+from assur.kinematics.newton_step import NewtonStep
 from assur.kinematics.pose import pose_of
 from assur.workspace.certified.criteria import criteria
 from assur.workspace.certified.paving import Paving, pave

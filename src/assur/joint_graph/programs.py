@@ -22,7 +22,7 @@ from assur.joint_graph.tree import joint_graph
 from assur.model.mechanism import MechanismRecord
 from assur.numerics.dual import Dual
 from assur.numerics.recording.straight_line import StraightLine
-from assur.numerics.recording.tape import Recorded, Recorder, Tape, without_unused
+from assur.numerics.recording.tape import Recorded, Recorder, Tape, pruned, without_unused
 from assur.numerics.vectors import Matrix
 
 FloatArray = NDArray[np.float64]
@@ -79,12 +79,15 @@ class GraphProgram:
 
     def _varying(self, record: MechanismRecord, columns: FloatArray, given: FloatArray | None) -> FloatArray:
         """The varying numbers (k, N) of the tape, of all that there are."""
-        parts = [state_of(record, columns)]
-        count = len(parts[0])
-        if any(place >= count for place in self.places):
-            parts.append(ball_rates(record, columns))
-        numbers = np.concatenate(parts if given is None else [*parts, given])
-        return numbers if len(self.places) == len(numbers) else numbers[list(self.places)]
+        state, places = state_of(record, columns), np.array(self.places, dtype=np.intp)
+        count, balls = len(state), 9 * len(joint_graph(record).turns)
+        own, turning = places < count, (places >= count) & (places < count + balls)
+        parts = [state if np.all(own) and len(own) == count else state[places[own]]]
+        if np.any(turning):
+            parts.append(ball_rates(record, columns)[places[turning] - count])
+        if given is not None:
+            parts.append(given[places[~own & ~turning] - count - balls])
+        return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
     def matrix(self, kind: str, numbers: FloatArray, shape: tuple[int, int]) -> FloatArray:
         """Matrices (N, rows, columns) of the outputs "kind row,column" among all (m, N); others are zero."""
@@ -159,6 +162,17 @@ def _programs(structure: _Structure, asked: Wanted, given: tuple[str, ...]) -> G
 @lru_cache(maxsize=64)
 def _structure(record: MechanismRecord) -> _Structure:
     return _Structure(record)
+
+
+@lru_cache(maxsize=256)
+def part(whole: GraphProgram, kind: str) -> GraphProgram:
+    """The program of the outputs of one kind alone."""
+    names = whole.names[whole.rows(kind)]
+    constants = {name: whole.constants[name] for name in names if name in whole.constants}
+    outputs = {name: whole.tape.outputs[name] for name in names if name not in constants}
+    fewer = pruned(whole.tape.operations, whole.tape.varying, whole.tape.uniform, outputs)
+    tape, places = without_unused(fewer)
+    return GraphProgram(tape, tuple(whole.places[place] for place in places), names, constants)
 
 
 class _Structure:

@@ -99,5 +99,5 @@ def ball_rates(record: MechanismRecord, values: FloatArray) -> FloatArray:
     for own in _alike(record):
         if own.step.kind == "ball":
             matrices = rotations.left_jacobian(np.moveaxis(values[own.coordinates], 0, -1))  # (s, b, 3, 3)
-            return np.moveaxis(matrices, 1, -1).reshape(-1, values.shape[1])
+            return np.moveaxis(matrices, 1, -1).reshape(9 * own.coordinates.shape[1], values.shape[1])
     return np.empty((0, values.shape[1]))

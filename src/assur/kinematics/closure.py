@@ -23,7 +23,8 @@ from assur.joint_graph.frames import flat
 from assur.joint_graph.geometry import characteristic_length, joint_scales
 from assur.joint_graph.programs import Outputs, program
 from assur.joint_graph.tree import joint_graph
-from assur.kinematics.newton import ENOUGH, Newton, NewtonStep
+from assur.kinematics.newton import Newton
+from assur.kinematics.newton_step import NewtonStep
 from assur.kinematics.pose import error_of, error_rates, frame_of, platform_moves, platform_numbers, pose_error
 from assur.model.mechanism import Joint, MechanismRecord
 from assur.model.pose import LENGTHS, rate_names
@@ -250,9 +251,8 @@ def assemble(
     if near and len(values) >= MANY and joint_graph(record).cut:
         step = NewtonStep(tuple(sorted(held)), () if asked is None else record.platform.pose)
         closest = Newton(record, step)(values, asked)
-        closed, steps = closest.residual <= ENOUGH, closest.steps
-        values[closed] = closest.values[closed]
-        left = np.flatnonzero(~closed)
+        values[closest.closed], steps = closest.values[closest.closed], closest.steps
+        left = np.flatnonzero(~closest.closed)
     scale = joint_scales(record)[free]
 
     def system(block: NDArray[np.intp], unknowns: FloatArray, rows: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:

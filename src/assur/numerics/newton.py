@@ -20,9 +20,14 @@ NewtonMap = Callable[[FloatArray, IntArray], tuple[FloatArray, FloatArray]]
 """Unknowns (k, n) and row numbers (k,) to the largest residuals (k,), and to the unknowns a step further (k, n)."""
 Equations = Callable[[FloatArray, IntArray], tuple[FloatArray, FloatArray]]
 """Unknowns (k, n) and row numbers (k,) to residuals (k, r) and derivatives (k, r, n)."""
+Residuals = Callable[[FloatArray, IntArray], FloatArray]
+"""Unknowns (k, n) and row numbers (k,) to the largest residuals (k,)."""
 
 CLOSED = 1e-9
 """Residuals up to this count as closed. One more step, of a derivative that is known, takes them to rounding."""
+
+NEAR = 1e-4
+"""After a step from residuals up to this they may be rounding."""
 
 FALL, FREE = 0.5, 1
 """What is left of a residual after a step at most; so many steps are free of this."""
@@ -50,19 +55,33 @@ class NewtonResult:
     steps: int
 
 
-def iterated(step: NewtonMap, start: FloatArray, tolerance: float | FloatArray = CLOSED) -> NewtonResult:
-    """Solutions near starts (N, n) by a map that makes steps; residuals up to `tolerance`, (N,) or one, are closed."""
+def iterated(
+    step: NewtonMap,
+    start: FloatArray,
+    tolerance: float | FloatArray = CLOSED,
+    residuals: Residuals | None = None,
+    block: int = BLOCK,
+) -> NewtonResult:
+    """Solutions near starts (N, n) by a map that makes steps; residuals up to `tolerance`, (N,) or one, are closed.
+
+    Where residuals are told without a step they are told of the solutions; else each is one step further.
+    """
     values, residual = np.array(start, dtype=float), np.full(len(start), np.inf)
     enough, steps = np.broadcast_to(tolerance, len(start)), 0
-    for first in range(0, len(start), BLOCK):
-        rows = np.arange(first, min(first + BLOCK, len(start)))
+    for first in range(0, len(start), block):
+        rows = np.arange(first, min(first + block, len(start)))
         trial = values[rows]
         for turn in range(STEPS + 1):
             size, after = step(trial, rows)
             done, on = size <= enough[rows], (size < FALL * residual[rows]) | (turn <= FREE)
             nearer = size < residual[rows]
             values[rows[nearer]], residual[rows[nearer]] = trial[nearer], size[nearer]
-            values[rows[done]] = after[done]
+            ahead = done
+            if residuals is not None and np.any(ahead := ~done & (size <= NEAR)):
+                size[ahead] = residuals(after[ahead], rows[ahead])
+                ahead &= size <= enough[rows]
+                residual[rows[ahead]] = size[ahead]
+            values[rows[ahead]], done = after[ahead], done | ahead
             steps = max(steps, turn)
             rows, trial = rows[on & ~done], after[on & ~done]
             if not len(rows):

@@ -7,26 +7,28 @@ nothing moves do no harm, and no pivot is chosen at any one configuration.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from assur.numerics.vectors import plus, times
+from assur.numerics.vectors import minus, plus, times
 
 Entries = Mapping[tuple[int, int], Any]
 
 
-def least_squares_step(entries: Entries, residuals: Mapping[int, Any], damping: float) -> dict[int, Any]:
-    """The change x of least |J x + r|^2 and damping times the mean of J's squared columns times |x|^2.
+def least_squares_steps(
+    entries: Entries, residuals: Sequence[Mapping[int, Any]], damping: float
+) -> list[dict[int, Any]]:
+    """For each r the change x of least |J x + r|^2 and damping times the mean of J's squared columns times |x|^2.
 
     Args:
         entries: (row, column) -> number of J; what is not named is zero.
-        residuals: row -> number of r; what is not named is zero.
+        residuals: row -> number of each r; what is not named is zero.
         damping: a share, as large as rounding of J^T J at least.
 
     Returns:
-        column -> number, for all columns that have entries.
+        for each r column -> number, for all columns that have entries.
 
-    >>> step = least_squares_step({(0, 0): 2.0, (1, 0): 0.0, (1, 1): 4.0}, {0: -2.0, 1: 4.0}, 0.0)
+    >>> (step,) = least_squares_steps({(0, 0): 2.0, (1, 0): 0.0, (1, 1): 4.0}, [{0: -2.0, 1: 4.0}], 0.0)
     >>> step[0], step[1]
     (1.0, -1.0)
     """
@@ -34,19 +36,24 @@ def least_squares_step(entries: Entries, residuals: Mapping[int, Any], damping: 
     for (row, column), number in entries.items():
         rows.setdefault(row, {})[column] = number
     square: dict[int, dict[int, Any]] = {column: {} for _, column in entries}
-    right: dict[int, Any] = {}
-    for row, numbers in rows.items():
+    for numbers in rows.values():
         for i, first in numbers.items():
             for j, second in numbers.items():
                 if j <= i:
                     _add(square, i, j, times(first, second))
-            if row in residuals:
-                own = times(first, residuals[row])
-                right[i] = right[i] - own if i in right else -own
     shift = _sum([square[i][i] for i in square]) * (damping / max(len(square), 1))
     for i in square:
         square[i][i] = square[i][i] + shift
-    return _solved(square, right)
+    return _solved(square, [_right(rows, residual) for residual in residuals])
+
+
+def _right(rows: Mapping[int, Mapping[int, Any]], residuals: Mapping[int, Any]) -> dict[int, Any]:
+    """-J^T r."""
+    right: dict[int, Any] = {}
+    for row, residual in residuals.items():
+        for i, number in rows.get(row, {}).items():
+            _subtract(right, i, times(number, residual))
+    return right
 
 
 def _add(square: dict[int, dict[int, Any]], i: int, j: int, number: Any) -> None:
@@ -62,8 +69,12 @@ def _sum(numbers: list[Any]) -> Any:
     return total
 
 
-def _solved(square: dict[int, dict[int, Any]], right: dict[int, Any]) -> dict[int, Any]:
-    """Unknowns of a positive definite system, eliminated in the order that fills in least."""
+def _subtract(numbers: dict[int, Any], i: int, number: Any) -> None:
+    numbers[i] = numbers[i] - number if i in numbers else -number
+
+
+def _solved(square: dict[int, dict[int, Any]], rights: list[dict[int, Any]]) -> list[dict[int, Any]]:
+    """Unknowns of a positive definite system for several right sides, eliminated in the order that fills in least."""
     eliminated: list[tuple[int, Any, dict[int, Any]]] = []
     left = dict(square)
     while left:
@@ -76,13 +87,18 @@ def _solved(square: dict[int, dict[int, Any]], right: dict[int, Any]) -> dict[in
             for j, number in column.items():
                 if j <= i:
                     _add(left, i, j, -(factor * number))
-            if k in right:
-                own = factor * right[k]
-                right[i] = right[i] - own if i in right else -own
-        eliminated.append((k, right[k] * share if k in right else 0.0, factors))
+            for right in rights:
+                if k in right:
+                    _subtract(right, i, factor * right[k])
+        eliminated.append((k, share, factors))
+    return [_substituted(eliminated, right) for right in rights]
+
+
+def _substituted(eliminated: list[tuple[int, Any, dict[int, Any]]], right: dict[int, Any]) -> dict[int, Any]:
     unknowns: dict[int, Any] = {}
-    for k, value, factors in reversed(eliminated):
+    for k, share, factors in reversed(eliminated):
+        value = right[k] * share if k in right else 0
         for i, factor in factors.items():
-            value = value - factor * unknowns[i]
+            value = minus(value, times(factor, unknowns[i]))
         unknowns[k] = value
     return unknowns

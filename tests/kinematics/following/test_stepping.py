@@ -14,7 +14,7 @@ class Wall:
 
     def step(self, _way, here, ends, _rows):
         self.tried.append(ends.copy())
-        return Places(ends, here.joints, here.matrix), ends <= self.place, 2.0 * (ends - here.shares)
+        return Places(ends, here.joints, here.known), ends <= self.place, 2.0 * (ends - here.shares)
 
 
 def begun(count):

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.following.neighbours import FURTHEST, SignGuard, Steps, steps_at
-from assur.kinematics.following.stepping import Pace, Places, followed
+from assur.kinematics.following.stepping import Pace, followed
 from assur.kinematics.following.turning import turnings
 from assur.kinematics.following.ways import Straight
 from assur.kinematics.pose import whole_orientation
@@ -74,14 +74,15 @@ class Mode:
     ) -> tuple[FloatArray, FloatArray, BoolArray]:
         if whole_orientation(self.record.platform.pose):  # its rates change along the way
             return np.ones(len(joints)), joints, np.zeros(len(joints), dtype=bool)
-        start = self.steps(joints, inside)
-        way = Straight(self.record, start.poses, self.poses(outside))
-        turned = turnings(way, joints, start.places.matrix)
+        start, end = self.poses(inside), self.poses(outside)
+        turned = turnings(Straight(self.record, start, end), joints)
         far = np.max(np.abs(turned.joints - joints) / joint_units(self.record), axis=1, initial=0.0) > FURTHEST
         rows = np.flatnonzero(turned.located & ~far)
         located = np.zeros(len(joints), dtype=bool)
-        ends = Places(turned.share[rows], turned.joints[rows], turned.matrix[rows])
-        located[rows] = start.guard.kept(start.places.of(rows), ends)
+        share, guard = turned.share[rows, None], SignGuard(self.record, self.signs)
+        before = steps_at(guard, start[rows], joints[rows])
+        after = steps_at(guard, start[rows] + share * (end[rows] - start[rows]), turned.joints[rows])
+        located[rows] = guard.kept(before.places, after.places)
         return turned.share, turned.joints, located
 
     def _halved(self, joints: FloatArray, inside: FloatArray, outside: FloatArray) -> tuple[FloatArray, FloatArray]:

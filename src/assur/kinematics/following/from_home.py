@@ -24,8 +24,11 @@ MOST = 100
 """Steps on a way, taken or not, at most."""
 COARSE = 2.0**-5
 """The shortest step to one of many poses: what it does not lead to is out of reach, or a neighbour leads there."""
-SAMPLES = 128
-"""So many poses at a time are followed to from home, which takes some ten times as long as from a neighbour."""
+SAMPLES, SOME = 512, 16
+"""So many poses at a time are followed to from home, or a sixteenth, but a quarter of these at least: each takes some
+ten times as long as from a neighbour."""
+FINE = 62
+"""Bits of a place on the curve along which these are spread, those of all coordinates together."""
 WIDE = 1.5
 """Poses that are apart by more than this times the median distance are no neighbours: a line of a grid ends there."""
 
@@ -89,7 +92,7 @@ def followed_together(
     around, left = neighbours(poses), np.arange(len(poses))
     tried = np.zeros(len(poses), dtype=bool)
     while len(left):
-        some = left[:: -(-len(left) // SAMPLES)]
+        some = left[_spread_out(poses[left], min(SAMPLES, max(SAMPLES // 4, len(left) // SOME)))]
         least = LEAST if len(some) == len(left) else COARSE
         joints[some], good = followed_from_home(record, poses[some], least, held)
         if not np.any(good):
@@ -119,6 +122,19 @@ def _spread(guard: SignGuard, poses: FloatArray, joints: FloatArray, around: Int
             joints[ends[good]] = layer[-1].places.joints
             tails, heads = np.delete(tails, first), np.delete(heads, first)
         front, steps = np.concatenate(reached), joined(layer)
+
+
+def _spread_out(points: FloatArray, count: int) -> IntArray:
+    """So many rows of points (N, d) at most, spread evenly: at regular places of Morton's curve, which fills space."""
+    size, low, span = points.shape[1], np.min(points, axis=0), np.ptp(points, axis=0)
+    fine = min(FINE // size, 16)
+    cells = ((points - low) / np.where(span > 0.0, span, 1.0) * (2**fine - 1)).astype(np.int64)
+    along = np.zeros(len(points), dtype=np.int64)
+    for k in np.flatnonzero(span > 0.0):
+        for bit in range(fine):
+            along |= (cells[:, k] >> bit & 1) << (bit * size + k)
+    every = -(-len(points) // count)
+    return np.argsort(along, kind="stable")[every // 2 :: every]
 
 
 def neighbours(poses: FloatArray) -> IntArray:

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from assur.kinematics.border import held_inputs
 from assur.kinematics.following.course import Prescribed
-from assur.kinematics.following.platform_held import PlatformHeld, held_by, passes_zero
-from assur.kinematics.following.stepping import Pace, Places, followed, settled, tried
-from assur.kinematics.following.ways import Straight, Way, system_of
+from assur.kinematics.following.platform_held import PlatformHeld, holding, passes_zero
+from assur.kinematics.following.stepping import Pace, Places, followed
+from assur.kinematics.following.ways import Straight
 from assur.kinematics.named_signs import named_signs
-from assur.kinematics.turns import joint_units
+from assur.kinematics.newton import moved
+from assur.kinematics.turns import joint_units, whole_turns_less
 from assur.model.mechanism import MechanismRecord
-from assur.numerics.newton import solved
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -36,30 +37,33 @@ PARTS = 4
 class SignGuard:
     """The guard of many ways of poses or inputs: the signs of one mode stay, and no two branches merge between.
 
-    Of these two, the first is what names the mode, the second is told by one determinant (`passes_zero`).
+    Of these two, the first is what names the mode, the second is told by one determinant (`passes_zero`). What it knows
+    of assemblies is how fast joint values change with what is held (`Newton.rates`).
     """
 
     record: MechanismRecord
     signs: NDArray[np.int8]
     held: Prescribed = "poses"
 
-    def step(self, way: Way, places: Places, ends: FloatArray, rows: IntArray) -> tuple[Places, BoolArray, FloatArray]:
+    def step(
+        self, way: Straight, places: Places, ends: FloatArray, rows: IntArray
+    ) -> tuple[Places, BoolArray, FloatArray]:
         """Where steps lead, which of them may not be taken, and steps twice as long."""
-        move = -solved(places.matrix, way.gaps(places.joints, places.shares, ends, rows)[..., None])[..., 0]
+        move = (places.known @ way.change(places.shares, ends, rows)[..., None])[..., 0]
         move *= (LONG / np.maximum(np.max(np.abs(move), axis=1, initial=0.0), LONG))[:, None]
-        trial = tried(way, places, ends, move, rows)
-        far = np.max(np.abs(trial.places.joints - places.joints) / joint_units(self.record), axis=1, initial=0.0)
-        good = trial.closed & (far <= FURTHEST)
+        foreseen = moved(self.record, places.joints, move)
+        near = holding(self.record, self.held)(*_holding(self.record, self.held, foreseen, way.at(ends, rows)))
+        reached = Places(ends, near.values, near.derivative)
+        far = np.max(np.abs(near.values - places.joints) / joint_units(self.record), axis=1, initial=0.0)
+        good = near.closed & (far <= FURTHEST)
         some = np.flatnonzero(good)
-        good[some] = self.kept(places.of(some), trial.places.of(some))
-        return settled(way, trial.places, rows), good, 2.0 * (ends - places.shares)
+        good[some] = self.kept(places.of(some), reached.of(some))
+        return replace(reached, joints=whole_turns_less(self.record, near.values)), good, 2.0 * (ends - places.shares)
 
     def kept(self, left: Places, reached: Places) -> BoolArray:
         """Whether assemblies (N,) near others are of the mode, with no merging between."""
         same = np.all(held_signs(self.record, self.held, reached.joints) * self.signs >= 0, axis=1)
-        rows = np.flatnonzero(same)
-        same[rows] = ~passes_zero(self.record, left.matrix[rows], reached.matrix[rows])
-        return np.asarray(same)
+        return np.asarray(same & ~passes_zero(left.known, reached.known))
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +81,7 @@ class Steps:
     @cached_property
     def held(self) -> PlatformHeld:
         """The first-order motion there."""
-        return held_by(self.guard.record, self.places.matrix)
+        return PlatformHeld(self.guard.record, self.places.known)
 
     def to(self, poses: FloatArray) -> tuple[Steps, BoolArray]:
         """Steps from assemblies at other poses (N, m), and where they may be reached (N,); elsewhere they are near."""
@@ -98,22 +102,29 @@ class Steps:
 
 def steps_from(guard: SignGuard, poses: FloatArray, places: Places) -> Steps:
     """Steps from places at poses (N, m), where new ways begin."""
-    return Steps(guard, poses, Places(np.zeros(len(poses)), places.joints, places.matrix))
+    return Steps(guard, poses, replace(places, shares=np.zeros(len(poses))))
 
 
 def joined(parts: Sequence[Steps]) -> Steps:
     """Steps of one guard after one another."""
     places = [steps.places for steps in parts]
-    shares, joints, matrix = (
-        np.concatenate([getattr(own, name) for own in places]) for name in ("shares", "joints", "matrix")
+    shares, joints, known = (
+        np.concatenate([getattr(own, name) for own in places]) for name in ("shares", "joints", "known")
     )
-    return Steps(parts[0].guard, np.concatenate([steps.poses for steps in parts]), Places(shares, joints, matrix))
+    return Steps(parts[0].guard, np.concatenate([steps.poses for steps in parts]), Places(shares, joints, known))
 
 
 def steps_at(guard: SignGuard, poses: FloatArray, joints: FloatArray) -> Steps:
     """Steps from assemblies (N, n) at poses (N, m)."""
-    _, matrix = system_of(guard.record, guard.held, joints, poses)
-    return Steps(guard, poses, Places(np.zeros(len(poses)), joints, matrix))
+    rates = holding(guard.record, guard.held).rates(*_holding(guard.record, guard.held, joints, poses))
+    return Steps(guard, poses, Places(np.zeros(len(poses)), joints, rates))
+
+
+def _holding(
+    record: MechanismRecord, held: Prescribed, joints: FloatArray, targets: FloatArray
+) -> tuple[FloatArray, FloatArray | None]:
+    """Joint values (N, n) at which Newton's method is to start, and poses (N, m) where it holds these."""
+    return (joints, targets) if held == "poses" else (held_inputs(record, joints, targets), None)
 
 
 def held_signs(record: MechanismRecord, held: Prescribed, joints: FloatArray) -> NDArray[np.int8]:

@@ -1,23 +1,25 @@
-"""The joint graph with its platform held: how joints follow the pose, what is singular, whether a step passes zero.
+"""The joint graph with its platform held: how joints follow the pose, what is singular, whether branches merge between.
 
-One matrix D holds the closure rows and the rows of the pose, lengths in characteristic lengths; D u' = (0, v) gives
-the joint rates u' at pose rates v (`assur.numerics.newton.solved`). It is the derivative of Newton's steps to a pose.
+Joint values change by the smallest rates T v at rates v of the pose for which the loops stay closed. The columns of T
+span what motions leave the loops closed, those that leave the platform at rest excepted.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assur.joint_graph.tree import joint_graph
-from assur.kinematics.following.ways import held_system
-from assur.kinematics.rates.motions import input_units, pose_units
+from assur.kinematics.following.course import Prescribed
+from assur.kinematics.newton import Newton
+from assur.kinematics.newton_step import NewtonStep
+from assur.kinematics.pose import pose_of
+from assur.kinematics.rates.motions import input_units
 from assur.kinematics.turns import joint_units
 from assur.model.mechanism import MechanismRecord
-from assur.numerics.newton import damped, solved
+from assur.numerics.newton import damped
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
@@ -27,17 +29,23 @@ RESTS = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class PlatformHeld:
-    """Joint rates at assemblies (N, n).
+    """Joint rates at assemblies.
 
     Attributes:
-        matrix: D (N, 6 v + k, n).
-        rates: (N, n, k) joint rates per rate of the pose, the smallest that do, without dimensions.
-        inputs: (N, F, k) rates of the printed inputs per rate of the pose, without dimensions: Jq^-1 Jp.
+        record: the mechanism.
+        rates: T (N, n, k), without dimensions; a ball joint's are its angular velocity in the parent's frame.
     """
 
-    matrix: FloatArray
+    record: MechanismRecord
     rates: FloatArray
-    inputs: FloatArray
+
+    @cached_property
+    def inputs(self) -> FloatArray:
+        """Rates (N, F, k) of the printed inputs per rate of the pose, without dimensions: Jq^-1 Jp."""
+        driven = list(self.record.input_indices)
+        signs = np.array([item.sign for item in self.record.inputs])
+        own = signs * joint_units(self.record)[driven] / input_units(self.record)
+        return np.asarray(self.rates[:, driven, :] * own[:, None])
 
     @cached_property
     def serial(self) -> FloatArray:
@@ -68,6 +76,7 @@ def platform_held(record: MechanismRecord, values: FloatArray) -> PlatformHeld:
 
     >>> from assur.kinematics.home import home_values
     >>> from assur.kinematics.rates.instantaneous import instantaneous
+    >>> from assur.kinematics.rates.motions import pose_units
     >>> from assur.model.registry import load_record
     >>> record = load_record("fivebar")
     >>> home = home_values(record)[None]
@@ -77,45 +86,28 @@ def platform_held(record: MechanismRecord, values: FloatArray) -> PlatformHeld:
     >>> bool(np.abs(platform_held(record, home).output - wanted)[0] < 1e-6)
     True
     """
-    return held_by(record, held_matrix(record, values))
+    return PlatformHeld(record, holding(record, "poses").rates(values, pose_of(record, values)))
 
 
-def held_by(record: MechanismRecord, matrix: FloatArray) -> PlatformHeld:
-    """As `platform_held`, of the matrix D (N, r, n) there."""
-    wanted = len(pose_units(record))
-    rates = solved(matrix, np.eye(matrix.shape[-2])[:, -wanted:])
-    size = joint_units(record)
-    own = np.array([item.sign for item in record.inputs]) * size[list(record.input_indices)] / input_units(record)
-    return PlatformHeld(matrix, rates, rates[..., list(record.input_indices), :] * own[:, None])
+@lru_cache(maxsize=64)
+def holding(record: MechanismRecord, held: Prescribed) -> Newton:
+    """Newton's method with the platform or the inputs held."""
+    step = NewtonStep((), record.platform.pose) if held == "poses" else NewtonStep(record.input_indices)
+    return Newton(record, step)
 
 
-def held_matrix(record: MechanismRecord, values: FloatArray) -> FloatArray:
-    """D (N, 6 v + k, n) at joint values (N, n): each loop about its cut joint, then the pose; no dimensions."""
-    poses = np.zeros((len(values), len(record.platform.pose)))
-    return held_system(record, values, poses)[1]
+def passes_zero(before: FloatArray, after: FloatArray) -> BoolArray:
+    """Whether two branches merge (N,) between near assemblies with T `before` and `after` (N, n, k).
 
+    Where they merge the rates grow beyond bounds and come back from the other side: with T = N / (M N), N the motions
+    that keep the loops closed and M what they do to the platform, det(T1' T2) has the sign of det(M N1) det(M N2). It
+    tells an odd number of singular values of M N that pass zero. Where the closure passes, T runs on evenly: the branch
+    goes on through a constraint singularity, and none has merged.
 
-def passes_zero(record: MechanismRecord, before: FloatArray, after: FloatArray) -> BoolArray:
-    """Whether two branches merge (N,) between near assemblies with D `before` and `after` (N, r, n): a rank is lost.
-
-    The sign of the leading coefficient of det(D1' D2 + e 1) tells an odd number of singular values that pass zero.
-    Where the closure alone passes as well, the branch goes on through a constraint singularity: none has merged.
-
-    >>> from assur.model.registry import load_record
-    >>> one = np.eye(5)[None, [0, 1, 2, 2, 2, 2, 3, 4]]  # six rows of a loop, two of the pose
-    >>> other = one * [1.0, 1.0, 1.0, 1.0, -1.0]
-    >>> record = load_record("fivebar")
-    >>> passes_zero(record, one, one).tolist(), passes_zero(record, one, other).tolist()
+    >>> rates = np.array([[[1.0, 0.0], [0.0, 1.0], [0.5, 0.5]]])
+    >>> passes_zero(rates, 1.1 * rates).tolist(), passes_zero(rates, rates * [1.0, -1.0]).tolist()
     ([False], [True])
     """
-    passed = _turned(before, after)
-    rows = np.flatnonzero(passed)
-    if len(rows):
-        closure = slice(6 * len(joint_graph(record).cut))
-        passed[rows] &= ~_turned(before[rows, closure], after[rows, closure])
-    return passed
-
-
-def _turned(first: FloatArray, second: FloatArray) -> BoolArray:
-    sign, _ = np.linalg.slogdet(damped(np.swapaxes(first, -1, -2) @ second, first))
+    # damped for poses with more coordinates than freedoms, whose T is not of full rank
+    sign, _ = np.linalg.slogdet(damped(np.swapaxes(before, -1, -2) @ after, before))
     return np.asarray(sign < 0.0)

@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 from assur.errors import UsageError
 from assur.kinematics.following.course import Prescribed
 from assur.kinematics.following.locked import Locked, locked, own
-from assur.kinematics.following.stepping import Places, settled, tried
+from assur.kinematics.following.stepping import Places, tried
 from assur.kinematics.following.ways import Way, other_side
 from assur.kinematics.limits import Limit
-from assur.kinematics.turns import joint_units
+from assur.kinematics.turns import joint_units, whole_turns_less
 from assur.model.mechanism import MechanismRecord
 from assur.work import WorkStage
 
@@ -148,7 +148,7 @@ class RankGuard:
     def begun(self, way: Way, places: Places) -> bool:
         """Whether a way can be begun; not from a singular start, nor from one outside the limits."""
         record = way.mechanism(float(places.shares[0]))
-        self.points.append(self._point(places, other_side(record, self.held, places.joints, places.matrix)))
+        self.points.append(self._point(places, other_side(record, self.held, places.joints, places.known)))
         if _least(self.points[0]) <= SINGULAR:
             self.refused.append(Blocked("lost"))
         else:
@@ -182,16 +182,16 @@ class RankGuard:
         away = float(trial.away[0])
         if away > CLOSE * moved + last.noise:
             return self._refused(at, ends, Blocked("far"))
-        other = other_side(record, self.held, trial.places.joints, trial.places.matrix)
-        kept, kept_other = last.own.kept(trial.places.matrix[0]), last.other.kept(other[0])
+        other = other_side(record, self.held, trial.places.joints, trial.places.known)
+        kept, kept_other = last.own.kept(trial.places.known[0]), last.other.kept(other[0])
         if min(kept, kept_other) < KEPT:
             return self._refused(at, ends, Blocked("lost"))
         broken = self._outside(record, trial.places.joints[0])
         if broken:
             return self._refused(at, ends, broken[0])
-        places = settled(way, trial.places, rows)
-        if places.matrix is not trial.places.matrix:
-            other = other_side(record, self.held, places.joints, places.matrix)
+        places = _settled(way, trial.places, rows)
+        if places.known is not trial.places.known:
+            other = other_side(record, self.held, places.joints, places.known)
         point = self._point(places, other)
         if point.own.sizes[-1] < FLOOR or point.other.sizes[-1] < SAFE * point.noise:
             return self._refused(at, ends, Blocked("lost"))
@@ -211,13 +211,13 @@ class RankGuard:
     def _refused(self, places: Places, ends: FloatArray, why: Blocked) -> tuple[Places, BoolArray, FloatArray]:
         """A step to shares (1,) that is not taken."""
         self.refused.append(why)
-        return Places(ends, places.joints, places.matrix), np.zeros(1, dtype=bool), ends - places.shares
+        return Places(ends, places.joints, places.known), np.zeros(1, dtype=bool), ends - places.shares
 
     def _point(self, places: Places, other: FloatArray) -> PathPoint:
         """An assembly with its matrices, that of what is held and the other one (1, r, n)."""
         names = own(self.held)
         mine, others = (
-            locked(matrix[0], self.ranks[name]) for name, matrix in zip(names, (places.matrix, other), strict=True)
+            locked(matrix[0], self.ranks[name]) for name, matrix in zip(names, (places.known, other), strict=True)
         )
         return PathPoint(float(places.shares[0]), places.joints[0].copy(), mine, others)
 
@@ -230,3 +230,13 @@ class RankGuard:
 
 def _least(point: PathPoint) -> float:
     return float(min(point.own.sizes[-1], point.other.sizes[-1]))
+
+
+def _settled(way: Way, places: Places, rows: IntArray) -> Places:
+    """The same assemblies with every rotation vector well inside one turn, where its rates are those of a rotation."""
+    joints = whole_turns_less(way.mechanism(float(places.shares[0])), places.joints)
+    if joints is places.joints:
+        return places
+    turned, known = np.flatnonzero(np.any(joints != places.joints, axis=1)), places.known.copy()
+    known[turned] = way.system(joints[turned], places.shares[turned], rows[turned])[1]
+    return Places(places.shares, joints, known)

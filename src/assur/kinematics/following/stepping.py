@@ -7,18 +7,19 @@ This is the one loop that follows and the one control of its steps. What varies 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assur.kinematics.following.ways import Way
-from assur.kinematics.turns import whole_turns_less
 from assur.numerics.newton import CLOSED, corrected
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.intp]
+OwnWay = TypeVar("OwnWay", bound=Way)
+GuardedWay = TypeVar("GuardedWay", bound=Way, contravariant=True)
 
 CLEAR = 10.0
 """In so many tolerances from the start steps may be shorter."""
@@ -34,20 +35,20 @@ class Places:
     Attributes:
         shares: (N,) of the ways.
         joints: (N, n) joint values.
-        matrix: (N, r, n) D there.
+        known: (N, ..) what guards know of the first-order motion there, D (N, r, n) or rates (N, n, k).
     """
 
     shares: FloatArray
     joints: FloatArray
-    matrix: FloatArray
+    known: FloatArray
 
     def of(self, rows: IntArray | BoolArray) -> Places:
         """Those on some of the ways, which may repeat."""
-        return Places(self.shares[rows], self.joints[rows], self.matrix[rows])
+        return Places(self.shares[rows], self.joints[rows], self.known[rows])
 
     def put(self, rows: IntArray | BoolArray, others: Places) -> None:
         """Others in the place of some."""
-        self.shares[rows], self.joints[rows], self.matrix[rows] = others.shares, others.joints, others.matrix
+        self.shares[rows], self.joints[rows], self.known[rows] = others.shares, others.joints, others.known
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,10 +68,12 @@ class TriedStep:
     away: FloatArray
 
 
-class StepGuard(Protocol):
+class StepGuard(Protocol[GuardedWay]):
     """What allows steps, and how long the next ones may be."""
 
-    def step(self, way: Way, places: Places, ends: FloatArray, rows: IntArray) -> tuple[Places, BoolArray, FloatArray]:
+    def step(
+        self, way: GuardedWay, places: Places, ends: FloatArray, rows: IntArray
+    ) -> tuple[Places, BoolArray, FloatArray]:
         """Where steps from places (k,) on some ways to shares (k,), or to nearer ones, lead.
 
         Beside that which of them (k,) may be taken, and the steps (k,) that may follow these.
@@ -105,7 +108,9 @@ class Pace:
         return np.where(ends > end - 0.5 * self.least(shares), end, ends)
 
 
-def followed(way: Way, at: Places, guard: StepGuard, pace: Pace, steps: FloatArray, end: float = 1.0) -> BoolArray:
+def followed(
+    way: OwnWay, at: Places, guard: StepGuard[OwnWay], pace: Pace, steps: FloatArray, end: float = 1.0
+) -> BoolArray:
     """Ways followed from `at`, which moves along them, by `steps` (N,), which change; which come to an end (N,)."""
     rows, made = np.flatnonzero(at.shares < end), 0
     while len(rows) and made < pace.most:
@@ -132,13 +137,3 @@ def tried(
     near = corrected(system, foreseen, tolerance)
     places = Places(ends, near.values * size, near.derivative)
     return TriedStep(places, near.closed, near.residual, np.linalg.norm(near.values - foreseen, axis=1))
-
-
-def settled(way: Way, places: Places, rows: IntArray) -> Places:
-    """The same assemblies with every rotation vector well inside one turn, where its rates are those of a rotation."""
-    joints = whole_turns_less(way.mechanism(float(places.shares[0])), places.joints)
-    if joints is places.joints:
-        return places
-    turned, matrix = np.flatnonzero(np.any(joints != places.joints, axis=1)), places.matrix.copy()
-    matrix[turned] = way.system(joints[turned], places.shares[turned], rows[turned])[1]
-    return Places(places.shares, joints, matrix)

@@ -38,43 +38,39 @@ class Turnings:
     Attributes:
         share: (N,) of the way at which it does.
         joints: (N, n) joint values a little before.
-        matrix: D (N, r, n) there, as of `PlatformHeld`.
         located: (N,) whether it does so on the way, as far as was found; elsewhere the rest says nothing.
     """
 
     share: FloatArray
     joints: FloatArray
-    matrix: FloatArray
     located: BoolArray
 
 
-def turnings(way: Way, joints: FloatArray, matrix: FloatArray) -> Turnings:
+def turnings(way: Way, joints: FloatArray) -> Turnings:
     """Where ways of poses from assemblies (N, n) turn back.
 
     Args:
         way: what the platform does, evenly over a share of it.
         joints: assemblies where the ways start.
-        matrix: D (N, r, n) there.
 
     Example: the five-bar straight up; its elbows straighten where P is 294 from both motors, 285.5 above them.
 
     >>> from assur.kinematics.home import home_values
-    >>> from assur.kinematics.following.platform_held import held_matrix
     >>> from assur.kinematics.following.ways import Straight
     >>> from assur.kinematics.pose import pose_of
     >>> from assur.model.registry import load_record
     >>> record = load_record("fivebar")
     >>> home = home_values(record)[None]
     >>> start, up = pose_of(record, home), np.array([[0.0, 100.0]])
-    >>> found = turnings(Straight(record, start, start + up), home, held_matrix(record, home))
+    >>> found = turnings(Straight(record, start, start + up), home)
     >>> bool(found.located[0])
     True
     >>> float((start + found.share[:, None] * up)[0, 1].round(2)), round((294**2 - 70**2) ** 0.5, 2)
     (285.55, 285.55)
     """
     rows = np.arange(len(joints))
-    curves, here = _started(way, joints, matrix, rows)
-    slopes = _slopes(here.matrix)
+    curves, here = _started(way, joints, rows)
+    slopes = _slopes(here.known)
     sense = np.where(slopes[:, -1] < 0.0, -1.0, 1.0)
     other = np.full((2, len(rows)), np.nan)  # leading value and slope of the share at another point, before or beyond
     going, shorter = np.ones(len(rows), dtype=bool), np.ones(len(rows))
@@ -86,7 +82,7 @@ def turnings(way: Way, joints: FloatArray, matrix: FloatArray) -> Turnings:
             break
         step = NEARING * shorter[rows] * ahead[rows]
         trial = tried(curves, here.of(rows), here.shares[rows] + step, step[:, None] * slopes[rows], rows)
-        after = _slopes(trial.places.matrix)
+        after = _slopes(trial.places.known)
         before = trial.closed & (after[:, -1] * sense[rows] > 0.0)
         beyond, taken = trial.closed & ~before, rows[before]
         shorter[rows] = np.where(trial.closed, 1.0, 0.3 * shorter[rows])
@@ -96,14 +92,13 @@ def turnings(way: Way, joints: FloatArray, matrix: FloatArray) -> Turnings:
         slopes[taken] = after[before]
     left = 0.5 * slopes[:, -1] * _ahead(here.shares, slopes[:, -1], other, sense)
     share = here.joints[:, -1] + left
-    return Turnings(
-        share, here.joints[:, :-1], here.matrix[:, :-1, :-1], (np.abs(left) <= ENOUGH) & (share > 0.0) & (share < 1.0)
-    )
+    return Turnings(share, here.joints[:, :-1], (np.abs(left) <= ENOUGH) & (share > 0.0) & (share < 1.0))
 
 
-def _started(way: Way, joints: FloatArray, matrix: FloatArray, rows: IntArray) -> tuple[Led, Places]:
+def _started(way: Way, joints: FloatArray, rows: IntArray) -> tuple[Led, Places]:
     """Ways that are led by the joint value that moves fastest on each, and where they start."""
     start = np.zeros(len(rows))
+    matrix = way.system(joints, start, rows)[1]
     move = -solved(matrix, way.gaps(joints, start, start + 1.0, rows)[..., None])[..., 0]
     curves = Led(way, np.argmax(np.abs(move), axis=1))
     leading = (joints / way.units(0.0))[rows, curves.lead]

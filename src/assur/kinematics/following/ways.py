@@ -110,9 +110,12 @@ class Straight:
 
     def gaps(self, _joints: FloatArray, shares: FloatArray, ends: FloatArray, rows: IntArray) -> FloatArray:
         """Gaps: what is held goes ahead, the loops stay closed."""
-        start, end = self.at(shares, rows), self.at(ends, rows)
+        return -held_rows(self.record, self.change(shares, ends, rows))
+
+    def change(self, shares: FloatArray, ends: FloatArray, rows: IntArray) -> FloatArray:
+        """Change (k, c) of what is held from shares (k,) to others, without dimensions."""
         change = pose_change if self.held == "poses" else input_change
-        return -held_rows(self.record, change(self.record, start, end))
+        return change(self.record, self.at(shares, rows), self.at(ends, rows))
 
     def at(self, shares: FloatArray, rows: IntArray) -> FloatArray:
         """Poses (k, m) or inputs; at the end the very ones."""
