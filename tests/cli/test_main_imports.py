@@ -47,8 +47,8 @@ def loaded(cache, words):
         (("--help",), set(), 50),
         (("list",), NUMPY | READ, 122),
         (("show", "zeng2019"), NUMPY, 126),
-        (DIRECT, NUMPY, 136),
-        (INVERSE, NUMPY, 136),
+        (DIRECT, NUMPY, 137),
+        (INVERSE, NUMPY, 137),
     ],
 )
 def test_a_command_loads_what_it_prints_and_no_more(cache, words, packages, most):

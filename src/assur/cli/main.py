@@ -6,6 +6,7 @@ What reads and runs it is loaded inside, where Ctrl-C is watched for already.
 from __future__ import annotations
 
 import contextlib
+import os
 import sys
 from collections.abc import Sequence
 
@@ -14,12 +15,18 @@ from assur.cli.exit_codes import BROKEN_PIPE, BUG, INTERRUPTED
 from assur.errors import AssurError
 from assur.work import stage
 
+LINEAR_ALGEBRA = ("OPENBLAS_NUM_THREADS", "1")
+"""Threads of the linear algebra, unless the user says otherwise: matrices of mechanisms are so small that several of
+them only wait for each other, which made a search of assemblies three times as long."""
+
 
 def main(words: Sequence[str] | None = None) -> int:
     """Run one command line (that of the process where none is given) and return its exit code."""
     with contextlib.suppress(AttributeError):
         sys.stdout.reconfigure(errors="replace")  # type: ignore[union-attr]  # absent where a test took its place
-    words = sys.argv[1:] if words is None else words
+    if words is None:  # a process of our own, before NumPy is loaded
+        os.environ.setdefault(*LINEAR_ALGEBRA)
+        words = sys.argv[1:]
     debug, json = "--debug" in words, "--json" in words
     with interruption.watched():
         try:
