@@ -27,7 +27,7 @@ IntArray = NDArray[np.intp]
 
 ENOUGH = 1e-12
 """Gaps of a start that counts as closed, in characteristic lengths or rad."""
-BLOCK = 1024
+BLOCK = 2048
 """Starts that are worked on at a time: NumPy's own time is shared by many, their numbers stay in the cache."""
 
 
@@ -71,9 +71,8 @@ class Newton:
 
         By rad and characteristic lengths; ball joints' are angular velocities in the parent's frame.
         """
-        rates = part(self.program, "rate")
-        numbers = rates(self.record, values, None if poses is None else targets(self.record, poses))
-        return rates.matrix("rate", numbers, self.shape)
+        numbers = self.program(self.record, values, None if poses is None else targets(self.record, poses))
+        return self.program.matrix("rate", numbers, self.shape)
 
     @cached_property
     def shape(self) -> tuple[int, int]:

@@ -1,6 +1,7 @@
 """Poses followed to from home, many at once: against closed forms, where there are some."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from assur.kinematics.following.from_home import followed_from_home, followed_to
 from assur.kinematics.home import home_values
 from assur.kinematics.pose import pose_of
 from assur.kinematics.status import Status
+from assur.model.registry import load_record
 
 NAMES = ("fivebar", "delta_4s", "zeng2019", "planar_3rrr", "three_crr")
 
@@ -99,6 +101,26 @@ def test_coordinates_of_a_pose_may_stand_in_any_order():
     same, also = followed_from_home(turned, poses[:, order])
     assert 10 < reached.sum() == np.sum(reached & also)
     np.testing.assert_allclose(same[reached], joints[reached], atol=1e-9)
+
+
+def test_a_grid_of_a_mechanism_of_one_s_own_closes_as_its_rods_say():
+    """A Par4 with 56 joint values, redundant loops and rods that spin, against the lengths of its rods alone."""
+    record = load_record(Path(__file__).with_name("par4.toml"))
+    size = {name: own.value for name, own in record.parameters.items()}
+    away = np.meshgrid(*[np.linspace(-70.0, 70.0, 5)] * 3, np.linspace(-0.6, 0.6, 5), indexing="ij")
+    home = pose_of(record, home_values(record))
+    poses = home + np.stack(away, axis=-1).reshape(-1, 4)
+    joints, reached = followed_together(record, poses)
+    assert np.all(reached)
+    phi, flat = poses[:, 3], np.zeros(len(poses))
+    middle = poses[:, :3] - [size["a"], 0.0, 0.0]
+    side = size["g"] * np.stack([-np.sin(phi), np.cos(phi), flat], axis=1)  # the bars keep their orientation
+    arms = border.inputs_of(record, joints)
+    for k, (x, y) in enumerate([(1, 1), (-1, 1), (-1, -1), (1, -1)]):
+        out, end = np.array([x, y, 0.0]) / np.sqrt(2), middle + y * side + [x * size["a"], 0.0, 0.0]
+        knee = out * size["R"] + size["L"] * (np.cos(arms[:, [k]]) * out - np.sin(arms[:, [k]]) * [0.0, 0.0, 1.0])
+        aside = out * (size["R"] + size["L"]) - [x * size["a"], y * size["g"], size["z"]]
+        np.testing.assert_allclose(np.linalg.norm(end - knee, axis=1), np.linalg.norm(aside), rtol=1e-11)
 
 
 def test_an_empty_row():

@@ -56,8 +56,7 @@ class SignGuard:
         reached = Places(ends, near.values, near.derivative)
         far = np.max(np.abs(near.values - places.joints) / joint_units(self.record), axis=1, initial=0.0)
         good = near.closed & (far <= FURTHEST)
-        some = np.flatnonzero(good)
-        good[some] = self.kept(places.of(some), reached.of(some))
+        good[good] = self.kept(places.of(good), reached.of(good))
         return replace(reached, joints=whole_turns_less(self.record, near.values)), good, 2.0 * (ends - places.shares)
 
     def kept(self, left: Places, reached: Places) -> BoolArray:
@@ -107,6 +106,9 @@ def steps_from(guard: SignGuard, poses: FloatArray, places: Places) -> Steps:
 
 def joined(parts: Sequence[Steps]) -> Steps:
     """Steps of one guard after one another."""
+    parts = [steps for steps in parts if len(steps.poses)] or parts[:1]
+    if len(parts) == 1:
+        return parts[0]
     places = [steps.places for steps in parts]
     shares, joints, known = (
         np.concatenate([getattr(own, name) for own in places]) for name in ("shares", "joints", "known")

@@ -43,7 +43,9 @@ class Places:
     known: FloatArray
 
     def of(self, rows: IntArray | BoolArray) -> Places:
-        """Those on some of the ways, which may repeat."""
+        """Those on some of the ways, which may repeat; these themselves where all are told true."""
+        if rows.dtype == np.bool_ and np.all(rows):
+            return self
         return Places(self.shares[rows], self.joints[rows], self.known[rows])
 
     def put(self, rows: IntArray | BoolArray, others: Places) -> None:
