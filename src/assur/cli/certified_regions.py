@@ -108,11 +108,8 @@ def _volume(record: Mechanism, question: Question, asked: ProofQuestion, shared:
 
 
 def _shown_volume(record: Mechanism, region: CertifiedWorkspace, data: CertifiedVolume) -> Iterable[RenderableType]:
-    yield heading(f"{record.name}, certified workspace of {mode_words(record, region.mode)}")
-    yield f"box: {interval_words(record, zip(data.coordinates, data.box, strict=True))}"
-    if data.held:
-        yield f"held: {value_words(record, data.held)}"
-    yield from _limits(data)
+    box = f"box: {interval_words(record, zip(data.coordinates, data.box, strict=True))}"
+    yield from _head(record, f"certified workspace of {mode_words(record, region.mode)}", box, data)
     what = ("length", "area", "volume")[len(region.box.names) - 1]
     low, high = outward(*region.volume)
     yield f"{what}: {low} .. {high} {region.unit}"
@@ -169,11 +166,8 @@ def outer_box(
 
 
 def _shown_box(record: Mechanism, box: ProvedBox, data: CertifiedBox) -> Iterable[RenderableType]:
-    yield heading(f"{record.name}, a box in {mode_words(record, box.mode)}")
-    yield f"box: {interval_words(record, zip(data.coordinates, data.box, strict=True))}"
-    if data.held:
-        yield f"held: {value_words(record, data.held)}"
-    yield from _limits(data)
+    words = f"box: {interval_words(record, zip(data.coordinates, data.box, strict=True))}"
+    yield from _head(record, f"a box in {mode_words(record, box.mode)}", words, data)
     yield f"question: is every pose {_reached(data)}, and none singular?"
     yield f"answer: {box.status}"
     if box.status != "proved":
@@ -214,11 +208,8 @@ def _largest(record: Mechanism, question: Question, asked: ProofQuestion, shape:
 
 def _shown_largest(record: Mechanism, shape: LargestShape, data: CertifiedShape) -> Iterable[RenderableType]:
     name = shape.shape.name
-    yield heading(f"{record.name}, the largest {name} in {mode_words(record, shape.mode)}")
-    yield f"around: {value_words(record, data.centre)}"
-    if data.held:
-        yield f"held: {value_words(record, data.held)}"
-    yield from _limits(data)
+    centre = f"around: {value_words(record, data.centre)}"
+    yield from _head(record, f"the largest {name} in {mode_words(record, shape.mode)}", centre, data)
     yield f"inside: every pose is {_reached(data)}, and none is singular"
     side = "edge" if name == "cube" else "diameter"
     more = "" if shape.height is None else f", height {_floored(shape.height)} {record.unit}"
@@ -329,8 +320,12 @@ def _witness(record: Mechanism, witness: Witness | None) -> FailingPose | None:
     return None if witness is None else FailingPose(coordinates_at_border(record, witness.pose), witness.why)
 
 
-def _limits(data: RegionProof) -> Iterable[str]:
-    """What is to be said beside a claim of reach where there are no limits."""
+def _head(record: Mechanism, title: str, where: str, data: RegionProof) -> Iterable[RenderableType]:
+    """What every proof begins with, and what is to be said beside a claim of reach where there are no limits."""
+    yield heading(f"{record.name}, {title}")
+    yield where
+    if data.held:
+        yield f"held: {value_words(record, data.held)}"
     if not data.limits_stated:
         yield f"limits: {NO_LIMITS}"
     if data.joint_limits:

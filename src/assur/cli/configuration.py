@@ -14,7 +14,7 @@ from assur.cli.output import heading, table
 from assur.cli.positions import failures
 from assur.cli.quantities import mode_words
 from assur.kinematics.answers.answer import missing
-from assur.kinematics.answers.at_border import pose_at_border, power
+from assur.kinematics.answers.at_border import mechanism_header, pose_at_border, power
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.rates.units import unit_length
 from assur.kinematics.status import FACTOR_TOLERANCE, closed_form_of
@@ -37,10 +37,7 @@ def verdict_answer(record: Mechanism, pose: NDArray[Any], mode: str) -> Configur
     of_home = record.closed_form is None and (not mode or mode == record.modes.default_working)
     lost = not of_home and verdict.kind in ("unreachable", "undecided")
     return ConfigurationAnswer(
-        mechanism=record.name,
-        unit=record.unit,
-        angle=record.angle,
-        coordinates=record.platform.pose,
+        **mechanism_header(record),
         pose=pose_at_border(record, pose).tolist(),
         mode=mode,
         **vars(verdict),

@@ -19,7 +19,7 @@ from assur.cli.progress import progress
 from assur.cli.region_question import Question
 from assur.errors import UsageError
 from assur.kinematics.answers.answer import missing
-from assur.kinematics.answers.at_border import coordinates_at_border, pose_at_border
+from assur.kinematics.answers.at_border import coordinates_at_border, mechanism_header, pose_at_border
 from assur.kinematics.answers.solution_set import SolutionSet
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.border import input_names
@@ -72,10 +72,7 @@ def at_pose(record: Mechanism, pose: NDArray[Any], mode: str, length: Length) ->
     found = indices(record, pose, mode, length if there or length != "isotropic" else None)
     unreached = not of_home and Status(int(found.status)) == Status.unreachable
     answer = IndicesAnswer(
-        mechanism=record.name,
-        unit=record.unit,
-        angle=record.angle,
-        coordinates=record.platform.pose,
+        **mechanism_header(record),
         pose=pose_at_border(record, pose).tolist(),
         mode=mode,
         input_names=input_names(record),
@@ -124,10 +121,7 @@ def over_workspace(record: Mechanism, asked: Question, points: str, length: Leng
     with progress("indices", shared):
         found = overall(record, region, count, length)
     answer = OverallAnswer(
-        mechanism=record.name,
-        unit=record.unit,
-        angle=record.angle,
-        coordinates=record.platform.pose,
+        **mechanism_header(record),
         mode=found.mode,
         points=found.points,
         singular=found.singular,

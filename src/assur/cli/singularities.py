@@ -11,7 +11,7 @@ from assur.cli.output import heading, table
 from assur.cli.progress import progress
 from assur.cli.quantities import mode_words
 from assur.cli.regions import area_title
-from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
+from assur.kinematics.answers.at_border import inputs_at_border, mechanism_header, pose_at_border, power
 from assur.kinematics.answers.style import style_of
 from assur.kinematics.status import closed_form_of, scale
 from assur.mechanism import Mechanism
@@ -35,10 +35,7 @@ def outcome(record: Mechanism, mode: str, shared: Shared) -> Outcome:
         examples = [_example(record, item) for item in singular_examples(record, 0, step, lambda: ways_across(region))]
     constraint, self_motion = _groups(record)
     answer = SingularityAnswer(
-        mechanism=record.name,
-        unit=record.unit,
-        angle=record.angle,
-        coordinates=record.platform.pose,
+        **mechanism_header(record),
         mode=mode,
         factors=_factors(record),
         constraint=constraint,

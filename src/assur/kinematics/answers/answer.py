@@ -11,6 +11,7 @@ from assur.kinematics.answers.at_border import (
     angle_at_border,
     coordinates_at_border,
     inputs_at_border,
+    mechanism_header,
     pose_at_border,
     power,
 )
@@ -46,10 +47,7 @@ def answer(solutions: SolutionSet) -> DirectAnswer | InverseAnswer:
     record = solutions.record
     listed, home = list(solutions), home_solution(solutions)
     shared: dict[str, Any] = {
-        "mechanism": record.name,
-        "unit": record.unit,
-        "angle": record.angle,
-        "coordinates": record.platform.pose,
+        **mechanism_header(record),
         "input_names": border.input_names(record),
         "status": Status(int(solutions.overall_status)).name,
         "complete": solutions.complete,

@@ -89,3 +89,9 @@ def pose_from_border(record: MechanismRecord, pose: Any) -> FloatArray:
 def power(unit: str, exponent: int) -> str:
     """A unit to a power: "", "mm", "mm^2"."""
     return "" if exponent == 0 else unit if exponent == 1 else f"{unit}^{exponent}"
+
+
+def mechanism_header(record: MechanismRecord) -> dict[str, Any]:
+    """What answers about a mechanism begin with (`AnswerOfMechanism`)."""
+    units = {"unit": record.unit, "angle": record.angle}
+    return {"mechanism": record.name, **units, "coordinates": record.platform.pose}

@@ -62,6 +62,16 @@ class Answer:
 
 
 @dataclass(frozen=True)
+class AnswerOfMechanism(Answer):
+    """What answers about one mechanism begin with: its name, its units, the coordinates of its pose."""
+
+    mechanism: str
+    unit: str
+    angle: str
+    coordinates: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class NotRun:
     """Python beside a mechanism's file that was not run: where, why it would have had to, what answers instead."""
 

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Literal
 
-from assur.results.answers.answer import Answer
-from assur.results.answers.position import KeptLimits, Numbers
+from assur.results.answers.position import GivenInputs, GivenPose, KeptLimits, Numbers, SolvedProblem
 
 
 @dataclass(frozen=True)
@@ -80,46 +78,23 @@ class UndecidedPlace(Bounds):
 
 
 @dataclass(frozen=True)
-class CertifiedAnswer(Answer):
+class CertifiedAnswer(SolvedProblem):
     """What is said of both problems."""
 
-    mechanism: str
-    unit: str
-    angle: str
-    coordinates: tuple[str, ...]
-    input_names: tuple[str, ...]
     proved: bool
-    complete: bool
-    complete_for: str
-    right: str
-    limits_stated: bool
     undecided: tuple[UndecidedPlace, ...]
     excluded: Mapping[str, int]
 
 
 @dataclass(frozen=True)
-class CertifiedDirect(CertifiedAnswer):
+class CertifiedDirect(GivenInputs, CertifiedAnswer):
     """Every pose at given inputs, proved."""
 
-    problem: ClassVar[Literal["direct"]] = "direct"
-    inputs: Numbers
     solutions: tuple[ProvedPose, ...]
-
-    @property
-    def given(self) -> Numbers:
-        """What the problem is given."""
-        return self.inputs
 
 
 @dataclass(frozen=True)
-class CertifiedInverse(CertifiedAnswer):
+class CertifiedInverse(GivenPose, CertifiedAnswer):
     """All inputs at a given pose, proved."""
 
-    problem: ClassVar[Literal["inverse"]] = "inverse"
-    pose: Numbers
     solutions: tuple[ProvedInputs, ...]
-
-    @property
-    def given(self) -> Numbers:
-        """What the problem is given."""
-        return self.pose

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from assur.results.answers.answer import Answer, spread
+from assur.results.answers.answer import Answer, AnswerOfMechanism, spread
 from assur.results.answers.position import NegativeQuantity
 
 Lacking = Sequence[float | None]
@@ -27,13 +27,9 @@ class NearestSingularity:
 
 
 @dataclass(frozen=True)
-class IndicesAnswer(NearestSingularity, Answer):
+class IndicesAnswer(NearestSingularity, AnswerOfMechanism):
     """Every index at one pose; one that does not exist is null."""
 
-    mechanism: str
-    unit: str
-    angle: str
-    coordinates: tuple[str, ...]
     pose: Lacking
     mode: str
     input_names: tuple[str, ...]
@@ -83,13 +79,9 @@ class Share:
 
 
 @dataclass(frozen=True)
-class OverallAnswer(Answer):
+class OverallAnswer(AnswerOfMechanism):
     """Means and extremes of every index over a workspace."""
 
-    mechanism: str
-    unit: str
-    angle: str
-    coordinates: tuple[str, ...]
     mode: str
     points: int
     singular: int

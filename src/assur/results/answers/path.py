@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from assur.results.answers.answer import Answer
+from assur.results.answers.answer import Answer, AnswerOfMechanism
 from assur.results.answers.position import Numbers
 
 
@@ -36,14 +36,10 @@ class StoppedPath:
 
 
 @dataclass(frozen=True)
-class PathAnswer(Answer):
+class PathAnswer(AnswerOfMechanism):
     """A path by shares of the way, joint values in rad and lengths; smallest singular values, modes at both ends."""
 
-    mechanism: str
-    unit: str
-    angle: str
     prescribed: str
-    coordinates: tuple[str, ...]
     input_names: tuple[str, ...]
     joint_names: tuple[str, ...]
     shares: Numbers

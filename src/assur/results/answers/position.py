@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-from assur.results.answers.answer import Answer
+from assur.results.answers.answer import AnswerOfMechanism
 
 Numbers = Sequence[float]
 
@@ -125,19 +125,47 @@ class NegativeQuantity:
 
 
 @dataclass(frozen=True)
-class PositionAnswer(Answer):
-    """What is said of both problems."""
+class SolvedProblem(AnswerOfMechanism):
+    """A direct or an inverse problem, and whether and by what right its solutions are complete."""
 
-    mechanism: str
-    unit: str
-    angle: str
-    coordinates: tuple[str, ...]
     input_names: tuple[str, ...]
-    status: str
     complete: bool
     complete_for: str
     right: str
     limits_stated: bool
+
+
+@dataclass(frozen=True)
+class GivenInputs:
+    """What a direct problem is given."""
+
+    problem: ClassVar[Literal["direct"]] = "direct"
+    inputs: Numbers
+
+    @property
+    def given(self) -> Numbers:
+        """The inputs."""
+        return self.inputs
+
+
+@dataclass(frozen=True)
+class GivenPose:
+    """What an inverse problem is given."""
+
+    problem: ClassVar[Literal["inverse"]] = "inverse"
+    pose: Numbers
+
+    @property
+    def given(self) -> Numbers:
+        """The pose."""
+        return self.pose
+
+
+@dataclass(frozen=True)
+class PositionAnswer(SolvedProblem):
+    """What is said of both problems."""
+
+    status: str
     doubles: tuple[DoubleSolution, ...]
     home_by: str
     curves: tuple[PoseCurve, ...]
@@ -145,28 +173,14 @@ class PositionAnswer(Answer):
 
 
 @dataclass(frozen=True)
-class DirectAnswer(PositionAnswer):
+class DirectAnswer(GivenInputs, PositionAnswer):
     """Every pose at given inputs."""
 
-    problem: ClassVar[Literal["direct"]] = "direct"
-    inputs: Numbers
     solutions: tuple[PoseSolution, ...]
-
-    @property
-    def given(self) -> Numbers:
-        """What the problem is given."""
-        return self.inputs
 
 
 @dataclass(frozen=True)
-class InverseAnswer(PositionAnswer):
+class InverseAnswer(GivenPose, PositionAnswer):
     """All inputs at a given pose."""
 
-    problem: ClassVar[Literal["inverse"]] = "inverse"
-    pose: Numbers
     solutions: tuple[InputsSolution, ...]
-
-    @property
-    def given(self) -> Numbers:
-        """What the problem is given."""
-        return self.pose

@@ -5,21 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from assur.results.answers.answer import Answer
+from assur.results.answers.answer import AnswerOfMechanism
 from assur.results.answers.position import NegativeQuantity, Numbers
 
 
 @dataclass(frozen=True)
-class ConfigurationAnswer(Answer):
+class ConfigurationAnswer(AnswerOfMechanism):
     """What one configuration is: its kind, every factor, and the ranks of the joint graph.
 
     `failures` say why the mode does not reach the pose, where it does not.
     """
 
-    mechanism: str
-    unit: str
-    angle: str
-    coordinates: tuple[str, ...]
     pose: Numbers
     mode: str
     kind: str
@@ -78,13 +74,9 @@ class ListedExample:
 
 
 @dataclass(frozen=True)
-class SingularityAnswer(Answer):
+class SingularityAnswer(AnswerOfMechanism):
     """Where a mechanism is singular; groups of factors that are zero together lose a rank, or move the platform."""
 
-    mechanism: str
-    unit: str
-    angle: str
-    coordinates: tuple[str, ...]
     mode: str
     factors: tuple[ListedFactor, ...]
     constraint: tuple[tuple[str, ...], ...]
