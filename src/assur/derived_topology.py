@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import re
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 from typing import get_args
 
@@ -14,6 +13,7 @@ from assur.kinematics.contract.admission import admitted_record
 from assur.kinematics.structure import linkage
 from assur.model.mechanism import MechanismRecord
 from assur.model.topologies import load_topology, means_topology
+from assur.model.topology_description import TopologyDescription
 from assur.topology.analysis import Mode, analyse
 from assur.topology.chains import Chain
 from assur.topology.counting.inputs import default_inputs, numbered_inputs
@@ -70,22 +70,26 @@ def topology(
     if mode not in (None, *get_args(Mode)):
         raise UnknownNameError("mode", str(mode), get_args(Mode))
     if isinstance(what, MechanismRecord):
-        return _of_record(what, actuate, mode)
+        return _named(_of_record(what, actuate, mode), what)
     if not isinstance(what, str | Path | Sequence):
         raise UsageError(f"a topology is given by a name, a file or chains of joints, not by {what!r}")
     if isinstance(what, str) and not _is_name(what):
         what = [what]
     if isinstance(what, str | Path):
         if not means_topology(what):
-            return _of_record(admitted_record(what), actuate, mode)
+            record = admitted_record(what)
+            return _named(_of_record(record, actuate, mode), record)
         described = load_topology(what)
         numbers = actuate or [f"{limb}.{joint}" for limb, joint in described.actuate]
-        found = _of_chains(
-            described.chains, numbers, mode or described.mode, described.name, described.title, described.source
-        )
+        found = _named(_of_chains(described.chains, numbers, mode or described.mode), described)
         differences = () if actuate or mode else described.declared.differences(found)
         return dataclasses.replace(found, notes=(*found.notes, *differences))
     return _of_chains(parse_chains(what), actuate, mode or "home")
+
+
+def _named(topology: Topology, described: MechanismRecord | TopologyDescription) -> Topology:
+    """With the words of what it is of."""
+    return dataclasses.replace(topology, name=described.name, title=described.title, source=described.source)
 
 
 def _is_name(text: str) -> bool:
@@ -102,38 +106,28 @@ def _of_record(record: MechanismRecord, actuate: Sequence[str] | None, mode: Mod
         names = numbered_inputs(chains, actuate)
         hinges = {name: group.joints[0] for name, group in built.groups.items()}
         built = dataclasses.replace(built, inputs=tuple((hinges.get(name, name), 0) for name in names))
-    name, title, source = record.name, record.title, record.source
     try:
-        return analyse(built, chains, name=name, title=title, source=source, mode=mode or "home")
+        return analyse(built, chains, mode=mode or "home")
     except (ShakyError, ImmobileError):
-        proved = analyse_shaky(built, chains, name=name, title=title, source=source) if mode in (None, "home") else None
+        proved = analyse_shaky(built, chains) if mode in (None, "home") else None
         if proved is None:
             raise
         return proved
 
 
-def _of_chains(
-    chains: Sequence[Chain],
-    actuate: Sequence[str] | None,
-    mode: Mode,
-    name: str = "",
-    title: str = "",
-    source: str = "",
-) -> Topology:
+def _of_chains(chains: Sequence[Chain], actuate: Sequence[str] | None, mode: Mode) -> Topology:
     """Of some dimensions with which the chains move as others do; else of some with which their motion is proved."""
     names = numbered_inputs(chains, actuate) if actuate else default_inputs(chains)
     inputs_by: InputsBy = "given" if actuate else "first joints"
-    told = partial(analyse, name=name, title=title, source=source, mode=mode, inputs_by=inputs_by)
     placed = [place(chains, seed=seed, actuated=names) for seed in range(PLACINGS)]
     for seed, built in enumerate(placed):
         try:
-            found = told(built, chains)
+            found = analyse(built, chains, mode=mode, inputs_by=inputs_by)
         except (ShakyError, ImmobileError) as error:
             refused = error
             continue
         return dataclasses.replace(found, notes=(*found.notes, SOME_DIMENSIONS)) if seed else found
-    told_of_shaky = partial(analyse_shaky, name=name, title=title, source=source, inputs_by=inputs_by)
-    shaky = (told_of_shaky(built, chains) for built in placed)
+    shaky = (analyse_shaky(built, chains, inputs_by=inputs_by) for built in placed)
     proved = next(filter(None, shaky), None) if mode == "home" else None
     if proved is None:
         raise refused

@@ -117,25 +117,17 @@ def analyse(
     linkage: Linkage,
     chains: Sequence[Chain] | None = None,
     *,
-    name: str = "",
-    title: str = "",
-    source: str = "",
     mode: Mode = "home",
     inputs_by: InputsBy = "given",
-    notes: tuple[str, ...] = (),
 ) -> Topology:
     """Everything that the theory says of a linkage.
 
     Args:
         linkage: assembled at home, with its inputs.
         chains: its limbs, with the names of its joints; recognised in the linkage where they are not given.
-        name: for print.
-        title: for print.
-        source: for print.
         mode: "home" for the motion that is reached from home, "translation" for a platform that keeps its orientation.
         inputs_by: whether somebody gave the inputs, or they are the first joints of the branches. Where these do not
             determine a mechanism, an admissible set takes their place, and a note says so.
-        notes: what to tell the reader beside the facts.
 
     Errors:
         RoutesDisagreeError: rules and twists differ, with the chain's name.
@@ -149,18 +141,8 @@ def analyse(
     if inputs_by == "first joints" and collapsed.loops and not _are_valid(home):
         inputs = admissible_drives(home.collapsed, linkage, chains or ())
         if inputs is not None:
-            said = driven_words(linkage, inputs)
-            driven = dataclasses.replace(linkage, inputs=inputs)
-            return analyse(
-                driven,
-                chains,
-                name=name,
-                title=title,
-                source=source,
-                mode=mode,
-                inputs_by=ADMISSIBLE,
-                notes=(*notes, said),
-            )
+            driven = analyse(dataclasses.replace(linkage, inputs=inputs), chains, mode=mode, inputs_by=ADMISSIBLE)
+            return dataclasses.replace(driven, notes=(driven_words(linkage, inputs), *driven.notes))
     refuse_too_many(linkage, collapsed)
     if mode == "translation" and len(chains or ()) != 1 and home.poc[1]:
         raise UsageError(
@@ -180,9 +162,6 @@ def analyse(
     solvable = not plan.free
     modes = tuple(_mode_facts(linkage, values) for values in home.modes)
     return Topology(
-        name=name,
-        title=title,
-        source=source,
         mode=mode,
         limbs=tuple(limb_facts(chain, limb.known) for chain, limb in zip(chains or (), limbs, strict=True)),
         known=_platform_known(rules.platform, home),
@@ -202,7 +181,7 @@ def analyse(
         plan=plan,
         linkage=linkage,
         modes=modes,
-        notes=(*notes, _met_at_home(modes)) if home.special or home.is_branch_point else notes,
+        notes=(_met_at_home(modes),) if home.special or home.is_branch_point else (),
         derive=rules.derivations,
         actuate=partial(actuation, home.collapsed, base, platform),
         relax=partial(relaxation, home.joints, base, platform),

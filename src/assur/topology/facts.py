@@ -73,9 +73,6 @@ class Topology:
         modes: the operation modes that meet at home, where there are several; all facts are those of the first.
     """
 
-    name: str
-    title: str
-    source: str
     mode: str
     limbs: tuple[LimbFacts, ...]
     known: Known
@@ -92,6 +89,9 @@ class Topology:
     decoupling: Decoupling | None
     plan: SolutionPlan
     linkage: Linkage
+    name: str = ""
+    title: str = ""
+    source: str = ""
     inputs_by: InputsBy = "given"
     decoupling_refusal: str = ""
     modes: tuple[OperationModeFacts, ...] = ()

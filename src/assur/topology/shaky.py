@@ -50,22 +50,13 @@ FloatArray = NDArray[np.float64]
 
 @stage("finite motion of a shaky mechanism")
 def analyse_shaky(
-    linkage: Linkage,
-    chains: Sequence[Chain] | None = None,
-    *,
-    name: str = "",
-    title: str = "",
-    source: str = "",
-    inputs_by: InputsBy = "given",
+    linkage: Linkage, chains: Sequence[Chain] | None = None, *, inputs_by: InputsBy = "given"
 ) -> Topology | None:
     """What is true of a linkage that `analyse` refuses as shaky or immobile; None where nothing is proved.
 
     Args:
         linkage: assembled at home, with its inputs.
         chains: as for `analyse`.
-        name: for print.
-        title: for print.
-        source: for print.
         inputs_by: as for `analyse`; where nobody gave inputs, an admissible set of the finite motion is taken.
 
     Errors:
@@ -103,9 +94,6 @@ def analyse_shaky(
     rules = as_the_limbs_are(dataclasses.replace(rules, platform=Refusal(reason)), limbs)
     poc = PocSet(*motion.poc)
     return Topology(
-        name=name,
-        title=title,
-        source=source,
         mode="home",
         limbs=tuple(limb_facts(chain, limb.known) for chain, limb in zip(chains or (), limbs, strict=True)),
         known=Known(poc, "twists", reason),

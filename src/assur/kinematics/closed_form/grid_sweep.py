@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.errors import UsageError
-from assur.kinematics.answers.at_border import power
+from assur.kinematics.answers.at_border import inputs_at_border, pose_at_border, power
 from assur.kinematics.closed_form.about import coordinates, told
 from assur.kinematics.closed_form.blocks import FloatArray, in_order
 from assur.kinematics.closed_form.filling import threads_of
@@ -23,7 +23,6 @@ from assur.kinematics.closed_form.swept_dimensions import mechanism_of, reasons,
 from assur.kinematics.modes import Problem, all_modes
 from assur.kinematics.status import Status, closed_form_of
 from assur.model.mechanism import MechanismRecord
-from assur.model.pose import is_angle
 from assur.results.disk import DISK, Disk
 from assur.results.store.layout import Array, Plan, Shard
 from assur.results.store.note import Counts
@@ -193,16 +192,9 @@ class GridSweep(ABC):
         return filled, reasons(refused)
 
     def _to_file_angles(self, rows: SolutionRows) -> None:
-        if self.record.angle != "deg":
-            return
-        angles = {
-            "inputs": [item.coordinate.kind == "angle" for item in self.record.inputs],
-            "poses": [is_angle(name) for name in self.record.platform.pose],
-        }
-        for name in rows.keys() & angles.keys():
-            for k, angle in enumerate(angles[name]):
-                if angle:
-                    np.degrees(rows[name][..., k, :], out=rows[name][..., k, :])
+        for name, at_border in (("inputs", inputs_at_border), ("poses", pose_at_border)):
+            if name in rows:
+                rows[name][...] = np.moveaxis(at_border(self.record, np.moveaxis(rows[name], -2, -1)), -1, -2)
 
 
 def _over(exists: NDArray[np.bool_], values: NDArray[Any]) -> NDArray[np.bool_]:
