@@ -91,12 +91,8 @@ class Design:
         """Why it stands where it stands, in one sentence without a full stop."""
         first, degree, surplus = self.loops.loops[0], self.coupling_degree, self.redundant.collapsed
         both = " and ".join(edge.removeprefix("limb ") for edge in first.joints)
-        virtual = f"{_COUNTS[degree]} virtual variable{_plural(degree)}"
+        virtual = f"{_COUNTS[degree]} virtual variable{'' if degree == 1 else 's'}"
         coupled = f"{virtual}, for limbs {both} close a loop with Δ = {first.delta:+d}"
         exact = f"{surplus or 'no'} constraint{'s are' if surplus > 1 else ' is'} redundant"
         equal = f"{_COUNTS[len(self.limbs)]} equal limbs" if self.symmetric else f"{_COUNTS[self.kinds]} kinds of limbs"
         return f"{coupled}; ξ = {', '.join(map(str, self.xi))}, so {exact}; {self.joints} joints in {equal}"
-
-
-def _plural(count: int) -> str:
-    return "" if count == 1 else "s"

@@ -10,6 +10,7 @@ from assur.model.file.key_path import KeyPath
 from assur.model.file.place import problem, table_place
 from assur.model.mechanism import MechanismRecord
 from assur.model.pose import ANGLES, LENGTHS, QUATERNION, rate_names
+from assur.results.plain_text import count
 
 SHOWN = 6
 
@@ -26,7 +27,7 @@ def freedom_problems(record: MechanismRecord, claims: Claims) -> list[Problem]:
         found = f"a structure that cannot move: {freedoms}"
         hint = axes_hint(record, home_values(record), tuple(record.joints)) or "are axes parallel that should be?"
         return [problem(record, table_place(record, "joints"), found, "at least one freedom", hint)]
-    inputs, freedoms = _count(driven, "input"), f"the mechanism has {_count(moving, 'freedom')}"
+    inputs, freedoms = count(driven, "input"), f"the mechanism has {count(moving, 'freedom')}"
     if driven > moving:
         hint = f"it is over-actuated: leave out {_one_of(claims.spare_inputs)}"
         return [problem(record, path, f"{inputs} ({names}); {freedoms}", "one input for each freedom", hint)]
@@ -55,7 +56,7 @@ def pose_problems(record: MechanismRecord, claims: Claims) -> list[Problem]:
             hint = f"leave out {_one_of(claims.spare_pose)}"
         return [problem(record, path, found, "coordinates that the platform can choose", hint)]
     if posed < claims.moving:
-        found = f"{listed}: {_count(len(names), 'coordinate')} for {_count(claims.moving, 'freedom')}"
+        found = f"{listed}: {count(len(names), 'coordinate')} for {count(claims.moving, 'freedom')}"
         hint = _unsaid(record, claims)
         return [problem(record, path, found, "as many as there are freedoms", hint)]
     return []
@@ -70,10 +71,6 @@ def _unsaid(record: MechanismRecord, claims: Claims) -> str:
     missing = claims.lacking(tuple(others))
     motion = f"with {', '.join(pose)} held it still {claims.unsaid}"
     return f"{motion}; add {_one_of(missing)}" if missing else motion
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}{'' if number == 1 else 's'}"
 
 
 def _one_of(names: list[str]) -> str:

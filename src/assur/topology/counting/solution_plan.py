@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur.results.answers.topology import AssurChain, AssurPlan, Loop, PlanStep
+from assur.results.plain_text import count
 from assur.topology.counting.actuation import locked_freedoms
 from assur.topology.counting.coupling import Decomposition
 from assur.topology.counting.special_constraints import SpecialConstraint, connected, special_constraints, way_to
@@ -171,9 +172,9 @@ def _sentences(part: AssurPlan, number: int, of: int) -> list[str]:
 def _said(step: PlanStep, part: AssurPlan, number: int) -> str:
     """What one loop is for."""
     if step.virtual:
-        does = f"takes {_count(step.virtual, 'virtual variable')}"
+        does = f"takes {count(step.virtual, 'virtual variable')}"
     elif step.equations:
-        does = f"gives {_count(step.equations, 'equation')} for what was assumed"
+        does = f"gives {count(step.equations, 'equation')} for what was assumed"
     elif part.coupling_degree:
         does = "is solved in terms of what was assumed"
     else:
@@ -189,14 +190,10 @@ def _conclusion(part: AssurPlan) -> str:
     head = f"κ = {part.coupling_degree}"
     if not part.coupling_degree:
         return f"{head}: no search."
-    least = f"at most a search in {_count(part.search, 'dimension')}"
+    least = f"at most a search in {count(part.search, 'dimension')}"
     if not part.reason:
         return f"{head}: {least}."
     if part.search:
-        return f"{head}, but {part.reason}, which leaves {_count(part.search, 'virtual variable')}: {least}."
+        return f"{head}, but {part.reason}, which leaves {count(part.search, 'virtual variable')}: {least}."
     given = "the virtual variable" if part.coupling_degree == 1 else f"all {part.coupling_degree} virtual variables"
     return f"{head}, but {part.reason}, which gives {given}: no search is needed."
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}{'' if number == 1 else 's'}"
