@@ -6,7 +6,7 @@ import shutil
 import pytest
 
 from assur.audit.audit import FORMS, audit, reference_of
-from assur.audit.errata import errata, erratum
+from assur.audit.errata import errata
 from assur.audit.reference import read_reference
 from assur.errors import MechanismFileError, UnknownNameError, UsageError
 from assur.model.consent import leave
@@ -110,11 +110,6 @@ def test_a_row_whose_erratum_does_not_exist_is_refused(record):
     wrong = COUNT.replace('given = ["1", "2"]', 'given = ["100", "80"]\nerratum = "E9"').replace('= "2"\n', '= "3"\n')
     with pytest.raises(UnknownNameError, match="E9"):
         audit(add(record, wrong))
-
-
-def test_an_unknown_erratum_lists_those_that_exist():
-    with pytest.raises(UnknownNameError, match="E15"):
-        erratum(load_record("zeng2019"), "E99")
 
 
 def test_a_mechanism_without_errata_has_none(record):

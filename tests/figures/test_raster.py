@@ -26,6 +26,10 @@ def slow(flat, near, width, height):
     return face
 
 
+def picture(shown, view, size, dots):
+    return raster.lit(shown, view, raster.filled(shown, view, size, dots), dots, edges=False)
+
+
 @pytest.mark.parametrize("seed", range(6))
 def test_the_nearest_triangle_is_seen_at_every_pixel(seed):
     rng = np.random.default_rng(seed)
@@ -45,7 +49,7 @@ def test_a_ball_hides_what_is_behind_it_and_nothing_else(camera):
     before = mesh.box(30 * camera.toward, 4 * np.eye(3), "#0000ff")
     ball = mesh.ball(np.zeros(3), 14.0, "#00ff00")
     view = View(camera, 1.0, np.array([40.0, 40.0]))
-    image = raster.picture(mesh.joined([behind, ball, before]), view, (80.0, 80.0), 72.0, edges=False)
+    image = picture(mesh.joined([behind, ball, before]), view, (80.0, 80.0), 72.0)
     colours = image[image[..., 3] == 1.0][:, :3]
     assert not np.any((colours[:, 0] > 0.3) & (colours[:, 1] < 0.1))  # the red box is hidden
     assert np.any((colours[:, 2] > 0.3) & (colours[:, 1] < 0.1))  # the blue box is not
@@ -55,7 +59,7 @@ def test_a_ball_hides_what_is_behind_it_and_nothing_else(camera):
 def test_the_picture_is_where_the_page_says():
     view = View(orthographic(0, 90), 2.0, np.array([30.0, 50.0]))
     box = mesh.box(np.array([0.0, 0.0, 0.0]), np.diag([5.0, 2.0, 1.0]), "#ffffff")
-    image = raster.picture(box, view, (60.0, 80.0), 144.0, edges=False)
+    image = picture(box, view, (60.0, 80.0), 144.0)
     assert image.shape == (160, 120, 4)
     rows, columns = np.nonzero(image[..., 3] > 0.5)
     across = np.array([columns.min(), columns.max() + 1]) / 2

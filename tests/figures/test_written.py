@@ -3,7 +3,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from assur.figures.written import at_least, minus, times_ten, units
+from assur.figures.written import at_least, times_ten, units
+from assur.results.typeset_text import minus
 
 
 def test_what_is_said_to_be_the_least_is_no_more_and_nearly_all():

@@ -4,7 +4,7 @@ import numpy as np
 
 from assur.topology.screws.edges import Edge
 from assur.topology.screws.screws import screw_tree
-from assur.topology.screws.twists import edges, generic_values
+from assur.topology.screws.twists import edges, generic_values, motion_space
 
 X, Y, Z = np.eye(3)
 
@@ -51,11 +51,36 @@ def joint_twists(linkage, values):
     return np.concatenate([omega, moved], axis=1)
 
 
+def poses(linkage, values):
+    """Displacements from home of all links: link -> rotation (N, 3, 3) and translation (N, 3), in the base frame."""
+    tree = screw_tree(linkage)
+    placed, found = tree.at(values / tree.scales).frames, {}
+    for link, frame in tree.frames.items():
+        rotation = placed[:, frame, :3, :3]
+        shift = linkage.point - rotation @ linkage.point + linkage.length * placed[:, frame, :3, 3]
+        found[link] = rotation, shift
+    return found
+
+
+def residuals(linkage, values):
+    """By how much each loop is open, (N, 6 v): rotation vector in rad and gap in lengths of the linkage."""
+    return _loops(linkage, values)[0].reshape(len(values), -1)
+
+
 def closure_jacobian(linkage, values):
     """Derivative (N, 6 v, n) of `residuals` by the joint values; exact also where the loops are open."""
+    jacobian = _loops(linkage, values)[1] / screw_tree(linkage).scales
+    return jacobian.reshape(len(values), -1, values.shape[1])
+
+
+def _loops(linkage, values):
     tree = screw_tree(linkage)
-    _, jacobian = tree.misfit(tree.at(values / tree.scales), *tree.loops.T)
-    return jacobian.reshape(len(values), 6 * len(tree.loops), values.shape[1]) / tree.scales
+    return tree.misfit(tree.at(values / tree.scales), *tree.loops.T)
+
+
+def limb_motion(edges, joints, base, link):
+    """Basis (N, 6, k) of what a limb alone would let its end link do, at the same configurations."""
+    return motion_space([edge for edge in edges if edge.name in set(joints)], base, link)
 
 
 def generic_edges(linkage, *, count=4, seed=0, hold=None, collapsed=True):

@@ -16,7 +16,7 @@ from pydantic import RootModel
 
 from assur.audit.reference import ERRATA, checked, reference_folder
 from assur.audit.rows import Erratum, Evidence
-from assur.errors import MechanismFileError, Problem, UnknownNameError
+from assur.errors import MechanismFileError, Problem
 from assur.model.consent import may_run
 from assur.model.file.schema import Entry
 from assur.model.file.toml_source import read_toml
@@ -50,20 +50,6 @@ def errata(record: MechanismRecord) -> tuple[Erratum, ...]:
     """
     path = reference_folder(record) / ERRATA
     return tuple(_erratum(record, name, entry, path) for name, entry in _entries(path).items())
-
-
-def erratum(record: MechanismRecord, name: str) -> Erratum:
-    """One erratum by its id, with its evidence.
-
-    >>> from assur.model.registry import load_record
-    >>> erratum(load_record("zeng2019"), "E10").evidence.holds
-    True
-    """
-    path = reference_folder(record) / ERRATA
-    entries = _entries(path)
-    if name not in entries:
-        raise UnknownNameError(f"erratum of {record.name}", name, entries)
-    return _erratum(record, name, entries[name], path)
 
 
 def _entries(path: Path) -> dict[str, ErratumEntry]:

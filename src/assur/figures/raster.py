@@ -97,14 +97,6 @@ def _fine(mesh: Mesh, view: View, dots: float) -> FloatArray:
     return SAMPLES * dots / 72.0 * view(mesh.corners) - 0.5
 
 
-def picture(mesh: Mesh, view: View, size: tuple[float, float], dots: float, *, edges: bool = True) -> FloatArray:
-    """The picture (h, w, 4) of a mesh on a page of size points, with `dots` pixels per inch; clear where there is none.
-
-    `edges` are drawn as wide as a fine pixel on each side.
-    """
-    return lit(mesh, view, filled(mesh, view, size, dots), dots, edges=edges)
-
-
 def lit(mesh: Mesh, view: View, buffers: Buffers, dots: float, *, edges: bool = True) -> FloatArray:
     """The picture (h, w, 4) of what is nearest, with light on it."""
     flat = _fine(mesh, view, dots)

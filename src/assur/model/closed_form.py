@@ -12,17 +12,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import SimpleNamespace
-from typing import Any, Literal, Protocol
+from typing import Any, Literal
 
 Number = Any
 """A float array, an interval, a SymPy expression, a dual number: whatever has + - * / ."""
-
-
-class Namespace(Protocol):
-    """The functions that a kernel needs beside + - * / ."""
-
-    def sqrt(self, radicand: Number, /) -> Number:
-        """Square root of a margin (see `assur.numerics.number_types` for what it does below zero)."""
 
 
 @dataclass(frozen=True)

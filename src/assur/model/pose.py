@@ -10,7 +10,6 @@ from __future__ import annotations
 LENGTHS = ("x", "y", "z")
 ANGLES = ("phi", "theta", "psi")
 QUATERNION = ("qw", "qx", "qy", "qz")
-NAMES = (*LENGTHS, *ANGLES, *QUATERNION)
 
 Pose = tuple[str, ...]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import dataclasses
 import os
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from assur.errors import MechanismFileError, Problem, UnknownNameError, UsageError
 from assur.model.closed_form import ClosedForm
@@ -17,9 +17,11 @@ from assur.model.consent import built_in
 from assur.model.file.description import description_text, with_ending
 from assur.model.kept_readings import keep_reading, kept_reading
 from assur.model.mechanism import MechanismRecord
-from assur.results.answers.catalogue import LeftOutMechanism
 from assur.results.reading import file_text
 from assur.work import stage
+
+if TYPE_CHECKING:
+    from assur.results.answers.catalogue import LeftOutMechanism
 
 FILE = "mechanism.toml"
 TOPOLOGY = "topology.toml"
@@ -60,7 +62,9 @@ def left_out() -> tuple[LeftOutMechanism, ...]:
     >>> [item.title for item in left_out()]
     ['Tri-pyramid robot']
     """
-    import tomllib  # which nothing else here needs
+    import tomllib  # which, as the answer, nothing else here needs
+
+    from assur.results.answers.catalogue import LeftOutMechanism
 
     entries = tomllib.loads((_folder() / LEFT_OUT).read_text(encoding="utf-8"))
     return tuple(LeftOutMechanism(name, **entry) for name, entry in sorted(entries.items()))

@@ -129,15 +129,6 @@ def flattened(elements: tuple[Element, ...]) -> Iterator[ChainJoint | Parallelog
             yield element
 
 
-def inner_loops(elements: tuple[Element, ...]) -> Iterator[InnerLoop]:
-    """The inner loops of some elements, the innermost first."""
-    for element in elements:
-        if isinstance(element, InnerLoop):
-            for branch in element.branches:
-                yield from inner_loops(branch)
-            yield element
-
-
 def _refuse_unless_unit(axis: Vector) -> None:
     if not abs(math.hypot(*axis) - 1) < EXACT:
         raise UsageError(f"the axis {axis}; expected a unit vector", hint="directions.unit gives one")

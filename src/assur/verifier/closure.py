@@ -40,7 +40,6 @@ from assur.verifier.places import DrawnPlace, FormulaTape, RatedNumber, RootPlan
 from assur.verifier.reading import AT_PLACES, EXACT, OF_THESE, RefusedError
 from assur.verifier.sizes import Size
 
-CHECKED = ("loops", "platform", "velocities", "determinants")
 SURE = 1e-15
 ENOUGH = 1e-18
 LEAST, MOST = 72, 5000

@@ -8,6 +8,7 @@ import pytest
 from assur.errors import UsageError
 from assur.export.cad import kernel
 from assur.scene.shapes import Ball, Bar, Cuboid, Cylinder, Slab
+from tight_box import bounds
 
 SHAPES = (
     (Cylinder(np.array([0.0, 1, 2]), np.array([3.0, 1, 6]), 0.4), np.pi * 0.16 * 5),
@@ -26,7 +27,7 @@ def test_volume_bounds_and_validity(shape, wanted):
     assert kernel.valid(made)
     assert kernel.volume(made) == pytest.approx(wanted, rel=1e-9)
     corners = shape.mesh("#000000").corners.reshape(-1, 3)
-    np.testing.assert_allclose(kernel.bounds(made), [corners.min(axis=0), corners.max(axis=0)], atol=0.01)
+    np.testing.assert_allclose(bounds(made), [corners.min(axis=0), corners.max(axis=0)], atol=0.01)
 
 
 @pytest.mark.cad

@@ -7,6 +7,7 @@ import assur
 from assur.joint_graph.frames import frames
 from assur.scene import mesh
 from assur.scene.bodies import bodies, fused, home_skeleton
+from tight_box import bounds
 
 pytestmark = pytest.mark.cad
 SOME = ("zeng2019", "fivebar", "three_rps")
@@ -86,7 +87,7 @@ def test_a_file_read_back_is_the_mechanism(name, tmp_path):
             solid = fused(body)
             rotation, origin = frames(record, record.home_values)[link]
             box = np.array(solid.transform(np.column_stack([rotation, origin])).bounding_box()).reshape(2, 3)
-            found = np.array([kernel.bounds(shape) for shape in own])
+            found = np.array([bounds(shape) for shape in own])
             size = home_skeleton(record).size
             np.testing.assert_allclose(found[:, 0].min(axis=0), box[0], atol=2e-4 * size)
             np.testing.assert_allclose(found[:, 1].max(axis=0), box[1], atol=2e-4 * size)
@@ -113,11 +114,10 @@ def test_volumes_of_meshes_tend_to_those_of_the_exact_solids(name, monkeypatch):
 
 
 def test_a_length_unit_is_turned_into_mm(tmp_path):
-    from assur.export.cad import kernel
     from assur.export.cad.step import step
 
     record = assur.load("delta_4s")
     assert record.unit == "m"
     _, links = read(step(record, record.home_values), tmp_path / "it.step")
-    low, high = kernel.bounds(links["leg1.rod1"]["leg1.rod1"])
+    low, high = bounds(links["leg1.rod1"]["leg1.rod1"])
     assert 1000 < np.linalg.norm(high - low) < 2000

@@ -17,10 +17,9 @@ from assur.topology.notation import parse_chains
 from assur.topology.screws.configurations import configurations
 from assur.topology.screws.edges import Edge, along, closure, column_names, input_columns, null_basis
 from assur.topology.screws.placing import place
-from assur.topology.screws.screws import poses, residuals
 from assur.topology.screws.twists import edges
 from assur.topology.symbolic.refusals import Refusal
-from twist_chains import closure_jacobian
+from twist_chains import closure_jacobian, poses, residuals
 
 TRIPTERON = [f"P[{u}] R[{u}] R[{u}] R[{u}]" for u in "xyz"]
 CRR = [f"C[{u}] R[{u}] R[{u}]" for u in "xyz"]

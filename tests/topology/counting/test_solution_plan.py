@@ -19,10 +19,9 @@ from assur.topology.notation import parse_chains
 from assur.topology.screws.configurations import configurations
 from assur.topology.screws.linkage import part
 from assur.topology.screws.placing import place
-from assur.topology.screws.screws import poses
 from assur.topology.screws.twists import edges, generic_values
 from catalogue import topology_of
-from twist_chains import closure_jacobian
+from twist_chains import closure_jacobian, poses
 
 NAMES = sorted({*assur.names(), *topology_names()})
 HYBRID = "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]"

@@ -13,8 +13,8 @@ from assur.topology.screws.configurations import configurations
 from assur.topology.screws.edges import Edge
 from assur.topology.screws.limb_linkage import limb_linkage
 from assur.topology.screws.placing import place
-from assur.topology.screws.screws import poses
 from assur.topology.screws.twists import edges, generic_values
+from twist_chains import poses
 
 AROUND = ("0,1,0", "-0.8660254037844386,-0.5,0", "0.8660254037844386,-0.5,0")
 H4 = ["{R[x] P(4S)[x] | R[y] P(4S)[y]} R[z]"] * 2

@@ -2,7 +2,7 @@
 
 import pytest
 
-from assur.topology.chains import inner_loops
+from assur.topology.chains import InnerLoop
 from assur.topology.notation import parse_chain, parse_chains
 
 
@@ -41,4 +41,13 @@ def test_names_are_written_or_counted(texts, expected):
     ],
 )
 def test_a_planar_loop_is_called_by_its_hinges(text, expected):
-    assert [loop.name for loop in inner_loops(parse_chain(text).elements)] == expected
+    assert list(loop_names(parse_chain(text).elements)) == expected
+
+
+def loop_names(elements):
+    """Of the inner loops, the innermost first."""
+    for loop in elements:
+        if isinstance(loop, InnerLoop):
+            for branch in loop.branches:
+                yield from loop_names(branch)
+            yield loop.name

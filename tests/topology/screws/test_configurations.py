@@ -9,8 +9,7 @@ from assur.topology.notation import parse_chain
 from assur.topology.screws.configurations import ImmobileError, configurations, home_is_special
 from assur.topology.screws.linkage import Linkage, LinkageJoint
 from assur.topology.screws.placing import place
-from assur.topology.screws.screws import poses, residuals
-from twist_chains import closure_jacobian
+from twist_chains import closure_jacobian, poses, residuals
 
 PAPER = ("{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]", "P[y] P(4R)[x] P(4R)[y]")
 DELTA = ("R[y] P(4S)[y]", "R[0.6,0.8,0] P(4S)[0.6,0.8,0]", "R[x] P(4S)[x]")

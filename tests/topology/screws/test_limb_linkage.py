@@ -10,9 +10,8 @@ from assur.topology.screws.configurations import configurations
 from assur.topology.screws.limb_linkage import limb_linkage, limb_values
 from assur.topology.screws.placing import place
 from assur.topology.screws.recognition import recognised
-from assur.topology.screws.screws import poses, residuals
 from assur.topology.screws.twists import edges, poc_dimensions
-from twist_chains import joint_twists
+from twist_chains import joint_twists, poses, residuals
 
 HYBRID = "{P[y] R[x] R[x] | P[y] R[x] R[x]} R[y] R[y]"
 # a limb, and the joint whose axis or centre O' is on at home

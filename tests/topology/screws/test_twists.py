@@ -20,19 +20,17 @@ from assur.topology.screws.configurations import configurations, home_is_special
 from assur.topology.screws.edges import closure
 from assur.topology.screws.linkage import part
 from assur.topology.screws.placing import place
-from assur.topology.screws.screws import poses, residuals
 from assur.topology.screws.twists import (
     UnclearRankError,
     clear_rank,
     dimensions,
     edges,
     fixed_directions,
-    limb_motion,
     motion_space,
     poc_dimensions,
 )
 from examples import examples
-from twist_chains import closure_jacobian, generic_edges
+from twist_chains import closure_jacobian, generic_edges, limb_motion, poses, residuals
 
 
 def _around(text, count=3):

@@ -88,16 +88,6 @@ def volume(shape: Any) -> float:
     return float(measured.Mass())
 
 
-def bounds(shape: Any) -> FloatArray:
-    """Lowest and highest corner (2, 3) of the tight box about a shape."""
-    from OCP.Bnd import Bnd_Box
-    from OCP.BRepBndLib import BRepBndLib
-
-    box = Bnd_Box()
-    BRepBndLib.AddOptimal_s(shape, box, False, False)
-    return np.array([box.CornerMin().Coord(), box.CornerMax().Coord()])
-
-
 def valid(shape: Any) -> bool:
     """Whether its faces and edges close it without gaps or crossings."""
     from OCP.BRepCheck import BRepCheck_Analyzer

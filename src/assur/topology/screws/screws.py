@@ -88,49 +88,6 @@ class PlacedLinks:
     twists: FloatArray
 
 
-def poses(linkage: Linkage, values: FloatArray) -> dict[str, tuple[FloatArray, FloatArray]]:
-    """Displacements from home of all links: link -> rotation (N, 3, 3) and translation (N, 3), in the base frame.
-
-    A link is placed along one path from the base, the shortest; whether loops are closed is not asked.
-
-    Args:
-        linkage: whose home configuration all poses are relative to.
-        values: (N, n) joint values, rad and the linkage's own unit of length.
-
-    >>> from assur.joints.revolute import REVOLUTE
-    >>> hinge = LinkageJoint("R", REVOLUTE, "base", "arm", np.array([[0.0, 0, 1, 0, 0, 0]]), np.zeros(3))
-    >>> arm = Linkage({"R": hinge}, "base", "arm", np.array([1.0, 0.0, 0.0]))
-    >>> rotation, shift = poses(arm, np.array([[np.pi / 2]]))["arm"]
-    >>> (rotation[0] @ arm.point + shift[0]).round(12) + 0.0
-    array([0., 1., 0.])
-    """
-    tree = screw_tree(linkage)
-    placed = tree.at(_checked(linkage, values) / tree.scales)
-    poses_of_links = {}
-    for link, frame in tree.frames.items():
-        rotation = placed.frames[:, frame, :3, :3]
-        poses_of_links[link] = (
-            rotation,
-            linkage.point - rotation @ linkage.point + linkage.length * placed.frames[:, frame, :3, 3],
-        )
-    return poses_of_links
-
-
-def residuals(linkage: Linkage, values: FloatArray) -> FloatArray:
-    """By how much each loop is open, (N, 6 v): rotation vector in rad and gap in lengths of the linkage."""
-    tree = screw_tree(linkage)
-    residual, _ = tree.misfit(tree.at(_checked(linkage, values) / tree.scales), tree.loops[:, 0], tree.loops[:, 1])
-    return residual.reshape(len(residual), 6 * len(tree.loops))
-
-
-def _checked(linkage: Linkage, values: FloatArray) -> FloatArray:
-    values = np.asarray(values, dtype=float)
-    count = len(screw_tree(linkage).scales)
-    if values.ndim != 2 or values.shape[1] != count:
-        raise UsageError(f"joint values have shape {values.shape}; it must be (N, {count}), one row a configuration")
-    return values
-
-
 @lru_cache(maxsize=64)
 def screw_tree(linkage: Linkage) -> ScrewTree:
     """The linkage made ready for evaluation.

@@ -253,18 +253,6 @@ def dimensions(basis: FloatArray) -> tuple[int, int, int]:
     return clear_rank(basis[:, 3:], 1.0), clear_rank(basis[:, :3], 1.0), basis.shape[-1]
 
 
-def limb_motion(edges: Sequence[Edge], joints: Sequence[str], base: str, link: str) -> FloatArray:
-    """Basis (N, 6, k) of what a limb alone would let its end link do, at the same configurations.
-
-    Args:
-        edges: of a whole mechanism.
-        joints: names of the edges that make up the limb.
-        base: where it starts.
-        link: where it ends.
-    """
-    return motion_space([edge for edge in edges if edge.name in set(joints)], base, link)
-
-
 def fixed_directions(basis: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Directions in the base that the t part, and the r part, has at all configurations.
 
