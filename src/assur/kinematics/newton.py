@@ -38,10 +38,12 @@ class Newton:
     Attributes:
         record: the mechanism.
         step: what is held.
+        units: what a change of one is of each joint value (n,) in rates; rad and characteristic lengths by default.
     """
 
     record: MechanismRecord
     step: NewtonStep
+    units: FloatArray | None = None
 
     def __call__(self, start: FloatArray, poses: FloatArray | None = None) -> NewtonResult:
         """Joint values (N, n) with gaps in characteristic lengths or rad, at poses (N, m) where the step holds those.
@@ -54,8 +56,8 @@ class Newton:
 
         def step(values: FloatArray, rows: IntArray) -> tuple[FloatArray, FloatArray]:
             numbers = self.program(self.record, values, None if given is None else given[:, rows])
-            rates[rows] = self.program.matrix("rate", numbers, self.shape)
-            changes = self.program.matrix("change", numbers, (count, 1))[:, :, 0]
+            rates[rows] = self._rates(numbers)
+            changes = self.program.matrix("change", numbers, (count, 1))[:, :, 0] * joint_scales(self.record)
             return _largest(numbers[squares]), moved(self.record, values, changes)
 
         def gaps(values: FloatArray, rows: IntArray) -> FloatArray:
@@ -69,10 +71,17 @@ class Newton:
     def rates(self, values: FloatArray, poses: FloatArray | None = None) -> FloatArray:
         """How fast joint values change (N, n, k) with what is held, at assemblies (N, n) at their own poses (N, m).
 
-        By rad and characteristic lengths; ball joints' are angular velocities in the parent's frame.
+        Both without dimensions; ball joints' are angular velocities in the parent's frame.
         """
-        numbers = self.program(self.record, values, None if poses is None else targets(self.record, poses))
-        return self.program.matrix("rate", numbers, self.shape)
+        return self._rates(self.program(self.record, values, None if poses is None else targets(self.record, poses)))
+
+    def _rates(self, numbers: FloatArray) -> FloatArray:
+        """The rates (N, n, k) that the program has told."""
+        rates = self.program.matrix("rate", numbers, self.shape)
+        if self.units is None:
+            return rates
+        scales = joint_scales(self.record) / self.units
+        return rates * scales[:, None] / scales[list(self.step.held)] if self.step.held else rates * scales[:, None]
 
     @cached_property
     def shape(self) -> tuple[int, int]:
@@ -91,13 +100,13 @@ def _largest(squares: FloatArray) -> FloatArray:
 
 
 def moved(record: MechanismRecord, values: FloatArray, changes: FloatArray) -> FloatArray:
-    """Joint values (N, n) after changes (N, n), lengths in characteristic ones, balls' by angular velocities.
+    """Joint values (N, n) after changes (N, n), those of ball joints by angular velocities.
 
     >>> from assur.model.registry import load_record
     >>> moved(load_record("fivebar"), np.zeros((1, 5)), np.array([[0.0, 0.5, 0.0, 0.0, 0.0]]))
     array([[0. , 0.5, 0. , 0. , 0. ]])
     """
-    whole = changes * joint_scales(record)
+    whole = changes.copy()
     balls = [range(turn.start, turn.stop) for turn in joint_graph(record).turns]
     if balls:
         whole[:, balls] = rotations.vector_rates(values[:, balls], whole[:, balls])

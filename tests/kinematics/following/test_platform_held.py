@@ -7,8 +7,9 @@ import pytest
 
 import assur
 from assur.joint_graph.tree import joint_graph
+from assur.kinematics.following.from_home import followed_together
 from assur.kinematics.following.locked import matrices
-from assur.kinematics.following.platform_held import passes_zero, platform_held
+from assur.kinematics.following.platform_held import holding, passes_zero, platform_held
 from assur.kinematics.following.ways import held_system
 from assur.kinematics.pose import pose_of
 from assur.kinematics.position import inverse
@@ -151,3 +152,40 @@ def test_a_branch_goes_on_where_a_parallelogram_folds_over():
     told = [passes_zero(*(platform_held(record, part).rates for part in pair)) for pair in near_modes(record)]
     assert {bool(one[0]) for one in told} == {True, False}
     assert all(abs(np.mean(one) - 0.5) >= 0.4 for one in told)
+
+
+SCREWS = """
+format = 1
+name = "screws"
+unit = "mm"
+angle = "deg"
+base = "base"
+platform = { link = "nut", pose = ["z"] }
+links = { base = {}, shaft = {}, nut = {} }
+inputs = { H1 = { name = "q" } }
+home = { H1 = 0, H2 = 0, P = 0 }
+[joints]
+H1 = { type = "helical", parent = "base", child = "shaft", axis = "z", pitch = 5 }
+H2 = { type = "helical", parent = "shaft", child = "nut", axis = "z", pitch = -3 }
+P = { type = "prismatic", parent = "base", child = "nut", axis = "z" }
+"""
+
+
+def test_screws_are_followed_through_turns(tmp_path):
+    """A differential screw: 8 mm a turn. Rates are those of turns that move as far as other joints do."""
+    path = tmp_path / "screws.toml"
+    path.write_text(SCREWS, encoding="utf-8")
+    record = assur.load(path)
+    turn, units = 2 * np.pi, joint_units(record)
+    z = np.linspace(0.0, 25.0, 30)[:, None]
+    joints, reached = followed_together(record, z)
+    expected = z * np.array([turn / 8, -turn / 8, 1.0])
+    assert np.all(reached)
+    np.testing.assert_allclose(joints, expected, atol=1e-8)
+    slopes = np.array([turn / 8, -turn / 8, 1.0])
+    for held, own, end in (("poses", pose_units(record), z), ("inputs", units[:1] * 8 / turn, joints[:, :1])):
+        rates = holding(record, held).rates(joints, end if held == "poses" else None)
+        np.testing.assert_allclose(rates[..., 0], np.tile(slopes * own / units, (30, 1)), rtol=1e-6)
+    joints, reached = followed_together(record, expected[:, :1], "inputs")
+    assert np.all(reached)
+    np.testing.assert_allclose(joints, expected, atol=1e-8)

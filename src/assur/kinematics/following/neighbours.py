@@ -51,7 +51,7 @@ class SignGuard:
         """Where steps lead, which of them may not be taken, and steps twice as long."""
         move = (places.known @ way.change(places.shares, ends, rows)[..., None])[..., 0]
         move *= (LONG / np.maximum(np.max(np.abs(move), axis=1, initial=0.0), LONG))[:, None]
-        foreseen = moved(self.record, places.joints, move)
+        foreseen = moved(self.record, places.joints, move * joint_units(self.record))
         near = holding(self.record, self.held)(*_holding(self.record, self.held, foreseen, way.at(ends, rows)))
         reached = Places(ends, near.values, near.derivative)
         far = np.max(np.abs(near.values - places.joints) / joint_units(self.record), axis=1, initial=0.0)

@@ -93,7 +93,7 @@ def platform_held(record: MechanismRecord, values: FloatArray) -> PlatformHeld:
 def holding(record: MechanismRecord, held: Prescribed) -> Newton:
     """Newton's method with the platform or the inputs held."""
     step = NewtonStep((), record.platform.pose) if held == "poses" else NewtonStep(record.input_indices)
-    return Newton(record, step)
+    return Newton(record, step, joint_units(record))
 
 
 def passes_zero(before: FloatArray, after: FloatArray) -> BoolArray:
