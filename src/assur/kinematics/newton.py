@@ -50,20 +50,18 @@ class Newton:
 
         The derivative (N, n, k) is that by what is held, as `rates` has it. What is not closed has no assembly near.
         """
-        given = None if poses is None else targets(self.record, poses)
-        squares, count = self.program.rows("square"), len(self.record.coordinates)
-        rates = np.empty((len(start), *self.shape))
+        given = np.empty((0, len(start))) if poses is None else targets(self.record, poses)
+        program, count = self.program, len(self.record.coordinates)
+        rates, look = np.empty((len(start), *self.shape)), part(program, "square")
 
         def step(values: FloatArray, rows: IntArray) -> tuple[FloatArray, FloatArray]:
-            numbers = self.program(self.record, values, None if given is None else given[:, rows])
+            numbers = program(self.record, values, given[:, rows])
             rates[rows] = self._rates(numbers)
-            changes = self.program.matrix("change", numbers, (count, 1))[:, :, 0] * joint_scales(self.record)
-            return _largest(numbers[squares]), moved(self.record, values, changes)
+            changes = program.matrix("change", numbers, (count, 1))[:, :, 0] * joint_scales(self.record)
+            return _largest(numbers[program.rows("square")]), moved(self.record, values, changes)
 
         def gaps(values: FloatArray, rows: IntArray) -> FloatArray:
-            return _largest(
-                part(self.program, "square")(self.record, values, None if given is None else given[:, rows])
-            )
+            return _largest(look(self.record, values, given[:, rows]))
 
         found = iterated(step, start, ENOUGH, gaps, BLOCK)
         return NewtonResult(found.values, found.residual, found.closed, rates, found.steps)

@@ -44,8 +44,8 @@ DAMPING = 1e-14
 class NewtonResult:
     """Unknowns (N, n), or the nearest to a solution that were seen; residuals (N,), those before the last step.
 
-    `closed` (N,) says which solve the equations, `derivative` (N, r, n) is that where they were evaluated last (empty
-    where none was asked for), `steps` is how many were made at most.
+    `closed` (N,) says which solve the equations, `derivative` (N, r, n) is that where they were evaluated last, or what
+    stands for it (empty where none was asked for), `steps` is how many were made at most.
     """
 
     values: FloatArray

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 
+ROUNDING = 1e-9
+"""An error below this share of its value is that of rounding."""
+
 
 def fixed(value: float | None, decimals: int) -> str:
     """A number with so many decimals, "-" where it does not exist, and no minus before zero.
@@ -32,13 +35,13 @@ def tiny(value: float | None) -> str:
 
 
 def with_error(value: float, error: float) -> str:
-    """A value and its error, both to the second digit of the error.
+    """A value and its error, both to the second digit of the error; what is exact but for rounding to ten digits.
 
-    >>> with_error(22813484.36, 3684.24), with_error(2.0, 0.0)
-    ('22813500 ± 3700', '2 ± 0')
+    >>> with_error(22813484.36, 3684.24), with_error(2.0, 0.0), with_error(1.9999999999999911, 8.9e-15)
+    ('22813500 ± 3700', '2 ± 0', '2 ± 8.9e-15')
     """
-    if error == 0.0 or not math.isfinite(error):
-        return f"{value:.10g} ± {error:g}"
+    if error <= ROUNDING * abs(value) or not math.isfinite(error):
+        return f"{value:.10g} ± {error:.2g}"
     decimals = 1 - math.floor(math.log10(error))
     if decimals > 0:
         return f"{value:.{decimals}f} ± {error:.{decimals}f}"

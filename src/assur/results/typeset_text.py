@@ -6,12 +6,11 @@ import math
 
 from assur.results import plain_text
 from assur.results.outward import outward
+from assur.results.plain_text import ROUNDING
 
 NOTHING = "–"
 SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 THIN = "\u202f"
-ROUNDING = 1e-9
-"""An error below this share of its value is that of rounding and is not shown."""
 
 
 def fixed(value: float | None, decimals: int) -> str:

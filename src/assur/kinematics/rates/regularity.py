@@ -31,7 +31,7 @@ from assur.model.mechanism import MechanismRecord
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
-BLOCK = 256
+BLOCK = 512
 """Configurations that are looked at together: their matrices stay in the cache."""
 DAMPING = 1e-8
 """What is added to squares of singular values of about 1: they are told apart from zero down to some 1e-4, and the sum
