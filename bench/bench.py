@@ -23,12 +23,13 @@ from pathlib import Path
 from statistics import median
 
 import numpy as np
+from distinct import distinct_inverses
 from rich.console import Console
 from rich.table import Table
 from yardstick import Arrays, Yardstick, compile_library, compiler
 
 import assur
-from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep, inverse_all_sweep
+from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep
 from assur.kinematics.closed_form.sweep import inverse_sweep
 from assur.model.mechanism import MechanismRecord
 
@@ -55,8 +56,8 @@ def one_mode(record: MechanismRecord, poses: np.ndarray) -> Arrays:
 
 
 def distinct(record: MechanismRecord, poses: np.ndarray) -> Arrays:
-    inputs, exists = inverse_all_sweep(record, poses)
-    return [array.reshape(-1, array.shape[-1]) for array in (*inputs, exists)]
+    numbers, exists = distinct_inverses(record, poses, "numpy")
+    return [*np.split(numbers, len(record.inputs)), exists]
 
 
 def expanded(record: MechanismRecord, poses: np.ndarray) -> Arrays:

@@ -19,12 +19,13 @@ from statistics import median
 
 import numpy as np
 from bench import CHUNK, JOBS, MECHANISM, MODE, cpu, problems
+from distinct import distinct_filler, distinct_inverses
 from rich.console import Console
 from rich.table import Table
 from yardstick import Arrays, Yardstick, compile_library, compiler
 
 import assur
-from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep, inverse_all_sweep
+from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep
 from assur.kinematics.closed_form.filling import Filler
 from assur.kinematics.closed_form.grids import Grid
 from assur.kinematics.closed_form.recorded import Recording, recording
@@ -54,8 +55,7 @@ def answers(job: str, record: MechanismRecord, values: np.ndarray, engine: str, 
     if job == "inverse_one":
         return list(inverse_sweep(record, values, MODE, ONE, **options).values())
     if job == "inverse_distinct":
-        inputs, exists = inverse_all_sweep(record, values, **options)
-        return [*inputs, exists]
+        return distinct_inverses(record, values, engine, threads)
     problem = "inverse" if job == "inverse_expanded" else "direct"
     return list(all_modes_sweep(record, problem, values, **options))
 
@@ -66,11 +66,10 @@ def filler_of(job: str, record: MechanismRecord, count: int) -> Filler:
         tape = recording(record, "inverse", ONE)
         rows = tuple(row for name in ONE if name != "exists" for row in tape.rows[name])
         return _filler(tape, tape.uniform(mode_signs(record, "inverse", MODE)), rows, tape.truths, count)
+    if job == "inverse_distinct":
+        return distinct_filler(recording(record, "inverse", every=True), count)
     tape = recording(record, "direct" if job == "direct_all" else "inverse", every=True)
     rows, truths = next(iter(tape.rows.values())), tape.truths
-    if job == "inverse_distinct":
-        rows = tuple({tape.tape.outputs[row.take[0]]: row for row in rows}.values())
-        truths = tuple({tape.tape.outputs[name]: name for name in truths}.values())
     return _filler(tape, tape.uniform(), rows, truths, count)
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep, inverse_all_sweep
+from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep
 from assur.kinematics.closed_form.sweep import inverse_sweep
 from assur.kinematics.modes import all_modes
 
@@ -17,23 +17,6 @@ def test_every_row_of_the_expanded_answer_is_its_mode(mechanism, poses_of, count
         one = inverse_sweep(mechanism, poses, mode, ("inputs", "exists"))
         np.testing.assert_array_equal(inputs[k], one["inputs"])
         np.testing.assert_array_equal(exists[k], one["exists"])
-
-
-def test_distinct_numbers_broadcast_to_the_expanded_answer(mechanism, poses_of, count):
-    poses = poses_of(mechanism)
-    distinct, exists = inverse_all_sweep(mechanism, poses)
-    expanded, all_exist = all_modes_sweep(mechanism, "inverse", poses)
-    axes = (2,) * len(mechanism.modes.working)
-    for k, values in enumerate(distinct):
-        wide = np.broadcast_to(values, (*axes, count)).reshape(-1, count)
-        np.testing.assert_array_equal(wide, expanded[:, k])
-    np.testing.assert_array_equal(np.broadcast_to(exists, (*axes, count)).reshape(-1, count), all_exist)
-
-
-def test_32_inverses_are_12_numbers(zeng, poses_of, count):
-    distinct, exists = inverse_all_sweep(zeng, poses_of(zeng))
-    assert [values.size // count for values in distinct] == [4, 4, 4]
-    assert exists.size // count == 4
 
 
 def test_directs_contain_the_pose_whose_inputs_they_are_given(mechanism, poses_of):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from assur.errors import UnknownNameError, UsageError
-from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep, inverse_all_sweep
+from assur.kinematics.closed_form.all_modes_sweep import all_modes_sweep
 from assur.kinematics.closed_form.sweep import WANT, inverse_sweep
 
 
@@ -20,15 +20,9 @@ def jobs(poses_of, inputs_of):
 def _jobs(mechanism, poses, inputs):
     return {
         "one": lambda **options: list(inverse_sweep(mechanism, poses, **options).values()),
-        "distinct": lambda **options: _flat(inverse_all_sweep(mechanism, poses, **options)),
         "expanded": lambda **options: list(all_modes_sweep(mechanism, "inverse", poses, **options)),
         "direct": lambda **options: list(all_modes_sweep(mechanism, "direct", inputs, **options)),
     }
-
-
-def _flat(answer):
-    inputs, exists = answer
-    return [*inputs, exists]
 
 
 def _digest(arrays):
@@ -38,7 +32,7 @@ def _digest(arrays):
     return digest.hexdigest()
 
 
-@pytest.mark.parametrize("job", ["one", "distinct", "expanded", "direct"])
+@pytest.mark.parametrize("job", ["one", "expanded", "direct"])
 def test_bits_do_not_depend_on_the_block(mechanism, job, jobs, count):
     work = jobs(mechanism)[job]
     digests = {block: _digest(work(block=block)) for block in (7, 1000, 4096, count, 10 * count)}
@@ -94,9 +88,6 @@ def test_no_poses_at_all(mechanism):
         "det_jq": (0,),
         "factors": (len(mechanism.closed_form.factor_list), 0),
     }
-    distinct, exists = inverse_all_sweep(mechanism, np.empty((m, 0)))
-    assert len(distinct) == n
-    assert exists.shape[-1] == 0
     assert all_modes_sweep(mechanism, "inverse", np.empty((m, 0)))[0].shape[1:] == (n, 0)
     assert all_modes_sweep(mechanism, "direct", np.empty((n, 0)))[0].shape[1:] == (m, 0)
 
@@ -109,14 +100,14 @@ def test_only_what_is_wanted(zeng, want, poses_of):
     np.testing.assert_array_equal(alone[want], inverse_sweep(zeng, poses)[want])
 
 
-@pytest.mark.parametrize("job", ["one", "distinct", "expanded", "direct"])
+@pytest.mark.parametrize("job", ["one", "expanded", "direct"])
 def test_progress_is_told_after_every_block(zeng, job, jobs, count):
     calls = []
     jobs(zeng)[job](block=2000, progress=lambda done, total: calls.append((done, total)))
     assert calls == [(2000, count), (4000, count), (count, count)]
 
 
-@pytest.mark.parametrize("job", ["one", "distinct", "expanded", "direct"])
+@pytest.mark.parametrize("job", ["one", "expanded", "direct"])
 def test_memory_is_the_answer_and_a_block(zeng, job, jobs, count):
     work, block = jobs(zeng)[job], 250
     work(block=block)  # whatever is kept from call to call
@@ -145,7 +136,7 @@ def test_refuses_wrong_names_and_components(zeng, poses_of):
     with pytest.raises(UsageError, match="2 components, 3 wanted"):
         inverse_sweep(zeng, poses[:2])
     with pytest.raises(UsageError, match="shapes"):
-        inverse_all_sweep(zeng, (poses[0], poses[1], poses[2, :5]))
+        all_modes_sweep(zeng, "inverse", (poses[0], poses[1], poses[2, :5]))
     with pytest.raises(UsageError, match="shapes"):
         all_modes_sweep(zeng, "direct", (1.0, 2.0, 3.0))
 

@@ -25,59 +25,6 @@ BLOCK = 8192
 """Poses per block, where every temporary holds several branches."""
 
 
-def inverse_all_sweep(
-    record: MechanismRecord,
-    components: Components,
-    *,
-    block: int | None = None,
-    progress: Progress | None = None,
-    engine: Engine = "auto",
-    threads: int = 0,
-) -> tuple[tuple[FloatArray, ...], BoolArray]:
-    """All inverses at N poses, as the few distinct numbers that they are combinations of.
-
-    Args: as for `all_modes_sweep`.
-
-    Returns:
-        One array per input, and `exists`, with an axis per working sign (plus, then minus) before the axis N;
-        an axis is 1 long where the sign makes no difference. Broadcasting gives every combination.
-
-    Example: the 32 inverses of a pose of Zeng et al. 2019 are combinations of 4 + 4 + 4 numbers.
-
-        >>> from assur.model.registry import load_record
-        >>> inputs, exists = inverse_all_sweep(load_record("zeng2019"), ([-15.4714], [9.6849], [456.3315]))
-        >>> [array.shape for array in inputs], exists.shape
-        ([(2, 1, 2, 1, 1, 1), (2, 1, 1, 2, 1, 1), (1, 2, 1, 1, 2, 1)], (2, 2, 1, 1, 1, 1))
-    """
-    columns, count = columns_of(components, record.platform.pose, f"poses of {record.name}")
-    solve = _all_branches(record, "inverse")
-    values, exists = solve(np.empty((0, len(columns))))  # of no poses: shapes only
-    axes = [np.shape(value)[:-1] for value in values]
-    numbers = empty_rows(sum(map(_size, axes)), count)
-    places = np.cumsum([0, *map(_size, axes)])
-    answer = tuple(
-        numbers[first:last].reshape(*shape, count)
-        for first, last, shape in zip(places[:-1], places[1:], axes, strict=True)
-    )
-    real = np.empty((*exists.shape[:-1], count), dtype=bool)
-    tape = chosen(engine, count, lambda: recording(record, "inverse", every=True))
-    if tape is not None:
-        n, modes = len(values), _mode_axes(record, "inverse")
-        rows = tuple(tape.rows["inputs"][n * mode + k] for k in range(n) for mode in _firsts(axes[k], modes))
-        wanted = tuple(tape.truths[mode] for mode in _firsts(real.shape[:-1], modes))
-        filler = Filler(tape, tape.uniform(), rows, wanted, numbers, real.reshape(len(wanted), count))
-        run(filler, components, columns, block, progress, threads)
-        return answer, real
-
-    def work(part: slice, given: FloatArray) -> None:
-        values, real[..., part] = solve(given)
-        for row, value in zip(answer, values, strict=True):
-            row[..., part] = value
-
-    each_block(work, columns, count, BLOCK if block is None else block, progress, threads or 1)
-    return answer, real
-
-
 def all_modes_sweep(
     record: MechanismRecord,
     problem: Problem,
@@ -117,7 +64,7 @@ def all_modes_sweep(
     axes, count = _mode_axes(record, problem), len(columns[0])
     branches = _size(axes)
     rows = len(record.inputs) if problem == "inverse" else len(record.platform.pose)
-    solve = _all_branches(record, problem)
+    solve = all_branches(record, problem)
     numbers, truths = empty_rows(branches * rows, count), np.empty((branches, count), dtype=bool)
     found = numbers.reshape(branches, rows, count), truths
     tape = chosen(engine, count, lambda: recording(record, problem, every=True))
@@ -141,21 +88,17 @@ def _mode_axes(record: MechanismRecord, problem: Problem) -> tuple[int, ...]:
     return (2,) * len(sign_names(record, problem))
 
 
-def _firsts(shape: Sequence[int], axes: Sequence[int]) -> list[int]:
-    """For each place of an array of a shape that broadcasts to `axes`, the first combination of signs it stands for."""
-    numbers = np.arange(_size(axes)).reshape(axes)
-    chosen = numbers[tuple(slice(length) for length in shape[len(shape) - len(axes) :])] if axes else numbers
-    return [int(number) for number in chosen.reshape(-1)[: _size(shape)]]
-
-
 def _size(shape: Sequence[int]) -> int:
     return int(np.prod(shape, dtype=int))
 
 
-def _all_branches(
+def all_branches(
     record: MechanismRecord, problem: Problem
 ) -> Callable[[FloatArray], tuple[list[FloatArray], BoolArray]]:
-    """A function from a block (b, k) of problems to its answers and their existence, along the sign axes."""
+    """A function from a block (b, k) of problems to its answers and their existence, along the sign axes.
+
+    An axis is 1 long where the sign makes no difference.
+    """
     form, p, ns = closed_form_of(record), record.values, Floats()
     direct = None if problem == "inverse" else branch_kernel(record)
     sign = sign_axes(sign_names(record, problem))
