@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from assur.certificates.certificate import (
     CLAIMS,
@@ -25,8 +24,6 @@ from assur.work import Progress
 from assur.workspace.aspects.aspects import Aspects
 from assur.workspace.aspects.path import AspectPath
 from assur.workspace.certified.boxes import Boxes
-
-FloatArray = NDArray[np.float64]
 
 
 def path_certificate(

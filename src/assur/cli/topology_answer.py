@@ -13,6 +13,7 @@ from rich.padding import Padding
 from assur.cli.ascii_text import ascii_rule, ascii_text
 from assur.cli.options import Outcome
 from assur.cli.output import Verbatim, heading, table
+from assur.results.plain_text import signed
 from assur.topology.answers import answers, replacements_by_kind
 from assur.topology.facts import Known, Topology
 
@@ -22,15 +23,6 @@ Said = Callable[[str], str]
 _LONG = re.compile(r"-?\d+\.\d{5,}")
 
 KNOWN = {"both": "rules and twists", "twists": "twists alone"}
-
-
-def signed(value: int) -> str:
-    """A degree of constraint with its sign.
-
-    >>> signed(-1), signed(0), signed(2)
-    ('-1', '0', '+2')
-    """
-    return f"{value:+d}" if value else "0"
 
 
 def shortened(text: str) -> str:
@@ -166,7 +158,7 @@ def _loops(topology: Topology, say: Said) -> Iterator[RenderableType]:
                 *([str(loop.internal)] if internal else []),
                 str(loop.inputs),
                 str(loop.xi),
-                f"{signed(loop.delta)}",
+                signed(loop.delta),
                 str(loop.redundant_constraints),
             )
             for number, loop in enumerate(topology.loops, 1)

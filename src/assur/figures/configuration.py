@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from assur.figures.canvas import POINTS, Canvas, View, inside
 from assur.figures.context import Context
@@ -22,7 +21,6 @@ from assur.scene.parts import model
 from assur.scene.skeleton import Skeleton, skeleton
 from assur.singularity.examples import SingularExample
 
-FloatArray = NDArray[np.float64]
 ACCENT, MUTED = "#e07b45", "#c3c8cc"
 """Colours of the links that a meaning names, and of all others where it names any."""
 

@@ -10,7 +10,6 @@ import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 
 from assur.figures.context import Context
 from assur.figures.plane_map import COLOURS, SHOWN, beyond, coloured, planes, row
@@ -20,7 +19,6 @@ from assur.figures.style import TEXT
 from assur.kinematics.rates.units import factor_unit, is_mixed
 from assur.performance.indices import INDICES
 
-FloatArray = NDArray[np.float64]
 NODES = 160
 
 

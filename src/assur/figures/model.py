@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from assur.figures.canvas import View, fitted
 from assur.figures.context import Context
@@ -20,8 +19,6 @@ from assur.scene.hull import hull
 from assur.scene.letters import lettered
 from assur.scene.rails import rails
 from assur.scene.skeleton import Skeleton
-
-FloatArray = NDArray[np.float64]
 
 
 def _caption(context: Context) -> str:

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from assur.figures.context import Context
 from assur.figures.coordinates import drawn_span, dress, plane_words
 from assur.figures.plots import (
@@ -26,8 +23,6 @@ from assur.figures.plots import (
 from assur.figures.spec import Drawing, FigureKind
 from assur.figures.style import GREY, PAGE, TEXT, new_figure
 from assur.workspace.projections import shadow
-
-FloatArray = NDArray[np.float64]
 
 
 def _planes(context: Context) -> list[tuple[str, str]]:

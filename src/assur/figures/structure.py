@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
 from assur.figures.canvas import Canvas, View, fitted
 from assur.figures.context import Context
@@ -19,8 +18,6 @@ from assur.figures.symbols import direction
 from assur.scene.camera import oblique
 from assur.scene.rails import rails
 from assur.scene.skeleton import Rod, Skeleton
-
-FloatArray = NDArray[np.float64]
 
 
 def _caption(context: Context) -> str:

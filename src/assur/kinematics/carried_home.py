@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from assur.errors import UsageError
 from assur.kinematics.closure import Assembly, assemble, gap_left
@@ -11,7 +10,6 @@ from assur.kinematics.named_signs import mode_names
 from assur.model.dimensions import of_file, with_parameters
 from assur.model.mechanism import MechanismRecord
 
-FloatArray = NDArray[np.float64]
 STEPS = 24
 OTHERS_HINT = "write these dimensions into a copy of the file, with a [home] near the assembly that is wanted"
 

@@ -58,6 +58,15 @@ def count(number: int, noun: str) -> str:
     return f"{number} {noun}" if number == 1 else f"{number} {noun}{ending}"
 
 
+def signed(value: int) -> str:
+    """A whole number with its sign, which zero has not.
+
+    >>> signed(-1), signed(0), signed(2)
+    ('-1', '0', '+2')
+    """
+    return f"{value:+d}" if value else "0"
+
+
 def size_text(count: int) -> str:
     """Bytes as a person reads them.
 

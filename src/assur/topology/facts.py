@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
+from assur.results.plain_text import signed
 from assur.topology.counting.solution_plan import SolutionPlan
 from assur.topology.poc import PocSet
 
@@ -101,7 +102,7 @@ class Topology:
     relax: Callable[[], Relaxation] = field(repr=False, default=NotImplemented)
 
     def __str__(self) -> str:
-        loops = ", ".join(f"ξ = {loop.xi} Δ = {loop.delta:+d}".replace("+0", "0") for loop in self.loops) or "none"
+        loops = ", ".join(f"ξ = {loop.xi} Δ = {signed(loop.delta)}" for loop in self.loops) or "none"
         head = f"{self.name or 'mechanism'}: {self.poc}, F = {self.dof}, κ = {self.coupling_degree}; loops: {loops}"
         return "\n".join([head, *(derivation.text() for derivation in self.derivations), *self.plan.words])
 

@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from assur.results.plain_text import signed
 from assur.topology.facts import LimbFacts, Topology
 from assur.topology.poc import Mark, PocSet
 from assur.topology.symbolic.derivation import Derivation, DerivationStep
@@ -159,17 +160,13 @@ def _degrees(topology: Topology) -> Iterator[Equation]:
         index = f"{{{number}}}"
         general = rf"\sum_{{i=1}}^{{m_{index}}} f_i - I_{index} - \xi_{{L_{index}}}"
         freedoms = f"({loop.freedoms} - {loop.internal})" if loop.internal else str(loop.freedoms)
-        value = f"{freedoms} - {loop.inputs} - {loop.xi} = {_signed(loop.delta)}"
+        value = f"{freedoms} - {loop.inputs} - {loop.xi} = {signed(loop.delta)}"
         said = f"constraint degree of loop {number}" + (", internal freedoms left out" if loop.internal else "")
         yield Equation(rf"\Delta_{index}", f"{general} = {value}", "(5)", said)
     several = len(topology.assur_chains) > 1
     for number, chain in enumerate(topology.assur_chains, 1):
-        values = " + ".join(f"|{_signed(topology.loops[place].delta)}|" for place in chain.loops)
+        values = " + ".join(f"|{signed(topology.loops[place].delta)}|" for place in chain.loops)
         general = r"\frac{1}{2} \min\left\{\sum_{j} |\Delta_j|\right\}"
         left = rf"\kappa_{{{number}}}" if several else r"\kappa"
         said = f"coupling degree of Assur chain {number}" if several else "coupling degree"
         yield Equation(left, rf"{general} = \frac{{1}}{{2}} ({values}) = {chain.coupling_degree}", "(6)", said)
-
-
-def _signed(value: int) -> str:
-    return f"{value:+d}" if value else "0"

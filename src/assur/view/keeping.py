@@ -11,6 +11,7 @@ from PIL import Image
 from assur.view import link
 from assur.view.host import Host
 from assur.view.link import Viewpoint
+from assur.view.stage import triple
 
 SECONDS = 20.0
 """How long a browser may take for a picture."""
@@ -37,7 +38,7 @@ class Keeper:
         viewpoint = None
         for client in list(self.window.served.viser.get_clients().values())[:1]:
             seen = client.camera
-            position, look_at, up = (_three(part) for part in (seen.position, seen.look_at, seen.up_direction))
+            position, look_at, up = (triple(part) for part in (seen.position, seen.look_at, seen.up_direction))
             viewpoint = Viewpoint(position, look_at, up).times(1 / self.window.stage.scale)
         return f"{self.window.served.url}?{link.query(self.window.snapshot, viewpoint)}"
 
@@ -53,7 +54,3 @@ class Keeper:
         written = io.BytesIO()
         Image.fromarray(np.asarray(pixels)).save(written, "PNG")
         event.client.send_file_download(f"{self.window.original.name}.png", written.getvalue(), save_immediately=True)
-
-
-def _three(values: Any) -> tuple[float, float, float]:
-    return float(values[0]), float(values[1]), float(values[2])

@@ -196,8 +196,9 @@ def framed(points: FloatArray) -> Viewpoint:
     middle = (np.min(seen, axis=0) + np.max(seen, axis=0)) / 2
     aside = np.max(np.abs(seen - middle)[:, :2] / [NARROW, 1.0], axis=1)
     distance = float(np.max((seen - middle)[:, 2] + aside / (ROOM * math.tan(OPENING / 2))))
-    return Viewpoint(_three(middle @ axes + distance * back), _three(middle @ axes))
+    return Viewpoint(triple(middle @ axes + distance * back), triple(middle @ axes))
 
 
-def _three(values: FloatArray) -> tuple[float, float, float]:
+def triple(values: Any) -> tuple[float, float, float]:
+    """Three numbers, as viser takes a point or a direction."""
     return float(values[0]), float(values[1]), float(values[2])

@@ -33,7 +33,6 @@ from assur.numerics.singular_values import float_condition_index
 from assur.numerics.small_matrices import determinant
 from assur.work import Progress
 
-BoolArray = NDArray[np.bool_]
 Want = Literal["inputs", "exists", "det_jp", "det_jq", "factors", "condition_index", "smallest"]
 
 ALL_WANTED: tuple[Want, ...] = ("inputs", "exists", "det_jp", "det_jq", "factors", "condition_index", "smallest")

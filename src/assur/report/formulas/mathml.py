@@ -6,9 +6,10 @@ import re
 from collections.abc import Iterable, Sequence
 from html import escape
 
-from assur.report.formulas.latex import bracket, close
+from assur.report.formulas.latex import bracket, close, name_mathml
 from assur.report.formulas.normal import Power, Product, summands
 from assur.report.formulas.trace import Letter, Traced
+from assur.results.kinds import PrintedFormula
 
 TIMES = "<mo>\u2062</mo>"
 APPLY = '<mo>\u2061</mo><mspace width="0.14em"/>'
@@ -31,6 +32,11 @@ def display(content: str, spoken: str = "") -> str:
 def inline(content: str, spoken: str = "") -> str:
     """A formula in running text or in a cell."""
     return f"<math{_alternative(spoken)}><mrow>{content}</mrow></math>"
+
+
+def named_formula(name: str) -> PrintedFormula:
+    """A name of the code in a cell."""
+    return PrintedFormula(inline(name_mathml(name), name))
 
 
 def _alternative(spoken: str) -> str:

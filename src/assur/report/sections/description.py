@@ -7,8 +7,8 @@ from assur.joint_graph.tree import joint_graph
 from assur.kinematics.answers.at_border import angle_at_border
 from assur.model.mechanism import Input, Joint, MechanismRecord
 from assur.report.findings import Findings
-from assur.report.formulas.latex import name_mathml, symbol_mathml
-from assur.report.formulas.mathml import inline
+from assur.report.formulas.latex import symbol_mathml
+from assur.report.formulas.mathml import inline, named_formula
 from assur.results.kinds import EXACT, PrintedFormula, Result, Scalar, Section, Table
 from assur.results.plain_text import count
 from assur.results.typeset_text import short, shown_unit
@@ -69,7 +69,7 @@ def _parameters(record: MechanismRecord) -> Table:
         notes = ["set for this report"] if parameter.name in record.overrides else []
         notes += ["drawn only"] if parameter.drawn_only else []
         meaning = f"{parameter.meaning} ({', '.join(notes)})" if notes else parameter.meaning
-        rows.append((_name(parameter.name), short(parameter.value, 12), shown_unit(parameter.unit), meaning))
+        rows.append((named_formula(parameter.name), short(parameter.value, 12), shown_unit(parameter.unit), meaning))
     return Table("Dimensions", ("symbol", "value", "unit", "meaning"), tuple(rows))
 
 
@@ -132,7 +132,3 @@ def _axis(joint: Joint) -> str:
 def _links(record: MechanismRecord) -> Table:
     rows = tuple((link.name, link.meaning) for link in record.links.values())
     return Table(f"The {count(len(rows), 'link')}", ("link", "what it is"), rows, folded=True)
-
-
-def _name(name: str) -> PrintedFormula:
-    return PrintedFormula(inline(name_mathml(name), name))

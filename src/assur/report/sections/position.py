@@ -11,8 +11,8 @@ from assur.kinematics.modes import Problem
 from assur.model.closed_form import Eliminant, Margin, PolynomialSystem, SelfMotion
 from assur.model.mechanism import MechanismRecord
 from assur.report.findings import Findings
-from assur.report.formulas.latex import is_understood, latex_mathml, name_mathml
-from assur.report.formulas.mathml import equation, inline, letter_mathml, term_mathml
+from assur.report.formulas.latex import is_understood, latex_mathml
+from assur.report.formulas.mathml import equation, inline, letter_mathml, named_formula, term_mathml
 from assur.report.formulas.normal import text
 from assur.report.formulas.reading import FormulaLine
 from assur.report.formulas.symbols import GREEK
@@ -79,7 +79,7 @@ def _modes(record: MechanismRecord) -> list[Table]:
         ("working", "assembly"), (record.modes.working, record.modes.assembly), defaults, strict=True
     ):
         for place, (name, formula) in enumerate(signs.items()):
-            rows.append((what, _symbol(name), formula.text, default[place : place + 1] or None))
+            rows.append((what, named_formula(name), formula.text, default[place : place + 1] or None))
     if not rows:
         return []
     caption = (
@@ -226,7 +226,3 @@ def _beside(findings: Findings, problem: Problem) -> list[Result | Section]:
     """The source's tables beside these solutions."""
     entries = findings.reference.entries[problem] if findings.reference else ()
     return [solutions_beside(findings, entry, findings.rows(problem)) for entry in entries]
-
-
-def _symbol(name: str) -> PrintedFormula:
-    return PrintedFormula(inline(name_mathml(name), name))
