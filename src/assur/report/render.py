@@ -10,18 +10,14 @@ from functools import lru_cache
 from html import escape
 
 import jinja2
-import numpy as np
 from markupsafe import Markup
 
-from assur.report.curves import curve_svg
 from assur.report.formulas.latex import latex_mathml
 from assur.report.formulas.mathml import inline
 from assur.results import typeset_text
 from assur.results.kinds import (
     Cell,
-    Curve,
     Facts,
-    Field,
     Formulas,
     Matrix,
     Picture,
@@ -29,7 +25,6 @@ from assur.results.kinds import (
     Result,
     Scalar,
     Section,
-    Surface,
     Table,
 )
 
@@ -38,9 +33,6 @@ MACROS: dict[type, str] = {
     Facts: "facts",
     Table: "table",
     Matrix: "matrix",
-    Field: "field",
-    Curve: "curve",
-    Surface: "surface",
     Formulas: "formulas",
     Picture: "picture",
     Section: "section",
@@ -103,9 +95,6 @@ def _environment() -> jinja2.Environment:
         filled=filled,
         numeric=numeric_columns,
         filtered=filtered,
-        field_facts=field_facts,
-        surface_facts=surface_facts,
-        curve_svg=lambda curve: Markup(curve_svg(curve)),
         trusted=lambda formula: Markup(formula.mathml),
     )
     return environment
@@ -226,31 +215,6 @@ def filtered(table: Table) -> list[str]:
     """The marks by which a long table can be filtered."""
     marks = list(dict.fromkeys(mark for mark in table.marks if mark))
     return marks if len(table.rows) >= FILTERED and len(marks) > 1 else []
-
-
-def field_facts(field: Field) -> Facts:
-    """What can be said of a field in words."""
-    finite = field.values[np.isfinite(field.values)]
-    axes = [(name, f"{_span(values)}, {len(values)} values") for name, values in field.axes]
-    size = f"{_span(finite)} {typeset_text.shown_unit(field.unit)}".strip() if finite.size else "exists nowhere"
-    share = f"{100 * finite.size / max(1, field.values.size):.1f} % of the grid"
-    return Facts(field.name, (*axes, ("values", size), ("exists at", share)))
-
-
-def surface_facts(surface: Surface) -> Facts:
-    """What can be said of a surface in words."""
-    unit = typeset_text.shown_unit(surface.unit)
-    spans = [
-        (name, f"{_span(surface.vertices[:, k])} {unit}".strip())
-        for k, name in enumerate("xyz"[: surface.vertices.shape[1]])
-        if len(surface.vertices)
-    ]
-    mesh = f"{len(surface.vertices)} vertices, {len(surface.faces)} faces"
-    return Facts(surface.name, (("mesh", mesh), *spans))
-
-
-def _span(values: np.ndarray) -> str:
-    return f"{typeset_text.short(float(np.min(values)), 5)} to {typeset_text.short(float(np.max(values)), 5)}"
 
 
 def _base64(data: bytes) -> str:

@@ -1,4 +1,4 @@
-"""The kinds of result: scalar, table, matrix, field, curve, surface, formula, picture. Outer layers render them."""
+"""The kinds of result: scalar, facts, table, matrix, formula, picture. Outer layers render them."""
 
 from __future__ import annotations
 
@@ -97,38 +97,6 @@ class Matrix:
     values: FloatArray
     rows: tuple[str, ...] = ()
     columns: tuple[str, ...] = ()
-    unit: str = ""
-
-
-@dataclass(frozen=True, eq=False)
-class Field:
-    """Values on a regular grid: axes by name, values with one index per axis; NaN where it does not exist."""
-
-    name: str
-    axes: tuple[tuple[str, FloatArray], ...]
-    values: FloatArray
-    unit: str = ""
-
-
-@dataclass(frozen=True, eq=False)
-class Curve:
-    """A polyline (n, m) in named coordinates."""
-
-    name: str
-    coordinates: tuple[str, ...]
-    points: FloatArray
-    closed: bool = False
-    unit: str = ""
-
-
-@dataclass(frozen=True, eq=False)
-class Surface:
-    """A triangle mesh: vertices (n, 3) and faces (f, 3)."""
-
-    name: str
-    vertices: FloatArray
-    faces: NDArray[np.int64]
-    unit: str = ""
 
 
 @dataclass(frozen=True)
@@ -146,15 +114,11 @@ class Picture:
 
 @dataclass(frozen=True)
 class Section:
-    """A titled group of results, plain text before them, and sections inside it.
-
-    `absent` says why an analysis does not apply; then there are no results.
-    """
+    """A titled group of results, plain text before them, and sections inside it."""
 
     title: str
     text: str = ""
     results: Sequence[Result | Section] = field(default_factory=tuple)
-    absent: str = ""
 
 
-Result = Scalar | Facts | Table | Matrix | Field | Curve | Surface | Formulas | Picture
+Result = Scalar | Facts | Table | Matrix | Formulas | Picture

@@ -39,7 +39,6 @@ class DraftJoint:
     child_at: Point
     axes: tuple[str, ...] = ()
     pitch: str = ""
-    meaning: str = ""
 
 
 @dataclass(frozen=True)
