@@ -92,3 +92,18 @@ def test_a_test_that_is_reversed_is_noticed(monkeypatch, name):
     own = getattr(branch_and_prune, name)
     monkeypatch.setattr(branch_and_prune, name, lambda found, box: ~own(found, box))
     assert not all_nine()
+
+
+def test_parts_of_few_boxes_cover_them_once_and_are_no_finer_than_asked():
+    low, high, size = np.array([[0.0, -1.0]]), np.array([[3.0, 1.0]]), np.ones(2)
+    for smallest in (1e-7, 0.5):
+        boxes = Interval.of(low, high)
+        parts, labels = branch_and_prune._halved(boxes, np.array([7]), size, smallest)
+        assert np.prod(parts.high - parts.low, axis=1).sum() == 6.0
+        assert np.array_equal(np.unique(labels), [7])
+        # no two have more than a border in common
+        inside = (parts.low[:, None] < parts.high) & (parts.low < parts.high[:, None])
+        assert np.all(inside.all(axis=-1).sum(axis=1) == 1)
+        assert np.max(parts.width, axis=1).min() >= smallest / 2
+    # the coarsest cuts that leave both 3 and 2 below 0.5, each in eight
+    assert len(parts.low) == 8 * 8

@@ -28,6 +28,9 @@ Conditions = Callable[[Any, tuple[Any, ...], IntArray], tuple[Sequence[Any], Seq
 FINE_ENOUGH = 0.25
 """Part of the scale below which a box is tested by its image: a wider one is only halved."""
 
+FEW = 256
+"""So many boxes at once take hardly longer than one: what is called costs more than its elements."""
+
 MOST_CLUSTERED = 1000
 """Of more undecided boxes than these only one hull is given."""
 
@@ -125,7 +128,7 @@ def _zeros(
         boxes, labels = _joined([(boxes[~small], labels[~small]), (tested, labels[small][open_])], boxes.shape[-1])
         done = np.max(boxes.width / size, axis=-1) < smallest
         left.append((boxes[done], labels[done]))
-        boxes, labels = _halved(boxes[~done], labels[~done], size)
+        boxes, labels = _halved(boxes[~done], labels[~done], size, smallest)
     isolated, of_isolated, doubtful = _distinct(conditions, proved, boxes.shape[-1])
     left.append(doubtful)
     rest = _clusters(_joined(left, boxes.shape[-1])[0], 4 * smallest * size)
@@ -179,16 +182,18 @@ def _zero_part(conditions: Conditions, labels: IntArray, ns: Any, x: tuple[Any, 
     return conditions(ns, x, labels)[0]
 
 
-def _halved(boxes: Interval, labels: IntArray, size: FloatArray) -> tuple[Interval, IntArray]:
-    """Both halves of each box, across its widest coordinate against the scale."""
-    if not len(boxes.low):
-        return boxes, labels
-    rows, widest = np.arange(len(boxes.low)), np.argmax(boxes.width / size, axis=-1)
-    cut = boxes.middle[rows, widest]
-    below, above = boxes.high.copy(), boxes.low.copy()
-    below[rows, widest], above[rows, widest] = cut, cut
-    halves = Interval.of(np.concatenate([boxes.low, above]), np.concatenate([below, boxes.high]))
-    return halves, np.concatenate([labels, labels])
+def _halved(boxes: Interval, labels: IntArray, size: FloatArray, smallest: float) -> tuple[Interval, IntArray]:
+    """Both halves of each box, across its widest coordinate against the scale; halves of these while they are few."""
+    while len(boxes.low):
+        rows, widest = np.arange(len(boxes.low)), np.argmax(boxes.width / size, axis=-1)
+        cut = boxes.middle[rows, widest]
+        below, above = boxes.high.copy(), boxes.low.copy()
+        below[rows, widest], above[rows, widest] = cut, cut
+        boxes = Interval.of(np.concatenate([boxes.low, above]), np.concatenate([below, boxes.high]))
+        labels = np.concatenate([labels, labels])
+        if len(boxes.low) > FEW or np.min(np.max(boxes.width / size, axis=-1)) < smallest:
+            break
+    return boxes, labels
 
 
 def _joined(pieces: Sequence[tuple[Interval, IntArray]], width: int) -> tuple[Interval, IntArray]:

@@ -44,6 +44,8 @@ def broadcast(interval: Interval, shape: tuple[int, ...]) -> Interval:
     >>> broadcast(Interval.of(1.0), (2,)).defined
     array([ True,  True])
     """
+    if interval.low.shape == interval.high.shape == interval.defined.shape == shape:
+        return interval
     low, high = np.broadcast_to(interval.low, shape), np.broadcast_to(interval.high, shape)
     return Interval(low, high, np.broadcast_to(interval.defined, shape))
 
