@@ -6,13 +6,12 @@ So a long tape over arrays stays in the processor's cache, and its text short.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from assur.numerics.recording.tape import Operation, Tape
 
 
-@dataclass(frozen=True)
-class Assignment:
+class Assignment(NamedTuple):
     """One statement: an operation on numbers in registers, whose result goes into a register.
 
     Attributes:
